@@ -1,0 +1,31 @@
+"""Existing names that a misspelt one may have meant."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from difflib import get_close_matches
+
+
+def nearest(name: str, candidates: Iterable[str], limit: int = 3) -> tuple[str, ...]:
+    """Return up to ``limit`` candidates that look like ``name``, best first, ties in alphabetical order."""
+    known = sorted(set(candidates))
+    lowered = {candidate.lower(): candidate for candidate in reversed(known)}
+    matches = get_close_matches(name.lower(), sorted(lowered), n=limit, cutoff=0.6)
+    return tuple(lowered[match] for match in matches)
+
+
+def did_you_mean(name: str, candidates: Iterable[str], kind: str) -> str:
+    """Write the help for an unknown name: the nearest that exist, or all of them where few exist.
+
+    Args:
+        kind: plural noun for what the candidates are, such as ``links of `arm```.
+    """
+    known = sorted(set(candidates))
+    close = nearest(name, known)
+    if close:
+        return "did you mean " + " or ".join(f"`{match}`" for match in close) + "?"
+    if not known:
+        return f"there are no {kind}"
+    shown = ", ".join(f"`{candidate}`" for candidate in known[:12])
+    more = f" and {len(known) - 12} more" if len(known) > 12 else ""
+    return f"use one of the {kind}: {shown}{more}"

@@ -1,0 +1,113 @@
+"""A rigid transform, right-handed, metres and unit quaternions (REP-103)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+Vector3 = tuple[float, float, float]
+Quaternion = tuple[float, float, float, float]  # x, y, z, w as in geometry_msgs/msg/Quaternion
+
+
+@dataclass(frozen=True, slots=True)
+class Pose:
+    """The pose of a child frame in its parent frame; as a map it takes child coordinates to parent coordinates."""
+
+    position: Vector3
+    quaternion: Quaternion
+
+    def __matmul__(self, other: Pose) -> Pose:
+        """Compose: ``parent_to_a @ a_to_b`` is the pose of b in parent."""
+        return Pose(self.apply(other.position), _normalised(_product(self.quaternion, other.quaternion)))
+
+    def apply(self, point: Vector3) -> Vector3:
+        """Express a point of the child frame in the parent frame, in metres."""
+        rotated = _rotate(self.quaternion, point)
+        x, y, z = self.position
+        return (x + rotated[0], y + rotated[1], z + rotated[2])
+
+    def inverse(self) -> Pose:
+        """Return the pose of the parent frame in the child frame."""
+        x, y, z, w = self.quaternion
+        conjugate = (-x, -y, -z, w)
+        px, py, pz = _rotate(conjugate, self.position)
+        return Pose((-px, -py, -pz), conjugate)
+
+    def rpy(self) -> Vector3:
+        """Return fixed-axis roll, pitch, yaw in radians (URDF); at gimbal lock roll carries the whole turn."""
+        x, y, z, w = self.quaternion
+        sine = max(-1.0, min(1.0, 2.0 * (w * y - z * x)))
+        # Within a few 1e-8 rad of the pole roll and yaw cannot be told apart: fix yaw at zero.
+        if abs(sine) > 1.0 - 1e-12:
+            return (2.0 * math.atan2(x, w), math.copysign(math.pi / 2.0, sine), 0.0)
+        roll = math.atan2(2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y))
+        yaw = math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+        return (roll, math.asin(sine), yaw)
+
+
+def identity() -> Pose:
+    """Return the pose of a frame in itself."""
+    return Pose((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
+
+
+def from_xyz_rpy(xyz: Vector3, rpy: Vector3) -> Pose:
+    """Build a pose from metres and fixed-axis roll, pitch, yaw in radians, as URDF ``<origin>`` means them."""
+    roll, pitch, yaw = (angle / 2.0 for angle in rpy)
+    cr, sr = math.cos(roll), math.sin(roll)
+    cp, sp = math.cos(pitch), math.sin(pitch)
+    cy, sy = math.cos(yaw), math.sin(yaw)
+    quaternion = (
+        sr * cp * cy - cr * sp * sy,
+        cr * sp * cy + sr * cp * sy,
+        cr * cp * sy - sr * sp * cy,
+        cr * cp * cy + sr * sp * sy,
+    )
+    return Pose(xyz, quaternion)
+
+
+def interpolate(start: Pose, end: Pose, fraction: float) -> Pose:
+    """Interpolate as tf2 does: position linearly, rotation along the shorter great arc."""
+    keep = 1.0 - fraction
+    x, y, z = (keep * a + fraction * b for a, b in zip(start.position, end.position, strict=True))
+    return Pose((x, y, z), _slerp(start.quaternion, end.quaternion, fraction))
+
+
+def _slerp(start: Quaternion, end: Quaternion, fraction: float) -> Quaternion:
+    cosine = sum(a * b for a, b in zip(start, end, strict=True))
+    sign = -1.0 if cosine < 0.0 else 1.0
+    cosine = min(1.0, abs(cosine))
+    angle = math.acos(cosine)
+    if angle < 1e-9:  # the arc is shorter than rounding: linear weights are exact enough and defined
+        weights = (1.0 - fraction, fraction * sign)
+    else:
+        weights = (math.sin((1.0 - fraction) * angle) / math.sin(angle), sign * math.sin(fraction * angle) / math.sin(angle))
+    x, y, z, w = (weights[0] * a + weights[1] * b for a, b in zip(start, end, strict=True))
+    return _normalised((x, y, z, w))
+
+
+def _product(a: Quaternion, b: Quaternion) -> Quaternion:
+    ax, ay, az, aw = a
+    bx, by, bz, bw = b
+    return (
+        aw * bx + ax * bw + ay * bz - az * by,
+        aw * by - ax * bz + ay * bw + az * bx,
+        aw * bz + ax * by - ay * bx + az * bw,
+        aw * bw - ax * bx - ay * by - az * bz,
+    )
+
+
+def _rotate(quaternion: Quaternion, point: Vector3) -> Vector3:
+    x, y, z, w = quaternion
+    px, py, pz = point
+    tx, ty, tz = 2.0 * (y * pz - z * py), 2.0 * (z * px - x * pz), 2.0 * (x * py - y * px)
+    return (
+        px + w * tx + (y * tz - z * ty),
+        py + w * ty + (z * tx - x * tz),
+        pz + w * tz + (x * ty - y * tx),
+    )
+
+
+def _normalised(quaternion: Quaternion) -> Quaternion:
+    x, y, z, w = quaternion
+    length = math.sqrt(x * x + y * y + z * z + w * w)
+    return (x / length, y / length, z / length, w / length)
