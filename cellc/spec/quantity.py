@@ -1,0 +1,164 @@
+"""Quantities as users write them: a number, or several, with the unit in the text.
+
+``500 Hz``, ``0.2 s``, ``0 0 162 mm``, ``0 -90 90 deg``, ``50 %``. A bare number is an error that tells which units fit.
+Values are held in SI and radians (REP-103) beside the text, so that a message can quote what the user wrote.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from decimal import Decimal
+from typing import Annotated, Any
+
+from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic_core import PydanticCustomError, core_schema
+
+_NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+_NUMBERS_THEN_UNIT = re.compile(rf"\s*({_NUMBER}(?:[\s,]+{_NUMBER})*)\s*([^\s\d].*?)?\s*", re.ASCII)
+_MAX_TEXT = 400  # a pose of 20 joints is under 200 characters; more is no quantity
+
+
+@dataclass(frozen=True, slots=True)
+class Dimension:
+    """A physical dimension with the units that users may write, each with its factor to SI.
+
+    ``deg`` is the one factor that no decimal holds; it is applied by ``math.radians``.
+    """
+
+    name: str
+    units: dict[str, Decimal | None]
+
+
+def _dimension(name: str, **units: str | None) -> Dimension:
+    return Dimension(name, {unit: None if factor is None else Decimal(factor) for unit, factor in units.items()})
+
+
+LENGTH = _dimension("length", mm="0.001", cm="0.01", m="1", um="0.000001")
+ANGLE = _dimension("angle", deg=None, rad="1")
+DURATION = _dimension("duration", s="1", ms="0.001", us="0.000001", ns="0.000000001", min="60", h="3600")
+FREQUENCY = _dimension("frequency", Hz="1", kHz="1000", MHz="1000000")
+MASS = _dimension("mass", kg="1", g="0.001")
+RATIO = Dimension("ratio", {"%": Decimal("0.01")})
+FORCE = _dimension("force", N="1", kN="1000")
+TORQUE = _dimension("torque", Nm="1")
+INERTIA = Dimension("inertia", {"kg m^2": Decimal(1), "kg*m^2": Decimal(1)})
+VELOCITY = Dimension("velocity", {"m/s": Decimal(1), "mm/s": Decimal("0.001")})
+ACCELERATION = Dimension("acceleration", {"m/s^2": Decimal(1), "mm/s^2": Decimal("0.001")})
+JERK = Dimension("jerk", {"m/s^3": Decimal(1), "mm/s^3": Decimal("0.001")})
+ANGULAR_VELOCITY = Dimension("angular velocity", {"deg/s": None, "rad/s": Decimal(1)})
+ANGULAR_ACCELERATION = Dimension("angular acceleration", {"deg/s^2": None, "rad/s^2": Decimal(1)})
+ANGULAR_JERK = Dimension("angular jerk", {"deg/s^3": None, "rad/s^3": Decimal(1)})
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """One value: ``si`` in SI units and radians, ``unit`` and ``text`` as written."""
+
+    si: float
+    unit: str
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class QuantityVector:
+    """Several values of one unit: ``si`` in SI units and radians, ``unit`` and ``text`` as written."""
+
+    si: tuple[float, ...]
+    unit: str
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class QuantityType:
+    """Tells pydantic how a field of some dimensions reads its text; ``size`` is 1, a fixed count, or 0 for any count."""
+
+    dimensions: tuple[Dimension, ...]
+    example: str
+    size: int = 1
+
+    def __get_pydantic_core_schema__(self, source: object, handler: GetCoreSchemaHandler) -> core_schema.CoreSchema:
+        return core_schema.no_info_plain_validator_function(
+            self._read, serialization=core_schema.plain_serializer_function_ser_schema(_written)
+        )
+
+    def __get_pydantic_json_schema__(
+        self, schema: core_schema.CoreSchema, handler: GetJsonSchemaHandler
+    ) -> dict[str, Any]:
+        count = {0: "+", 1: ""}.get(self.size, f"{{{self.size}}}")
+        numbers = _NUMBER if self.size == 1 else rf"(?:{_NUMBER}[\s,]*){count}"
+        units = "|".join(re.escape(unit) for unit in self.units())
+        return {"type": "string", "pattern": rf"^\s*{numbers}\s*(?:{units})\s*$", "examples": [self.example]}
+
+    def units(self) -> tuple[str, ...]:
+        """List the units that fit, in the order of the dimensions."""
+        return tuple(unit for dimension in self.dimensions for unit in dimension.units)
+
+    def _read(self, value: object) -> Quantity | QuantityVector:
+        if isinstance(value, (Quantity, QuantityVector)):
+            return value
+        if isinstance(value, bool) or not isinstance(value, (str, int, float)):
+            raise PydanticCustomError("not-a-quantity", "expected {what}, such as `{example}`", self._context())
+        if not isinstance(value, str):
+            raise self._missing_unit(str(value))
+        match = _NUMBERS_THEN_UNIT.fullmatch(value) if len(value) <= _MAX_TEXT else None
+        if match is None:
+            context = self._context() | {"text": value[:60]}
+            raise PydanticCustomError("not-a-quantity", "`{text}` is not {what}, such as `{example}`", context)
+        return self._convert(value, re.split(r"[\s,]+", match[1]), match[2])
+
+    def _convert(self, text: str, numbers: list[str], unit: str | None) -> Quantity | QuantityVector:
+        if unit is None:
+            raise self._missing_unit(text)
+        factors = {name: factor for dimension in self.dimensions for name, factor in dimension.units.items()}
+        if unit not in factors:
+            context = self._context() | {"unit": unit}
+            raise PydanticCustomError("wrong-unit", "`{unit}` is not a unit of {what}", context)
+        if self.size and len(numbers) != self.size:
+            context = self._context() | {"actual": len(numbers), "size": self.size}
+            raise PydanticCustomError("wrong-count", "{actual} numbers where {size} are due", context)
+        values = tuple(_scaled(number, factors[unit]) for number in numbers)
+        if not all(math.isfinite(value) for value in values):
+            context = self._context() | {"text": text[:60]}
+            raise PydanticCustomError("not-a-quantity", "`{text}` is too large for {what}", context)
+        return Quantity(values[0], unit, text) if self.size == 1 else QuantityVector(values, unit, text)
+
+    def _missing_unit(self, text: str) -> PydanticCustomError:
+        context = self._context() | {"text": text[:60]}
+        return PydanticCustomError("missing-unit", "`{text}` carries no unit", context)
+
+    def _context(self) -> dict[str, Any]:
+        names = " or ".join(dimension.name for dimension in self.dimensions)
+        article = "an" if names[0] in "aeiou" else "a"
+        return {"what": f"{article} {names}", "units": ", ".join(self.units()), "example": self.example}
+
+
+def _scaled(number: str, factor: Decimal | None) -> float:
+    # Decimal keeps `162 mm` at 0.162, not 0.16200000000000001, wherever the shortest text is written again.
+    return math.radians(float(number)) if factor is None else float(Decimal(number) * factor)
+
+
+def _written(value: Quantity | QuantityVector) -> str:
+    return value.text
+
+
+Length = Annotated[Quantity, QuantityType((LENGTH,), "162 mm")]
+Angle = Annotated[Quantity, QuantityType((ANGLE,), "90 deg")]
+Duration = Annotated[Quantity, QuantityType((DURATION,), "200 ms")]
+Frequency = Annotated[Quantity, QuantityType((FREQUENCY,), "500 Hz")]
+Mass = Annotated[Quantity, QuantityType((MASS,), "0.9 kg")]
+Ratio = Annotated[Quantity, QuantityType((RATIO,), "50 %")]
+Force = Annotated[Quantity, QuantityType((FORCE,), "60 N")]
+Torque = Annotated[Quantity, QuantityType((TORQUE,), "28 Nm")]
+Velocity = Annotated[Quantity, QuantityType((VELOCITY,), "0.25 m/s")]
+AngularVelocity = Annotated[Quantity, QuantityType((ANGULAR_VELOCITY,), "5 deg/s")]
+AngularAcceleration = Annotated[Quantity, QuantityType((ANGULAR_ACCELERATION,), "5 rad/s^2")]
+AngularJerk = Annotated[Quantity, QuantityType((ANGULAR_JERK,), "50 rad/s^3")]
+JointPosition = Annotated[Quantity, QuantityType((ANGLE, LENGTH), "0.2 rad")]
+JointVelocity = Annotated[Quantity, QuantityType((ANGULAR_VELOCITY, VELOCITY), "30 deg/s")]
+JointAcceleration = Annotated[Quantity, QuantityType((ANGULAR_ACCELERATION, ACCELERATION), "2 rad/s^2")]
+JointJerk = Annotated[Quantity, QuantityType((ANGULAR_JERK, JERK), "20 rad/s^3")]
+JointPositions = Annotated[QuantityVector, QuantityType((ANGLE, LENGTH), "0 -90 90 -90 -90 0 deg", size=0)]
+Position = Annotated[QuantityVector, QuantityType((LENGTH,), "0 0 162 mm", size=3)]
+RollPitchYaw = Annotated[QuantityVector, QuantityType((ANGLE,), "0 90 0 deg", size=3)]
