@@ -28,28 +28,30 @@ class Dimension:
     """
 
     name: str
-    units: dict[str, Decimal | None]
+    units: tuple[tuple[str, Decimal | None], ...]
 
 
-def _dimension(name: str, **units: str | None) -> Dimension:
-    return Dimension(name, {unit: None if factor is None else Decimal(factor) for unit, factor in units.items()})
+def _dimension(name: str, units: dict[str, str | None]) -> Dimension:
+    return Dimension(name, tuple((unit, None if si is None else Decimal(si)) for unit, si in units.items()))
 
 
-LENGTH = _dimension("length", mm="0.001", cm="0.01", m="1", um="0.000001")
-ANGLE = _dimension("angle", deg=None, rad="1")
-DURATION = _dimension("duration", s="1", ms="0.001", us="0.000001", ns="0.000000001", min="60", h="3600")
-FREQUENCY = _dimension("frequency", Hz="1", kHz="1000", MHz="1000000")
-MASS = _dimension("mass", kg="1", g="0.001")
-RATIO = Dimension("ratio", {"%": Decimal("0.01")})
-FORCE = _dimension("force", N="1", kN="1000")
-TORQUE = _dimension("torque", Nm="1")
-INERTIA = Dimension("inertia", {"kg m^2": Decimal(1), "kg*m^2": Decimal(1)})
-VELOCITY = Dimension("velocity", {"m/s": Decimal(1), "mm/s": Decimal("0.001")})
-ACCELERATION = Dimension("acceleration", {"m/s^2": Decimal(1), "mm/s^2": Decimal("0.001")})
-JERK = Dimension("jerk", {"m/s^3": Decimal(1), "mm/s^3": Decimal("0.001")})
-ANGULAR_VELOCITY = Dimension("angular velocity", {"deg/s": None, "rad/s": Decimal(1)})
-ANGULAR_ACCELERATION = Dimension("angular acceleration", {"deg/s^2": None, "rad/s^2": Decimal(1)})
-ANGULAR_JERK = Dimension("angular jerk", {"deg/s^3": None, "rad/s^3": Decimal(1)})
+LENGTH = _dimension("length", {"mm": "0.001", "cm": "0.01", "m": "1", "um": "0.000001"})
+ANGLE = _dimension("angle", {"deg": None, "rad": "1"})
+DURATION = _dimension(
+    "duration", {"s": "1", "ms": "0.001", "us": "0.000001", "ns": "0.000000001", "min": "60", "h": "3600"}
+)
+FREQUENCY = _dimension("frequency", {"Hz": "1", "kHz": "1000", "MHz": "1000000"})
+MASS = _dimension("mass", {"kg": "1", "g": "0.001"})
+RATIO = _dimension("ratio", {"%": "0.01"})
+FORCE = _dimension("force", {"N": "1", "kN": "1000"})
+TORQUE = _dimension("torque", {"Nm": "1"})
+INERTIA = _dimension("inertia", {"kg m^2": "1", "kg*m^2": "1"})
+VELOCITY = _dimension("velocity", {"m/s": "1", "mm/s": "0.001"})
+ACCELERATION = _dimension("acceleration", {"m/s^2": "1", "mm/s^2": "0.001"})
+JERK = _dimension("jerk", {"m/s^3": "1", "mm/s^3": "0.001"})
+ANGULAR_VELOCITY = _dimension("angular velocity", {"deg/s": None, "rad/s": "1"})
+ANGULAR_ACCELERATION = _dimension("angular acceleration", {"deg/s^2": None, "rad/s^2": "1"})
+ANGULAR_JERK = _dimension("angular jerk", {"deg/s^3": None, "rad/s^3": "1"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +74,7 @@ class QuantityVector:
 
 @dataclass(frozen=True, slots=True)
 class QuantityType:
-    """Tells pydantic how a field of some dimensions reads its text; ``size`` is 1, a fixed count, or 0 for any count."""
+    """Tells pydantic how a field reads its text; ``size`` is 1, a fixed count, or 0 for any count."""
 
     dimensions: tuple[Dimension, ...]
     example: str
@@ -93,7 +95,7 @@ class QuantityType:
 
     def units(self) -> tuple[str, ...]:
         """List the units that fit, in the order of the dimensions."""
-        return tuple(unit for dimension in self.dimensions for unit in dimension.units)
+        return tuple(unit for dimension in self.dimensions for unit, _ in dimension.units)
 
     def _read(self, value: object) -> Quantity | QuantityVector:
         if isinstance(value, (Quantity, QuantityVector)):
@@ -111,7 +113,7 @@ class QuantityType:
     def _convert(self, text: str, numbers: list[str], unit: str | None) -> Quantity | QuantityVector:
         if unit is None:
             raise self._missing_unit(text)
-        factors = {name: factor for dimension in self.dimensions for name, factor in dimension.units.items()}
+        factors = {name: factor for dimension in self.dimensions for name, factor in dimension.units}
         if unit not in factors:
             context = self._context() | {"unit": unit}
             raise PydanticCustomError("wrong-unit", "`{unit}` is not a unit of {what}", context)

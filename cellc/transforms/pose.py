@@ -80,7 +80,8 @@ def _slerp(start: Quaternion, end: Quaternion, fraction: float) -> Quaternion:
     if angle < 1e-9:  # the arc is shorter than rounding: linear weights are exact enough and defined
         weights = (1.0 - fraction, fraction * sign)
     else:
-        weights = (math.sin((1.0 - fraction) * angle) / math.sin(angle), sign * math.sin(fraction * angle) / math.sin(angle))
+        sine = math.sin(angle)
+        weights = (math.sin((1.0 - fraction) * angle) / sine, sign * math.sin(fraction * angle) / sine)
     x, y, z, w = (weights[0] * a + weights[1] * b for a, b in zip(start, end, strict=True))
     return _normalised((x, y, z, w))
 

@@ -1,0 +1,105 @@
+"""The whole spec of one physical cell."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field, StringConstraints
+
+from cellc.spec.base import Name, PackageName, SpecModel, Text
+from cellc.spec.control import ManagerSpec
+from cellc.spec.devices import DeviceSpec
+from cellc.spec.frames import BoxSpec, CalibrationSpec, FrameSpec
+from cellc.spec.hosts import HostSpec, NetworkSpec
+from cellc.spec.interfaces import InterfaceSpec, NodeSpec
+from cellc.spec.kpis import KpisSpec, RecordingSpec, TargetSpec
+from cellc.spec.motion import MotionSpec
+from cellc.spec.ownership import OwnersSpec
+from cellc.spec.rehearsals import RehearsalSpec
+from cellc.spec.safety import BringupSpec, SafetySpec
+from cellc.spec.versions import VersionsSpec
+
+TopicName = Annotated[str, StringConstraints(min_length=1, max_length=255)]
+
+
+class CellSpec(SpecModel):
+    """One physical cell, as its integrator writes it."""
+
+    format: Literal[1] = Field(..., description="Version of this spec language.", examples=[1])
+    cell: PackageName = Field(..., description="Name of the cell and of the generated package.", examples=["ur5e_pick"])
+    summary: Text = Field(
+        "", description="One sentence on what the cell does.", examples=["Picks parts from fixture A"], min_length=0
+    )
+    versions: VersionsSpec = Field(..., description="The pinned version tuple.", examples=[{"ros": "jazzy"}])
+    hosts: dict[Name, HostSpec] = Field(
+        default_factory=dict, description="Computers by name.", examples=[{"control_pc": {"scheduling": "preempt_rt"}}]
+    )
+    network: NetworkSpec = Field(
+        default_factory=NetworkSpec, description="DDS network.", examples=[{"domain_id": 42, "discovery": "unicast"}]
+    )
+    devices: dict[Name, DeviceSpec] = Field(
+        ..., description="Robots, grippers and sensors by name.", examples=[{"arm": {"model": "ur5e"}}], min_length=1
+    )
+    calibrations: dict[Name, CalibrationSpec] = Field(
+        default_factory=dict, description="Measurements by id.", examples=[{"hand_eye": {"revision": 4}}]
+    )
+    frames: dict[Name, FrameSpec] = Field(
+        default_factory=dict,
+        description="Frames by name.",
+        examples=[{"tcp": {"parent": "gripper/base", "xyz": "0 0 162 mm"}}],
+    )
+    scene: dict[Name, BoxSpec] = Field(
+        default_factory=dict,
+        description="Solid things that planning avoids, by name.",
+        examples=[{"table": {"parent": "world", "box": "1200 800 40 mm", "xyz": "0 0 780 mm"}}],
+    )
+    nodes: dict[Name, NodeSpec] = Field(
+        default_factory=dict,
+        description="Nodes of the cell by name.",
+        examples=[{"task": {"run": "cell_tasks/pick_place"}}],
+    )
+    interfaces: dict[TopicName, InterfaceSpec] = Field(
+        default_factory=dict,
+        description="Topics, services and actions by their full ROS name.",
+        examples=[{"/object_pose": {"topic": "geometry_msgs/msg/PoseStamped", "from": "perception", "to": "task"}}],
+    )
+    control: ManagerSpec | None = Field(
+        None,
+        description="The controller manager of a cell with one.",
+        examples=[{"update_rate": "500 Hz", "controllers": {"joint_states": {"type": "joint_state_broadcaster"}}}],
+    )
+    managers: dict[Name, ManagerSpec] = Field(
+        default_factory=dict,
+        description="Controller managers by name, for a cell with several; each has its own namespace.",
+        examples=[{"left": {"update_rate": "500 Hz", "namespace": "/left", "controllers": {}}}],
+    )
+    motion: MotionSpec = Field(
+        default_factory=MotionSpec,
+        description="Groups, named poses and goals.",
+        examples=[{"groups": {"manipulator": {"base": "arm/base_link", "tip": "tcp"}}}],
+    )
+    owners: OwnersSpec = Field(
+        default_factory=OwnersSpec,
+        description="Who answers for what.",
+        examples=[{"approvals": {"graph": "integration"}}],
+    )
+    safety: SafetySpec = Field(
+        default_factory=SafetySpec, description="The safety boundary.", examples=[{"stop": {"authority": "safety_plc"}}]
+    )
+    bringup: BringupSpec = Field(
+        default_factory=BringupSpec, description="Gates and first motion.", examples=[{"gates": "standard"}]
+    )
+    rehearsals: dict[Name, RehearsalSpec] = Field(
+        default_factory=dict,
+        description="Runs of the mock by name.",
+        examples=[{"wave": {"steps": [{"move": "home"}]}}],
+    )
+    kpis: KpisSpec = Field(default_factory=KpisSpec, description="Target figures.", examples=[{"cancel": "200 ms"}])
+    recording: RecordingSpec = Field(
+        default_factory=RecordingSpec,
+        description="What every attempt records.",
+        examples=[{"attempt_fields": "standard"}],
+    )
+    targets: dict[Literal["mock", "sim", "real"], TargetSpec] = Field(
+        default_factory=dict, description="What differs between targets.", examples=[{"sim": {"clock": "sim"}}]
+    )

@@ -1,0 +1,119 @@
+"""Robots, grippers and sensors of the cell."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from cellc.spec.base import FrameReference, Name, Pin, SpecModel, Text
+from cellc.spec.quantity import Duration, Mass, Position, Ratio, RollPitchYaw
+
+
+class PlacementSpec(SpecModel):
+    """Where something sits: a parent frame and a fixed transform."""
+
+    parent: FrameReference = Field(
+        ..., description="Parent frame: `world`, a frame, or `device/link`.", examples=["arm/tool0"]
+    )
+    xyz: Position | None = Field(
+        None, description="Translation in the parent frame; zero if absent.", examples=["0 0 0.8 m"]
+    )
+    rpy: RollPitchYaw | None = Field(
+        None, description="Fixed-axis roll, pitch, yaw in the parent frame (REP-103).", examples=["0 0 90 deg"]
+    )
+    calibration: Name | None = Field(
+        None, description="Calibration that measured this transform; absent for a designed one.", examples=["hand_eye"]
+    )
+
+
+class ConnectionSpec(SpecModel):
+    """How the real device is reached; never used by a mock or simulated target."""
+
+    host: Name = Field(..., description="Host that runs the driver.", examples=["control_pc"])
+    nic: Name | None = Field(None, description="Network card of that host.", examples=["robot"])
+    address: Text | None = Field(None, description="IPv4 address of the device.", examples=["192.168.56.101"])
+    port: Text | None = Field(
+        None, description="Serial or bus device for one without an address.", examples=["/dev/ttyUSB0"]
+    )
+
+
+class TighterLimitsSpec(SpecModel):
+    """Limits of this cell as a share of the device's own; they may only tighten."""
+
+    velocity: Ratio | None = Field(None, description="Share of the device's joint velocities.", examples=["50 %"])
+    acceleration: Ratio | None = Field(
+        None, description="Share of the device's joint accelerations.", examples=["50 %"]
+    )
+
+
+class StampSpec(SpecModel):
+    """Where a sensor's time stamps come from."""
+
+    source: Literal["hardware", "driver", "arrival", "UNKNOWN"] = Field(
+        "UNKNOWN",
+        description="What is stamped: exposure in hardware, the driver's read, or arrival.",
+        examples=["hardware"],
+    )
+    clock: Text = Field("UNKNOWN", description="Clock domain of the stamps.", examples=["camera"])
+    exposure: Duration | None = Field(None, description="Exposure time.", examples=["8 ms"])
+    synchronised_by: Text | None = Field(
+        None, description="What ties the clock to the host's.", examples=["global_time"]
+    )
+    max_offset: Duration | None = Field(None, description="Bound of the offset to the host's clock.", examples=["1 ms"])
+
+
+class PayloadSpec(SpecModel):
+    """Load that the robot controller is told it carries."""
+
+    mass: Mass = Field(..., description="Mass at the flange, tool included.", examples=["0.93 kg"])
+    center_of_mass: Position = Field(..., description="Centre of mass in the arm's tool0.", examples=["0 0 58 mm"])
+
+
+class DeviceSpec(SpecModel):
+    """One device: a catalogue entry, where it is mounted, and the exact thing that stands there."""
+
+    model: Text = Field(
+        ..., description="Catalogue entry, or a folder beside this file with your own device.yaml.", examples=["ur5e"]
+    )
+    mount: PlacementSpec | None = Field(
+        None,
+        description="Where the device's root link sits; `world` origin if absent.",
+        examples=[{"parent": "world", "xyz": "0 0 0.8 m"}],
+    )
+    prefix: str | None = Field(
+        None,
+        description="Put before every joint, link and interface name; `<device>_` if absent, may be empty.",
+        pattern=r"^([A-Za-z][A-Za-z0-9_]*)?$",
+        max_length=64,
+        examples=["left_"],
+    )
+    architecture: Literal["ros2", "direct_sdk", "hybrid"] = Field(
+        "ros2", description="Who owns the command path down to the servo loop.", examples=["hybrid"]
+    )
+    revision: Pin = Field("UNKNOWN", description="Hardware revision.", examples=["UNKNOWN"])
+    serial: Pin = Field("UNKNOWN", description="Serial number on the nameplate.", examples=["20235500001"])
+    firmware: Pin = Field("UNKNOWN", description="Controller software or firmware.", examples=["polyscope 5.21.0"])
+    driver: Pin = Field("UNKNOWN", description="ROS 2 driver package and version.", examples=["ur_robot_driver 3.8.0"])
+    sdk: Pin = Field("UNKNOWN", description="Vendor library and version.", examples=["ur_client_library 2.14.1"])
+    description: Pin = Field(
+        "UNKNOWN", description="Description package and version.", examples=["ur_description 3.5.1"]
+    )
+    connection: ConnectionSpec | None = Field(
+        None,
+        description="How the real device is reached.",
+        examples=[{"host": "control_pc", "nic": "robot", "address": "192.168.56.101"}],
+    )
+    limits: TighterLimitsSpec | None = Field(
+        None, description="Tighter joint limits of this cell.", examples=[{"velocity": "50 %", "acceleration": "50 %"}]
+    )
+    stamp: StampSpec | None = Field(
+        None,
+        description="Time stamps of a sensor.",
+        examples=[{"source": "hardware", "clock": "camera", "exposure": "8 ms"}],
+    )
+    payload: PayloadSpec | None = Field(
+        None,
+        description="Load told to the arm, tool included.",
+        examples=[{"mass": "0.93 kg", "center_of_mass": "0 0 58 mm"}],
+    )

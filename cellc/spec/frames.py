@@ -1,0 +1,76 @@
+"""Frames, their calibrations, and the solid things of the cell."""
+
+from __future__ import annotations
+
+import datetime
+from typing import Literal
+
+from pydantic import Field
+
+from cellc.spec.base import FrameReference, Name, Pin, SpecModel, Text
+from cellc.spec.devices import PlacementSpec
+from cellc.spec.quantity import Duration, Frequency, Length, Position, RollPitchYaw
+
+
+class CalibrationSpec(SpecModel):
+    """A measurement that a transform rests on; a new measurement gets a new revision."""
+
+    revision: int = Field(..., description="Counts up with every new measurement.", examples=[4], ge=1)
+    measured: Pin = Field("UNKNOWN", description="Date of the measurement, YYYY-MM-DD.", examples=["2026-07-01"])
+    method: Text = Field("UNKNOWN", description="How it was measured.", examples=["charuco"])
+    samples: int | None = Field(None, description="Number of observations.", examples=[40], ge=1)
+    residual: Length | None = Field(None, description="Residual of the fit.", examples=["0.8 mm"])
+    owner: Text = Field("UNKNOWN", description="Who answers for it.", examples=["perception"])
+
+    def measured_on(self) -> datetime.date | None:
+        """Return the date of the measurement, or None where the text is no date."""
+        try:
+            return datetime.date.fromisoformat(self.measured)
+        except ValueError:
+            return None
+
+
+class FrameSpec(SpecModel):
+    """A frame of the cell: fixed in its parent, or dynamic and published by a node."""
+
+    parent: FrameReference = Field(..., description="Parent frame.", examples=["gripper/base"])
+    xyz: Position | None = Field(
+        None, description="Translation in the parent; zero if absent.", examples=["0 0 162 mm"]
+    )
+    rpy: RollPitchYaw | None = Field(
+        None, description="Fixed-axis roll, pitch, yaw in the parent.", examples=["0 90 0 deg"]
+    )
+    calibration: Name | None = Field(None, description="Calibration that measured it.", examples=["tcp_2f"])
+    designed: bool = Field(
+        False,
+        description="The transform is by design (a drawing), not measured: no calibration is due.",
+        examples=[True],
+    )
+    reference_points: int = Field(
+        0, description="Known points of a fixture that validate direction and scale; three are due.", examples=[3], ge=0
+    )
+    dynamic: bool = Field(False, description="Changes while the cell runs.", examples=[True])
+    published_by: Name | None = Field(
+        None, description="Node or device that publishes a dynamic frame.", examples=["perception"]
+    )
+    rate: Frequency | None = Field(None, description="Rate of a dynamic frame.", examples=["10 Hz"])
+    buffer: Duration | None = Field(None, description="History that consumers keep of it.", examples=["10 s"])
+    simulated_pose: PlacementSpec | None = Field(
+        None,
+        description="Where the mock puts the thing that a dynamic frame follows.",
+        examples=[{"parent": "world", "xyz": "300 -200 820 mm", "rpy": "180 0 0 deg"}],
+    )
+
+
+class BoxSpec(SpecModel):
+    """A box that planning must avoid; it becomes a link of the URDF."""
+
+    parent: FrameReference = Field(..., description="Frame that the box is fixed to.", examples=["world"])
+    box: Position = Field(..., description="Full edge lengths along x, y, z.", examples=["1200 800 40 mm"])
+    xyz: Position | None = Field(None, description="Centre of the box in the parent.", examples=["0 0 780 mm"])
+    rpy: RollPitchYaw | None = Field(
+        None, description="Fixed-axis roll, pitch, yaw in the parent.", examples=["0 0 0 deg"]
+    )
+    kind: Literal["fixture", "obstacle"] = Field(
+        "fixture", description="A fixture belongs to the process, an obstacle stands in the way.", examples=["fixture"]
+    )

@@ -1,0 +1,60 @@
+"""Computers, their network cards and clocks, and the DDS network of the cell."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from cellc.spec.base import Name, SpecModel, Text
+from cellc.spec.quantity import Duration
+
+Traffic = Literal["control", "camera", "bag", "ros", "internet"]
+
+
+class NicSpec(SpecModel):
+    """One network card of a host."""
+
+    address: Text = Field(..., description="IPv4 address with prefix length.", examples=["192.168.56.10/24"])
+    interface: Text | None = Field(None, description="Name the operating system gives the card.", examples=["enp3s0"])
+    carries: tuple[Traffic, ...] = Field(
+        (), description="Kinds of traffic on this card; `control` shares a card with nothing.", examples=[["control"]]
+    )
+
+
+class ClockSpec(SpecModel):
+    """The clock of a host and the bound that keeps it near the others."""
+
+    domain: Text = Field("ros", description="Clock domain that the host's stamps belong to.", examples=["ros"])
+    synchronised_by: Text | None = Field(None, description="What disciplines the clock.", examples=["chrony"])
+    max_offset: Duration | None = Field(None, description="Bound of the offset to the other hosts.", examples=["1 ms"])
+
+
+class HostSpec(SpecModel):
+    """A computer of the cell."""
+
+    scheduling: Literal["preempt_rt", "lowlatency", "generic", "UNKNOWN"] = Field(
+        "UNKNOWN", description="Preemption model of the kernel.", examples=["preempt_rt"]
+    )
+    clock: ClockSpec = Field(
+        default_factory=ClockSpec,
+        description="Clock domain and synchronisation.",
+        examples=[{"domain": "ros", "synchronised_by": "chrony", "max_offset": "1 ms"}],
+    )
+    nics: dict[Name, NicSpec] = Field(
+        default_factory=dict,
+        description="Network cards by the name used in `connection`.",
+        examples=[{"robot": {"address": "192.168.56.10/24", "carries": ["control"]}}],
+    )
+
+
+class NetworkSpec(SpecModel):
+    """How the nodes of the cell find each other."""
+
+    domain_id: int = Field(0, description="ROS_DOMAIN_ID; 0 to 101 are safe on every platform.", examples=[42])
+    discovery: Literal["multicast", "unicast", "localhost", "off"] = Field(
+        "multicast", description="Discovery of participants.", examples=["unicast"]
+    )
+    peers: tuple[Text, ...] = Field(
+        (), description="Static peers of unicast discovery; hosts of the cell are added.", examples=[["10.10.0.11"]]
+    )

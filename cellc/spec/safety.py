@@ -1,0 +1,95 @@
+"""The boundary that software does not cross: stop, recovery, and the gates of bring-up."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from cellc.spec.base import FrameReference, Name, SpecModel, Text
+from cellc.spec.quantity import Duration, JointPosition, JointVelocity
+
+
+class StopSpec(SpecModel):
+    """Who stops the machine, and by which path."""
+
+    authority: Text = Field(
+        "UNKNOWN", description="What has the authority to stop; never a computer of the cell.", examples=["safety_plc"]
+    )
+    path: Literal["hardwired", "safety_bus", "software", "UNKNOWN"] = Field(
+        "UNKNOWN", description="How the stop reaches the drives.", examples=["hardwired"]
+    )
+    independent_of: tuple[Name, ...] = Field(
+        (), description="Hosts that the path does not need.", examples=[["control_pc"]]
+    )
+    evidence: tuple[Text, ...] = Field((), description="What proves it.", examples=[["injected-stop result"]])
+
+
+class RecoverySpec(SpecModel):
+    """The named states that need recovery, and who acknowledges."""
+
+    states: tuple[Name, ...] = Field(
+        ("protective_stop", "emergency_stop", "fault"),
+        description="States that need recovery.",
+        examples=[["protective_stop"]],
+    )
+    acknowledge: Literal["operator", "automatic"] = Field(
+        "operator", description="Who acknowledges before motion goes on.", examples=["operator"]
+    )
+    on_reconnect: Literal["discard_goal", "resume_goal"] = Field(
+        "discard_goal", description="What becomes of an old goal after a reconnect.", examples=["discard_goal"]
+    )
+    owner: Text = Field("UNKNOWN", description="Who owns the procedure.", examples=["safety"])
+    observer: Text = Field(
+        "UNKNOWN", description="Who stands at the stop during supervised motion.", examples=["operator"]
+    )
+
+
+class SafetySpec(SpecModel):
+    """The safety boundary; cellc names it and never implements it."""
+
+    stop: StopSpec = Field(
+        default_factory=StopSpec,
+        description="Stop authority and path.",
+        examples=[{"authority": "safety_plc", "path": "hardwired", "independent_of": ["control_pc"]}],
+    )
+    recovery: RecoverySpec = Field(
+        default_factory=RecoverySpec,
+        description="Recovery states and acknowledgment.",
+        examples=[{"acknowledge": "operator"}],
+    )
+
+
+class FirstMotionSpec(SpecModel):
+    """Gate G6: one joint, stated aloud before it moves."""
+
+    joint: FrameReference = Field(..., description="The one joint, as `device/joint`.", examples=["arm/wrist_3_joint"])
+    direction: Literal["+", "-"] = Field(..., description="Sign of the first move.", examples=["+"])
+    max_delta: JointPosition = Field(..., description="Largest change of position.", examples=["5 deg"])
+    velocity: JointVelocity = Field(..., description="Speed of the move.", examples=["5 deg/s"])
+    timeout: Duration = Field(..., description="Bound of the move.", examples=["5 s"])
+    stop_if: tuple[Text, ...] = Field(
+        ..., description="What makes the observer stop.", examples=[["wrong direction"]], min_length=1
+    )
+
+
+class BringupSpec(SpecModel):
+    """Gates G0–G7 and L1–L6; a gate may be tightened, never removed."""
+
+    gates: Literal["standard"] | tuple[Text, ...] = Field(
+        "standard", description="`standard`, or the gates by name in order.", examples=["standard"]
+    )
+    first_motion: FirstMotionSpec | None = Field(
+        None,
+        description="The single-joint move of gate G6.",
+        examples=[
+            {
+                "joint": "arm/wrist_3_joint",
+                "direction": "+",
+                "max_delta": "5 deg",
+                "velocity": "5 deg/s",
+                "timeout": "5 s",
+                "stop_if": ["wrong direction"],
+            }
+        ],
+    )
