@@ -1,0 +1,64 @@
+"""Controller managers, controllers and what they claim."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from cellc.cell.entity import Entity
+from cellc.cell.interface import ParameterValue
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Controller(Entity):
+    """A controller with its plugin for the cell's distribution.
+
+    Args:
+        kind: kind in the catalogue, such as ``joint_trajectory``.
+        behaviour: neutral kind whose behaviour it has; a vendor's scaled variant is ``scaled_joint_trajectory``.
+        plugin: type string for the controller manager.
+        command_interfaces: full names that it claims, such as ``arm_elbow_joint/position``.
+        state_interfaces: full names that it reads.
+        parameters: everything that goes to its node, dots for nesting, in the types that it declares.
+        action: fully qualified action name and its type, or None.
+        path_tolerance, goal_tolerance: per joint, rad or m; None where not stated.
+    """
+
+    manager: str
+    kind: str
+    behaviour: str
+    plugin: str
+    device: str | None
+    joints: tuple[str, ...]
+    command_interfaces: tuple[str, ...]
+    state_interfaces: tuple[str, ...]
+    parameters: Mapping[str, ParameterValue]
+    active: bool
+    client: str | None
+    action: str | None
+    action_type: str | None
+    goal_time_s: float | None
+    path_tolerance: float | None
+    goal_tolerance: float | None
+    on_violation: str
+    update_rate_hz: float | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ControllerSwitch(Entity):
+    """A switch that the cell may make: deactivate, then activate."""
+
+    activate: tuple[str, ...]
+    deactivate: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ControllerManager(Entity):
+    """One update loop; ``name`` is the key in the spec, its node is ``<namespace>/controller_manager``."""
+
+    namespace: str
+    update_rate_hz: float
+    host: str | None
+    devices: tuple[str, ...]
+    controllers: tuple[Controller, ...]
+    switches: tuple[ControllerSwitch, ...]

@@ -1,0 +1,98 @@
+"""Devices of a cell with everything that the catalogue knows of them bound and prefixed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from cellc.catalog.device_model import DeviceModel
+from cellc.cell.description import Description
+from cellc.cell.entity import Entity
+from cellc.spec.devices import DeviceSpec
+from cellc.transforms import Pose
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DeviceJoint(Entity):
+    """A movable joint: ``name`` carries the prefix, ``local_name`` does not.
+
+    Limits are the device's own, tightened by the cell; rad and rad/s for revolute, m and m/s for prismatic joints;
+    None where neither the description nor the catalogue states one. ``mimics`` names the joint that it follows.
+    """
+
+    local_name: str
+    type: str
+    lower: float | None
+    upper: float | None
+    velocity: float | None
+    acceleration: float | None
+    jerk: float | None
+    effort: float | None
+    mimics: str | None
+    command_interfaces: tuple[str, ...]
+    state_interfaces: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class InterfaceGroup:
+    """A ros2_control ``<sensor>`` or ``<gpio>``: its prefixed name and its interfaces."""
+
+    name: str
+    command_interfaces: tuple[str, ...]
+    state_interfaces: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HardwareComponent:
+    """What becomes one ``<ros2_control>`` tag; plugins and parameters by target (``mock``, ``real``)."""
+
+    name: str
+    plugins: Mapping[str, str]
+    parameters: Mapping[str, Mapping[str, str]]
+    sensors: tuple[InterfaceGroup, ...]
+    gpios: tuple[InterfaceGroup, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Device(Entity):
+    """A robot, gripper or sensor where it stands.
+
+    Args:
+        spec: the device as written: versions, connection, stamp, payload.
+        facts: the catalogue entry, in its own names and units.
+        description: links and joints with the prefix applied; frames as URDF.
+        root_link: prefixed root link; its pose in ``parent_frame`` is ``transform_root_to_parent``.
+        frames: short names of the catalogue and local link names → prefixed link names.
+        joints: movable joints in the order of the description, mimic joints included.
+        tool_frame: prefixed link where tools mount, for an arm.
+        carries: devices mounted on this one, directly or on a frame of it.
+    """
+
+    spec: DeviceSpec
+    facts: DeviceModel
+    prefix: str
+    description: Description
+    root_link: str
+    parent_frame: str
+    transform_root_to_parent: Pose
+    frames: Mapping[str, str]
+    joints: tuple[DeviceJoint, ...]
+    hardware: HardwareComponent | None
+    tool_frame: str | None
+    carries: tuple[str, ...]
+
+    def joint(self, name: str) -> DeviceJoint:
+        """Return a joint by its prefixed name.
+
+        Raises:
+            KeyError: there is none of that name.
+        """
+        for joint in self.joints:
+            if joint.name == name:
+                return joint
+        raise KeyError(name)
+
+    @property
+    def actuated_joints(self) -> tuple[DeviceJoint, ...]:
+        """Joints with a command interface."""
+        return tuple(joint for joint in self.joints if joint.command_interfaces)

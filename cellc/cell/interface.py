@@ -1,0 +1,108 @@
+"""Nodes of a cell and the contracts between them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import Enum
+
+from cellc.cell.entity import Entity
+from cellc.diagnostics import Span, YamlPath
+
+ParameterValue = bool | int | float | str | tuple[bool, ...] | tuple[int, ...] | tuple[float, ...] | tuple[str, ...]
+"""What a ROS parameter can hold; an int where a double is declared is a mistake."""
+
+
+class NodeSource(str, Enum):
+    """Who brings a node into the cell."""
+
+    SPEC = "spec"
+    DEVICE = "device"  # a driver of the catalogue
+    STANDARD = "standard"  # robot_state_publisher, controller manager, controllers
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Node(Entity):
+    """A node; ``name`` is its bare name, ``namespace`` empty or with a leading slash.
+
+    ``clock`` is ``wall``, ``sim`` or None for the target's; ``real_only`` nodes are not started on a mock.
+    """
+
+    source: NodeSource
+    package: str
+    executable: str
+    namespace: str = ""
+    host: str | None = None
+    lifecycle: bool = False
+    owner: str = "UNKNOWN"
+    language: str = "UNKNOWN"
+    clock: str | None = None
+    respawn: bool = False
+    real_only: bool = False
+    device: str | None = None
+    parameters: Mapping[str, ParameterValue]
+
+    @property
+    def full_name(self) -> str:
+        """Fully qualified name, with a leading slash."""
+        return f"{self.namespace}/{self.name}"
+
+
+class InterfaceKind(str, Enum):
+    """The three interactions of ROS 2."""
+
+    TOPIC = "topic"
+    SERVICE = "service"
+    ACTION = "action"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Qos:
+    """A resolved profile; None for deadline, lifespan and lease means infinite."""
+
+    reliability: str = "reliable"
+    durability: str = "volatile"
+    history: str = "keep_last"
+    depth: int = 10
+    deadline_s: float | None = None
+    lifespan_s: float | None = None
+    liveliness: str = "automatic"
+    lease_duration_s: float | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Endpoint:
+    """One end of an interface: a node (or a controller, device) and the QoS it offers or requests."""
+
+    node: str
+    qos: Qos
+    path: YamlPath
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Interface(Entity):
+    """A topic, service or action under its fully qualified name.
+
+    ``sources`` publish a topic or serve a service or action; ``sinks`` subscribe to it or are its clients.
+    ``derived`` interfaces follow from a device or controller and were not written by the user.
+    """
+
+    kind: InterfaceKind
+    type: str
+    sources: tuple[Endpoint, ...]
+    sinks: tuple[Endpoint, ...]
+    derived: bool = False
+    frame: str | None = None
+    unit: str | None = None
+    time_source: str | None = None
+    owner: str | None = None
+    wants: str | None = None
+    rate_hz: float | None = None
+    max_age_s: float | None = None
+    transport_s: float | None = None
+    on_stale: str | None = None
+    timeout_s: float | None = None
+    on_timeout: str | None = None
+    on_error: str | None = None
+    cancel_within_s: float | None = None

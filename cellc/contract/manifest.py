@@ -1,0 +1,29 @@
+"""``manifest.json``: what the folder is made of, so that one id names calibration, TF publishers and URDF."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from cellc.contract.base import ContractModel
+
+
+class ConfigurationInputs(ContractModel):
+    """What the configuration id is taken over (chapter 4, TF and time acceptance gate 6)."""
+
+    calibrations: dict[str, int] = Field(description="Revision of each calibration.")
+    tf_publishers: dict[str, str] = Field(description="Authority of each frame.")
+    urdf_sha256: str = Field(description="SHA-256 of the real URDF without its header comment.")
+
+
+class Manifest(ContractModel):
+    """Version tuple, hash of every generated file, and the configuration id."""
+
+    format: Literal[1]
+    cell: str
+    cellc_version: str
+    configuration_id: str
+    configuration_inputs: ConfigurationInputs
+    version_tuple: dict[str, str]
+    files: dict[str, str] = Field(description="SHA-256 of every generated file but this one, by path.")
