@@ -1,0 +1,234 @@
+"""The arithmetic of ``${…}`` in xacro, interpreted node by node instead of by ``eval``.
+
+xacro evaluates expressions as Python; a description from a stranger must not. What robot descriptions use is here:
+numbers, texts, lists, dictionaries, comparison, indexing, a fixed set of functions and of methods. Everything else is
+refused, as is every underscored attribute and every result beyond a bound.
+"""
+
+from __future__ import annotations
+
+import ast
+import math
+import operator
+from collections.abc import Callable, Mapping
+from typing import Any
+
+MAX_TEXT = 65_536
+MAX_ITEMS = 10_000
+MAX_MAGNITUDE = 10**40
+_METHODS: dict[type, frozenset[str]] = {
+    str: frozenset({"split", "rsplit", "strip", "lstrip", "rstrip", "lower", "upper", "title", "capitalize",
+                    "startswith", "endswith", "count", "find", "isdigit", "removeprefix", "removesuffix"}),
+    dict: frozenset({"get", "keys", "values", "items"}),
+    list: frozenset({"index", "count"}),
+    tuple: frozenset({"index", "count"}),
+}  # fmt: skip
+_BINARY: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+    ast.FloorDiv: operator.floordiv,
+    ast.Mod: operator.mod,
+    ast.Pow: operator.pow,
+}
+_UNARY: dict[type[ast.unaryop], Callable[[Any], Any]] = {
+    ast.UAdd: operator.pos,
+    ast.USub: operator.neg,
+    ast.Not: operator.not_,
+}
+_COMPARE: dict[type[ast.cmpop], Callable[[Any, Any], Any]] = {
+    ast.Eq: operator.eq,
+    ast.NotEq: operator.ne,
+    ast.Lt: operator.lt,
+    ast.LtE: operator.le,
+    ast.Gt: operator.gt,
+    ast.GtE: operator.ge,
+    ast.In: lambda item, container: item in container,
+    ast.NotIn: lambda item, container: item not in container,
+    ast.Is: operator.is_,
+    ast.IsNot: operator.is_not,
+}
+
+
+class ExpressionError(Exception):
+    """An expression uses more of Python than a description needs, or its result is beyond bounds."""
+
+
+def evaluate(text: str, symbols: Mapping[str, Any]) -> Any:
+    """Evaluate one expression.
+
+    Args:
+        text: what stands between ``${`` and ``}``.
+        symbols: properties, macro parameters and functions in scope.
+
+    Raises:
+        ExpressionError: where the expression is not arithmetic or is too large.
+        Exception: what the operation itself raises, such as ZeroDivisionError or KeyError.
+    """
+    if len(text) > MAX_TEXT:
+        raise ExpressionError(f"the expression has {len(text)} characters, at most {MAX_TEXT} are evaluated")
+    tree = ast.parse(text.strip(), mode="eval")
+    return _value(tree.body, symbols)
+
+
+def bounded(value: Any) -> Any:
+    """Pass a result on unless it is too large to handle; applied to every intermediate result."""
+    if isinstance(value, int) and abs(value) > MAX_MAGNITUDE:
+        raise ExpressionError("a number is beyond 1e40")
+    if isinstance(value, str) and len(value) > MAX_TEXT:
+        raise ExpressionError(f"a text is longer than {MAX_TEXT} characters")
+    if isinstance(value, (list, tuple, dict)) and len(value) > MAX_ITEMS:
+        raise ExpressionError(f"a list is longer than {MAX_ITEMS} items")
+    return value
+
+
+def _value(node: ast.expr, symbols: Mapping[str, Any]) -> Any:
+    evaluator = _EVALUATORS.get(type(node))
+    if evaluator is None:
+        raise ExpressionError(f"`{type(node).__name__}` is not allowed in an expression")
+    return bounded(evaluator(node, symbols))
+
+
+def _name(node: Any, symbols: Mapping[str, Any]) -> Any:
+    if node.id.startswith("__"):
+        raise ExpressionError(f"the name `{node.id}` is not allowed in an expression")
+    try:
+        return symbols[node.id]
+    except KeyError:
+        raise NameError(f"name `{node.id}` is not defined") from None
+
+
+def _binary(node: Any, symbols: Mapping[str, Any]) -> Any:
+    operation = _BINARY.get(type(node.op))
+    if operation is None:
+        raise ExpressionError(f"the operator `{type(node.op).__name__}` is not allowed in an expression")
+    left, right = _value(node.left, symbols), _value(node.right, symbols)
+    _check_growth(node.op, left, right)
+    return operation(left, right)
+
+
+def _unary(node: Any, symbols: Mapping[str, Any]) -> Any:
+    operation = _UNARY.get(type(node.op))
+    if operation is None:
+        raise ExpressionError(f"the operator `{type(node.op).__name__}` is not allowed in an expression")
+    return operation(_value(node.operand, symbols))
+
+
+def _check_growth(operation: ast.operator, left: Any, right: Any) -> None:
+    # Both would first compute the large result and only then be refused.
+    if isinstance(operation, ast.Pow) and isinstance(left, int) and isinstance(right, int) and abs(right) > 128:
+        raise ExpressionError(f"the exponent {right} is beyond 128")
+    if isinstance(operation, ast.Mult):
+        for items, count in ((left, right), (right, left)):
+            repeated = len(items) * count if isinstance(items, (str, list, tuple)) and isinstance(count, int) else 0
+            if repeated > MAX_ITEMS:
+                raise ExpressionError(f"repetition to {repeated} items, at most {MAX_ITEMS}")
+    if isinstance(operation, ast.Mod) and isinstance(left, str):
+        raise ExpressionError("text formatting with `%` is not allowed in an expression")
+
+
+def _call(node: Any, symbols: Mapping[str, Any]) -> Any:
+    if isinstance(node.func, ast.Attribute) and any(keyword.arg is None for keyword in node.keywords):
+        raise ExpressionError("`**` arguments are not allowed in an expression")
+    function = _value(node.func, symbols)
+    if not callable(function):
+        raise TypeError(f"`{ast.unparse(node.func)}` is not a function")
+    arguments = [_value(argument, symbols) for argument in node.args]
+    keywords = {keyword.arg: _value(keyword.value, symbols) for keyword in node.keywords}
+    return function(*arguments, **keywords)
+
+
+def _attribute(node: Any, symbols: Mapping[str, Any]) -> Any:
+    if node.attr.startswith("_"):
+        raise ExpressionError(f"the attribute `{node.attr}` is not allowed in an expression")
+    owner = _value(node.value, symbols)
+    if isinstance(owner, dict) and node.attr in owner:  # dotted access to namespaces and to values from YAML
+        return owner[node.attr]
+    if any(isinstance(owner, kind) and node.attr in methods for kind, methods in _METHODS.items()):
+        return getattr(owner, node.attr)
+    raise ExpressionError(f"the attribute `{node.attr}` is not allowed in an expression")
+
+
+def _boolean(node: Any, symbols: Mapping[str, Any]) -> Any:
+    stop_at = isinstance(node.op, ast.Or)
+    value: Any = None
+    for operand in node.values:
+        value = _value(operand, symbols)
+        if bool(value) is stop_at:
+            break
+    return value
+
+
+def _comparison(node: Any, symbols: Mapping[str, Any]) -> bool:
+    left = _value(node.left, symbols)
+    for operation, comparator in zip(node.ops, node.comparators, strict=True):
+        right = _value(comparator, symbols)
+        if not _COMPARE[type(operation)](left, right):
+            return False
+        left = right
+    return True
+
+
+def _choice(node: Any, symbols: Mapping[str, Any]) -> Any:
+    return _value(node.body if _value(node.test, symbols) else node.orelse, symbols)
+
+
+def _subscript(node: Any, symbols: Mapping[str, Any]) -> Any:
+    if isinstance(node.slice, ast.Slice):
+        parts = (node.slice.lower, node.slice.upper, node.slice.step)
+        index: Any = slice(*(None if part is None else _value(part, symbols) for part in parts))
+    else:
+        index = _value(node.slice, symbols)
+    return _value(node.value, symbols)[index]
+
+
+def _constant(node: Any, symbols: Mapping[str, Any]) -> Any:
+    if not isinstance(node.value, (bool, int, float, str, type(None))):
+        raise ExpressionError(f"`{node.value!r}` is not allowed in an expression")
+    return node.value
+
+
+_EVALUATORS: dict[type[ast.expr], Callable[[Any, Mapping[str, Any]], Any]] = {
+    ast.Constant: _constant,
+    ast.Name: _name,
+    ast.BinOp: _binary,
+    ast.UnaryOp: _unary,
+    ast.BoolOp: _boolean,
+    ast.Compare: _comparison,
+    ast.IfExp: _choice,
+    ast.Call: _call,
+    ast.Attribute: _attribute,
+    ast.Subscript: _subscript,
+    ast.List: lambda node, symbols: [_value(item, symbols) for item in node.elts],
+    ast.Tuple: lambda node, symbols: tuple(_value(item, symbols) for item in node.elts),
+    ast.Dict: lambda node, symbols: {
+        _value(key, symbols): _value(value, symbols) for key, value in zip(node.keys, node.values, strict=True)
+    },
+}
+
+
+def _bounded_range(*arguments: int) -> list[int]:
+    numbers = range(*arguments)
+    if len(numbers) > MAX_ITEMS:
+        raise ExpressionError(f"a range of {len(numbers)} items, at most {MAX_ITEMS}")
+    return list(numbers)
+
+
+_MATH = {
+    name: getattr(math, name)
+    for name in ("acos", "asin", "atan", "atan2", "ceil", "copysign", "cos", "degrees", "e", "exp", "fabs", "floor",
+                 "fmod", "hypot", "inf", "isclose", "isfinite", "isinf", "isnan", "log", "log10", "log2", "nan", "pi",
+                 "pow", "radians", "sin", "sqrt", "tan", "tau", "trunc")
+}  # fmt: skip
+_PYTHON: dict[str, Any] = {
+    "abs": abs, "all": all, "any": any, "bool": bool, "dict": dict, "float": float, "int": int, "len": len,
+    "list": list, "map": lambda function, *items: list(map(function, *items)), "max": max, "min": min,
+    "range": _bounded_range, "round": round, "sorted": sorted, "str": lambda value="": str(bounded(value)), "sum": sum,
+    "tuple": tuple, "zip": lambda *items: list(zip(*items, strict=False)), "True": True, "False": False,
+}  # fmt: skip
+
+
+def functions() -> dict[str, Any]:
+    """Return the names that every expression knows, as xacro exposes them: plain and under ``math`` and ``python``."""
+    return {**_MATH, **_PYTHON, "math": dict(_MATH), "python": dict(_PYTHON)}

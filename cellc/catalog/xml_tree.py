@@ -1,0 +1,118 @@
+"""XML read into a small tree with positions, bounded in size and depth, without entities.
+
+The standard ElementTree keeps no columns and minidom expands entities; a description from a stranger needs neither.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from xml.parsers import expat
+
+from cellc.diagnostics import Diagnostic, Outcome, Severity, Span
+
+MAX_BYTES = 8 * 1024 * 1024
+MAX_DEPTH = 64
+_START_TAG = re.compile(rb"""<[^>"']*(?:(?:"[^"]*"|'[^']*')[^>"']*)*>""")
+
+
+@dataclass(slots=True)
+class XmlElement:
+    """One element: tag and attributes as written, children in order, ``span`` its start tag."""
+
+    tag: str
+    attributes: dict[str, str]
+    span: Span
+    children: list[XmlElement] = field(default_factory=list)
+
+    def first(self, tag: str) -> XmlElement | None:
+        """Return the first child of that tag, or None."""
+        return next((child for child in self.children if child.tag == tag), None)
+
+    def all(self, tag: str) -> list[XmlElement]:
+        """Return the children of that tag in order."""
+        return [child for child in self.children if child.tag == tag]
+
+
+class _XmlError(Exception):
+    """Stops expat inside a callback; carries code and message."""
+
+    def __init__(self, code: str, message: str, help_text: str) -> None:
+        super().__init__(message)
+        self.code, self.message, self.help_text = code, message, help_text
+
+
+def read_xml(text: str, file: str) -> Outcome[XmlElement]:
+    """Parse XML text into its root element.
+
+    Args:
+        text: the whole document.
+        file: the path as the user named it, for spans.
+
+    Returns:
+        The root, or one diagnostic of ``xml-too-large``, ``xml-not-well-formed``, ``xml-entities`` or ``xml-too-deep``.
+    """
+    data = text.encode("utf-8", "surrogatepass")
+    if len(data) > MAX_BYTES:
+        message = f"the description is {len(data) / 2**20:.1f} MiB, at most {MAX_BYTES // 2**20} MiB are read"
+        return _refused("xml-too-large", message, "keep meshes in files of their own", Span(file, 1, 1, 1, 1))
+    builder = _TreeBuilder(data, file)
+    try:
+        builder.parser.Parse(data, True)
+    except expat.ExpatError as error:
+        span = Span(file, error.lineno, error.offset + 1, error.lineno, error.offset + 2)
+        return _refused("xml-not-well-formed", f"not well-formed XML: {expat.ErrorString(error.code)}", "", span)
+    except _XmlError as error:
+        return _refused(error.code, error.message, error.help_text, builder.here())
+    assert builder.root is not None  # expat reports a document without an element as an error
+    return Outcome(builder.root)
+
+
+def _refused(code: str, message: str, help_text: str, span: Span) -> Outcome[XmlElement]:
+    return Outcome(None, (Diagnostic(code, Severity.ERROR, message, span, help=help_text),))
+
+
+class _TreeBuilder:
+    """Expat's callbacks; the stack holds the open elements."""
+
+    def __init__(self, data: bytes, file: str) -> None:
+        self.data, self.file = data, file
+        self.root: XmlElement | None = None
+        self.stack: list[XmlElement] = []
+        # The text is already decoded: an encoding named in the XML declaration no longer holds.
+        self.parser = expat.ParserCreate(encoding="utf-8")
+        self.parser.StartElementHandler = self.start
+        self.parser.EndElementHandler = self.end
+        self.parser.StartDoctypeDeclHandler = self.doctype
+
+    def here(self) -> Span:
+        line, column = self.parser.CurrentLineNumber, self.parser.CurrentColumnNumber + 1
+        return Span(self.file, line, column, line, column + 1)
+
+    def start(self, tag: str, attributes: dict[str, str]) -> None:
+        if len(self.stack) >= MAX_DEPTH:
+            raise _XmlError("xml-too-deep", f"elements are nested deeper than {MAX_DEPTH} levels", "")
+        element = XmlElement(tag, attributes, self.start_tag_span())
+        if self.stack:
+            self.stack[-1].children.append(element)
+        else:
+            self.root = element
+        self.stack.append(element)
+
+    def end(self, tag: str) -> None:
+        self.stack.pop()
+
+    def doctype(self, name: str, system_id: str | None, public_id: str | None, has_subset: bool) -> None:
+        raise _XmlError(
+            "xml-entities", "a document type with entities is refused", "remove the `<!DOCTYPE …>` declaration"
+        )
+
+    def start_tag_span(self) -> Span:
+        start = self.here()
+        match = _START_TAG.match(self.data, self.parser.CurrentByteIndex)
+        if match is None:
+            return start
+        lines = match[0].decode("utf-8", "replace").split("\n")
+        if len(lines) == 1:
+            return Span(self.file, start.line, start.column, start.line, start.column + len(lines[0]))
+        return Span(self.file, start.line, start.column, start.line + len(lines) - 1, len(lines[-1]) + 1)

@@ -1,0 +1,187 @@
+"""A robot description as URDF means it: links, joints, shapes, all in SI and radians.
+
+Nothing here decides validity: reversed limits, a zero axis or an impossible inertia survive reading, so that rules can
+report them where they stand.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Union
+
+from cellc.diagnostics import Span
+from cellc.transforms import Pose, Vector3
+
+
+@dataclass(frozen=True, slots=True)
+class Box:
+    """A box about its origin; ``size`` is the full extent along x, y, z in metres."""
+
+    size: Vector3
+
+
+@dataclass(frozen=True, slots=True)
+class Cylinder:
+    """A cylinder about its origin, its axis along z; metres."""
+
+    radius: float
+    length: float
+
+
+@dataclass(frozen=True, slots=True)
+class Sphere:
+    """A sphere about its origin; metres."""
+
+    radius: float
+
+
+@dataclass(frozen=True, slots=True)
+class Mesh:
+    """A mesh file as the description names it (``package://`` or a path), with a factor per axis."""
+
+    filename: str
+    scale: Vector3
+
+
+Geometry = Union[Box, Cylinder, Sphere, Mesh]
+
+
+@dataclass(frozen=True, slots=True)
+class Collision:
+    """A shape that the link occupies; ``pose`` is the shape in the link frame."""
+
+    name: str | None
+    pose: Pose
+    geometry: Geometry
+
+
+@dataclass(frozen=True, slots=True)
+class Visual:
+    """A shape to look at; ``rgba`` in 0..1, None where the material names none."""
+
+    name: str | None
+    pose: Pose
+    geometry: Geometry
+    material: str | None
+    rgba: tuple[float, float, float, float] | None
+
+
+@dataclass(frozen=True, slots=True)
+class Inertial:
+    """Mass in kg and the inertia tensor in kg m^2 about the centre of mass, in axes of ``pose``.
+
+    ``pose`` is the centre of mass and the axes of the tensor in the link frame.
+    """
+
+    pose: Pose
+    mass: float
+    ixx: float
+    ixy: float
+    ixz: float
+    iyy: float
+    iyz: float
+    izz: float
+
+
+@dataclass(frozen=True, slots=True)
+class Link:
+    """A rigid body or a bare frame."""
+
+    name: str
+    inertial: Inertial | None
+    visuals: tuple[Visual, ...]
+    collisions: tuple[Collision, ...]
+    span: Span | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class JointLimit:
+    """Limits of one joint: rad or m, per second, N m or N; None where the description gives none."""
+
+    lower: float | None
+    upper: float | None
+    velocity: float | None
+    effort: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class Mimic:
+    """``position = multiplier * position of joint + offset``."""
+
+    joint: str
+    multiplier: float
+    offset: float
+
+
+@dataclass(frozen=True, slots=True)
+class JointDynamics:
+    """Viscous damping (N m s/rad or N s/m) and static friction (N m or N)."""
+
+    damping: float
+    friction: float
+
+
+@dataclass(frozen=True, slots=True)
+class SafetyController:
+    """Soft limits that ros2_control reads from URDF ``<safety_controller>``; rad or m, gains in 1/s and N s/rad."""
+
+    soft_lower: float
+    soft_upper: float
+    k_position: float
+    k_velocity: float
+
+
+@dataclass(frozen=True, slots=True)
+class Joint:
+    """A joint between two links; ``pose`` is the joint frame, which is the child frame at zero, in the parent link."""
+
+    name: str
+    type: str
+    parent: str
+    child: str
+    pose: Pose
+    axis: Vector3
+    limit: JointLimit | None = None
+    mimic: Mimic | None = None
+    dynamics: JointDynamics | None = None
+    safety: SafetyController | None = None
+    span: Span | None = None
+
+    @property
+    def movable(self) -> bool:
+        """Whether the joint has a position of its own or of the joint that it follows."""
+        return self.type in ("revolute", "continuous", "prismatic")
+
+
+@dataclass(frozen=True, slots=True)
+class Description:
+    """A robot model: links and joints in the order of the file."""
+
+    name: str
+    links: tuple[Link, ...]
+    joints: tuple[Joint, ...]
+
+    def link(self, name: str) -> Link | None:
+        """Find a link, the first where a name stands twice."""
+        return next((link for link in self.links if link.name == name), None)
+
+    def joint(self, name: str) -> Joint | None:
+        """Find a joint, the first where a name stands twice."""
+        return next((joint for joint in self.joints if joint.name == name), None)
+
+    def roots(self) -> tuple[str, ...]:
+        """Name the links that are no joint's child, in the order of the file; a valid model has exactly one."""
+        children = {joint.child for joint in self.joints}
+        return tuple(link.name for link in self.links if link.name not in children)
+
+    def renamed(self, prefix: str) -> Description:
+        """Put ``prefix`` before the name of every link and joint, and in every reference to one."""
+        links = tuple(replace(link, name=prefix + link.name) for link in self.links)
+        return replace(self, links=links, joints=tuple(_renamed_joint(joint, prefix) for joint in self.joints))
+
+
+def _renamed_joint(joint: Joint, prefix: str) -> Joint:
+    mimic = None if joint.mimic is None else replace(joint.mimic, joint=prefix + joint.mimic.joint)
+    return replace(
+        joint, name=prefix + joint.name, parent=prefix + joint.parent, child=prefix + joint.child, mimic=mimic
+    )
