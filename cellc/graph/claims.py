@@ -1,0 +1,102 @@
+"""The claim graph: which controller owns which command interface, at start and after every declared switch."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from cellc.cell.cell import Cell
+from cellc.cell.control import Controller, ControllerManager, ControllerSwitch
+
+_MAX_STATES = 4096  # twelve independent switches; a cell has two or three
+
+
+@dataclass(frozen=True, slots=True)
+class ControlState:
+    """Controllers that are active together.
+
+    Args:
+        manager: key of their manager.
+        switches: names of the switches that lead here from the start, in order; empty at the start.
+        active: controllers in the order of the spec.
+    """
+
+    manager: str
+    switches: tuple[str, ...]
+    active: tuple[Controller, ...]
+
+    def claims(self) -> Mapping[str, tuple[Controller, ...]]:
+        """Return the controllers that claim each command interface in this state."""
+        claims: dict[str, list[Controller]] = {}
+        for controller in self.active:
+            for interface in controller.command_interfaces:
+                claims.setdefault(interface, []).append(controller)
+        return {interface: tuple(owners) for interface, owners in claims.items()}
+
+
+@dataclass(frozen=True, slots=True)
+class ClaimConflict:
+    """Two controllers that would own one command interface in a state that can be reached."""
+
+    state: ControlState
+    interface: str
+    first: Controller
+    second: Controller
+
+
+@dataclass(frozen=True, slots=True)
+class ClaimGraph:
+    """Every state of every controller manager that its declared switches can reach."""
+
+    states: tuple[ControlState, ...]
+
+    def at_start(self) -> tuple[ControlState, ...]:
+        """Return the first state of each manager."""
+        return tuple(state for state in self.states if not state.switches)
+
+    def conflicts(self) -> Iterator[ClaimConflict]:
+        """Yield each pair of controllers once, in the first state and at the first interface where they collide."""
+        seen: set[tuple[str, str, str]] = set()
+        for state in self.states:
+            for interface, owners in state.claims().items():
+                for second in owners[1:]:
+                    pair = (state.manager, owners[0].name, second.name)
+                    if pair not in seen:
+                        seen.add(pair)
+                        yield ClaimConflict(state, interface, owners[0], second)
+
+    def ever_active(self, manager: str) -> frozenset[str]:
+        """Name the controllers of a manager that are active in some state."""
+        return frozenset(c.name for state in self.states if state.manager == manager for c in state.active)
+
+
+def build_claims(cell: Cell) -> ClaimGraph:
+    """Explore the states of each manager, nearest to the start first."""
+    return ClaimGraph(tuple(state for manager in cell.managers for state in _explore(manager)))
+
+
+def can_switch(active: frozenset[str], switch: ControllerSwitch) -> bool:
+    """Tell whether a strict switch is carried out: what it stops is active, what it starts is not.
+
+    A controller in both lists is restarted. Source: controller_manager, switch_controller with STRICT strictness.
+    """
+    starts = set(switch.activate) - set(switch.deactivate)
+    return active.issuperset(switch.deactivate) and active.isdisjoint(starts)
+
+
+def _explore(manager: ControllerManager) -> Iterator[ControlState]:
+    start = frozenset(controller.name for controller in manager.controllers if controller.active)
+    queue: deque[tuple[frozenset[str], tuple[str, ...]]] = deque([(start, ())])
+    seen = {start}
+    while queue:
+        active, switches = queue.popleft()
+        state = ControlState(manager.name, switches, tuple(c for c in manager.controllers if c.name in active))
+        yield state
+        if any(len(owners) > 1 for owners in state.claims().values()):
+            continue  # the controller manager refuses this state, nothing is reached through it
+        for switch in manager.switches:
+            after = (active - set(switch.deactivate)) | set(switch.activate)
+            if can_switch(active, switch) and after not in seen and len(seen) < _MAX_STATES:
+                seen.add(after)
+                queue.append((after, (*switches, switch.name)))

@@ -1,0 +1,111 @@
+"""The frame graph: which frame hangs on which, and who publishes the edge."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from graphlib import CycleError, TopologicalSorter
+from typing import TYPE_CHECKING
+
+from cellc.cell.cell import Cell
+from cellc.cell.frame import WORLD, Frame
+
+if TYPE_CHECKING:
+    import networkx
+
+
+@dataclass(frozen=True, slots=True)
+class FrameTree:
+    """Frames by name; a name with several edges has several authorities, which tf2 does not allow."""
+
+    edges: Mapping[str, tuple[Frame, ...]]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.edges
+
+    def get(self, name: str) -> Frame | None:
+        """Find a frame, the first where a name stands twice."""
+        found = self.edges.get(name)
+        return found[0] if found else None
+
+    def names(self) -> tuple[str, ...]:
+        """Name every frame once, in the order of the cell."""
+        return tuple(self.edges)
+
+    def parent(self, name: str) -> str | None:
+        """Name the parent of a frame; None for a root and for a frame that does not exist."""
+        frame = self.get(name)
+        return frame.parent or None if frame else None
+
+    def authorities(self, name: str) -> tuple[Frame, ...]:
+        """Return every edge that somebody publishes for one child frame."""
+        return self.edges.get(name, ())
+
+    def roots(self) -> tuple[str, ...]:
+        """Name the frames that hang on nothing; a valid tree has the world alone."""
+        return tuple(name for name, frames in self.edges.items() if not any(frame.parent for frame in frames))
+
+    def cycles(self) -> tuple[tuple[str, ...], ...]:
+        """Return each cycle as its frames from child to parent, the smallest name first."""
+        try:
+            TopologicalSorter(self._parents()).prepare()
+        except CycleError:
+            return self._find_cycles()
+        return ()
+
+    def islands(self) -> tuple[tuple[str, ...], ...]:
+        """Return each set of frames that no lookup from the world reaches, though it is free of cycles."""
+        if self.roots() in ((), (WORLD,)):
+            return ()  # what hangs together without a root of its own holds a cycle, which is reported as such
+        import networkx
+
+        graph = self._digraph()
+        components = [
+            component
+            for component in networkx.weakly_connected_components(graph)
+            if WORLD not in component and networkx.is_directed_acyclic_graph(graph.subgraph(component))
+        ]
+        return tuple(sorted(tuple(name for name in graph if name in component) for component in components))
+
+    def chain(self, name: str) -> tuple[Frame, ...]:
+        """Return the edges from a frame up to its root; it ends where a frame is missing or would come twice."""
+        chain: list[Frame] = []
+        seen: set[str] = set()
+        frame = self.get(name)
+        while frame is not None and frame.name not in seen:
+            seen.add(frame.name)
+            chain.append(frame)
+            frame = self.get(frame.parent)
+        return tuple(chain)
+
+    def _parents(self) -> dict[str, tuple[str, ...]]:
+        return {name: tuple(frame.parent for frame in frames if frame.parent) for name, frames in self.edges.items()}
+
+    def _digraph(self) -> networkx.DiGraph[str]:
+        import networkx
+
+        graph: networkx.DiGraph[str] = networkx.DiGraph()
+        graph.add_nodes_from(self.edges)
+        graph.add_edges_from((child, parent) for child, parents in self._parents().items() for parent in parents)
+        return graph
+
+    def _find_cycles(self) -> tuple[tuple[str, ...], ...]:
+        import networkx
+
+        # One cycle a component: where frames have several parents, simple cycles can be exponentially many.
+        graph = self._digraph()
+        cycles = []
+        for component in networkx.strongly_connected_components(graph):
+            first = min(component)
+            if len(component) > 1 or graph.has_edge(first, first):
+                edges = networkx.find_cycle(graph.subgraph(sorted(component)), first)
+                cycles.append(tuple(edge[0] for edge in edges))
+        return tuple(sorted(cycles))
+
+
+def build_frame_tree(cell: Cell) -> FrameTree:
+    """Gather the edges of every frame under its name."""
+    edges: dict[str, list[Frame]] = {}
+    for frame in cell.frames:
+        edges.setdefault(frame.name, []).append(frame)
+    return FrameTree({name: tuple(frames) for name, frames in edges.items()})

@@ -1,0 +1,89 @@
+"""The network graph: addresses, the cards that they are on, and what reaches what."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from ipaddress import IPv4Address, IPv4Interface
+
+from cellc.cell.cell import Cell
+from cellc.diagnostics import YamlPath
+
+
+@dataclass(frozen=True, slots=True)
+class Nic:
+    """A network card; ``interface`` is None where its address is no IPv4 address with a prefix length."""
+
+    host: str
+    name: str
+    text: str
+    interface: IPv4Interface | None
+    carries: tuple[str, ...]
+    path: YamlPath
+
+    @property
+    def full_name(self) -> str:
+        """Name of the card with its host."""
+        return f"{self.host}/{self.name}"
+
+
+@dataclass(frozen=True, slots=True)
+class DeviceAddress:
+    """How a device is reached; ``address`` is None where none is written or where it is malformed."""
+
+    device: str
+    host: str
+    nic: str | None
+    text: str | None
+    address: IPv4Address | None
+    path: YamlPath
+
+
+@dataclass(frozen=True, slots=True)
+class NetworkGraph:
+    """Cards of hosts and addresses of devices, in the order of the spec."""
+
+    nics: tuple[Nic, ...]
+    devices: tuple[DeviceAddress, ...]
+
+    def nic(self, host: str, name: str) -> Nic | None:
+        """Find a card."""
+        return next((nic for nic in self.nics if nic.host == host and nic.name == name), None)
+
+    def nic_of(self, device: DeviceAddress) -> Nic | None:
+        """Find the card on which a device is reached, where the spec names one."""
+        return None if device.nic is None else self.nic(device.host, device.nic)
+
+
+def build_network(cell: Cell) -> NetworkGraph:
+    """Read the addresses of hosts and devices."""
+    nics = tuple(
+        Nic(host, name, nic.address, read_interface(nic.address), nic.carries, ("hosts", host, "nics", name))
+        for host, spec in cell.spec.hosts.items()
+        for name, nic in spec.nics.items()
+    )
+    devices = tuple(
+        DeviceAddress(
+            name, link.host, link.nic, link.address, read_address(link.address), ("devices", name, "connection")
+        )
+        for name, spec in cell.spec.devices.items()
+        if (link := spec.connection) is not None
+    )
+    return NetworkGraph(nics, devices)
+
+
+def read_interface(text: str) -> IPv4Interface | None:
+    """Read an IPv4 address with a prefix length; None where the text is anything else."""
+    if "/" not in text:
+        return None
+    try:
+        return IPv4Interface(text)
+    except ValueError:
+        return None
+
+
+def read_address(text: str | None) -> IPv4Address | None:
+    """Read an IPv4 address; None where the text is anything else."""
+    try:
+        return None if text is None else IPv4Address(text)
+    except ValueError:
+        return None
