@@ -1,0 +1,181 @@
+"""Every code that reading a spec can report, with its documentation page."""
+
+from __future__ import annotations
+
+from cellc.diagnostics import Severity
+from cellc.diagnostics.page import CodePage
+from cellc.source.limits import MAX_DEPTH, MAX_FILE_BYTES, MAX_FILES, MAX_NODES
+
+
+def _page(code: str, title: str, why: str, fix: str) -> CodePage:
+    return CodePage(code, Severity.ERROR, title, why, fix)
+
+
+CODES: tuple[CodePage, ...] = (
+    _page(
+        "alias-bomb",
+        "aliases expand to far more values than the file holds",
+        "An alias stands for everything its anchor holds, so nine short lines can mean thousands of millions of values "
+        "and fill the memory of whoever opens the file. The expanded size is counted before anything is expanded.",
+        "write the repeated part once and reference it by name instead of nesting aliases",
+    ),
+    _page(
+        "control-character",
+        "the text holds a character that steers terminals or hides text",
+        "Escape sequences, text direction overrides and Unicode line separators make a reviewer see something else than "
+        "what the compiler reads. YAML itself forbids most of them.",
+        "delete the character, or write it as an escape inside double quotes",
+    ),
+    _page(
+        "duplicate-key",
+        "one key is written twice in a mapping",
+        "Most YAML readers silently keep the last one, so that a limit or an address that everybody can see in the file "
+        "is not the one in force. The same holds for a key that two included files both write.",
+        "delete one of the two, or rename it",
+    ),
+    _page(
+        "empty-file",
+        "the file holds no data",
+        "An empty file, or one of comments alone, describes no cell; a wrong path or an interrupted save looks the same.",
+        "write a cell spec into it, or let `cellc init` write one that passes",
+    ),
+    _page(
+        "file-not-found",
+        "the named file does not exist",
+        "Nothing can be read. For an include the path counts from the folder of the file that includes it.",
+        "check the path and its spelling",
+    ),
+    _page(
+        "file-too-large",
+        "the file is larger than a spec can be",
+        f"A cell is a page or two of text. Above {MAX_FILE_BYTES // 1024**2} MiB it is a recording, a mesh or a mistake, and it "
+        "is refused before it is read into memory.",
+        "name the cell spec itself, and keep recorded or generated data in files of their own",
+    ),
+    _page(
+        "file-unreadable",
+        "the operating system does not let the file be read",
+        "Permissions, a broken disk or a link that leads to itself; the reason of the system stands in the message.",
+        "make the file readable for the user who runs cellc",
+    ),
+    _page(
+        "include-cycle",
+        "a file includes itself, directly or through others",
+        "Each of the files would need the other to be complete first.",
+        "move the shared part into a third file that includes neither",
+    ),
+    _page(
+        "include-escape",
+        "an include leads out of the folder of the spec",
+        "A spec is reviewed and shipped as one folder. A part from elsewhere on the machine is not under review, differs "
+        "between machines, and could pull in a private file. Symbolic links are followed before the place is judged.",
+        "move the included file into the folder of the root spec and write a relative path",
+    ),
+    _page(
+        "include-shape",
+        "`include` is neither a path nor a list of paths",
+        "Includes are relative paths, written as text; nothing else says which file is meant.",
+        "write `include: parts/devices.yaml` or a list of such paths",
+    ),
+    _page(
+        "key-collision",
+        "two files write different kinds of value under one section",
+        "Sections of included files are merged key by key, which only mappings allow; one of two lists or texts would "
+        "silently vanish.",
+        "write the section in one file, or as a mapping in both",
+    ),
+    _page(
+        "merge-key",
+        "`<<` is not part of YAML 1.2",
+        "Merge keys copy values that the reader of a line cannot see, and parsers disagree on which value wins.",
+        "write the keys out, or move the shared part into a file and `include` it",
+    ),
+    _page(
+        "non-string-key",
+        "a key is not text",
+        "Keys of a spec are names. An unquoted number, `true` or `null` as a key becomes a value of another type and "
+        "never equals the name it was meant to be.",
+        "put the key in double quotes",
+    ),
+    _page(
+        "not-a-file",
+        "the path names a folder, a pipe or a device",
+        "A spec is read once, whole, and its text is shown in messages, so it must be a regular file.",
+        "name the `.yaml` file itself",
+    ),
+    _page(
+        "not-utf8",
+        "the file is not UTF-8 text",
+        "YAML in another encoding, or a binary file, cannot be read without guessing which characters are meant.",
+        "save the file as UTF-8",
+    ),
+    _page(
+        "not-yaml",
+        "the text is not YAML",
+        "The structure of the file breaks off at the marked place, so what follows has no certain meaning.",
+        "correct the marked place; indent with spaces and quote text that holds `: `, `#`, brackets or quotes",
+    ),
+    _page(
+        "number-out-of-range",
+        "a number does not fit into 64 bits",
+        "ROS parameters, JSON and C++ would round or refuse it. Most often it is a serial number or a hash whose quotes "
+        "are missing.",
+        "put it in double quotes if it is a name, or write a smaller number",
+    ),
+    _page(
+        "recursive-alias",
+        "an alias stands inside the value that it names",
+        "The value would contain itself without end.",
+        "write the inner value out",
+    ),
+    _page(
+        "root-not-mapping",
+        "the root of the file is not a mapping",
+        "A spec and each of its included files is a mapping of sections such as `devices:`.",
+        "begin the file with a section name and a colon",
+    ),
+    _page(
+        "several-documents",
+        "the file holds more than one YAML document",
+        "One file describes one cell; what follows `---` or `...` would be ignored by some readers and win in others.",
+        "delete the separator, or move the second document into a file of its own",
+    ),
+    _page(
+        "tab-indentation",
+        "a line is indented with a tab",
+        "YAML forbids tabs in indentation, because editors disagree on their width and with it on what belongs to what.",
+        "replace the tab with spaces",
+    ),
+    _page(
+        "too-deep",
+        f"values are nested more than {MAX_DEPTH} deep",
+        "No section of a spec is nested nearly so far; such files are made to exhaust the stack of a parser.",
+        "remove brackets or indentation until the structure is that of the spec",
+    ),
+    _page(
+        "too-many-includes",
+        f"more than {MAX_FILES} files belong to one spec",
+        "A cell in so many pieces cannot be reviewed, and a generated chain of includes must end somewhere.",
+        "join small files",
+    ),
+    _page(
+        "too-many-values",
+        f"the spec holds more than {MAX_NODES} values",
+        "A cell has some thousands. More is data that belongs beside the spec, and every check would have to walk it.",
+        "keep recorded or generated data in files of their own",
+    ),
+    _page(
+        "unknown-alias",
+        "an alias names no anchor",
+        "`*name` stands for the value marked `&name` earlier in the same file; anchors do not cross files. Text that "
+        "merely begins with `*` needs quotes.",
+        "write the anchor before its first use, or quote the text",
+    ),
+    _page(
+        "yaml-tag",
+        "a value carries a YAML tag",
+        "Tags such as `!!python/object` or `!secret` make the meaning depend on the program that reads the file; the type "
+        "of every field is fixed by the spec.",
+        "remove the tag",
+    ),
+)

@@ -1,0 +1,172 @@
+"""Build the nodes of one file from its YAML events, without recursion and within bounds."""
+
+from __future__ import annotations
+
+import yaml
+
+from cellc.diagnostics import Diagnostic, Outcome, Related, Span
+from cellc.source.collection import Key, OpenCollection
+from cellc.source.events import parse_events
+from cellc.source.finding import finding
+from cellc.source.limits import MAX_DEPTH, MAX_FINDINGS, MAX_NODES
+from cellc.source.marks import event_span
+from cellc.source.node import Node
+from cellc.source.scalar import NumberOutOfRangeError, resolve
+from cellc.source.syntax import syntax_finding
+
+
+def compose(file: str, text: str, *, pure: bool = False) -> Outcome[Node]:
+    """Return the root node of a YAML text, or every reason not to trust it.
+
+    Args:
+        pure: use the parser written in Python; for the comparison of the two.
+    """
+    composer = _Composer(file, text)
+    try:
+        for event in parse_events(text, pure=pure):
+            composer.take(event)
+            if composer.is_hopeless:
+                break
+    except (yaml.YAMLError, ValueError, OverflowError) as error:
+        composer.findings.append(syntax_finding(error, file, text))
+    findings = tuple(composer.findings)
+    return Outcome(None if findings else composer.root, findings)
+
+
+class _Composer:
+    """The collections that are open at one event, and what was found so far."""
+
+    def __init__(self, file: str, text: str) -> None:
+        self.findings: list[Diagnostic] = []
+        self.root: Node | None = None
+        self.is_hopeless = False
+        self._file = file
+        self._lines = text.split("\n")
+        self._open: list[OpenCollection] = []
+        self._anchors: dict[str, Node] = {}
+        self._documents = 0
+        self._values = 0
+
+    def take(self, event: yaml.Event) -> None:
+        """Continue with the next event of the file."""
+        if isinstance(event, yaml.ScalarEvent):
+            self._take_scalar(event)
+        elif isinstance(event, yaml.AliasEvent):
+            self._take_alias(event)
+        elif isinstance(event, yaml.CollectionStartEvent):
+            self._start_collection(event)
+        elif isinstance(event, yaml.CollectionEndEvent):
+            self._end_collection(event)
+        elif isinstance(event, yaml.DocumentStartEvent):
+            self._start_document(event)
+
+    def _start_document(self, event: yaml.DocumentStartEvent) -> None:
+        self._documents += 1
+        if self._documents > 1:
+            self._stop("several-documents", "a second document begins here", self._span(event))
+
+    def _take_scalar(self, event: yaml.ScalarEvent) -> None:
+        self._refuse_tag(event)
+        span = self._span(event)
+        data = event.value if event.style else self._resolve(event.value, span)
+        node = Node(span, data, event.value)
+        if event.anchor is not None:
+            self._anchors[event.anchor] = node
+        if self._open and self._open[-1].expects_key and event.value == "<<" and not event.style:
+            self._report("merge-key", "merge keys `<<` are not part of YAML 1.2", span)
+            self._open[-1].key = Key(None, span)
+            return
+        self._add(node, span)
+
+    def _resolve(self, text: str, span: Span) -> None | bool | int | float | str:
+        try:
+            return resolve(text)
+        except NumberOutOfRangeError:
+            self._report("number-out-of-range", f"the number `{_short(text)}` does not fit into 64 bits", span)
+            return text
+
+    def _take_alias(self, event: yaml.AliasEvent) -> None:
+        span, name = self._span(event), event.anchor
+        node = self._anchors.get(name)
+        if node is None:
+            if any(collection.start.anchor == name for collection in self._open):
+                self._report("recursive-alias", f"`*{_short(name)}` stands inside its own anchor", span)
+            else:
+                self._report("unknown-alias", f"there is no anchor `&{_short(name)}` before this alias", span)
+            node = Node(span, None)
+        self._add(node, span)
+
+    def _start_collection(self, event: yaml.CollectionStartEvent) -> None:
+        self._refuse_tag(event)
+        if len(self._open) >= MAX_DEPTH:
+            self._stop("too-deep", f"values are nested more than {MAX_DEPTH} deep", self._span(event))
+            return
+        self._anchors.pop(event.anchor, None)
+        self._open.append(OpenCollection(event, isinstance(event, yaml.MappingStartEvent)))
+
+    def _end_collection(self, event: yaml.CollectionEndEvent) -> None:
+        collection = self._open.pop()
+        node = collection.close(event, self._file, self._lines)
+        if node.size > MAX_NODES:
+            message = f"aliases expand to more than {MAX_NODES} values"
+            self._stop("alias-bomb", message, node.span)
+        elif node.height + len(self._open) > MAX_DEPTH:
+            self._stop("too-deep", f"aliases nest values more than {MAX_DEPTH} deep", node.span)
+        else:
+            # An anchor of the same name inside this collection comes later in the file and stays in force.
+            if collection.start.anchor is not None:
+                self._anchors.setdefault(collection.start.anchor, node)
+            self._add(node, node.span)
+
+    def _add(self, node: Node, span: Span) -> None:
+        """Put a complete value where it belongs: the root, a key, or the value of a key or an item."""
+        self._values += 1
+        if self._values > MAX_NODES:
+            self._stop("too-many-values", f"the file holds more than {MAX_NODES} values", span)
+        elif not self._open:
+            self.root = node
+        elif self._open[-1].expects_key:
+            self._open[-1].key = Key(self._accept_key(self._open[-1], node, span), span)
+        else:
+            self._open[-1].put(node, span)
+
+    def _accept_key(self, collection: OpenCollection, node: Node, span: Span) -> str | None:
+        """Return the name of a key, or None after reporting why it cannot be one."""
+        if not isinstance(node.data, str):
+            shown = f"`{_short(node.text)}`" if node.text else "an empty key" if node.data is None else "a collection"
+            self._report("non-string-key", f"the key is {_kind(node)}: {shown}", span)
+            return None
+        first = collection.children.get(node.data)
+        if first is not None:
+            related = (Related("first written here", first.key_span or first.span),)
+            self._report("duplicate-key", f"the key `{_short(node.data)}` is written twice", span, related)
+            return None
+        return node.data
+
+    def _refuse_tag(self, event: yaml.ScalarEvent | yaml.CollectionStartEvent) -> None:
+        if event.tag is not None:
+            self._report("yaml-tag", f"the value carries the tag `{_short(event.tag)}`", self._span(event))
+
+    def _report(self, code: str, message: str, span: Span, related: tuple[Related, ...] = ()) -> None:
+        path = tuple(part for collection in self._open if (part := collection.position) is not None)
+        self.findings.append(finding(code, message, span, path=path, related=related))
+        self.is_hopeless = self.is_hopeless or len(self.findings) >= MAX_FINDINGS
+
+    def _stop(self, code: str, message: str, span: Span) -> None:
+        self._report(code, message, span)
+        self.is_hopeless = True
+
+    def _span(self, event: yaml.Event) -> Span:
+        return event_span(event, self._file, self._lines)
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= 48 else f"{text[:45]}..."
+
+
+def _kind(node: Node) -> str:
+    if isinstance(node.data, bool):
+        return "a boolean"
+    if isinstance(node.data, (int, float)):
+        return "a number"
+    return "no text"

@@ -1,0 +1,121 @@
+"""Read a spec and all that it includes."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path, PurePosixPath
+
+from cellc.diagnostics import Diagnostic, Outcome, Span
+from cellc.source.compose import compose
+from cellc.source.document import SourceDocument
+from cellc.source.finding import finding
+from cellc.source.include import IncludeLine, include_lines, resolve_include
+from cellc.source.limits import MAX_FILES
+from cellc.source.merge import INCLUDE, merge
+from cellc.source.node import Node
+from cellc.source.text import read_text
+
+
+def read(path: str | Path) -> Outcome[SourceDocument]:
+    """Read a spec, its includes merged in, with the position of every value.
+
+    Args:
+        path: the root spec; it appears in every message as given here, with forward slashes.
+
+    Returns:
+        A document in every case, so that its texts can be shown with the findings; its data is whole only where the
+        outcome is ok.
+    """
+    name = str(path).replace(os.sep, "/") or "."
+    reader = _Reader(Path(path))
+    reader.read(Path(path), name, Span(name, 1, 1, 1, 1))
+    findings = list(reader.findings)
+    root = Node(Span(name, 1, 1, 1, 1), {})
+    if reader.roots:
+        merged = merge(reader.roots)
+        findings.extend(merged.diagnostics)
+        root = merged.value or root
+    document = SourceDocument(name, reader.texts, root)
+    return Outcome(document, tuple(sorted(findings, key=Diagnostic.sort_key)))
+
+
+class _Reader:
+    """The files read so far, and those that are being read."""
+
+    def __init__(self, root: Path) -> None:
+        self.texts: dict[str, str] = {}
+        self.roots: list[Node] = []
+        self.findings: list[Diagnostic] = []
+        self._root_folder = _real(root.parent)
+        self._names: dict[Path, str] = {}
+        self._active: list[Path] = []
+        self._is_full = False
+
+    def read(self, path: Path, name: str, place: Span) -> None:
+        """Read one file and, depth first, what it includes; at most `MAX_FILES` deep.
+
+        Args:
+            place: the include that names the file, or the start of the root spec.
+        """
+        real = _real(path)
+        self._names[real] = name
+        text = read_text(path, name, place)
+        self.findings.extend(text.diagnostics)
+        if text.value is None:
+            return
+        self.texts[name] = text.value
+        node = self._compose(name, text.value)
+        if node is None:
+            return
+        self.roots.append(node)
+        lines = include_lines(node)
+        if isinstance(lines, Diagnostic):
+            self.findings.append(lines)
+            return
+        self._active.append(real)
+        for line in lines:
+            self._include(line, path.parent, name)
+        self._active.pop()
+
+    def _compose(self, name: str, text: str) -> Node | None:
+        composed = compose(name, text)
+        self.findings.extend(composed.diagnostics)
+        if composed.diagnostics:
+            return None
+        node = composed.value
+        if node is None or not node.is_collection and node.data is None or node.data in ({}, []):
+            self.findings.append(finding("empty-file", f"`{name}` holds no data", Span(name, 1, 1, 1, 1)))
+            return None
+        if not isinstance(node.data, dict):
+            kind = "a list" if isinstance(node.data, list) else "a single value"
+            message = f"the root of `{name}` is {kind}, not a mapping of sections"
+            self.findings.append(finding("root-not-mapping", message, node.span))
+            return None
+        return node
+
+    def _include(self, line: IncludeLine, folder: Path, includer: str) -> None:
+        real = resolve_include(line, folder, self._root_folder)
+        if isinstance(real, Diagnostic):
+            self.findings.append(real)
+        elif real in self._active:
+            message = f"`{line.path}` includes itself"
+            self.findings.append(finding("include-cycle", message, line.span, path=(INCLUDE,)))
+        elif real not in self._names:
+            self._read_included(line, folder, includer)
+
+    def _read_included(self, line: IncludeLine, folder: Path, includer: str) -> None:
+        if len(self._names) < MAX_FILES:
+            name = str(PurePosixPath(includer).parent / line.path)
+            self.read(folder / line.path, name, line.span)
+        elif not self._is_full:
+            self._is_full = True
+            message = f"more than {MAX_FILES} files belong to one spec"
+            self.findings.append(finding("too-many-includes", message, line.span, path=(INCLUDE,)))
+
+
+def _real(path: Path) -> Path:
+    try:
+        return path.resolve()
+    except (OSError, RuntimeError, ValueError):
+        # A link that leads to itself, or a zero character in the name: reading it reports what is wrong.
+        return path

@@ -1,0 +1,75 @@
+"""Say in our words what the YAML parser complains about."""
+
+from __future__ import annotations
+
+import yaml
+
+from cellc.diagnostics import Diagnostic, Related, Span
+from cellc.source.finding import finding
+
+# Fragments of the problems that libyaml and PyYAML report, with what they mean to the author of the file.
+_MEANINGS: tuple[tuple[str, str, str], ...] = (
+    ("values are not allowed", "a second `: ` on one line", "quote the text if the colon belongs to it"),
+    ("entries are not allowed", "a list item cannot begin here", "begin the list on a line of its own"),
+    ("could not find expected ':'", "a key without a colon", "write `key: value`, or indent the line to continue the text"),
+    ("expected ',' or ']'", "the list in brackets is not closed", "add the missing `,` or `]`"),
+    ("expected ',' or '}'", "the mapping in braces is not closed", "add the missing `,` or `}`"),
+    ("did not find expected key", "the indentation fits no section above", "align the line with its siblings"),
+    ("expected <block end>", "the indentation fits no section above", "align the line with its siblings"),
+    ("did not find expected '-'", "the indentation fits no list above", "align the dash with its siblings"),
+    ("unexpected end of stream", "the quote is not closed", "add the missing quote"),
+    ("document separator", "the quote is not closed", "add the missing quote"),
+    ("unknown escape character", "an unknown escape after `\\`", "use single quotes, where `\\` is an ordinary character"),
+    ("cannot start any token", "text cannot begin with this character", "put the text in quotes"),
+    ("expected node content", "a value is missing here", "write the value, or quote text that begins with this character"),
+    ("expected the node content", "a value is missing here", "write the value, or quote text that begins with it"),
+)
+
+
+def syntax_finding(error: yaml.YAMLError | ValueError, file: str, text: str) -> Diagnostic:
+    """Return the finding for an exception of the YAML parser."""
+    problem = str(getattr(error, "problem", None) or "the text has no YAML structure")
+    span = _span(getattr(error, "problem_mark", None), file)
+    tab = _tab_near(span, text)
+    if tab is not None:
+        return tab_finding(tab)
+    meaning, advice = _explain(problem)
+    start = _span(getattr(error, "context_mark", None), file)
+    related = (Related("the part began here", start),) if start.line != span.line and meaning else ()
+    message = meaning or problem.replace("\n", " ")
+    return finding("not-yaml", f"not valid YAML: {message}", span, advice=advice, related=related)
+
+
+def tab_finding(span: Span) -> Diagnostic:
+    """Return the finding for a tab in the indentation of a line."""
+    return finding("tab-indentation", "the line is indented with a tab", span)
+
+
+def leading_tab(line: str) -> int | None:
+    """Return the index of the first tab in the indentation of a line."""
+    indentation = line[: len(line) - len(line.lstrip(" \t"))]
+    index = indentation.find("\t")
+    return index if index >= 0 else None
+
+
+def _explain(problem: str) -> tuple[str, str]:
+    for fragment, meaning, advice in _MEANINGS:
+        if fragment in problem:
+            return meaning, advice
+    return "", ""
+
+
+def _span(mark: yaml.Mark | None, file: str) -> Span:
+    if mark is None:
+        return Span(file, 1, 1, 1, 1)
+    return Span(file, mark.line + 1, mark.column + 1, mark.line + 1, mark.column + 2)
+
+
+def _tab_near(span: Span, text: str) -> Span | None:
+    """Find a tab in the indentation of the marked line or the one before, where parsers notice it late."""
+    lines = text.split("\n")
+    for number in (span.line, span.line - 1):
+        index = leading_tab(lines[number - 1]) if 1 <= number <= len(lines) else None
+        if index is not None:
+            return Span(span.file, number, index + 1, number, index + 2)
+    return None

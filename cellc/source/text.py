@@ -1,0 +1,106 @@
+"""Read one file as text, refusing everything that is no small regular UTF-8 file."""
+
+from __future__ import annotations
+
+import os
+import re
+import stat
+from pathlib import Path
+
+from cellc.diagnostics import Diagnostic, Outcome, Span, nearest
+from cellc.source.finding import finding
+from cellc.source.limits import MAX_FILE_BYTES
+
+_UTF16_MARKS = (b"\xff\xfe", b"\xfe\xff")
+# YAML 1.2.2, production c-printable, less what only hides text: Unicode line separators (YAML 1.1 breaks lines there,
+# 1.2 does not), text direction overrides, and a byte order mark in the middle of the text.
+_FORBIDDEN = re.compile("[^\t\n\x20-\x7e\xa0-\u2027\u202f-\u2065\u206a-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]")
+
+
+def read_text(path: Path, name: str, place: Span) -> Outcome[str]:
+    """Return the text of a file with line breaks as ``\\n`` and without byte order mark.
+
+    Args:
+        name: the file in messages and spans.
+        place: what is marked when the file as a whole cannot be read, such as the include that names it.
+    """
+    content = _read_bytes(path, name, place)
+    if isinstance(content, Diagnostic):
+        return Outcome(None, (content,))
+    text = _decode(content, name)
+    if isinstance(text, Diagnostic):
+        return Outcome(None, (text,))
+    problem = _unlike_yaml(text, name)
+    return Outcome(text) if problem is None else Outcome(None, (problem,))
+
+
+def _read_bytes(path: Path, name: str, place: Span) -> bytes | Diagnostic:
+    try:
+        status = path.stat()
+        if not stat.S_ISREG(status.st_mode):
+            kind = "a folder" if stat.S_ISDIR(status.st_mode) else "not a regular file"
+            return finding("not-a-file", f"`{name}` is {kind}", place)
+        if status.st_size > MAX_FILE_BYTES:
+            return _too_large(name, f"{status.st_size / 1024**2:.1f} MiB", place)
+        with path.open("rb") as file:
+            # One byte more than allowed shows a file that grew, or whose size the system does not tell.
+            content = file.read(MAX_FILE_BYTES + 1)
+    except (FileNotFoundError, NotADirectoryError):
+        return finding("file-not-found", f"there is no file `{name}`", place, advice=_similar_file(path))
+    except OSError as error:
+        reason = (error.strerror or "unknown reason").lower()
+        return finding("file-unreadable", f"`{name}` cannot be read: {reason}", place)
+    except ValueError:
+        # A zero character in the name: no system call takes it.
+        return finding("file-unreadable", f"`{name}` is no file name", place, advice="correct the path")
+    return content if len(content) <= MAX_FILE_BYTES else _too_large(name, "larger", place)
+
+
+def _too_large(name: str, size: str, place: Span) -> Diagnostic:
+    return finding("file-too-large", f"`{name}` is {size}; at most {MAX_FILE_BYTES // 1024**2} MiB are read", place)
+
+
+def _similar_file(path: Path) -> str:
+    try:
+        names = os.listdir(path.parent)
+    except OSError:
+        return f"check the folder: `{path.parent.as_posix()}` cannot be listed"
+    close = nearest(path.name, names)
+    return "did you mean " + " or ".join(f"`{name}`" for name in close) + "?" if close else ""
+
+
+def _decode(content: bytes, name: str) -> str | Diagnostic:
+    if content.startswith(_UTF16_MARKS) or b"\0" in content[:4]:
+        message = f"`{name}` is binary or UTF-16, not UTF-8 text"
+        return finding("not-utf8", message, Span(name, 1, 1, 1, 1))
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        before = content[: error.start].decode("utf-8-sig")
+        message = f"byte 0x{content[error.start]:02x} is not UTF-8"
+        return finding("not-utf8", message, _span_after(_normalise(before), name, 0))
+    return _normalise(text)
+
+
+def _normalise(text: str) -> str:
+    return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def _unlike_yaml(text: str, name: str) -> Diagnostic | None:
+    if match := _FORBIDDEN.search(text):
+        span = _span_after(text[: match.start()], name, 1)
+        code = "not-utf8" if match[0] == "\0" else "control-character"
+        what = "a zero byte: the file is binary" if match[0] == "\0" else f"the character U+{ord(match[0]):04X}"
+        return finding(code, f"the text holds {what}", span)
+    if text.lstrip().startswith("<"):
+        before = text[: len(text) - len(text.lstrip())]
+        advice = "name the cell spec; a URDF or xacro belongs under `description:` of a device"
+        span = _span_after(before, name, 1)
+        return finding("not-yaml", "this looks like XML/URDF, not a cell spec", span, advice=advice)
+    return None
+
+
+def _span_after(before: str, name: str, width: int) -> Span:
+    line = before.count("\n") + 1
+    column = len(before) - before.rfind("\n")
+    return Span(name, line, column, line, column + width)
