@@ -25,15 +25,18 @@ class Expansion:
     origins: dict[tuple[str, str], Span]
 
 
-def expand_here(file: str, arguments: Mapping[str, str], root: str) -> Outcome[Expansion]:
+def expand_here(
+    file: str, arguments: Mapping[str, str], root: str, shown_root: str | None = None
+) -> Outcome[Expansion]:
     """Expand a xacro file in this process: for files of the catalogue, or inside a limited child process.
 
     Args:
         file: the xacro file, as the user named it; its includes are found beside it.
         arguments: values of ``<xacro:arg>``.
         root: the folder that no file may lie outside of.
+        shown_root: what stands for ``root`` in messages, where its place on the machine is of no interest.
     """
-    confinement = Confinement(root)
+    confinement = Confinement(root, shown_root)
     start = Span(confinement.files.shown(file), 1, 1, 1, 1)
     with confinement.installed():
         try:

@@ -36,9 +36,11 @@ def read_description(file: Path, arguments: Mapping[str, str], root: Path) -> Ou
     return read_urdf(text, file.as_posix())
 
 
-def read_catalogue_description(file: Path, root: Path) -> Outcome[Description]:
+def read_catalogue_description(
+    file: Path, arguments: Mapping[str, str], root: Path, shown_root: str
+) -> Outcome[Description]:
     """Read a description that ships with the catalogue, in this process."""
-    return _read_expanded(file, expand_here(file.as_posix(), {}, root.as_posix()))
+    return _read_expanded(file, expand_here(file.as_posix(), arguments, root.as_posix(), shown_root))
 
 
 def _read_expanded(file: Path, expanded: Outcome[Expansion]) -> Outcome[Description]:

@@ -33,9 +33,9 @@ _SUBSTITUTION = re.compile(r"\$\((\w+)\s*(.*?)\s*\)", re.DOTALL)
 class Confinement:
     """What xacro calls instead of its own functions during one expansion, and what was seen on the way."""
 
-    def __init__(self, root: str) -> None:
+    def __init__(self, root: str, shown_root: str | None = None) -> None:
         self.root = root
-        self.files = ConfinedFiles(root)
+        self.files = ConfinedFiles(root, shown_root)
         self.warnings: list[str] = []
         self.declared_arguments: set[str] = set()
         self.elements = 0

@@ -36,10 +36,11 @@ class XacroRefusedError(xacro.XacroException):  # type: ignore[misc]  # the libr
 
 
 class ConfinedFiles:
-    """Reads under ``root``; links are resolved before the comparison."""
+    """Reads under ``root``; links are resolved before the comparison. ``shown_root`` stands for it in messages."""
 
-    def __init__(self, root: str) -> None:
+    def __init__(self, root: str, shown_root: str | None = None) -> None:
         self.root = root
+        self._shown_root = shown_root
         self._real_root = os.path.realpath(root)
         self._bytes_read = 0
 
@@ -49,13 +50,15 @@ class ConfinedFiles:
         if real != self._real_root and not real.startswith(self._real_root.rstrip(os.sep) + os.sep):
             raise XacroRefusedError(
                 "xacro-outside-root",
-                f"`{path[:200]}` leads out of the folder `{self.root}`",
+                f"`{path[:200]}` leads out of the folder `{self.shown(self.root)}`",
                 "copy the file beside the description",
             )
         return path
 
     def shown(self, path: str) -> str:
         """Return a path as diagnostics show it."""
+        if self._shown_root is not None:
+            path = os.path.join(self._shown_root, os.path.relpath(path, self.root))
         return os.path.normpath(path).replace(os.sep, "/")
 
     def read(self, path: str) -> str:

@@ -1,0 +1,22 @@
+"""What all catalogue models share: strict, frozen, no unknown keys; and their small types."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, Union
+
+from pydantic import BaseModel, ConfigDict, StringConstraints
+
+Distro = Literal["humble", "jazzy", "kilted", "lyrical"]
+DISTROS: tuple[Distro, ...] = ("humble", "jazzy", "kilted", "lyrical")
+
+Text = Annotated[str, StringConstraints(min_length=1, max_length=1000)]
+Token = Annotated[str, StringConstraints(pattern=r"^[A-Za-z_][A-Za-z0-9_]*$", max_length=100)]
+Date = Annotated[str, StringConstraints(pattern=r"^\d{4}-\d{2}-\d{2}$")]
+ParameterFact = Union[bool, int, float, str, tuple[Union[bool, int, float, str], ...]]
+"""A ROS parameter's value; an int where a double is declared is a mistake."""
+
+
+class CatalogModel(BaseModel):
+    """A part of the catalogue: facts with their sources, in the units of the text."""
+
+    model_config = ConfigDict(strict=True, frozen=True, extra="forbid", regex_engine="python-re")

@@ -1,0 +1,99 @@
+"""A neutral controller kind: its plugin in each distribution, what it claims and serves, and its parameters."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from cellc.catalog.catalog_model import CatalogModel, Date, Distro, ParameterFact, Text, Token
+from cellc.catalog.device_control import InterfaceName, PluginUse
+
+ParameterType = Literal[
+    "bool", "int", "double", "string", "bool_array", "int_array", "double_array", "string_array", "none"
+]
+
+
+class ParameterVariant(CatalogModel):
+    """What one distribution declares otherwise."""
+
+    default: ParameterFact | None = None
+    required: bool | None = None
+    read_only: bool | None = None
+    one_of: tuple[Text, ...] | None = None
+    not_empty: bool | None = None
+
+
+class ParameterFacts(CatalogModel):
+    """One declared parameter; dots nest, ``<joint>`` stands for a joint name. ``only`` empty means every distribution.
+
+    Without a default the parameter must be given where ``required``; ``exclusive_minimum`` is not itself allowed.
+    """
+
+    type: ParameterType
+    default: ParameterFact | None = None
+    required: bool = False
+    read_only: bool = False
+    minimum: float | None = None
+    exclusive_minimum: float | None = None
+    maximum: float | None = None
+    one_of: tuple[Text, ...] = ()
+    subset_of: tuple[Text, ...] = ()
+    not_empty: bool = False
+    unique: bool = False
+    only: tuple[Distro, ...] = ()
+    differs: dict[Distro, ParameterVariant] = Field(default_factory=dict)
+
+    def declared_in(self, distro: Distro) -> bool:
+        """Tell whether the distribution knows the parameter; an unknown one is ignored without a word."""
+        return not self.only or distro in self.only
+
+
+class ControllerAction(CatalogModel):
+    """The action that a controller serves below its own name."""
+
+    suffix: Token
+    types: dict[Distro, Text]
+
+
+class ControllerTopic(CatalogModel):
+    """A topic of a controller; ``name`` begins with ``~/`` where it lies below the controller's name."""
+
+    name: Text
+    type: Text
+    direction: Literal["publish", "subscribe"]
+    qos: Token
+    only: tuple[Distro, ...] = ()
+
+
+class ControllerService(CatalogModel):
+    """A service of a controller."""
+
+    name: Text
+    type: Text
+
+
+class ControllerKind(CatalogModel):
+    """One ``catalog/controllers/<kind>.yaml``.
+
+    ``scope``: ``device`` drives the joints of one device, ``manager`` reads what all devices of a manager offer.
+    ``joints_parameter`` is the parameter that names its joints, a list unless ``single_joint``.
+    """
+
+    format: Literal[1]
+    kind: Token
+    summary: Text
+    as_of: Date
+    sources: tuple[Text, ...] = Field(min_length=1)
+    scope: Literal["device", "manager", "sensor"]
+    plugins: dict[Distro, PluginUse]
+    joints_parameter: Token | None = None
+    single_joint: bool = False
+    interfaces_parameter: Token | None = None
+    command_interfaces: tuple[InterfaceName, ...] = ()
+    command_combinations: tuple[tuple[InterfaceName, ...], ...] = ()
+    state_interfaces: tuple[InterfaceName, ...] = ()
+    action: ControllerAction | None = None
+    topics: tuple[ControllerTopic, ...] = ()
+    services: tuple[ControllerService, ...] = ()
+    parameters: dict[Text, ParameterFacts]

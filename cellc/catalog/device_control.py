@@ -1,0 +1,80 @@
+"""What ros2_control sees of a device: hardware plugins, interfaces, and controllers that only this device has."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from cellc.catalog.catalog_model import CatalogModel, Distro, ParameterFact, Text, Token
+from cellc.spec.quantity import Frequency
+
+InterfaceName = Text
+"""The part after the slash: ``position``, ``force.x``, ``speed_scaling_factor``."""
+
+
+class HardwareFacts(CatalogModel):
+    """A hardware plugin and the ``<param>`` values that it is given."""
+
+    plugin: Text
+    parameters: dict[Text, Text] = Field(default_factory=dict)
+    source: Text
+
+
+class HardwareByTarget(CatalogModel):
+    """The plugin that moves metal, and the one that pretends."""
+
+    real: HardwareFacts
+    mock: HardwareFacts
+
+
+class JointInterfaces(CatalogModel):
+    """Command and state interfaces of a joint."""
+
+    command: tuple[InterfaceName, ...] = ()
+    state: tuple[InterfaceName, ...] = ()
+
+
+class GroupInterfaces(CatalogModel):
+    """Interfaces of a ``<sensor>`` or ``<gpio>``; ``initial`` values are what a mock starts from."""
+
+    command: tuple[InterfaceName, ...] = ()
+    state: tuple[InterfaceName, ...] = ()
+    initial: dict[InterfaceName, float] = Field(default_factory=dict)
+    real_only: bool = False
+
+
+class ControlFacts(CatalogModel):
+    """One ``<ros2_control>`` tag.
+
+    ``component`` is the tag's name, which is a node name too from Jazzy on; ``update_rates`` are those that the device
+    accepts, none for any; ``joints`` are named without prefix, ``*`` stands for every joint that moves on its own.
+    """
+
+    component: Text
+    update_rates: tuple[Frequency, ...] = ()
+    hardware: HardwareByTarget
+    joints: dict[Text, JointInterfaces]
+    sensors: dict[Token, GroupInterfaces] = Field(default_factory=dict)
+    gpios: dict[Token, GroupInterfaces] = Field(default_factory=dict)
+
+
+class PluginUse(CatalogModel):
+    """A controller plugin in one distribution."""
+
+    type: Text
+    package: Token
+    parameters: dict[Text, ParameterFact] = Field(default_factory=dict)
+
+
+class DeviceController(CatalogModel):
+    """A controller kind that only this device offers; ``behaviour`` is the neutral kind that it acts as."""
+
+    behaviour: Token
+    plugins: dict[Distro, PluginUse]
+    source: Text
+
+
+class SpeedScalingFacts(CatalogModel):
+    """Full name of the state interface in which the device reports how far it slows trajectories down."""
+
+    state_interface: Text
+    source: Text

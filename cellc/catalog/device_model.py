@@ -1,0 +1,119 @@
+"""A device of the catalogue: what ``device.yaml`` says beyond what its description holds.
+
+Texts may carry placeholders that link fills in: ``{device}`` the name in the spec, ``{prefix}`` that of its ROS names,
+``{stem}`` the prefix without its last underscore, ``{address}`` and ``{port}`` of the connection, ``{host_address}`` of
+the host's card, ``{share:PACKAGE}`` the share folder of an installed package. Links, joints, sensors and gpios are
+named without prefix.
+"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from cellc.catalog.catalog_model import CatalogModel, Date, Text, Token
+from cellc.catalog.device_control import ControlFacts, DeviceController, SpeedScalingFacts
+from cellc.catalog.device_interfaces import ActionFacts, CameraFacts, NodeFacts, ServiceFacts, TopicFacts
+from cellc.catalog.device_operation import NetworkFacts, SafetyFacts, VersionRow
+from cellc.spec.quantity import Force, JointAcceleration, JointJerk, JointPosition, Length, Mass, Velocity
+
+
+class DescriptionFacts(CatalogModel):
+    """The model of the device: a file beside ``device.yaml``, and the vendor's package that it stands for."""
+
+    file: Text
+    package: Text | None = None
+    arguments: dict[Token, Text] = Field(default_factory=dict)
+
+
+class PackageFacts(CatalogModel):
+    """ROS package or library names as they stand in the version tuple; None where there is none."""
+
+    driver: Token | None = None
+    sdk: Text | None = None
+    description: Token | None = None
+
+
+class AccelerationLimit(CatalogModel):
+    """An acceleration that one joint, or every joint (``*``), may have."""
+
+    value: JointAcceleration
+    source: Text
+
+
+class JerkLimit(CatalogModel):
+    """A jerk that one joint, or every joint (``*``), may have."""
+
+    value: JointJerk
+    source: Text
+
+
+class PayloadLimit(CatalogModel):
+    """Mass that may hang on the flange, tool included."""
+
+    value: Mass
+    source: Text
+
+
+class LimitFacts(CatalogModel):
+    """Limits that URDF cannot hold; keys are joint names or ``*`` for all others."""
+
+    acceleration: dict[Text, AccelerationLimit] = Field(default_factory=dict)
+    jerk: dict[Text, JerkLimit] = Field(default_factory=dict)
+    payload: PayloadLimit | None = None
+
+    def acceleration_of(self, joint: str) -> AccelerationLimit | None:
+        """Return the limit of a joint, named without prefix."""
+        return self.acceleration.get(joint, self.acceleration.get("*"))
+
+    def jerk_of(self, joint: str) -> JerkLimit | None:
+        """Return the limit of a joint, named without prefix."""
+        return self.jerk.get(joint, self.jerk.get("*"))
+
+
+class GripperFacts(CatalogModel):
+    """A gripper as its joint moves it: ``open`` and ``closed`` are joint positions, ``stroke`` the way of the jaws."""
+
+    joint: Token
+    open: JointPosition
+    closed: JointPosition
+    stroke: Length
+    max_force: Force
+    min_force: Force | None = None
+    max_speed: Velocity
+    goal_tolerance: JointPosition
+    source: Text
+
+
+class DeviceModel(CatalogModel):
+    """One ``device.yaml``."""
+
+    format: Literal[1]
+    model: Token
+    vendor: Text
+    summary: Text
+    kind: Literal["arm", "gripper", "camera"]
+    as_of: Date
+    sources: tuple[Text, ...] = Field(min_length=1)
+    description: DescriptionFacts
+    base: Token
+    frames: dict[Token, Token]
+    tool_frame: Token | None = None
+    optical_frames: tuple[Token, ...] = ()
+    home: dict[Token, JointPosition] | None = None
+    limits: LimitFacts = Field(default_factory=LimitFacts)
+    packages: PackageFacts
+    control: ControlFacts | None = None
+    controllers: dict[Token, DeviceController] = Field(default_factory=dict)
+    speed_scaling: SpeedScalingFacts | None = None
+    gripper: GripperFacts | None = None
+    camera: CameraFacts | None = None
+    nodes: tuple[NodeFacts, ...] = ()
+    topics: tuple[TopicFacts, ...] = ()
+    services: tuple[ServiceFacts, ...] = ()
+    actions: tuple[ActionFacts, ...] = ()
+    network: NetworkFacts | None = None
+    safety: SafetyFacts | None = None
+    versions: tuple[VersionRow, ...] = ()
+    mock_cannot_prove: tuple[Text, ...] = ()

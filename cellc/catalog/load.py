@@ -1,0 +1,168 @@
+"""Entries of the catalogue by name, each read once for the life of the process."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+
+from cellc.catalog.controller_kind import ControllerKind
+from cellc.catalog.device_model import DeviceModel
+from cellc.catalog.distro_model import ControllerManagerFacts, DistroTable
+from cellc.catalog.message_model import InterfaceTypeTable
+from cellc.catalog.qos_model import QosTable
+from cellc.catalog.read_description import read_catalogue_description, read_description
+from cellc.catalog.read_model import ModelT, read_model
+from cellc.cell.description import Description
+from cellc.diagnostics import Diagnostic, Outcome, Severity, Span, YamlPath, did_you_mean
+from cellc.source.document import SourceDocument
+
+CATALOGUE = Path(__file__).parent
+_SHOWN = "cellc/catalog"  # where the package lies on the machine is of no interest to a reader
+
+_NamedThing = tuple[YamlPath, str, set[str], str]
+"""Where a name stands, the name, the names that exist, and what they are."""
+
+
+@dataclass(frozen=True, slots=True)
+class CatalogDevice:
+    """A device of the catalogue: its facts, the text behind them, and its description without prefix."""
+
+    model: DeviceModel
+    document: SourceDocument
+    description: Description
+
+
+@lru_cache(maxsize=1)
+def device_names() -> tuple[str, ...]:
+    """Name the devices of the catalogue, in alphabetical order."""
+    return tuple(sorted(file.parent.name for file in (CATALOGUE / "devices").glob("*/device.yaml")))
+
+
+@lru_cache(maxsize=1)
+def controller_kinds() -> tuple[str, ...]:
+    """Name the neutral controller kinds, in alphabetical order."""
+    return tuple(sorted(file.stem for file in (CATALOGUE / "controllers").glob("*.yaml")))
+
+
+@lru_cache(maxsize=64)
+def load_device(name: str) -> Outcome[CatalogDevice]:
+    """Load a device of the catalogue.
+
+    Returns:
+        The device, or ``unknown-device`` with the nearest names; its span is of no file, link puts the user's there.
+    """
+    if name not in device_names():
+        help_text = did_you_mean(name, device_names(), "devices of the catalogue")
+        message = f"the catalogue has no device `{name}`"
+        return Outcome(None, (Diagnostic("unknown-device", Severity.ERROR, message, _nowhere(), help=help_text),))
+    devices = CATALOGUE / "devices"
+    shown = f"{_SHOWN}/devices"
+
+    def read(file: Path, arguments: dict[str, str]) -> Outcome[Description]:
+        return read_catalogue_description(file, arguments, devices, shown)
+
+    return _load(devices / name, f"{shown}/{name}", read)
+
+
+def load_device_folder(folder: Path, root: Path) -> Outcome[CatalogDevice]:
+    """Load a device that the user wrote: a folder with ``device.yaml`` and its description.
+
+    Args:
+        folder: the folder, as the user named it.
+        root: the folder that the description and all it includes must lie under.
+    """
+
+    def read(file: Path, arguments: dict[str, str]) -> Outcome[Description]:
+        return read_description(file, arguments, root)
+
+    return _load(folder, folder.as_posix(), read)
+
+
+def _load(
+    folder: Path, shown: str, read: Callable[[Path, dict[str, str]], Outcome[Description]]
+) -> Outcome[CatalogDevice]:
+    facts = read_model(folder / "device.yaml", f"{shown}/device.yaml", DeviceModel)
+    if facts.value is None:
+        return Outcome(None, facts.diagnostics)
+    model, document = facts.value
+    description = read(folder / model.description.file, model.description.arguments)
+    if description.value is None:
+        return Outcome(None, description.diagnostics)
+    unknown = tuple(_unknown_names(model, description.value, document))
+    device = None if unknown else CatalogDevice(model, document, description.value)
+    return Outcome(device, description.diagnostics + unknown)
+
+
+def _unknown_names(model: DeviceModel, description: Description, document: SourceDocument) -> list[Diagnostic]:
+    links = {link.name for link in description.links}
+    joints = {joint.name for joint in description.joints}
+    named: list[_NamedThing] = [(("base",), model.base, links, "link"), *_named_joints(model, joints)]
+    named += [(("frames", short), link, links, "link") for short, link in model.frames.items()]
+    return [
+        Diagnostic(
+            "catalogue-entry-invalid",
+            Severity.ERROR,
+            f"the description has no {kind} `{name}`",
+            document.locate(path),
+            path,
+            did_you_mean(name, known, f"{kind}s of the description"),
+        )
+        for path, name, known, kind in named
+        if name not in known
+    ]
+
+
+def _named_joints(model: DeviceModel, joints: set[str]) -> list[_NamedThing]:
+    named: list[_NamedThing] = [(("home", joint), joint, joints, "joint") for joint in model.home or {}]
+    if model.control is not None:
+        controlled = (joint for joint in model.control.joints if joint != "*")
+        named += [(("control", "joints", joint), joint, joints, "joint") for joint in controlled]
+    if model.gripper is not None:
+        named.append((("gripper", "joint"), model.gripper.joint, joints, "joint"))
+    return named
+
+
+@lru_cache(maxsize=32)
+def load_controller_kind(kind: str) -> Outcome[ControllerKind]:
+    """Load a neutral controller kind; ``unknown-controller-kind`` with the nearest names where there is none."""
+    if kind not in controller_kinds():
+        help_text = did_you_mean(kind, controller_kinds(), "controller kinds")
+        message = f"the catalogue has no controller kind `{kind}`"
+        found = Diagnostic("unknown-controller-kind", Severity.ERROR, message, _nowhere(), help=help_text)
+        return Outcome(None, (found,))
+    return _table(f"controllers/{kind}.yaml", ControllerKind)
+
+
+@lru_cache(maxsize=1)
+def load_distros() -> Outcome[DistroTable]:
+    """Load the table of ROS 2 distributions."""
+    return _table("distros.yaml", DistroTable)
+
+
+@lru_cache(maxsize=1)
+def load_controller_manager() -> Outcome[ControllerManagerFacts]:
+    """Load the parameters of the controller manager."""
+    return _table("controller_manager.yaml", ControllerManagerFacts)
+
+
+@lru_cache(maxsize=1)
+def load_message_types() -> Outcome[InterfaceTypeTable]:
+    """Load the interface types that are known."""
+    return _table("message_types.yaml", InterfaceTypeTable)
+
+
+@lru_cache(maxsize=1)
+def load_qos_profiles() -> Outcome[QosTable]:
+    """Load the named QoS profiles."""
+    return _table("qos_profiles.yaml", QosTable)
+
+
+def _table(file: str, model: type[ModelT]) -> Outcome[ModelT]:
+    read = read_model(CATALOGUE / file, f"{_SHOWN}/{file}", model)
+    return Outcome(None if read.value is None else read.value[0], read.diagnostics)
+
+
+def _nowhere() -> Span:
+    return Span(_SHOWN, 1, 1, 1, 1)

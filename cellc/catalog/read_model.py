@@ -1,0 +1,69 @@
+"""A catalogue file into its model, with the places of its values kept."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TypeVar
+
+from pydantic import BaseModel, ValidationError
+
+from cellc.diagnostics import Diagnostic, Outcome, Severity, Span, YamlPath, format_path
+from cellc.source.compose import compose
+from cellc.source.document import SourceDocument
+from cellc.source.text import read_text
+
+ModelT = TypeVar("ModelT", bound=BaseModel)
+_CODE = "catalogue-entry-invalid"
+
+
+def read_model(path: Path, shown: str, model: type[ModelT]) -> Outcome[tuple[ModelT, SourceDocument]]:
+    """Read one YAML file of the catalogue, or one like it that a user wrote.
+
+    Args:
+        path: the file.
+        shown: its name in spans.
+        model: what it must be.
+    """
+    text = read_text(path, shown, Span(shown, 1, 1, 1, 1))
+    if text.value is None:
+        return Outcome(None, text.diagnostics)
+    composed = compose(shown, text.value)
+    if composed.value is None or composed.diagnostics:
+        return Outcome(None, composed.diagnostics)
+    document = SourceDocument(shown, {shown: text.value}, composed.value)
+    try:
+        value = model.model_validate(_frozen(document.data))
+    except ValidationError as error:
+        return Outcome(None, tuple(_findings(error, document)))
+    return Outcome((value, document))
+
+
+def _frozen(data: object) -> object:
+    # Strict models of frozen values take tuples; YAML gives lists.
+    if isinstance(data, list):
+        return tuple(_frozen(item) for item in data)
+    if isinstance(data, dict):
+        return {key: _frozen(value) for key, value in data.items()}
+    return data
+
+
+def _findings(error: ValidationError, document: SourceDocument) -> Iterator[Diagnostic]:
+    for problem in error.errors(include_url=False):
+        path = _path_in(document.data, problem["loc"])
+        message = f"`{format_path(path) or document.file}`: {problem['msg'][:1].lower()}{problem['msg'][1:]}"
+        yield Diagnostic(_CODE, Severity.ERROR, message, document.locate(path), path)
+
+
+def _path_in(data: object, location: tuple[int | str, ...]) -> YamlPath:
+    # pydantic puts union tags and `[key]` among the parts: they are no part of the document.
+    path: list[int | str] = []
+    for position, part in enumerate(location):
+        if isinstance(data, dict) and (part in data or position == len(location) - 1):
+            data = data.get(part)
+        elif isinstance(data, list) and isinstance(part, int) and part < len(data):
+            data = data[part]
+        else:
+            continue
+        path.append(part)
+    return tuple(path)
