@@ -35,11 +35,13 @@ class DeviceJoint(Entity):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InterfaceGroup:
-    """A ros2_control ``<sensor>`` or ``<gpio>``: its prefixed name and its interfaces."""
+    """A ros2_control ``<sensor>`` or ``<gpio>``: prefixed name, interfaces, and values that a mock starts from."""
 
     name: str
     command_interfaces: tuple[str, ...]
     state_interfaces: tuple[str, ...]
+    initial: Mapping[str, float]
+    real_only: bool
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -9,7 +9,7 @@ from enum import Enum
 from cellc.cell.entity import Entity
 from cellc.diagnostics import Span, YamlPath
 
-ParameterValue = bool | int | float | str | tuple[bool, ...] | tuple[int, ...] | tuple[float, ...] | tuple[str, ...]
+ParameterValue = bool | int | float | str | tuple[bool | int | float | str, ...]
 """What a ROS parameter can hold; an int where a double is declared is a mistake."""
 
 

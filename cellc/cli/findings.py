@@ -1,0 +1,51 @@
+"""What commands share that report findings: their options, their output and their exit code."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+
+import click
+
+from cellc.diagnostics import Severity
+from cellc.pipeline import Checked
+from cellc.report.colour import use_colour
+from cellc.report.json_report import render_json
+from cellc.report.text_report import render_text, summary
+
+FORMAT = click.option(
+    "--format",
+    "output_format",
+    type=click.Choice(["text", "json"]),
+    default="text",
+    show_default=True,
+    help="How findings are written.",
+)
+FAIL_ON = click.option(
+    "--fail-on",
+    type=click.Choice([severity.value for severity in (Severity.ERROR, Severity.BLOCKER, Severity.WARNING)]),
+    default=Severity.ERROR.value,
+    show_default=True,
+    help="Least severity that makes the exit code 1.",
+)
+
+_RANK = {Severity.ERROR: 0, Severity.BLOCKER: 1, Severity.WARNING: 2, Severity.AUDIT: 3}
+
+
+def show_findings(checked: Sequence[Checked], output_format: str) -> None:
+    """Write the findings of all cells to standard output."""
+    if output_format == "json":
+        click.echo(render_json([d for one in checked for d in one.diagnostics]), nl=False)
+        return
+    colour = use_colour(sys.stdout)
+    for one in checked:
+        if one.diagnostics:
+            click.echo(render_text(one.diagnostics, one.texts, colour=colour), nl=False)
+        click.echo(summary(one.diagnostics, one.file, colour=colour))
+
+
+def finish(checked: Sequence[Checked], fail_on: str) -> None:
+    """Leave with 1 where a finding is as severe as ``fail_on``."""
+    limit = _RANK[Severity(fail_on)]
+    if any(_RANK[d.severity] <= limit for one in checked for d in one.diagnostics):
+        raise click.exceptions.Exit(1)

@@ -1,0 +1,69 @@
+"""The command ``cellc``: one thin file per subcommand, imported only when it runs."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+from importlib import import_module
+
+import click
+
+from cellc import __version__
+
+# Command → module; the function in it has the command's name.
+_COMMANDS = {
+    "build": "Check cells and write their artifacts.",
+    "check": "Find what is wrong before anything moves.",
+    "completion": "Print the completion script of a shell.",
+    "explain": "Explain a diagnostic code.",
+    "init": "Write a new cell from device names.",
+    "mock": "Execute the rehearsals of a generated folder.",
+    "schema": "Print or write the JSON schemas.",
+    "show": "Show a resolved value and where it came from.",
+}
+
+
+class _LazyGroup(click.Group):
+    """A group that imports a subcommand's module when it is asked for, so that `check` never pays for `mock`."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        return sorted(_COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        if cmd_name not in _COMMANDS:
+            return None
+        command = getattr(import_module(f"cellc.cli.{cmd_name}"), cmd_name)
+        assert isinstance(command, click.Command)
+        return command
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        with formatter.section("Commands"):
+            formatter.write_dl(sorted(_COMMANDS.items()))
+
+
+@click.group(cls=_LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(__version__, prog_name="cellc")
+def cellc() -> None:
+    """Compile a declarative robot cell: check it, write its ROS 2 package, rehearse it on a mock.
+
+    Exit codes: 0 good, 1 findings, 2 usage. cellc never enables real motion.
+    """
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run the command and leave with its exit code; a closed pipe or Ctrl-C ends without a traceback."""
+    try:
+        cellc.main(args=None if arguments is None else list(arguments), prog_name="cellc", standalone_mode=False)
+    except click.exceptions.Exit as end:
+        sys.exit(end.exit_code)
+    except click.ClickException as problem:
+        problem.show()
+        sys.exit(2)
+    except (click.Abort, KeyboardInterrupt):
+        print("cellc: interrupted, nothing was left half-written", file=sys.stderr)
+        sys.exit(130)
+    except BrokenPipeError:
+        # The reader of our output went away (`cellc show … | head`): keep Python from complaining at exit.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(1)

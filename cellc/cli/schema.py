@@ -1,0 +1,32 @@
+"""``cellc schema``: the JSON schemas of the spec and of what is generated."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from cellc.spec.schema import schema_files
+
+
+@click.command()
+@click.argument("name", required=False)
+@click.option("-o", "--output", type=click.Path(path_type=Path, file_okay=False), help="Write all schemas to a folder.")
+def schema(name: str | None, output: Path | None) -> None:
+    """Print the schema NAME (the cell's if absent), or write all to a folder.
+
+    Editors complete and explain a cell through the first line
+    `# yaml-language-server: $schema=PATH/cell.schema.json`.
+    """
+    files = schema_files()
+    if output is not None:
+        output.mkdir(parents=True, exist_ok=True)
+        for file, text in files.items():
+            (output / file).write_text(text, encoding="utf-8", newline="\n")
+            click.echo(f"wrote {(output / file).as_posix()}")
+        return
+    wanted = f"{(name or 'cell').removesuffix('.schema.json')}.schema.json"
+    if wanted not in files:
+        known = ", ".join(file.removesuffix(".schema.json") for file in files)
+        raise click.UsageError(f"there is no schema `{name}`; the schemas are {known}")
+    click.echo(files[wanted], nl=False)

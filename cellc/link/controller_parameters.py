@@ -1,0 +1,78 @@
+"""Everything that goes into a controller's own parameters, in the types that it declares."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.catalog.catalog_model import Distro
+from cellc.catalog.controller_kind import ControllerKind
+from cellc.catalog.device_control import PluginUse
+from cellc.cell.device import Device
+from cellc.cell.interface import ParameterValue
+from cellc.spec.control import ControllerSpec
+
+# Parameters that the cell's safety rests on: written out even where they equal the default, which differs by
+# distribution (Humble allows a nonzero velocity at the end of a trajectory) or hides a choice (partial goals).
+_EXPLICIT = {
+    "allow_partial_joints_goal": False,
+    "allow_nonzero_velocity_at_trajectory_end": False,
+    "action_monitor_rate": 20.0,
+    "constraints.stopped_velocity_tolerance": 0.01,
+}
+
+
+def bind_parameters(
+    kind: ControllerKind,
+    plugin: PluginUse,
+    written: ControllerSpec,
+    joints: tuple[str, ...],
+    claims: tuple[str, ...],
+    states: tuple[str, ...],
+    device: Device | None,
+    distro: Distro,
+) -> dict[str, ParameterValue]:
+    """Return the parameters, dots for nesting; what the user wrote by hand comes last and wins."""
+    values: dict[str, ParameterValue] = {}
+    if kind.joints_parameter is not None and joints:
+        values[kind.joints_parameter] = joints[0] if kind.single_joint else joints
+    if kind.interfaces_parameter is not None and claims:
+        values[kind.interfaces_parameter] = claims if kind.interfaces_parameter.endswith("s") else claims[0]
+    if _declares(kind, "state_interfaces", distro) and states:
+        values["state_interfaces"] = states
+    values |= {name: value for name, value in _EXPLICIT.items() if _declares(kind, name, distro)}
+    values |= dict(_tolerances(kind, written, joints, distro))
+    values |= dict(_gripper(kind, written, device, distro))
+    if written.update_rate is not None:
+        values["update_rate"] = round(written.update_rate.si)
+    return values | plugin.parameters | written.parameters
+
+
+def _declares(kind: ControllerKind, name: str, distro: Distro) -> bool:
+    return name in kind.parameters and kind.parameters[name].declared_in(distro)
+
+
+def _tolerances(
+    kind: ControllerKind, written: ControllerSpec, joints: tuple[str, ...], distro: Distro
+) -> Iterator[tuple[str, ParameterValue]]:
+    if not _declares(kind, "constraints.goal_time", distro):
+        return
+    if written.goal_time is not None:
+        yield "constraints.goal_time", float(written.goal_time.si)
+    for joint in joints:
+        if written.path_tolerance is not None:
+            yield f"constraints.{joint}.trajectory", float(written.path_tolerance.si)
+        if written.goal_tolerance is not None:
+            yield f"constraints.{joint}.goal", float(written.goal_tolerance.si)
+
+
+def _gripper(
+    kind: ControllerKind, written: ControllerSpec, device: Device | None, distro: Distro
+) -> Iterator[tuple[str, ParameterValue]]:
+    if device is None or device.facts.gripper is None:
+        return
+    if _declares(kind, "goal_tolerance", distro):
+        tolerance = written.goal_tolerance or device.facts.gripper.goal_tolerance
+        yield "goal_tolerance", float(tolerance.si)
+    if _declares(kind, "allow_stalling", distro):
+        # Fingers that meet a part stand still before their goal: that is a grasp, not a failure.
+        yield "allow_stalling", True

@@ -1,0 +1,226 @@
+"""Binds each device to its catalogue entry: prefix, joints with limits, hardware component, mount."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from cellc.catalog.device_control import GroupInterfaces, JointInterfaces
+from cellc.catalog.device_model import AccelerationLimit, DeviceModel, JerkLimit
+from cellc.catalog.load import CatalogDevice, device_names, load_device, load_device_folder
+from cellc.cell.description import Description, Joint
+from cellc.cell.device import Device, DeviceJoint, HardwareComponent, InterfaceGroup
+from cellc.cell.frame import WORLD
+from cellc.diagnostics import Diagnostic, Outcome, Severity, did_you_mean
+from cellc.link.placeholders import Placeholders, placeholders
+from cellc.link.placement import pose
+from cellc.link.unknown import unknown_name
+from cellc.source.document import SourceDocument
+from cellc.spec.cell_spec import CellSpec
+from cellc.spec.devices import DeviceSpec
+from cellc.transforms import identity
+
+
+def link_devices(spec: CellSpec, document: SourceDocument) -> Outcome[tuple[Device, ...]]:
+    """Bind every device of the spec; parents of mounts are resolved among the devices themselves."""
+    entries: dict[str, CatalogDevice] = {}
+    problems: list[Diagnostic] = []
+    for name, written in spec.devices.items():
+        entry = _catalogue_entry(name, written, document)
+        problems += entry.diagnostics
+        if entry.value is not None:
+            entries[name] = entry.value
+        problems += _connection_problems(name, written, spec, document)
+    if len(entries) < len(spec.devices):
+        return Outcome(None, tuple(problems))
+    devices: list[Device] = []
+    for name, written in spec.devices.items():
+        parent = _parent_frame(name, written, spec, document, entries)
+        problems += parent.diagnostics
+        if parent.value is not None:
+            devices.append(_device(name, written, spec, document, entries[name], parent.value))
+    return Outcome(tuple(devices), tuple(problems))
+
+
+def prefix_of(name: str, written: DeviceSpec) -> str:
+    """Return what stands before every ROS name of a device; an empty prefix is the user's right."""
+    return f"{name}_" if written.prefix is None else written.prefix
+
+
+def _catalogue_entry(name: str, written: DeviceSpec, document: SourceDocument) -> Outcome[CatalogDevice]:
+    path = ("devices", name, "model")
+    if "/" in written.model or written.model.startswith("."):
+        root = Path(document.locate(path).file).parent
+        return load_device_folder(root / written.model, root)
+    if written.model not in device_names():
+        problem = Diagnostic(
+            code="unknown-model",
+            severity=Severity.ERROR,
+            message=f"the catalogue has no model `{written.model}`",
+            span=document.locate(path),
+            yaml_path=path,
+            help=did_you_mean(written.model, device_names(), "models of the catalogue, or a folder with a device.yaml"),
+        )
+        return Outcome(None, (problem,))
+    return load_device(written.model)
+
+
+def _connection_problems(
+    name: str, written: DeviceSpec, spec: CellSpec, document: SourceDocument
+) -> tuple[Diagnostic, ...]:
+    connection = written.connection
+    if connection is None:
+        return ()
+    path = ("devices", name, "connection")
+    if connection.host not in spec.hosts:
+        return (unknown_name("unknown-host", connection.host, "host", spec.hosts, document, (*path, "host")),)
+    nics = spec.hosts[connection.host].nics
+    if connection.nic is None or connection.nic in nics:
+        return ()
+    return (unknown_name("unknown-nic", connection.nic, "network card", nics, document, (*path, "nic")),)
+
+
+def _parent_frame(
+    name: str, written: DeviceSpec, spec: CellSpec, document: SourceDocument, entries: Mapping[str, CatalogDevice]
+) -> Outcome[str]:
+    """Bind the parent of a mount; the frames of the spec are not linked yet, so their names are taken as they stand."""
+    if written.mount is None:
+        return Outcome(WORLD)
+    reference = written.mount.parent
+    known = {WORLD: WORLD} | {frame: frame for frame in (*spec.frames, *spec.scene)}
+    for other, entry in entries.items():
+        prefix = prefix_of(other, spec.devices[other])
+        known |= {f"{other}/{short}": prefix + link for short, link in _frame_names(entry).items()}
+    if reference in known:
+        return Outcome(known[reference])
+    path = ("devices", name, "mount", "parent")
+    return Outcome(None, (unknown_name("unknown-frame", reference, "frame", known, document, path),))
+
+
+def _frame_names(entry: CatalogDevice) -> dict[str, str]:
+    """Return local link names and the short names of the catalogue, which win."""
+    return {link.name: link.name for link in entry.description.links} | dict(entry.model.frames)
+
+
+def _device(
+    name: str, written: DeviceSpec, spec: CellSpec, document: SourceDocument, entry: CatalogDevice, parent: str
+) -> Device:
+    path = ("devices", name)
+    prefix = prefix_of(name, written)
+    facts = entry.model
+    mount = written.mount
+    return Device(
+        name=name,
+        path=path,
+        span=document.locate(path),
+        spec=written,
+        facts=facts,
+        prefix=prefix,
+        description=entry.description.renamed(prefix),
+        root_link=prefix + facts.base,
+        parent_frame=parent,
+        transform_root_to_parent=identity() if mount is None else pose(mount.xyz, mount.rpy),
+        frames={short: prefix + link for short, link in _frame_names(entry).items()},
+        joints=_joints(name, written, document, facts, entry.description, prefix),
+        hardware=_hardware(facts, placeholders(name, prefix, written, spec), prefix),
+        tool_frame=None if facts.tool_frame is None else prefix + facts.frames.get(facts.tool_frame, facts.tool_frame),
+        carries=_carried(name, spec),
+    )
+
+
+def _carried(name: str, spec: CellSpec) -> tuple[str, ...]:
+    """Return the devices whose mount names a frame of this one, in the order of the spec."""
+    return tuple(
+        other
+        for other, written in spec.devices.items()
+        if written.mount is not None and written.mount.parent.partition("/")[0] == name and other != name
+    )
+
+
+def _joints(
+    device: str,
+    written: DeviceSpec,
+    document: SourceDocument,
+    facts: DeviceModel,
+    description: Description,
+    prefix: str,
+) -> tuple[DeviceJoint, ...]:
+    path = ("devices", device)
+    share_of_velocity = _share(written, "velocity")
+    share_of_acceleration = _share(written, "acceleration")
+    return tuple(
+        DeviceJoint(
+            name=prefix + joint.name,
+            path=path,
+            span=document.locate(path),
+            local_name=joint.name,
+            type=joint.type,
+            lower=None if joint.limit is None else joint.limit.lower,
+            upper=None if joint.limit is None else joint.limit.upper,
+            velocity=_scaled(None if joint.limit is None else joint.limit.velocity, share_of_velocity),
+            acceleration=_scaled(_limit(facts.limits.acceleration_of(joint.name)), share_of_acceleration),
+            jerk=_limit(facts.limits.jerk_of(joint.name)),
+            effort=None if joint.limit is None else joint.limit.effort,
+            mimics=None if joint.mimic is None else prefix + joint.mimic.joint,
+            command_interfaces=_interfaces(facts, joint).command,
+            state_interfaces=_interfaces(facts, joint).state,
+        )
+        for joint in description.joints
+        if joint.movable
+    )
+
+
+def _share(written: DeviceSpec, kind: str) -> float:
+    limits = written.limits
+    if limits is None:
+        return 1.0
+    ratio = limits.velocity if kind == "velocity" else limits.acceleration
+    return 1.0 if ratio is None else ratio.si
+
+
+def _limit(limit: AccelerationLimit | JerkLimit | None) -> float | None:
+    return None if limit is None else limit.value.si
+
+
+def _scaled(value: float | None, share: float) -> float | None:
+    return None if value is None else value * share
+
+
+def _interfaces(facts: DeviceModel, joint: Joint) -> JointInterfaces:
+    """Return what hardware offers for a joint; a mimic joint follows and is offered nothing unless it is named."""
+    offered = {} if facts.control is None else facts.control.joints
+    if joint.name in offered:
+        return offered[joint.name]
+    if "*" in offered and joint.mimic is None:
+        return offered["*"]
+    return JointInterfaces()
+
+
+def _hardware(facts: DeviceModel, known: Placeholders, prefix: str) -> HardwareComponent | None:
+    control = facts.control
+    if control is None:
+        return None
+    by_target = {"mock": control.hardware.mock, "real": control.hardware.real}
+    return HardwareComponent(
+        name=known.fill(control.component),
+        plugins={target: hardware.plugin for target, hardware in by_target.items()},
+        parameters={
+            target: {key: known.fill(value) for key, value in hardware.parameters.items()}
+            for target, hardware in by_target.items()
+        },
+        sensors=_groups(control.sensors, prefix),
+        gpios=_groups(control.gpios, prefix),
+    )
+
+
+def _groups(groups: Mapping[str, GroupInterfaces], prefix: str) -> tuple[InterfaceGroup, ...]:
+    return tuple(
+        InterfaceGroup(
+            name=prefix + name,
+            command_interfaces=entry.command,
+            state_interfaces=entry.state,
+            initial=dict(entry.initial),
+            real_only=entry.real_only,
+        )
+        for name, entry in groups.items()
+    )

@@ -1,0 +1,175 @@
+"""Binds every frame of the cell to its parent, its authority and its calibration."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from cellc.cell.device import Device
+from cellc.cell.frame import WORLD, Frame, FrameKind, SceneBox, SimulatedPose
+from cellc.diagnostics import Diagnostic, Outcome
+from cellc.link.frame_names import FrameNames
+from cellc.link.placement import pose, vector
+from cellc.link.unknown import unknown_name
+from cellc.source.document import SourceDocument
+from cellc.spec.cell_spec import CellSpec
+from cellc.spec.frames import FrameSpec
+from cellc.transforms import identity
+
+ROBOT_STATE_PUBLISHER = "robot_state_publisher"
+"""Publishes every static frame, because all of them stand in the URDF: one authority."""
+
+
+def link_frames(
+    spec: CellSpec, document: SourceDocument, devices: tuple[Device, ...], names: FrameNames
+) -> Outcome[tuple[Frame, ...]]:
+    """Bind the world, the links and mounts of devices, and the frames of the spec; scene boxes are frames too."""
+    frames = [_world(document), *_device_frames(spec, document, devices)]
+    problems: list[Diagnostic] = []
+    for name, written in spec.frames.items():
+        bound = _spec_frame(name, written, document, names)
+        problems += [*bound.diagnostics, *_unknown_calibration(spec, document, ("frames", name), written.calibration)]
+        problems += _unknown_publisher(spec, document, name, written)
+        if bound.value is not None:
+            frames.append(bound.value)
+    for device, mounted in ((name, entry.mount) for name, entry in spec.devices.items()):
+        if mounted is not None:
+            problems += _unknown_calibration(spec, document, ("devices", device, "mount"), mounted.calibration)
+    return Outcome(tuple(frames), tuple(problems))
+
+
+def link_scene(spec: CellSpec, document: SourceDocument, names: FrameNames) -> Outcome[tuple[SceneBox, ...]]:
+    """Bind the solid things of the cell."""
+    boxes: list[SceneBox] = []
+    problems: list[Diagnostic] = []
+    for name, written in spec.scene.items():
+        path = ("scene", name)
+        parent = names.bind(written.parent, (*path, "parent"))
+        problems += parent.diagnostics
+        if parent.value is not None:
+            boxes.append(
+                SceneBox(
+                    name=name,
+                    path=path,
+                    span=document.locate(path),
+                    parent=parent.value,
+                    transform_to_parent=pose(written.xyz, written.rpy),
+                    size=vector(written.box),
+                    kind=written.kind,
+                )
+            )
+    return Outcome(tuple(boxes), tuple(problems))
+
+
+def scene_frames(boxes: Iterable[SceneBox]) -> tuple[Frame, ...]:
+    """Return the frame of each box, at its centre."""
+    return tuple(
+        Frame(
+            name=box.name,
+            path=box.path,
+            span=box.span,
+            kind=FrameKind.SCENE,
+            parent=box.parent,
+            transform_to_parent=box.transform_to_parent,
+            authority=ROBOT_STATE_PUBLISHER,
+            designed=True,
+        )
+        for box in boxes
+    )
+
+
+def _world(document: SourceDocument) -> Frame:
+    return Frame(
+        name=WORLD,
+        path=("cell",),
+        span=document.locate(("cell",)),
+        kind=FrameKind.WORLD,
+        parent="",
+        transform_to_parent=identity(),
+        authority=ROBOT_STATE_PUBLISHER,
+        designed=True,
+    )
+
+
+def _device_frames(spec: CellSpec, document: SourceDocument, devices: Iterable[Device]) -> Iterator[Frame]:
+    for device in devices:
+        mount = spec.devices[device.name].mount
+        path = (*device.path, "mount") if mount is not None else device.path
+        yield Frame(
+            name=device.root_link,
+            path=path,
+            span=document.locate(path),
+            kind=FrameKind.MOUNT,
+            parent=device.parent_frame,
+            transform_to_parent=device.transform_root_to_parent,
+            authority=ROBOT_STATE_PUBLISHER,
+            device=device.name,
+            calibration=None if mount is None else mount.calibration,
+        )
+        for joint in device.description.joints:
+            yield Frame(
+                name=joint.child,
+                path=device.path,
+                span=device.span,
+                kind=FrameKind.LINK,
+                parent=joint.parent,
+                transform_to_parent=joint.pose,
+                authority=ROBOT_STATE_PUBLISHER,
+                device=device.name,
+                designed=True,
+                moving=joint.movable,
+            )
+
+
+def _spec_frame(name: str, written: FrameSpec, document: SourceDocument, names: FrameNames) -> Outcome[Frame]:
+    path = ("frames", name)
+    parent = names.bind(written.parent, (*path, "parent"))
+    simulated = _simulated_pose(name, written, names)
+    problems = (*parent.diagnostics, *simulated.diagnostics)
+    if parent.value is None:
+        return Outcome(None, problems)
+    frame = Frame(
+        name=name,
+        path=path,
+        span=document.locate(path),
+        kind=FrameKind.DYNAMIC if written.dynamic else FrameKind.FIXED,
+        parent=parent.value,
+        transform_to_parent=None if written.dynamic else pose(written.xyz, written.rpy),
+        authority=written.published_by or ROBOT_STATE_PUBLISHER,
+        calibration=written.calibration,
+        designed=written.designed,
+        moving=written.dynamic,
+        rate_hz=None if written.rate is None else written.rate.si,
+        buffer_s=None if written.buffer is None else written.buffer.si,
+        reference_points=written.reference_points,
+        simulated_pose=simulated.value,
+    )
+    return Outcome(frame, problems)
+
+
+def _simulated_pose(name: str, written: FrameSpec, names: FrameNames) -> Outcome[SimulatedPose]:
+    placed = written.simulated_pose
+    if placed is None:
+        return Outcome(None)
+    parent = names.bind(placed.parent, ("frames", name, "simulated_pose", "parent"))
+    if parent.value is None:
+        return Outcome(None, parent.diagnostics)
+    return Outcome(SimulatedPose(parent=parent.value, pose=pose(placed.xyz, placed.rpy)))
+
+
+def _unknown_calibration(
+    spec: CellSpec, document: SourceDocument, path: tuple[str, ...], calibration: str | None
+) -> tuple[Diagnostic, ...]:
+    if calibration is None or calibration in spec.calibrations:
+        return ()
+    at = (*path, "calibration")
+    return (unknown_name("unknown-calibration", calibration, "calibration", spec.calibrations, document, at),)
+
+
+def _unknown_publisher(
+    spec: CellSpec, document: SourceDocument, name: str, written: FrameSpec
+) -> tuple[Diagnostic, ...]:
+    known = (*spec.nodes, *spec.devices)
+    if written.published_by is None or written.published_by in known:
+        return ()
+    path = ("frames", name, "published_by")
+    return (unknown_name("unknown-node", written.published_by, "node", known, document, path),)

@@ -1,0 +1,152 @@
+"""Binds the interfaces that the user wrote to the nodes, devices and controllers at their ends."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from cellc.cell.interface import Endpoint, Interface, InterfaceKind, Qos
+from cellc.diagnostics import Diagnostic, Outcome, YamlPath
+from cellc.link.frame_names import FrameNames
+from cellc.link.qos import DEFAULT, with_changes
+from cellc.link.unknown import unknown_name
+from cellc.source.document import SourceDocument
+from cellc.spec.cell_spec import CellSpec
+from cellc.spec.interfaces import ActionSpec, Endpoints, InterfaceFields, QosSpec, ServiceSpec, TopicSpec
+from cellc.spec.quantity import Quantity
+
+
+@dataclass(frozen=True, slots=True)
+class EndpointNames:
+    """What may stand at the end of an interface.
+
+    Args:
+        owners: name of each node, device and controller → who answers for it.
+        offered: (name, topic) → QoS that a device or controller offers there.
+    """
+
+    owners: Mapping[str, str]
+    offered: Mapping[tuple[str, str], Qos]
+
+
+def link_interfaces(
+    spec: CellSpec, document: SourceDocument, ends: EndpointNames, frames: FrameNames
+) -> Outcome[tuple[Interface, ...]]:
+    """Bind every interface that the user wrote."""
+    interfaces: list[Interface] = []
+    problems: list[Diagnostic] = []
+    for name, written in spec.interfaces.items():
+        bound = _interface(name, written, document, ends, frames)
+        problems += bound.diagnostics
+        if bound.value is not None:
+            interfaces.append(bound.value)
+    return Outcome(tuple(interfaces), tuple(problems))
+
+
+def _interface(
+    name: str,
+    written: TopicSpec | ServiceSpec | ActionSpec,
+    document: SourceDocument,
+    ends: EndpointNames,
+    frames: FrameNames,
+) -> Outcome[Interface]:
+    path = ("interfaces", name)
+    frame = Outcome[str](None) if written.frame is None else frames.bind(written.frame, (*path, "frame"))
+    source_key, sink_key = ("from", "to") if isinstance(written, TopicSpec) else ("server", "client")
+    written_sources = written.from_ if isinstance(written, TopicSpec) else written.server
+    written_sinks = written.to if isinstance(written, TopicSpec) else written.client
+    sources = _endpoints(name, written_sources, document, (*path, source_key), ends)
+    sinks = _endpoints(name, written_sinks, document, (*path, sink_key), ends)
+    problems = (*frame.diagnostics, *sources.diagnostics, *sinks.diagnostics)
+    bound_sources = sources.value or ()
+    owner = written.owner or (ends.owners.get(bound_sources[0].node) if bound_sources else None)
+    common = _Common(name, path, document, frame.value, owner, bound_sources, sinks.value or ())
+    if isinstance(written, TopicSpec):
+        return Outcome(_topic(common, written), problems)
+    return Outcome(_call(common, written), problems)
+
+
+@dataclass(frozen=True, slots=True)
+class _Common:
+    """What topics, services and actions share once bound."""
+
+    name: str
+    path: YamlPath
+    document: SourceDocument
+    frame: str | None
+    owner: str | None
+    sources: tuple[Endpoint, ...]
+    sinks: tuple[Endpoint, ...]
+
+
+def _topic(common: _Common, written: TopicSpec) -> Interface:
+    return Interface(
+        name=common.name,
+        path=common.path,
+        span=common.document.locate(common.path),
+        kind=InterfaceKind.TOPIC,
+        type=written.topic,
+        sources=common.sources,
+        sinks=common.sinks,
+        frame=common.frame,
+        unit=written.unit,
+        time_source=_time_source(written),
+        owner=common.owner,
+        wants=written.wants,
+        rate_hz=_si(written.rate),
+        max_age_s=_si(written.max_age),
+        transport_s=_si(written.transport),
+        on_stale=written.on_stale,
+    )
+
+
+def _call(common: _Common, written: ServiceSpec | ActionSpec) -> Interface:
+    is_action = isinstance(written, ActionSpec)
+    return Interface(
+        name=common.name,
+        path=common.path,
+        span=common.document.locate(common.path),
+        kind=InterfaceKind.ACTION if is_action else InterfaceKind.SERVICE,
+        type=written.action if isinstance(written, ActionSpec) else written.service,
+        sources=common.sources,
+        sinks=common.sinks,
+        frame=common.frame,
+        unit=written.unit,
+        time_source=_time_source(written),
+        owner=common.owner,
+        timeout_s=_si(written.timeout),
+        on_timeout=written.on_timeout,
+        on_error=written.on_error if isinstance(written, ServiceSpec) else None,
+        cancel_within_s=_si(written.cancel_within) if isinstance(written, ActionSpec) else None,
+    )
+
+
+def _endpoints(
+    interface: str, written: Endpoints, document: SourceDocument, path: YamlPath, ends: EndpointNames
+) -> Outcome[tuple[Endpoint, ...]]:
+    endpoints: list[Endpoint] = []
+    problems: list[Diagnostic] = []
+    for node, qos, at in _written_endpoints(written, path):
+        if node not in ends.owners:
+            problems.append(unknown_name("unknown-node", node, "node", ends.owners, document, at))
+            continue
+        profile = ends.offered.get((node, interface), DEFAULT)
+        endpoints.append(Endpoint(node=node, qos=with_changes(profile, qos), path=at, span=document.locate_key(at)))
+    return Outcome(tuple(endpoints), tuple(problems))
+
+
+def _written_endpoints(written: Endpoints, path: YamlPath) -> tuple[tuple[str, QosSpec, YamlPath], ...]:
+    plain = QosSpec()
+    if isinstance(written, str):
+        return ((written, plain, path),)
+    if isinstance(written, tuple):
+        return tuple((node, plain, (*path, index)) for index, node in enumerate(written))
+    return tuple((node, qos, (*path, node)) for node, qos in written.items())
+
+
+def _time_source(written: InterfaceFields) -> str:
+    return written.time_source or "ros"
+
+
+def _si(quantity: Quantity | None) -> float | None:
+    return None if quantity is None else quantity.si

@@ -1,0 +1,120 @@
+"""From what the user wrote to the cell: references bound, units SI, catalogue facts joined."""
+
+from __future__ import annotations
+
+from typing import get_args
+
+from cellc.catalog.catalog_model import DISTROS, Distro
+from cellc.catalog.controller_kind import ControllerKind
+from cellc.catalog.load import controller_kinds, load_controller_kind, load_qos_profiles
+from cellc.catalog.qos_model import Rmw
+from cellc.cell.cell import Cell
+from cellc.cell.device import Device
+from cellc.diagnostics import Diagnostic, Outcome, Severity, did_you_mean
+from cellc.link.control import ControlContext, link_managers
+from cellc.link.derived import Derivation, derive_interfaces
+from cellc.link.devices import link_devices
+from cellc.link.endpoints import name_endpoints
+from cellc.link.frame_names import name_frames
+from cellc.link.frames import link_frames, link_scene, scene_frames
+from cellc.link.interfaces import link_interfaces
+from cellc.link.motion import link_goals, link_groups, link_poses
+from cellc.link.nodes import link_nodes, standard_nodes
+from cellc.link.qos import QosResolver
+from cellc.link.rehearsals import link_rehearsals
+from cellc.source.document import SourceDocument
+from cellc.spec.cell_spec import CellSpec
+
+
+def link(spec: CellSpec, document: SourceDocument) -> Outcome[Cell]:
+    """Bind a spec to the catalogue.
+
+    Returns:
+        The cell where every reference could be bound; all references that could not, at once.
+    """
+    distro = _distro(spec, document)
+    devices = link_devices(spec, document)
+    if distro.value is None or devices.value is None:
+        return Outcome(None, (*distro.diagnostics, *devices.diagnostics))
+    return _link_with_devices(spec, document, distro.value, devices)
+
+
+def _link_with_devices(
+    spec: CellSpec, document: SourceDocument, distro: Distro, linked_devices: Outcome[tuple[Device, ...]]
+) -> Outcome[Cell]:
+    devices = linked_devices.value or ()
+    kinds = _controller_kinds(spec, devices)
+    table = load_qos_profiles().value
+    assert table is not None  # package data, held valid by the catalogue's tests
+    resolver = QosResolver(table, _rmw(spec))
+    names = name_frames(spec, document, devices)
+    scene = link_scene(spec, document, names)
+    frames = link_frames(spec, document, devices, names)
+    all_frames = (*(frames.value or ()), *scene_frames(scene.value or ()))
+    nodes = link_nodes(spec, document, devices)
+    context = ControlContext(spec, document, distro, {device.name: device for device in devices}, kinds)
+    managers = link_managers(context)
+    loops = managers.value or ()
+    all_nodes = (*(nodes.value or ()), *standard_nodes(spec, document, loops))
+    controllers = tuple(controller for manager in loops for controller in manager.controllers)
+    ends = name_endpoints(spec, devices, all_nodes, loops, resolver)
+    interfaces = link_interfaces(spec, document, ends, names)
+    written = interfaces.value or ()
+    derived = derive_interfaces(Derivation(spec, document, loops, kinds, all_frames, resolver), written)
+    groups = link_groups(spec, document, devices, all_frames, names, controllers)
+    poses = link_poses(spec, document, groups.value or ())
+    goals = link_goals(spec, document, groups.value or (), names)
+    rehearsals = link_rehearsals(spec, document, devices, controllers, names)
+    cell = Cell(
+        name=spec.cell,
+        spec=spec,
+        document=document,
+        distro=distro,
+        devices=devices,
+        frames=all_frames,
+        scene=scene.value or (),
+        nodes=all_nodes,
+        interfaces=(*written, *derived),
+        managers=loops,
+        groups=groups.value or (),
+        poses=poses.value or (),
+        goals=goals.value or (),
+        rehearsals=rehearsals.value or (),
+        behaviours={controller.plugin: controller.behaviour for controller in controllers},
+    )
+    parts = (linked_devices, scene, frames, nodes, managers, interfaces, groups, poses, goals, rehearsals)
+    return Outcome(cell, tuple(problem for part in parts for problem in part.diagnostics))
+
+
+def _controller_kinds(spec: CellSpec, devices: tuple[Device, ...]) -> dict[str, ControllerKind]:
+    """Load the neutral kinds that the cell's controllers are of, or act as; others stay unread."""
+    managers = (*(() if spec.control is None else (spec.control,)), *spec.managers.values())
+    written = {controller.type for manager in managers for controller in manager.controllers.values()}
+    written |= {own.behaviour for device in devices for own in device.facts.controllers.values()}
+    loaded = {kind: load_controller_kind(kind).value for kind in controller_kinds() if kind in written}
+    return {kind: facts for kind, facts in loaded.items() if facts is not None}
+
+
+def _distro(spec: CellSpec, document: SourceDocument) -> Outcome[Distro]:
+    for distro in DISTROS:
+        if spec.versions.ros == distro:
+            return Outcome(distro)
+    path = ("versions", "ros")
+    problem = Diagnostic(
+        code="unknown-distro",
+        severity=Severity.ERROR,
+        message=f"cellc knows no ROS 2 distribution `{spec.versions.ros}`",
+        span=document.locate(path),
+        yaml_path=path,
+        help=did_you_mean(spec.versions.ros, DISTROS, "distributions"),
+    )
+    return Outcome(None, (problem,))
+
+
+def _rmw(spec: CellSpec) -> Rmw:
+    """Return the middleware of the tuple; an unknown one is a rule's finding, and QoS is then that of Fast DDS."""
+    written = spec.versions.rmw.split()[0]
+    for rmw in get_args(Rmw):
+        if written == rmw:
+            return rmw  # type: ignore[no-any-return]  # get_args has no type
+    return "rmw_fastrtps_cpp"

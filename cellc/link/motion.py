@@ -1,0 +1,137 @@
+"""Binds planning groups to their joint chains, poses to joints, and goals to frames."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from cellc.cell.control import Controller
+from cellc.cell.device import Device
+from cellc.cell.frame import Frame
+from cellc.cell.motion import CartesianGoal, NamedPose, PlanningGroup
+from cellc.diagnostics import Diagnostic, Outcome, Severity
+from cellc.link.frame_names import FrameNames
+from cellc.link.placement import pose, vector
+from cellc.link.unknown import unknown_name
+from cellc.source.document import SourceDocument
+from cellc.spec.cell_spec import CellSpec
+
+
+def link_groups(
+    spec: CellSpec,
+    document: SourceDocument,
+    devices: tuple[Device, ...],
+    frames: tuple[Frame, ...],
+    names: FrameNames,
+    controllers: tuple[Controller, ...],
+) -> Outcome[tuple[PlanningGroup, ...]]:
+    """Bind each group to the movable joints between its base link and its tip, base first."""
+    groups: list[PlanningGroup] = []
+    problems: list[Diagnostic] = []
+    joint_of_link = {joint.child: joint for device in devices for joint in device.description.joints if joint.movable}
+    parents = {frame.name: frame.parent for frame in frames}
+    for name, written in spec.motion.groups.items():
+        path = ("motion", "groups", name)
+        base, tip = names.bind(written.base, (*path, "base")), names.bind(written.tip, (*path, "tip"))
+        problems += [*base.diagnostics, *tip.diagnostics]
+        if base.value is None or tip.value is None:
+            continue
+        links = _chain(parents, base.value, tip.value)
+        if links is None:
+            problems.append(_not_a_chain(name, written.base, written.tip, document))
+            continue
+        joints = tuple(joint_of_link[link].name for link in links if link in joint_of_link)
+        groups.append(
+            PlanningGroup(
+                name=name,
+                path=path,
+                span=document.locate(path),
+                base_link=base.value,
+                tip_frame=tip.value,
+                joints=joints,
+                controllers=tuple(c.name for c in controllers if c.action and set(c.joints) & set(joints)),
+            )
+        )
+    return Outcome(tuple(groups), tuple(problems))
+
+
+def link_poses(
+    spec: CellSpec, document: SourceDocument, groups: tuple[PlanningGroup, ...]
+) -> Outcome[tuple[NamedPose, ...]]:
+    """Bind named poses to the joints of their groups; a wrong number of values is left to a rule."""
+    poses: list[NamedPose] = []
+    problems: list[Diagnostic] = []
+    joints = {group.name: group.joints for group in groups}
+    for name, by_group in spec.motion.poses.items():
+        for group, positions in by_group.items():
+            path = ("motion", "poses", name, group)
+            if group not in spec.motion.groups:
+                problems.append(_unknown_group(group, spec, document, path))
+            elif group in joints:
+                poses.append(
+                    NamedPose(
+                        name=name,
+                        path=path,
+                        span=document.locate(path),
+                        group=group,
+                        joints=joints[group],
+                        positions=positions.si,
+                    )
+                )
+    return Outcome(tuple(poses), tuple(problems))
+
+
+def link_goals(
+    spec: CellSpec, document: SourceDocument, groups: tuple[PlanningGroup, ...], names: FrameNames
+) -> Outcome[tuple[CartesianGoal, ...]]:
+    """Bind goals to their frame and group; the only group of a cell is the default."""
+    goals: list[CartesianGoal] = []
+    problems: list[Diagnostic] = []
+    for name, written in spec.motion.goals.items():
+        path = ("motion", "goals", name)
+        frame = names.bind(written.frame, (*path, "frame"))
+        problems += frame.diagnostics
+        group = written.group or (next(iter(spec.motion.groups)) if len(spec.motion.groups) == 1 else None)
+        if group is None or group not in spec.motion.groups:
+            problems.append(_unknown_group(group or "", spec, document, (*path, "group")))
+        elif frame.value is not None:
+            goals.append(
+                CartesianGoal(
+                    name=name,
+                    path=path,
+                    span=document.locate(path),
+                    group=group,
+                    frame=frame.value,
+                    transform_tip_to_frame=pose(written.xyz, written.rpy),
+                    approach=None if written.approach is None else vector(written.approach),
+                    transform_at=written.transform_at,
+                )
+            )
+    return Outcome(tuple(goals), tuple(problems))
+
+
+def _chain(parents: Mapping[str, str], base: str, tip: str) -> tuple[str, ...] | None:
+    """Return the frames after ``base`` up to ``tip``, or None where ``tip`` does not hang on ``base``."""
+    links: list[str] = []
+    frame = tip
+    while frame != base:
+        if frame not in parents or frame in links:
+            return None
+        links.append(frame)
+        frame = parents[frame]
+    return tuple(reversed(links))
+
+
+def _not_a_chain(name: str, base: str, tip: str, document: SourceDocument) -> Diagnostic:
+    path = ("motion", "groups", name, "tip")
+    return Diagnostic(
+        code="not-a-chain",
+        severity=Severity.ERROR,
+        message=f"`{tip}` does not hang on `{base}`: group `{name}` has no chain of joints",
+        span=document.locate(path),
+        yaml_path=path,
+        help="name a tip whose parents lead to the base link",
+    )
+
+
+def _unknown_group(name: str, spec: CellSpec, document: SourceDocument, path: tuple[str, ...]) -> Diagnostic:
+    return unknown_name("unknown-group", name, "group", spec.motion.groups, document, path)

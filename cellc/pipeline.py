@@ -1,0 +1,76 @@
+"""The stages of cellc in order: read, parse, link, build the graph, check, emit, verify, write.
+
+Everything between reading and writing is pure: a stage takes a value and returns a value. source, spec and link stop
+on an error, so that one mistake does not cascade; rules all run.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from cellc.artifact import Artifact
+from cellc.diagnostics import Diagnostic, Outcome, Severity
+from cellc.emit.emit_all import emit_all
+from cellc.graph.cell_graph import CellGraph, build_graph
+from cellc.link.link import link
+from cellc.rules.run import run_rules
+from cellc.source import read
+from cellc.spec.parse import parse
+
+
+@dataclass(frozen=True, slots=True)
+class Checked:
+    """What checking one spec gave: the graph where the stages before it found no error, and all findings."""
+
+    file: str
+    texts: Mapping[str, str]
+    graph: CellGraph | None
+    diagnostics: tuple[Diagnostic, ...]
+
+    @property
+    def ok(self) -> bool:
+        """Whether artifacts may be written: no finding is an error."""
+        return self.graph is not None and all(d.severity is not Severity.ERROR for d in self.diagnostics)
+
+
+def check(path: str | Path) -> Checked:
+    """Read, parse and link a spec, and run every rule on its graph."""
+    file = Path(path).as_posix()
+    source = read(path)
+    if source.value is None or not source.ok:
+        texts = {} if source.value is None else source.value.texts
+        return Checked(file, texts, None, source.diagnostics)
+    found = list(source.diagnostics)
+    spec = parse(source.value)
+    found += spec.diagnostics
+    if spec.value is None or not spec.ok:
+        return Checked(file, source.value.texts, None, _sorted(found))
+    cell = link(spec.value, source.value)
+    found += cell.diagnostics
+    if cell.value is None or not cell.ok:
+        return Checked(file, source.value.texts, None, _sorted(found))
+    graph = build_graph(cell.value)
+    found += run_rules(graph)
+    return Checked(file, source.value.texts, graph, _sorted(found))
+
+
+def compile_cell(checked: Checked) -> Outcome[tuple[Artifact, ...]]:
+    """Emit the artifacts of a checked cell and have foreign parsers read them back."""
+    if checked.graph is None or not checked.ok:
+        return Outcome(None)
+    # Foreign parsers are heavy: a check does not pay for them.
+    from cellc.verify.verify import verify
+
+    artifacts = emit_all(checked.graph)
+    return Outcome(artifacts, verify(artifacts, checked.graph))
+
+
+def with_findings(checked: Checked, found: tuple[Diagnostic, ...]) -> Checked:
+    """Return the check with findings of later stages added."""
+    return replace(checked, diagnostics=_sorted([*checked.diagnostics, *found]))
+
+
+def _sorted(diagnostics: list[Diagnostic]) -> tuple[Diagnostic, ...]:
+    return tuple(sorted(diagnostics, key=Diagnostic.sort_key))
