@@ -37,6 +37,8 @@ def bind_parameters(
         values[kind.joints_parameter] = joints[0] if kind.single_joint else joints
     if kind.interfaces_parameter is not None and claims:
         values[kind.interfaces_parameter] = claims if kind.interfaces_parameter.endswith("s") else claims[0]
+    if _declares(kind, "command_interfaces", distro) and claims:
+        values["command_interfaces"] = claims
     if _declares(kind, "state_interfaces", distro) and states:
         values["state_interfaces"] = states
     values |= {name: value for name, value in _EXPLICIT.items() if _declares(kind, name, distro)}

@@ -86,7 +86,7 @@ def _action(source: Derivation, manager: ControllerManager, controller: Controll
 
 def _joint_states(source: Derivation, manager: ControllerManager, controller: Controller) -> Iterator[Interface]:
     for topic in source.kinds[controller.behaviour].topics if controller.behaviour in source.kinds else ():
-        if topic.direction != "publish" or topic.name != "joint_states":
+        if topic.direction != "publish" or topic.type != "sensor_msgs/msg/JointState":
             continue
         sinks = (
             _end(source, ROBOT_STATE_PUBLISHER, controller.path, SENSOR_DATA),

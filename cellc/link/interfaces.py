@@ -51,7 +51,9 @@ def _interface(
     frames: FrameNames,
 ) -> Outcome[Interface]:
     path = ("interfaces", name)
-    frame = Outcome[str](None) if written.frame is None else frames.bind(written.frame, (*path, "frame"))
+    frame: Outcome[str] = Outcome(None)
+    if written.frame is not None:
+        frame = frames.bind(written.frame, (*path, "frame"))
     source_key, sink_key = ("from", "to") if isinstance(written, TopicSpec) else ("server", "client")
     written_sources = written.from_ if isinstance(written, TopicSpec) else written.server
     written_sinks = written.to if isinstance(written, TopicSpec) else written.client

@@ -1,0 +1,113 @@
+"""A first spec for devices of the catalogue: what a new cell must say, and honest blanks for the rest."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+
+from cellc.catalog.catalog_model import Distro
+from cellc.catalog.load import CatalogDevice
+
+_UPDATE_RATE = "100 Hz"  # the controller manager's own default, for devices that accept any rate
+
+
+def starter_spec(name: str, distro: Distro, devices: Mapping[str, CatalogDevice], schema: str) -> str:
+    """Write a spec that passes every check, in the layout of a hand-written one.
+
+    Args:
+        name: name of the cell and its package.
+        devices: catalogue entries by the names they get in the cell; at least one.
+        schema: path or address of the JSON schema for the editor's modeline.
+
+    Returns:
+        YAML text that ends in a newline.
+    """
+    arms = [device for device, entry in devices.items() if entry.model.kind == "arm"]
+    grippers = [device for device, entry in devices.items() if entry.model.gripper is not None]
+    lines = [
+        f"# yaml-language-server: $schema={schema}",
+        "format: 1",
+        f"cell: {name}",
+        f"summary: {', '.join(entry.model.model for entry in devices.values())}, on the mock",
+        f"versions: {{ros: {distro}}}        # os, kernel, rmw, ros2_control, moveit, rollback: UNKNOWN blocks the real target",
+        "devices:",
+        *(line for device, entry in devices.items() for line in _device(device, entry, arms, devices)),
+        *_control(distro, devices),
+        *_motion(arms, devices),
+        "rehearsals:",
+        f"  ready: {{steps: [{', '.join(_steps(arms, grippers))}]}}",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _device(name: str, entry: CatalogDevice, arms: list[str], devices: Mapping[str, CatalogDevice]) -> Iterator[str]:
+    yield f"  {name}:"
+    yield f"    model: {entry.model.model}"
+    if name in arms:
+        # A metre apart: arms of one cell do not start inside each other.
+        yield f"    mount: {{parent: world, xyz: 0 {arms.index(name)} 0 m}}"
+    elif arms:
+        of_kind = [other for other, one in devices.items() if one.model.kind == entry.model.kind]
+        arm = arms[of_kind.index(name) % len(arms)]
+        yield f"    mount: {{parent: {arm}/{devices[arm].model.tool_frame or devices[arm].model.base}}}"
+
+
+def _control(distro: Distro, devices: Mapping[str, CatalogDevice]) -> Iterator[str]:
+    controlled = {name: entry for name, entry in devices.items() if entry.model.control is not None}
+    if not controlled:
+        return
+    rates = [rate.text for one in controlled.values() if one.model.control for rate in one.model.control.update_rates]
+    yield "control:"
+    yield f"  update_rate: {rates[0] if rates else _UPDATE_RATE}"
+    yield "  controllers:"
+    yield "    joint_states: {type: joint_state_broadcaster}"
+    for name, entry in controlled.items():
+        if entry.model.gripper is not None:
+            yield f"    {name}_action: {{type: parallel_gripper, device: {name}}}"
+        elif entry.model.kind == "arm":
+            yield f"    {name}_trajectory:"
+            yield f"      type: {_trajectory_kind(entry, distro)}"
+            yield f"      device: {name}"
+            yield "      goal_time: 1 s"
+            yield "      path_tolerance: 0.2 rad"
+            yield "      goal_tolerance: 0.01 rad"
+
+
+def _trajectory_kind(entry: CatalogDevice, distro: Distro) -> str:
+    """Prefer the device's own trajectory controller, which knows its speed scaling."""
+    for kind, own in entry.model.controllers.items():
+        if own.behaviour == "joint_trajectory" and distro in own.plugins:
+            return kind
+    return "joint_trajectory"
+
+
+def _motion(arms: list[str], devices: Mapping[str, CatalogDevice]) -> Iterator[str]:
+    if not arms:
+        return
+    yield "motion:"
+    yield "  groups:"
+    for arm in arms:
+        model = devices[arm].model
+        yield f"    {arm}_group: {{base: {arm}/{model.base}, tip: {arm}/{model.tool_frame or model.base}}}"
+    yield "  poses:"
+    yield "    home:"
+    for arm in arms:
+        yield f"      {arm}_group: {_home(devices[arm])}"
+
+
+def _home(entry: CatalogDevice) -> str:
+    home = entry.model.home or {}
+    actuated = [joint.name for joint in entry.description.joints if joint.movable and joint.mimic is None]
+    degrees = (math.degrees(home[joint].si) if joint in home else 0.0 for joint in actuated)
+    return " ".join(f"{round(value, 6):g}" for value in degrees) + " deg"
+
+
+def _steps(arms: list[str], grippers: list[str]) -> Iterator[str]:
+    if arms:
+        yield "{move: home}"
+    for gripper in grippers:
+        device = f", device: {gripper}" if len(grippers) > 1 else ""
+        yield f"{{grip: close{device}}}"
+        yield f"{{grip: open{device}}}"
+    if not arms and not grippers:
+        yield "{wait: 1 s}"

@@ -1,0 +1,65 @@
+"""``cellc init``: a new cell from device names."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import click
+
+from cellc.catalog.catalog_model import DISTROS, Distro
+from cellc.catalog.load import CatalogDevice, device_names, load_device
+from cellc.catalog.starter import starter_spec
+from cellc.diagnostics import did_you_mean
+
+
+@click.command()
+@click.argument("name")
+@click.argument("devices", nargs=-1, metavar="[DEVICE=]MODEL...")
+@click.option("--ros", type=click.Choice(DISTROS), default="jazzy", show_default=True, help="ROS 2 distribution.")
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path, dir_okay=False),
+    help="File to write; cells/NAME/cell.yaml if absent.",
+)
+@click.option("--force", is_flag=True, help="Replace a file that exists.")
+def init(name: str, devices: tuple[str, ...], ros: Distro, output: Path | None, force: bool) -> None:
+    """Write a cell NAME with the given devices, such as `cellc init bench ur5e robotiq_2f_85`.
+
+    A device is called after its kind (arm, gripper, camera) unless DEVICE= names it.
+    """
+    if not re.fullmatch(r"[a-z][a-z0-9_]+", name) or "__" in name:
+        raise click.UsageError(f"`{name}` is no package name: use lower case letters, digits and single underscores")
+    if not devices:
+        raise click.UsageError(f"name at least one model of the catalogue: {', '.join(device_names())}")
+    file = output or Path("cells") / name / "cell.yaml"
+    if file.exists() and not force:
+        raise click.UsageError(f"{file.as_posix()} exists; give --force to replace it, or -o for another file")
+    entries = _named(devices)
+    schema = "../../schemas/cell.schema.json"
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text(starter_spec(name, ros, entries, schema), encoding="utf-8", newline="\n")
+    click.echo(f"wrote {file.as_posix()}\nnext: cellc build {file.as_posix()} && cellc mock generated/{name}")
+
+
+def _named(devices: tuple[str, ...]) -> dict[str, CatalogDevice]:
+    entries: dict[str, CatalogDevice] = {}
+    for text in devices:
+        given, _, model = text.rpartition("=")
+        if model not in device_names():
+            known = did_you_mean(model, device_names(), "models of the catalogue")
+            raise click.UsageError(f"the catalogue has no model `{model}`: {known}")
+        entry = load_device(model).value
+        assert entry is not None  # package data, held valid by the catalogue's tests
+        name = given or _free_name(entry.model.kind, entries)
+        if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name) or name in entries:
+            raise click.UsageError(f"`{name}` is no device name, or is taken: use letters, digits and underscores once")
+        entries[name] = entry
+    return entries
+
+
+def _free_name(kind: str, taken: dict[str, CatalogDevice]) -> str:
+    if kind not in taken:
+        return kind
+    return next(f"{kind}_{number}" for number in range(2, len(taken) + 3) if f"{kind}_{number}" not in taken)
