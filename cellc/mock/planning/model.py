@@ -12,6 +12,7 @@ import pinocchio
 
 from cellc.mock.planning.failure import ModelError
 from cellc.mock.planning.limits import Array
+from cellc.mock.planning.mimic import Mimic, read_mimics
 from cellc.mock.planning.urdf_check import check_urdf
 from cellc.transforms import Pose
 
@@ -24,17 +25,19 @@ PinTransform = Any
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RobotModel:
-    """A URDF with its mimic joints bound and its collision shapes; never changed once read.
+    """A URDF with its mimic joints and its collision shapes; never changed once read.
 
     Attributes:
         joints: names of the independent joints of one degree of freedom, parents first, without mimic joints.
         links: names of the links in the order of pinocchio's frames.
+        mimics: joints that follow one of ``joints``; to pinocchio they are free, and every configuration sets them.
     """
 
     kinematics: PinModel
     geometry: PinGeometry
     joints: tuple[str, ...]
     links: tuple[str, ...]
+    mimics: tuple[Mimic, ...]
 
     @classmethod
     def from_urdf(cls, text: str, *, package_dirs: Iterable[str] = ()) -> RobotModel:
@@ -48,17 +51,20 @@ class RobotModel:
             ModelError: the text is no robot description, with the reason that the parser would print to stderr only.
         """
         check_urdf(text)
+        mimics = read_mimics(text)
         try:
-            model = pinocchio.buildModelFromXML(text, mimic=True)
+            model = pinocchio.buildModelFromXML(text)
             geometry = pinocchio.buildGeomFromUrdfString(
                 model, text, pinocchio.GeometryType.COLLISION, None, list(package_dirs)
             )
         except (ValueError, RuntimeError) as error:
             raise ModelError(f"pinocchio refuses the robot description: {str(error).splitlines()[0]}") from None
         names = list(model.names)
-        joints = tuple(names[index] for index in range(1, model.njoints) if model.nvs[index] == 1)
+        single = [names[index] for index in range(1, model.njoints) if model.nvs[index] == 1]
+        following = {mimic.joint for mimic in mimics}
+        joints = tuple(name for name in single if name not in following)
         links = tuple(frame.name for frame in model.frames if frame.type == pinocchio.FrameType.BODY)
-        return cls(model, geometry, joints, links)
+        return cls(model, geometry, joints, links, mimics)
 
     def frame_of(self, link: str) -> int:
         """Return pinocchio's index of a link's frame; raise ModelError where there is no such link."""
@@ -83,15 +89,17 @@ class RobotModel:
             positions: rad or metres by joint name; a mimic joint follows its joint and is not named.
         """
         vector: Array = np.array(pinocchio.neutral(self.kinematics), dtype=np.float64)
-        for joint in self.joints:
-            self.set_position(vector, joint, positions.get(joint, self._rest_of(joint)))
         for joint in positions:
             self.joint_of(joint)
+        chosen = {joint: positions.get(joint, self._rest_of(joint)) for joint in self.joints}
+        for joint, value in chosen.items():
+            self._set_position(vector, joint, value)
+        for mimic in self.mimics:
+            self._set_position(vector, mimic.joint, mimic.multiplier * chosen[mimic.leader] + mimic.offset)
         return vector
 
-    def set_position(self, vector: Array, joint: str, value: float) -> None:
-        """Write one joint into a pinocchio configuration; a continuous joint takes cosine and sine there."""
-        index = self.joint_of(joint)
+    def _set_position(self, vector: Array, joint: str, value: float) -> None:
+        index = self.kinematics.getJointId(joint)
         at = self.kinematics.idx_qs[index]
         if self.kinematics.nqs[index] == 2:
             vector[at], vector[at + 1] = math.cos(value), math.sin(value)

@@ -31,7 +31,6 @@ def check_urdf(text: str) -> None:
     for joint in joints:
         _check_joint(joint, links)
     _check_tree(joints, links)
-    _check_mimics(joints)
 
 
 def _refuse_repeated(kind: str, names: Iterable[str]) -> None:
@@ -78,21 +77,6 @@ def _refuse_cycle(link: str, parent_of: dict[str, str]) -> None:
             return
         at = parent_of[at]
     raise ModelError(f"link `{link}` is on a cycle of joints")
-
-
-def _check_mimics(joints: list[ElementTree.Element]) -> None:
-    by_name = {joint.get("name", ""): joint for joint in joints}
-    for name, joint in by_name.items():
-        mimic = joint.find("mimic")
-        if mimic is None:
-            continue
-        followed = mimic.get("joint", "")
-        if followed not in by_name:
-            raise ModelError(f"joint `{name}` mimics `{followed}`, which does not exist")
-        if by_name[followed].get("type") == "fixed":
-            raise ModelError(f"joint `{name}` mimics `{followed}`, which is fixed")
-        if by_name[followed].find("mimic") is not None:
-            raise ModelError(f"joint `{name}` mimics `{followed}`, which is itself a mimic joint")
 
 
 def _link_of(joint: ElementTree.Element, end: str) -> str:

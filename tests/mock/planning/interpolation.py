@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import perm
+
 import numpy as np
 import numpy.typing as npt
 
@@ -30,8 +32,5 @@ def derivatives_between(trajectory: TimedTrajectory, samples_per_piece: int) -> 
 
 
 def _row(at: float, order: int) -> list[float]:
-    values = []
-    for power in range(6):
-        monomial = np.polynomial.polynomial.Polynomial([0.0] * power + [1.0])
-        values.append(float(monomial.deriv(order)(at)) if order else float(monomial(at)))
-    return values
+    """Return the derivatives of the powers 0 to 5 at a place."""
+    return [perm(power, order) * at ** (power - order) if power >= order else 0.0 for power in range(6)]
