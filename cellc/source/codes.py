@@ -22,21 +22,22 @@ CODES: tuple[CodePage, ...] = (
     _page(
         "control-character",
         "the text holds a character that steers terminals or hides text",
-        "Escape sequences, text direction overrides and Unicode line separators make a reviewer see something else than "
-        "what the compiler reads. YAML itself forbids most of them.",
+        "Escape sequences, text direction overrides and Unicode line separators make a reviewer see something "
+        "else than what the compiler reads. YAML itself forbids most of them.",
         "delete the character, or write it as an escape inside double quotes",
     ),
     _page(
         "duplicate-key",
         "one key is written twice in a mapping",
-        "Most YAML readers silently keep the last one, so that a limit or an address that everybody can see in the file "
-        "is not the one in force. The same holds for a key that two included files both write.",
+        "Most YAML readers silently keep the last one, so that a limit or an address that everybody can see in the "
+        "file is not the one in force. The same holds for a key that two included files both write.",
         "delete one of the two, or rename it",
     ),
     _page(
         "empty-file",
         "the file holds no data",
-        "An empty file, or one of comments alone, describes no cell; a wrong path or an interrupted save looks the same.",
+        "An empty file, or one of comments alone, describes no cell; a wrong path or an interrupted save looks the "
+        "same.",
         "write a cell spec into it, or let `cellc init` write one that passes",
     ),
     _page(
@@ -48,8 +49,8 @@ CODES: tuple[CodePage, ...] = (
     _page(
         "file-too-large",
         "the file is larger than a spec can be",
-        f"A cell is a page or two of text. Above {MAX_FILE_BYTES // 1024**2} MiB it is a recording, a mesh or a mistake, and it "
-        "is refused before it is read into memory.",
+        f"A cell is a page or two of text. Above {MAX_FILE_BYTES // 1024**2} MiB it is a recording, a mesh or a mistake, "
+        "and it is refused before it is read into memory.",
         "name the cell spec itself, and keep recorded or generated data in files of their own",
     ),
     _page(
@@ -67,8 +68,8 @@ CODES: tuple[CodePage, ...] = (
     _page(
         "include-escape",
         "an include leads out of the folder of the spec",
-        "A spec is reviewed and shipped as one folder. A part from elsewhere on the machine is not under review, differs "
-        "between machines, and could pull in a private file. Symbolic links are followed before the place is judged.",
+        "A spec is reviewed and shipped as one folder. A part from elsewhere on the machine is not under review, "
+        "differs between machines, and could pull in a private file. Symbolic links are followed before the place is judged.",
         "move the included file into the folder of the root spec and write a relative path",
     ),
     _page(
@@ -118,8 +119,8 @@ CODES: tuple[CodePage, ...] = (
     _page(
         "number-out-of-range",
         "a number does not fit into 64 bits",
-        "ROS parameters, JSON and C++ would round or refuse it. Most often it is a serial number or a hash whose quotes "
-        "are missing.",
+        "ROS parameters, JSON and C++ would round or refuse it. Most often it is a serial number or a hash whose "
+        "quotes are missing.",
         "put it in double quotes if it is a name, or write a smaller number",
     ),
     _page(
@@ -143,7 +144,8 @@ CODES: tuple[CodePage, ...] = (
     _page(
         "tab-indentation",
         "a line is indented with a tab",
-        "YAML forbids tabs in indentation, because editors disagree on their width and with it on what belongs to what.",
+        "YAML forbids tabs in indentation, because editors disagree on their width and with it on what belongs to "
+        "what.",
         "replace the tab with spaces",
     ),
     _page(
@@ -174,8 +176,8 @@ CODES: tuple[CodePage, ...] = (
     _page(
         "yaml-tag",
         "a value carries a YAML tag",
-        "Tags such as `!!python/object` or `!secret` make the meaning depend on the program that reads the file; the type "
-        "of every field is fixed by the spec.",
+        "Tags such as `!!python/object` or `!secret` make the meaning depend on the program that reads the file; the "
+        "type of every field is fixed by the spec.",
         "remove the tag",
     ),
 )

@@ -11,6 +11,7 @@ from cellc.source.finding import finding
 from cellc.source.limits import MAX_DEPTH, MAX_FINDINGS, MAX_NODES
 from cellc.source.marks import event_span
 from cellc.source.node import Node
+from cellc.source.plain import PlainScalar
 from cellc.source.scalar import NumberOutOfRangeError, resolve
 from cellc.source.syntax import syntax_finding
 
@@ -27,7 +28,7 @@ def compose(file: str, text: str, *, pure: bool = False) -> Outcome[Node]:
             composer.take(event)
             if composer.is_hopeless:
                 break
-    except (yaml.YAMLError, ValueError, OverflowError) as error:
+    except (yaml.YAMLError, ValueError) as error:
         composer.findings.append(syntax_finding(error, file, text))
     findings = tuple(composer.findings)
     return Outcome(None if findings else composer.root, findings)
@@ -78,7 +79,7 @@ class _Composer:
             return
         self._add(node, span)
 
-    def _resolve(self, text: str, span: Span) -> None | bool | int | float | str:
+    def _resolve(self, text: str, span: Span) -> PlainScalar:
         try:
             return resolve(text)
         except NumberOutOfRangeError:
@@ -86,7 +87,7 @@ class _Composer:
             return text
 
     def _take_alias(self, event: yaml.AliasEvent) -> None:
-        span, name = self._span(event), event.anchor
+        span, name = self._span(event), event.anchor or ""
         node = self._anchors.get(name)
         if node is None:
             if any(collection.start.anchor == name for collection in self._open):
@@ -101,7 +102,7 @@ class _Composer:
         if len(self._open) >= MAX_DEPTH:
             self._stop("too-deep", f"values are nested more than {MAX_DEPTH} deep", self._span(event))
             return
-        self._anchors.pop(event.anchor, None)
+        self._anchors.pop(event.anchor or "", None)
         self._open.append(OpenCollection(event, isinstance(event, yaml.MappingStartEvent)))
 
     def _end_collection(self, event: yaml.CollectionEndEvent) -> None:

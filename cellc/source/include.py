@@ -30,7 +30,8 @@ def include_lines(root: Node) -> tuple[IncludeLine, ...] | Diagnostic:
     lines = []
     for item in items:
         if not isinstance(item.node.data, str) or not item.node.data.strip():
-            return finding("include-shape", "`include` must be a relative path or a list of them", item.place, path=(INCLUDE,))
+            message = "`include` must be a relative path or a list of them"
+            return finding("include-shape", message, item.place, path=(INCLUDE,))
         lines.append(IncludeLine(item.node.data, item.place))
     return tuple(lines)
 

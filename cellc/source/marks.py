@@ -14,6 +14,7 @@ def event_span(event: yaml.Event, file: str, lines: Sequence[str]) -> Span:
 
     Parsers end a block scalar at the start of what follows it; its span here ends with its last written character.
     """
+    assert event.start_mark is not None and event.end_mark is not None  # every event of a parser has both
     line, column = event.start_mark.line, event.start_mark.column
     if isinstance(event, yaml.CollectionStartEvent):
         return Span(file, line + 1, column + 1, line + 1, column + 2)
@@ -27,6 +28,7 @@ def event_span(event: yaml.Event, file: str, lines: Sequence[str]) -> Span:
 def flow_span(start: yaml.Event, end: yaml.Event, file: str) -> Span | None:
     """Return a collection in brackets or braces that stands on one line, else None."""
     first, last = start.start_mark, end.end_mark
+    assert first is not None and last is not None  # every event of a parser has both
     if not getattr(start, "flow_style", False) or first.line != last.line:
         return None
     return Span(file, first.line + 1, first.column + 1, last.line + 1, last.column + 1)

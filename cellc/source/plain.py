@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TypeAlias, Union
 
-PlainScalar: TypeAlias = Union[None, bool, int, float, str]
+PlainScalar: TypeAlias = Union[bool, int, float, str, None]
 
-Plain: TypeAlias = Union[None, bool, int, float, str, list["Plain"], dict[str, "Plain"]]
+Plain: TypeAlias = Union[bool, int, float, str, list["Plain"], dict[str, "Plain"], None]
 """What YAML 1.2 core can say; every mapping has string keys."""

@@ -83,7 +83,7 @@ class _Reader:
         if composed.diagnostics:
             return None
         node = composed.value
-        if node is None or not node.is_collection and node.data is None or node.data in ({}, []):
+        if node is None or node.data in (None, {}, []):
             self.findings.append(finding("empty-file", f"`{name}` holds no data", Span(name, 1, 1, 1, 1)))
             return None
         if not isinstance(node.data, dict):

@@ -11,7 +11,7 @@ from cellc.source.finding import finding
 _MEANINGS: tuple[tuple[str, str, str], ...] = (
     ("values are not allowed", "a second `: ` on one line", "quote the text if the colon belongs to it"),
     ("entries are not allowed", "a list item cannot begin here", "begin the list on a line of its own"),
-    ("could not find expected ':'", "a key without a colon", "write `key: value`, or indent the line to continue the text"),
+    ("could not find expected ':'", "a key without a colon", "write `key: value` or indent the line"),
     ("expected ',' or ']'", "the list in brackets is not closed", "add the missing `,` or `]`"),
     ("expected ',' or '}'", "the mapping in braces is not closed", "add the missing `,` or `}`"),
     ("did not find expected key", "the indentation fits no section above", "align the line with its siblings"),
@@ -19,9 +19,9 @@ _MEANINGS: tuple[tuple[str, str, str], ...] = (
     ("did not find expected '-'", "the indentation fits no list above", "align the dash with its siblings"),
     ("unexpected end of stream", "the quote is not closed", "add the missing quote"),
     ("document separator", "the quote is not closed", "add the missing quote"),
-    ("unknown escape character", "an unknown escape after `\\`", "use single quotes, where `\\` is an ordinary character"),
+    ("unknown escape character", "an unknown escape after `\\`", "use single quotes, where `\\` is text"),
     ("cannot start any token", "text cannot begin with this character", "put the text in quotes"),
-    ("expected node content", "a value is missing here", "write the value, or quote text that begins with this character"),
+    ("expected node content", "a value is missing here", "write the value, or quote text that begins with it"),
     ("expected the node content", "a value is missing here", "write the value, or quote text that begins with it"),
 )
 

@@ -14,7 +14,8 @@ from cellc.source.limits import MAX_FILE_BYTES
 _UTF16_MARKS = (b"\xff\xfe", b"\xfe\xff")
 # YAML 1.2.2, production c-printable, less what only hides text: Unicode line separators (YAML 1.1 breaks lines there,
 # 1.2 does not), text direction overrides, and a byte order mark in the middle of the text.
-_FORBIDDEN = re.compile("[^\t\n\x20-\x7e\xa0-\u2027\u202f-\u2065\u206a-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]")
+_ALLOWED = "\t\n\x20-\x7e\xa0-\u2027\u202f-\u2065\u206a-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff"
+_FORBIDDEN = re.compile(f"[^{_ALLOWED}]")
 
 
 def read_text(path: Path, name: str, place: Span) -> Outcome[str]:
