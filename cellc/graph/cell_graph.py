@@ -9,6 +9,7 @@ from cellc.cell.cell import Cell
 from cellc.graph.claims import ClaimGraph, build_claims
 from cellc.graph.data_flow import DataFlow, build_data_flow
 from cellc.graph.frame_tree import FrameTree, build_frame_tree
+from cellc.graph.model_parts import ModelParts
 from cellc.graph.network import NetworkGraph, build_network
 from cellc.graph.responsibilities import Responsibilities, build_responsibilities
 from cellc.graph.startup import StartupGraph, build_startup
@@ -43,6 +44,11 @@ class CellGraph:
     def startup(self) -> StartupGraph:
         """Which part must be ready before which."""
         return build_startup(self.cell)
+
+    @cached_property
+    def model(self) -> ModelParts:
+        """Which links and joints the descriptions of the devices have."""
+        return ModelParts(self.cell)
 
     @cached_property
     def network(self) -> NetworkGraph:

@@ -2,17 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from cellc.cell.cell import Cell
 from cellc.cell.control import Controller
 from cellc.cell.frame import FrameKind
-from cellc.cell.interface import Interface, InterfaceKind
+from cellc.cell.interface import Endpoint, Interface, InterfaceKind
 
 if TYPE_CHECKING:
     import networkx
+
+
+@dataclass(frozen=True, slots=True)
+class TopicPair:
+    """A publisher of a topic and one of its subscribers, whose QoS the middleware compares."""
+
+    topic: Interface
+    source: Endpoint
+    sink: Endpoint
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,6 +55,21 @@ class DataFlow:
             for interface in interfaces
             if interface.kind is InterfaceKind.TOPIC and any(end.node in movers for end in interface.sinks)
         )
+
+    def way_to_motion(self, interface: Interface) -> str:
+        """Write the shortest way from a topic to a controller, such as "`/pose` → `task` → `arm_trajectory`"."""
+        paths = [path for sink in interface.sinks if (path := self.path_to_motion(sink.node))]
+        shortest = min(paths, key=lambda path: (len(path), path), default=())
+        return " → ".join(f"`{name}`" for name in (interface.name, *shortest))
+
+    def topic_pairs(self) -> Iterator[TopicPair]:
+        """Yield each publisher of a topic with each of its subscribers."""
+        for interfaces in self.interfaces.values():
+            topics = [interface for interface in interfaces if interface.kind is InterfaceKind.TOPIC]
+            sources = [(topic, source) for topic in topics for source in topic.sources]
+            sinks = [sink for topic in topics for sink in topic.sinks]
+            for topic, source in sources:
+                yield from (TopicPair(topic, source, sink) for sink in sinks)
 
     def path_to_motion(self, node: str) -> tuple[str, ...]:
         """Return the shortest way from a node to a controller, both included; empty where there is none."""

@@ -1,0 +1,12 @@
+"""Every rule of cellc, family by family; a new rule is one line in the tuple of its family."""
+
+from __future__ import annotations
+
+from cellc.rule import Rule
+from cellc.rules import clocks, frames, model
+
+ALL_RULES: tuple[Rule, ...] = (
+    *model.RULES,
+    *frames.RULES,
+    *clocks.RULES,
+)

@@ -1,0 +1,54 @@
+"""Clocks may be farther apart than a sample may be old.
+
+With such an offset a sample passes the age test although it is too old, or fails it although it is fresh.
+
+Example that is reported:
+
+```yaml
+devices:
+  camera: {stamp: {source: hardware, clock: camera, synchronised_by: global_time, max_offset: 500 ms}}
+```
+
+Example that is accepted:
+
+```yaml
+devices:
+  camera: {stamp: {source: hardware, clock: camera, synchronised_by: global_time, max_offset: 2 ms}}
+```
+
+Fix: tighten the synchronisation; the offset should be a small part of the age.
+
+Source: chapter 4, section 3: measure both offset and observation age.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Related, Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield sensors whose clock offset reaches the age limit of one of their topics."""
+    for device in graph.cell.devices:
+        stamp = device.spec.stamp
+        if stamp is None or stamp.max_offset is None:
+            continue
+        limits = [
+            interface
+            for interface in graph.cell.interfaces
+            if interface.max_age_s is not None and any(end.node == device.name for end in interface.sources)
+        ]
+        shortest = min(limits, key=lambda interface: interface.max_age_s or 0.0, default=None)
+        if shortest is not None and stamp.max_offset.si >= (shortest.max_age_s or 0.0):
+            message = f"clock of `{device.name}` may be off by {stamp.max_offset.text}, `{shortest.name}` only that old"
+            related = (Related("the age is limited here", graph.cell.locate(*shortest.path, "max_age")),)
+            path = (*device.path, "stamp", "max_offset")
+            yield found(graph, path, message, "tighten the synchronisation", related)
+
+
+RULE = define("clock-offset-beyond-age", Severity.ERROR, check, __doc__)

@@ -1,0 +1,47 @@
+"""Motion goes on with data that is too old.
+
+To continue on a stale sample, or after a clock jump that makes every sample stale, is to move blindly. A timeout has
+to fail closed.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /markers: {topic: geometry_msgs/msg/PoseStamped, from: perception, to: {task: {depth: 1}}, frame: world,
+             wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: continue}
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /markers: {topic: geometry_msgs/msg/PoseStamped, from: perception, to: {task: {depth: 1}}, frame: world,
+             wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: stop_and_hold}
+```
+
+Fix: reject the goal, hold, or ignore the sample.
+
+Source: chapter 4, section 3, acceptance gate 5: controller timeouts must fail closed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield topics on which a stale sample changes nothing."""
+    for interface in graph.cell.interfaces:
+        if interface.on_stale == "continue":
+            message = f"`{interface.name}` is used although it is stale"
+            path = (*interface.path, "on_stale")
+            yield found(graph, path, message, "write `reject_goal`, `stop_and_hold` or `ignore_sample`")
+
+
+RULE = define("continues-on-stale", Severity.ERROR, check, __doc__)

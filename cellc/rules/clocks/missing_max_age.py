@@ -1,0 +1,54 @@
+"""Data that feeds motion has no age limit.
+
+A frozen camera or a stalled node keeps its last message in the queue. Without a limit the arm drives to where the
+part was, and everything looks healthy.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /markers: {topic: geometry_msgs/msg/PoseStamped, from: perception, to: {task: {depth: 1}}, frame: world,
+             wants: newest, rate: 10 Hz}
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /markers: {topic: geometry_msgs/msg/PoseStamped, from: perception, to: {task: {depth: 1}}, frame: world,
+             wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: reject_goal}
+```
+
+Fix: state `max_age` and `on_stale`.
+
+Source: chapter 4, sections 2 and 5: acceptable sample age; stale state presented as fresh is a stop condition.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.cell.interface import InterfaceKind
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield topics without an age limit from which a way leads to a controller."""
+    unlimited = [
+        interface
+        for interface in graph.cell.interfaces
+        if interface.kind is InterfaceKind.TOPIC and not interface.derived and interface.max_age_s is None
+    ]
+    feeding = graph.data.feeding_motion() if unlimited else frozenset()
+    for interface in unlimited:
+        if interface.name in feeding:
+            way = graph.data.way_to_motion(interface)
+            message = f"`{interface.name}` feeds motion, {way}, and has no `max_age`"
+            yield found(graph, interface.path, message, "state `max_age` and `on_stale`")
+
+
+RULE = define("missing-max-age", Severity.ERROR, check, __doc__)

@@ -1,0 +1,48 @@
+"""A node runs on another clock than its target.
+
+If one node takes `/clock` and another wall time, transforms extrapolate, timeouts fire early or never, and a replay
+shows something else than happened.
+
+Example that is reported:
+
+```yaml
+nodes:
+  perception: {clock: sim}
+```
+
+Example that is accepted:
+
+```yaml
+nodes:
+  perception: {clock: wall}
+```
+
+Fix: remove `clock:` from the node, so that it follows its target, or set the clock of the target.
+
+Source: chapter 4, section 3: simulation nodes that consume /clock while another uses wall time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield nodes whose clock is not that of a target that starts them."""
+    targets = {"mock": "wall", "real": "wall"}
+    for name, target in graph.cell.spec.targets.items():
+        targets[name] = target.clock or ("sim" if name == "sim" else "wall")
+    for node in graph.cell.nodes:
+        other = next((target for target, clock in targets.items() if node.clock not in (None, clock)), None)
+        if other is not None:
+            message = f"node `{node.name}` runs on {node.clock} time, target `{other}` on {targets[other]} time"
+            yield found(graph, (*node.path, "clock"), message, "remove `clock:` so that the node follows its target")
+
+
+RULE = define("mixed-clocks", Severity.ERROR, check, __doc__)

@@ -1,0 +1,54 @@
+"""Nobody says what a sensor's stamps mean.
+
+A stamp set at exposure, at the driver's read and at arrival differ by the exposure, the buffers and the cable. Paired
+with the joint states of another moment, the object moves although nothing did.
+
+Example that is reported:
+
+```yaml
+devices:
+  camera: {stamp: {source: UNKNOWN}}
+```
+
+Example that is accepted:
+
+```yaml
+devices:
+  camera: {stamp: {source: hardware}}
+```
+
+Fix: read the driver's documentation, or measure with a moving target, and write `hardware`, `driver` or `arrival`.
+
+Source: chapter 4, section 3: in a real cell, document each camera's hardware-clock domain.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.graph.responsibilities import UNKNOWN
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield cameras whose stamp source or clock domain is UNKNOWN or not stated."""
+    for device in graph.cell.devices:
+        if device.facts.kind != "camera":
+            continue
+        stamp = device.spec.stamp
+        path = (*device.path, "stamp")
+        if stamp is None or stamp.source == UNKNOWN:
+            yield found(
+                graph, (*path, "source"), f"the stamp source of `{device.name}` is UNKNOWN", "write what is stamped"
+            )
+        elif stamp.clock == UNKNOWN:
+            yield found(
+                graph, (*path, "clock"), f"the clock domain of `{device.name}` is UNKNOWN", "write whose clock it is"
+            )
+
+
+RULE = define("unknown-stamp-source", Severity.BLOCKER, check, __doc__)

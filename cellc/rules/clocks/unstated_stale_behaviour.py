@@ -1,0 +1,45 @@
+"""An age limit has no consequence.
+
+A limit that nobody acts on is a comment. What happens to an older sample has to be decided before it arrives.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /markers: {topic: geometry_msgs/msg/PoseStamped, from: perception, to: {task: {depth: 1}}, frame: world,
+             wants: newest, rate: 10 Hz, max_age: 200 ms}
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /markers: {topic: geometry_msgs/msg/PoseStamped, from: perception, to: {task: {depth: 1}}, frame: world,
+             wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: reject_goal}
+```
+
+Fix: write `on_stale: reject_goal`, `stop_and_hold` or `ignore_sample`.
+
+Source: chapter 4, section 2: each case produces a visible, bounded state.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield topics with an age limit and nothing that follows from it."""
+    for interface in graph.cell.interfaces:
+        if not interface.derived and interface.max_age_s is not None and interface.on_stale is None:
+            message = f"`{interface.name}` may be {interface.max_age_s:g} s old, but nothing happens to an older sample"
+            yield found(graph, interface.path, message, "add `on_stale:`, such as `reject_goal`")
+
+
+RULE = define("unstated-stale-behaviour", Severity.ERROR, check, __doc__)

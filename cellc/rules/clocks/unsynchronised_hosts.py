@@ -1,0 +1,50 @@
+"""Hosts exchange stamps without a bound on their clocks.
+
+A stamp from another computer is only as good as the offset between the two clocks.
+
+Example that is reported:
+
+```yaml
+hosts:
+  vision_pc: {scheduling: generic, clock: {domain: ros}}
+network: {discovery: multicast}
+```
+
+Example that is accepted:
+
+```yaml
+hosts:
+  vision_pc: {scheduling: generic, clock: {domain: ros, synchronised_by: chrony, max_offset: 1 ms}}
+network: {discovery: multicast}
+```
+
+Fix: synchronise the hosts, by PTP or chrony, and write the bound that is monitored.
+
+Source: chapter 4, sections 3 and 5: synchronize hosts; record the offset.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield hosts of a cell with several that are not synchronised within a bound."""
+    hosts = graph.cell.spec.hosts
+    if len(hosts) < 2:
+        return
+    for name, host in hosts.items():
+        if host.clock.synchronised_by is None or host.clock.max_offset is None:
+            field = "synchronised_by" if host.clock.synchronised_by is None else "max_offset"
+            message = f"the clock of host `{name}` has no stated `{field}`"
+            path = ("hosts", name, "clock", field)
+            yield found(graph, path, message, "write `synchronised_by` and `max_offset`")
+
+
+RULE = define("unsynchronised-hosts", Severity.BLOCKER, check, __doc__)

@@ -1,0 +1,51 @@
+"""A sensor has its own clock and no bound to the host's.
+
+Two clocks drift apart by seconds a day. Age limits and transform lookups then compare times that have nothing to do
+with each other.
+
+Example that is reported:
+
+```yaml
+devices:
+  camera: {stamp: {source: hardware, clock: camera, synchronised_by: null, max_offset: null}}
+```
+
+Example that is accepted:
+
+```yaml
+devices:
+  camera: {stamp: {source: hardware, clock: camera, synchronised_by: global_time, max_offset: 2 ms}}
+```
+
+Fix: say what ties the clock to the host's and how far they may be apart.
+
+Source: chapter 4, section 3: document each camera's hardware-clock domain and synchronize hosts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.graph.responsibilities import UNKNOWN
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield stamps of a clock of their own without synchronisation or without a bound."""
+    host_domains = {host.clock.domain for host in graph.cell.spec.hosts.values()} or {"ros"}
+    for device in graph.cell.devices:
+        stamp = device.spec.stamp
+        if stamp is None or stamp.source != "hardware" or stamp.clock in (UNKNOWN, *host_domains):
+            continue
+        if stamp.synchronised_by is None or stamp.max_offset is None:
+            field = "synchronised_by" if stamp.synchronised_by is None else "max_offset"
+            message = f"clock `{stamp.clock}` of `{device.name}` has no stated `{field}`"
+            path = (*device.path, "stamp", field)
+            yield found(graph, path, message, "write `synchronised_by` and `max_offset`")
+
+
+RULE = define("unsynchronised-sensor-clock", Severity.BLOCKER, check, __doc__)

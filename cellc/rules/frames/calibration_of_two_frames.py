@@ -1,0 +1,53 @@
+"""Two different transforms rest on one calibration.
+
+One id stands for one measurement. Where two frames with different parents or values name it, at least one of them
+carries a value that nobody measured, and a new revision silently changes both.
+
+Example that is reported:
+
+```yaml
+frames:
+  tray: {parent: world, xyz: 0.4 0.1 0.8 m, calibration: fixture_a}
+  bin: {parent: world, xyz: 0.1 0.5 0.8 m, calibration: fixture_a}
+```
+
+Example that is accepted:
+
+```yaml
+frames:
+  tray: {parent: world, xyz: 0.4 0.1 0.8 m, calibration: fixture_a}
+  bin: {parent: tray, xyz: 0.3 0 0 m, designed: true}
+```
+
+Fix: give each measurement its own id, or hang the second frame on the first with a designed transform.
+
+Source: chapter 4, section 3: do not silently overwrite different calibrations under the same authority.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.cell.frame import Frame
+from cellc.diagnostics import Related, Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield frames that reuse a calibration for another transform."""
+    first: dict[str, Frame] = {}
+    for frame in graph.cell.frames:
+        if frame.calibration is None:
+            continue
+        earlier = first.setdefault(frame.calibration, frame)
+        if (earlier.parent, earlier.transform_to_parent) != (frame.parent, frame.transform_to_parent):
+            message = f"calibration `{frame.calibration}` gives `{frame.name}` another pose than `{earlier.name}`"
+            related = (Related(f"first used for `{earlier.name}` here", earlier.span),)
+            path = (*frame.path, "calibration")
+            yield found(graph, path, message, "give each measurement its own calibration", related)
+
+
+RULE = define("calibration-of-two-frames", Severity.ERROR, check, __doc__)

@@ -1,0 +1,51 @@
+"""A calibration does not say how good it is.
+
+Without the number of samples and the residual, a result of 0.3 mm over 40 views and a guess look alike.
+
+Example that is reported:
+
+```yaml
+calibrations:
+  spare: {revision: 1, measured: 2026-07-02, method: touch probe, owner: perception}
+frames:
+  tray: {parent: world, calibration: spare}
+```
+
+Example that is accepted:
+
+```yaml
+calibrations:
+  spare: {revision: 1, measured: 2026-07-02, method: touch probe, samples: 5, residual: 0.3 mm, owner: perception}
+frames:
+  tray: {parent: world, calibration: spare}
+```
+
+Fix: write `samples` and `residual` of the fit.
+
+Source: chapter 4, section 3, acceptance gates 3 and 6.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.graph.responsibilities import UNKNOWN
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield calibrations without samples, residual or method."""
+    for name, calibration in graph.cell.spec.calibrations.items():
+        stated = (("method", calibration.method), ("samples", calibration.samples), ("residual", calibration.residual))
+        missing = [field for field, value in stated if value is None or value == UNKNOWN]
+        if missing:
+            fields = ", ".join(f"`{field}`" for field in missing)
+            message = f"calibration `{name}` does not state {fields}"
+            yield found(graph, ("calibrations", name), message, f"write {fields}")
+
+
+RULE = define("calibration-without-evidence", Severity.WARNING, check, __doc__)

@@ -1,0 +1,54 @@
+"""Camera data is declared in a frame that is not optical.
+
+Pixels and depths are in an optical frame: z forward, x right, y down. In the body frame of the camera the same
+numbers point sideways, and the object appears a quarter turn away.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /depth: {topic: sensor_msgs/msg/Image, from: camera, to: [perception], frame: camera/link,
+           wants: newest, rate: 30 Hz, max_age: 200 ms, on_stale: reject_goal}
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /depth: {topic: sensor_msgs/msg/Image, from: {camera: {depth: 1}}, to: {perception: {depth: 1}},
+           frame: camera/color_optical, wants: newest, rate: 30 Hz, max_age: 200 ms, on_stale: reject_goal}
+```
+
+Fix: name the optical frame of the stream.
+
+Source: REP-103, suffix frames; REP-104: the frame of camera_info is the optical frame.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+_IMAGES = ("sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage", "sensor_msgs/msg/CameraInfo")
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield image topics of a camera in a frame that is none of its optical ones."""
+    cameras = {device.name: device for device in graph.cell.devices if device.facts.optical_frames}
+    for interface in graph.cell.interfaces:
+        source = next((cameras[end.node] for end in interface.sources if end.node in cameras), None)
+        if source is None or interface.frame is None or interface.type not in _IMAGES:
+            continue
+        optical = {source.frames[name] for name in source.facts.optical_frames}
+        if interface.frame not in optical:
+            message = f"`{interface.name}` carries images in `{interface.frame}`, which is no optical frame"
+            names = ", ".join(f"`{source.name}/{name}`" for name in source.facts.optical_frames)
+            yield found(graph, (*interface.path, "frame"), message, f"use one of {names}")
+
+
+RULE = define("camera-data-in-body-frame", Severity.ERROR, check, __doc__)

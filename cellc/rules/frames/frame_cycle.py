@@ -1,0 +1,48 @@
+"""Frames hang on each other in a circle.
+
+No frame of the circle has a pose in the world, and a lookup through it never ends or fails at run time.
+
+Example that is reported:
+
+```yaml
+frames:
+  left: {parent: right, designed: true}
+  right: {parent: left, designed: true}
+```
+
+Example that is accepted:
+
+```yaml
+frames:
+  left: {parent: world, designed: true}
+  right: {parent: left, designed: true}
+```
+
+Fix: let one frame of the circle hang on the world or on a link.
+
+Source: REP-105: the frames of a robot form a tree.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield each circle once, at the frame of it that is written first."""
+    for cycle in graph.frames.cycles():
+        first = next(name for name in graph.frames.names() if name in cycle)
+        frame = graph.frames.authorities(first)[0]
+        start = cycle.index(first)
+        names = (*cycle[start:], *cycle[:start], first)
+        message = "frames hang on each other in a circle: " + " → ".join(f"`{name}`" for name in names)
+        yield found(graph, (*frame.path, "parent"), message, "let one of them hang on `world` or on a link")
+
+
+RULE = define("frame-cycle", Severity.ERROR, check, __doc__)

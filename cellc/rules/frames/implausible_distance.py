@@ -1,0 +1,51 @@
+"""A frame lies farther from its parent than any cell is long.
+
+A fixture 400 m away is 400 mm read as metres. TF, planner and viewer accept it; the goal is then out of reach for a
+reason that no message names.
+
+Example that is reported:
+
+```yaml
+frames:
+  tray: {parent: world, xyz: 400 100 850 m, calibration: fixture_a}
+```
+
+Example that is accepted:
+
+```yaml
+frames:
+  tray: {parent: world, xyz: 400 100 850 mm, calibration: fixture_a}
+```
+
+Fix: write the unit that the drawing uses; most drawings of cells are in mm.
+
+Source: chapter 4, section 3, acceptance gate 3: validate direction and scale; the bound of 20 m is larger than any
+robot cell.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+_LARGEST_CELL_M = 20.0
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield frames more than 20 m from their parent."""
+    for frame in graph.cell.frames:
+        if frame.transform_to_parent is None:
+            continue
+        distance = math.hypot(*frame.transform_to_parent.position)
+        if distance > _LARGEST_CELL_M:
+            message = f"`{frame.name}` lies {distance:g} m from `{frame.parent}`, more than {_LARGEST_CELL_M:g} m"
+            yield found(graph, (*frame.path, "xyz"), message, "check the unit: drawings of cells are usually in mm")
+
+
+RULE = define("implausible-distance", Severity.ERROR, check, __doc__)

@@ -1,0 +1,46 @@
+"""A goal asks for the latest transform.
+
+The latest transform belongs to another moment than the image: the arm, and with it a wrist camera, has moved on
+since. The error is as large as the motion in between and shows only when the robot is fast.
+
+Example that is reported:
+
+```yaml
+motion:
+  goals:
+    regrasp: {frame: object, rpy: 180 0 0 deg, transform_at: latest}
+```
+
+Example that is accepted:
+
+```yaml
+motion:
+  goals:
+    regrasp: {frame: object, rpy: 180 0 0 deg, transform_at: observation}
+```
+
+Fix: look the transform up at the stamp of the observation, which is the default.
+
+Source: chapter 4, section 3: asking for the latest transform may conceal synchronization error.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield goals that would be transformed at another time than their observation."""
+    for goal in graph.cell.goals:
+        if goal.transform_at == "latest":
+            message = f"goal `{goal.name}` asks for the latest transform of `{goal.frame}`"
+            yield found(graph, (*goal.path, "transform_at"), message, "remove the line: `observation` is the default")
+
+
+RULE = define("latest-transform", Severity.ERROR, check, __doc__)

@@ -1,0 +1,45 @@
+"""A dynamic frame states a fixed pose.
+
+The pose would never be used: the publisher sends another one. Whoever reads the file takes it for the truth.
+
+Example that is reported:
+
+```yaml
+frames:
+  part: {parent: world, xyz: 1 0 0 m, dynamic: true, published_by: perception, rate: 10 Hz}
+```
+
+Example that is accepted:
+
+```yaml
+frames:
+  part: {parent: world, dynamic: true, published_by: perception, rate: 10 Hz}
+```
+
+Fix: remove `xyz` and `rpy`; where the mock should put it stands under `simulated_pose`.
+
+Source: chapter 4, section 3: a frame has one authority.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield dynamic frames with a transform or a calibration of their own."""
+    for name, frame in graph.cell.spec.frames.items():
+        stated = (("xyz", frame.xyz), ("rpy", frame.rpy), ("calibration", frame.calibration))
+        field = next((field for field, value in stated if value is not None), None)
+        if frame.dynamic and field is not None:
+            message = f"frame `{name}` is dynamic but states `{field}`"
+            yield found(graph, ("frames", name, field), message, "remove it; the mock reads `simulated_pose`")
+
+
+RULE = define("pose-of-dynamic-frame", Severity.ERROR, check, __doc__)

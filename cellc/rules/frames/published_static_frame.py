@@ -1,0 +1,45 @@
+"""A static frame is said to be published by a node.
+
+Static frames stand in the robot description and are published once, by robot_state_publisher. A node that publishes
+the same frame is a second authority.
+
+Example that is reported:
+
+```yaml
+frames:
+  tray: {parent: world, designed: true, published_by: perception}
+```
+
+Example that is accepted:
+
+```yaml
+frames:
+  tray: {parent: world, dynamic: true, published_by: perception, rate: 5 Hz}
+```
+
+Fix: write `dynamic: true` if it moves, or remove `published_by` and `rate`.
+
+Source: chapter 4, section 3: one canonical publisher for deployed frames.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield static frames with a publisher or a rate."""
+    for name, frame in graph.cell.spec.frames.items():
+        if not frame.dynamic and (frame.published_by is not None or frame.rate is not None):
+            field = "published_by" if frame.published_by is not None else "rate"
+            message = f"frame `{name}` is static but states `{field}`"
+            yield found(graph, ("frames", name, field), message, f"write `dynamic: true`, or remove `{field}`")
+
+
+RULE = define("published-static-frame", Severity.ERROR, check, __doc__)

@@ -1,0 +1,55 @@
+"""The history of a frame is shorter than the age of what is looked up in it.
+
+A lookup at the stamp of an old but allowed sample falls before the buffer begins and fails with an extrapolation
+error, now and then, under load.
+
+Example that is reported:
+
+```yaml
+frames:
+  part: {parent: world, dynamic: true, published_by: perception, rate: 10 Hz, buffer: 100 ms}
+```
+
+Example that is accepted:
+
+```yaml
+frames:
+  part: {parent: world, dynamic: true, published_by: perception, rate: 10 Hz, buffer: 10 s}
+```
+
+Fix: make the buffer longer than the longest `max_age` of what the publisher of the frame sends, or leave it out for
+10 s.
+
+Source: chapter 4, section 3, acceptance gate 4; tf2 keeps 10 s by default.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.cell.frame import FrameKind
+from cellc.diagnostics import Related, Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield dynamic frames whose buffer ends before the oldest sample that their publisher's users may use."""
+    for frame in graph.cell.frames:
+        if frame.kind is not FrameKind.DYNAMIC or frame.buffer_s is None:
+            continue
+        for interface in graph.cell.interfaces:
+            sent = any(source.node == frame.authority for source in interface.sources)
+            if sent and interface.max_age_s is not None and interface.max_age_s > frame.buffer_s:
+                message = (
+                    f"`{frame.name}` is kept for {frame.buffer_s:g} s, "
+                    f"but samples of `{interface.name}` may be {interface.max_age_s:g} s old"
+                )
+                related = (Related("the age is allowed here", graph.cell.locate(*interface.path, "max_age")),)
+                yield found(graph, (*frame.path, "buffer"), message, "make the buffer longer", related)
+                break
+
+
+RULE = define("short-transform-buffer", Severity.ERROR, check, __doc__)

@@ -1,0 +1,52 @@
+"""The tip of a group does not hang on the arm's tool frame.
+
+Goals place the tip. A tip that branches off before the tool frame leaves out the last joints or the tool, so the
+fingers arrive somewhere else.
+
+Example that is reported:
+
+```yaml
+motion:
+  groups:
+    elbow: {base: arm/base_link, tip: arm/base}
+```
+
+Example that is accepted:
+
+```yaml
+motion:
+  groups:
+    flange: {base: arm/base_link, tip: arm/tool0}
+```
+
+Fix: use the tool frame of the arm or a frame that hangs on it.
+
+Source: draft REP-199: tools mount at tool0, child of flange.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield groups of an arm with a tip that does not come after its tool frame."""
+    arms = {
+        link.name: device for device in graph.cell.devices if device.tool_frame for link in device.description.links
+    }
+    for group in graph.cell.groups:
+        arm = arms.get(group.base_link)
+        if arm is None or arm.tool_frame is None:
+            continue
+        if arm.tool_frame not in (frame.name for frame in graph.frames.chain(group.tip_frame)):
+            message = f"tip `{group.tip_frame}` of group `{group.name}` does not hang on `{arm.tool_frame}`"
+            yield found(graph, (*group.path, "tip"), message, "use the tool frame or a frame that hangs on it")
+
+
+RULE = define("tip-off-the-tool-chain", Severity.ERROR, check, __doc__)

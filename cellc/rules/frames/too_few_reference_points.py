@@ -1,0 +1,50 @@
+"""A fixture has fewer than three known points.
+
+One or two points fit a transform that is mirrored, turned or scaled. Three points that are not in a line prove
+direction and scale before the robot goes there.
+
+Example that is reported:
+
+```yaml
+frames:
+  tray: {parent: world, calibration: fixture_a, reference_points: 2}
+```
+
+Example that is accepted:
+
+```yaml
+frames:
+  tray: {parent: world, calibration: fixture_a, reference_points: 3}
+```
+
+Fix: mark three points on the fixture, measure them, and write `reference_points: 3`.
+
+Source: chapter 4, section 3, acceptance gate 3: at least three known fixture points.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.cell.frame import FrameKind
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+_DUE = 3
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield measured frames that goals rest on, or that count points, with fewer than three."""
+    targets = {goal.frame for goal in graph.cell.goals}
+    for frame in graph.cell.frames:
+        concerned = frame.name in targets or frame.reference_points > 0
+        if frame.kind is FrameKind.FIXED and concerned and not frame.designed and frame.reference_points < _DUE:
+            message = f"`{frame.name}` has {frame.reference_points} reference points, {_DUE} are due"
+            path = (*frame.path, "reference_points")
+            yield found(graph, path, message, "measure three known points of the fixture and state their number")
+
+
+RULE = define("too-few-reference-points", Severity.BLOCKER, check, __doc__)

@@ -1,0 +1,48 @@
+"""One child frame has two authorities.
+
+tf2 keeps whatever arrived last. With two publishers for one child the frame flickers between two poses, and a grasp
+lands between them. No node reports it.
+
+Example that is reported:
+
+```yaml
+frames:
+  camera_link: {parent: world, xyz: 0 0 1 m, designed: true}
+```
+
+Example that is accepted:
+
+```yaml
+frames:
+  camera_stand: {parent: world, xyz: 0 0 1 m, designed: true}
+```
+
+Fix: rename the frame, or delete the one that repeats what another publishes.
+
+Source: chapter 4, section 3: require one publisher for every dynamic child frame; REP-105: each frame has one parent.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.cell.frame import WORLD, FrameKind
+from cellc.diagnostics import Related, Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield every edge after the first for one child frame."""
+    for name in graph.frames.names():
+        first, *others = graph.frames.authorities(name)
+        for frame in others:
+            if frame.kind is FrameKind.LINK and frame.device == first.device:
+                continue  # inside one description this is a link with two parents
+            message = f"frame `{name}` is published by `{first.authority}` and again by `{frame.authority}`"
+            related = (Related(f"`{name}` already hangs on `{first.parent or WORLD}` here", first.span),)
+            yield Finding(message, frame.span, frame.path, "rename one of the two frames, or delete it", related)
+
+
+RULE = define("two-authorities", Severity.ERROR, check, __doc__)

@@ -1,0 +1,49 @@
+"""A measured transform names no calibration.
+
+A static transform does not move during operation; that does not make it right for ever. Without a calibration id
+nobody can tell which measurement a goal rested on, nor notice that a bumped camera still uses the old one.
+
+Example that is reported:
+
+```yaml
+frames:
+  tray: {parent: world, xyz: 0.4 0.1 0.8 m}
+```
+
+Example that is accepted:
+
+```yaml
+frames:
+  tray: {parent: world, xyz: 0.4 0.1 0.8 m, calibration: fixture_a}
+```
+
+Fix: name the calibration that measured it, or write `designed: true` where the value comes from a drawing.
+
+Source: chapter 4, section 3: a bumped camera or changed tool requires a new calibration revision.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.cell.frame import FrameKind
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield fixed frames and camera mounts without a calibration."""
+    cameras = {device.name for device in graph.cell.devices if device.facts.kind == "camera"}
+    for frame in graph.cell.frames:
+        measured = frame.kind is FrameKind.FIXED or (frame.kind is FrameKind.MOUNT and frame.device in cameras)
+        if measured and not frame.designed and frame.calibration is None:
+            message = f"the pose of `{frame.name}` in `{frame.parent}` names no calibration"
+            yield found(
+                graph, frame.path, message, "add `calibration:`, or `designed: true` if it comes from a drawing"
+            )
+
+
+RULE = define("uncalibrated-frame", Severity.BLOCKER, check, __doc__)

@@ -1,0 +1,43 @@
+"""A calibration has no date.
+
+A measurement without a date cannot be compared with the day on which the camera was bumped.
+
+Example that is reported:
+
+```yaml
+calibrations:
+  fixture_a: {revision: 2, method: touch probe, samples: 5, residual: 0.3 mm, owner: perception, measured: UNKNOWN}
+```
+
+Example that is accepted:
+
+```yaml
+calibrations:
+  fixture_a: {revision: 2, method: touch probe, samples: 5, residual: 0.3 mm, owner: perception, measured: 2026-07-02}
+```
+
+Fix: write the day of the measurement as YYYY-MM-DD.
+
+Source: chapter 4, section 3: store the calibration with every goal; ISO 8601 for the date.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield calibrations whose `measured` is no date."""
+    for name, calibration in graph.cell.spec.calibrations.items():
+        if calibration.measured_on() is None:
+            message = f"calibration `{name}` was measured on `{calibration.measured}`, which is no date"
+            yield found(graph, ("calibrations", name, "measured"), message, "write the day as YYYY-MM-DD")
+
+
+RULE = define("undated-calibration", Severity.BLOCKER, check, __doc__)

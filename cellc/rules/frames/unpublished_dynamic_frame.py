@@ -1,0 +1,43 @@
+"""Nobody publishes a dynamic frame.
+
+Every lookup of the frame fails, and the goals that rest on it end in a TF failure.
+
+Example that is reported:
+
+```yaml
+frames:
+  part: {parent: world, dynamic: true, rate: 10 Hz}
+```
+
+Example that is accepted:
+
+```yaml
+frames:
+  part: {parent: world, dynamic: true, rate: 10 Hz, published_by: perception}
+```
+
+Fix: name the one node or device that publishes it.
+
+Source: chapter 4, section 3, acceptance gate 1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield dynamic frames without a publisher."""
+    for name, frame in graph.cell.spec.frames.items():
+        if frame.dynamic and frame.published_by is None:
+            message = f"dynamic frame `{name}` has no publisher"
+            yield found(graph, ("frames", name), message, "add `published_by:` with the node that broadcasts it")
+
+
+RULE = define("unpublished-dynamic-frame", Severity.ERROR, check, __doc__)

@@ -1,0 +1,61 @@
+"""A joint mimics itself, directly or through others.
+
+No joint of the circle has a position of its own. Loaders accept it; a program that follows the leader never comes to
+an end.
+
+Example that is reported:
+
+```xml
+<joint name="slide" type="prismatic">
+  <parent link="base"/> <child link="carriage"/> <axis xyz="0 0 1"/>
+  <limit lower="0" upper="0.5" velocity="1" effort="10"/>
+  <mimic joint="slide"/>
+</joint>
+```
+
+Example that is accepted:
+
+```xml
+<joint name="slide" type="prismatic">
+  <parent link="base"/> <child link="carriage"/> <axis xyz="0 0 1"/>
+  <limit lower="0" upper="0.5" velocity="1" effort="10"/>
+  <mimic joint="turn"/>
+</joint>
+```
+
+Fix: let every follower name the one joint that is driven.
+
+Source: URDF specification, element mimic.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.cell.description import Description, Joint
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield each joint from which following the leaders leads back to it."""
+    for part in graph.model.joints():
+        followed = _leaders(part.device.description, part.joint)
+        if part.joint.name in followed:
+            chain = " → ".join(f"`{name}`" for name in (part.joint.name, *followed))
+            message = f"joint `{part.joint.name}` mimics itself: {chain}"
+            yield Finding(message, part.span, part.path, "name the joint that is driven")
+
+
+def _leaders(description: Description, joint: Joint) -> list[str]:
+    followed: list[str] = []
+    leader: Joint | None = joint
+    while leader is not None and leader.mimic is not None and leader.mimic.joint not in followed:
+        followed.append(leader.mimic.joint)
+        leader = description.joint(leader.mimic.joint)
+    return followed
+
+
+RULE = define("circular-mimic", Severity.ERROR, check, __doc__)

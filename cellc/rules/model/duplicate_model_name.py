@@ -1,0 +1,50 @@
+"""Two links or two joints of a description have one name.
+
+Whoever looks the name up gets the first or the last, depending on the library; TF then shows one of two bodies.
+
+Example that is reported:
+
+```xml
+<joint name="slide" type="fixed"><parent link="arm"/> <child link="tool"/></joint>
+<joint name="slide" type="fixed"><parent link="arm"/> <child link="probe"/></joint>
+<link name="probe"/>
+```
+
+Example that is accepted:
+
+```xml
+<joint name="slide" type="fixed"><parent link="arm"/> <child link="tool"/></joint>
+<joint name="probe_mount" type="fixed"><parent link="arm"/> <child link="probe"/></joint>
+<link name="probe"/>
+```
+
+Fix: rename one of the two.
+
+Source: URDF specification: names of links and of joints are unique.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Related, Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.graph.model_parts import ModelJoint, ModelLink
+from cellc.rule import Finding
+from cellc.rules.define import define
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield the second and every later bearer of a name."""
+    seen: dict[tuple[str, str, str], ModelLink | ModelJoint] = {}
+    links = [("link", part.link.name, part) for part in graph.model.links()]
+    joints = [("joint", part.joint.name, part) for part in graph.model.joints()]
+    for kind, name, part in (*links, *joints):
+        first = seen.setdefault((part.device.name, kind, name), part)
+        if first is not part:
+            message = f"`{part.device.name}` has two {kind}s named `{name}`"
+            related = (Related(f"first {kind} `{name}` here", first.span),)
+            yield Finding(message, part.span, part.path, "rename one of the two", related)
+
+
+RULE = define("duplicate-model-name", Severity.ERROR, check, __doc__)

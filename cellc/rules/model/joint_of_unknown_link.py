@@ -1,0 +1,43 @@
+"""A joint connects a link that does not exist.
+
+The tree breaks off there: everything behind the joint is lost to TF, to the planner and to collision checks.
+
+Example that is reported:
+
+```xml
+<joint name="slide" type="fixed"><parent link="armm"/> <child link="carriage"/></joint>
+```
+
+Example that is accepted:
+
+```xml
+<joint name="slide" type="fixed"><parent link="arm"/> <child link="carriage"/></joint>
+```
+
+Fix: name links of the same description.
+
+Source: URDF specification, element joint.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity, did_you_mean
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield joints whose parent or child is no link."""
+    for part in graph.model.joints():
+        description = part.device.description
+        for role, name in (("parent", part.joint.parent), ("child", part.joint.child)):
+            if description.link(name) is None:
+                message = f"the {role} of joint `{part.joint.name}` is `{name}`, which is no link"
+                links = (link.name for link in description.links)
+                yield Finding(message, part.span, part.path, did_you_mean(name, links, "links"))
+
+
+RULE = define("joint-of-unknown-link", Severity.ERROR, check, __doc__)

@@ -1,0 +1,46 @@
+"""A link is the child of two joints.
+
+A URDF is a tree. With two parents the link has two poses, and which one a library takes depends on the order of the
+file.
+
+Example that is reported:
+
+```xml
+<joint name="slide" type="fixed"><parent link="arm"/> <child link="carriage"/></joint>
+<joint name="bridge" type="fixed"><parent link="base"/> <child link="carriage"/></joint>
+```
+
+Example that is accepted:
+
+```xml
+<joint name="slide" type="fixed"><parent link="arm"/> <child link="carriage"/></joint>
+```
+
+Fix: delete one joint; a closed chain is modelled by a mimic joint.
+
+Source: URDF specification: a robot is a tree of links.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Related, Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.graph.model_parts import ModelJoint
+from cellc.rule import Finding
+from cellc.rules.define import define
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield the second joint that ends in one link."""
+    seen: dict[tuple[str, str], ModelJoint] = {}
+    for part in graph.model.joints():
+        first = seen.setdefault((part.device.name, part.joint.child), part)
+        if first is not part:
+            message = f"link `{part.joint.child}` is the child of joints `{first.joint.name}` and `{part.joint.name}`"
+            related = (Related(f"already the child of `{first.joint.name}`", first.span),)
+            yield Finding(message, part.span, part.path, "delete one of the two joints", related)
+
+
+RULE = define("link-with-two-parents", Severity.ERROR, check, __doc__, assumes=("duplicate-model-name",))

@@ -1,0 +1,53 @@
+"""A joint mimics a joint that cannot move.
+
+A fixed joint has no position to follow. Libraries differ: one holds the follower at its offset, one frees it, one
+fails while the robot is running.
+
+Example that is reported:
+
+```xml
+<joint name="flange" type="fixed"><parent link="arm"/> <child link="tool"/></joint>
+<joint name="slide" type="prismatic">
+  <parent link="base"/> <child link="carriage"/> <axis xyz="0 0 1"/>
+  <limit lower="0" upper="0.5" velocity="1" effort="10"/>
+  <mimic joint="flange"/>
+</joint>
+```
+
+Example that is accepted:
+
+```xml
+<joint name="slide" type="prismatic">
+  <parent link="base"/> <child link="carriage"/> <axis xyz="0 0 1"/>
+  <limit lower="0" upper="0.5" velocity="1" effort="10"/>
+  <mimic joint="turn"/>
+</joint>
+```
+
+Fix: name the joint that is driven, or make the follower fixed.
+
+Source: URDF specification, element mimic.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity, did_you_mean
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield mimic joints whose leader is fixed."""
+    for part in graph.model.joints():
+        mimic = part.joint.mimic
+        leader = None if mimic is None else part.device.description.joint(mimic.joint)
+        if leader is not None and not leader.movable:
+            message = f"joint `{part.joint.name}` mimics `{leader.name}`, which is {leader.type}"
+            movable = (joint.name for joint in part.device.description.joints if joint.movable)
+            yield Finding(message, part.span, part.path, did_you_mean(leader.name, movable, "moving joints"))
+
+
+RULE = define("mimic-of-fixed-joint", Severity.ERROR, check, __doc__)

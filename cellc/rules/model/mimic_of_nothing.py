@@ -1,0 +1,52 @@
+"""A joint mimics a joint that does not exist.
+
+Nothing moves the joint. URDF libraries drop the mimic or treat the joint as free, so the finger that should follow
+stays open in one program and hangs loose in another.
+
+Example that is reported:
+
+```xml
+<joint name="slide" type="prismatic">
+  <parent link="base"/> <child link="carriage"/> <axis xyz="0 0 1"/>
+  <limit lower="0" upper="0.5" velocity="1" effort="10"/>
+  <mimic joint="turnn"/>
+</joint>
+```
+
+Example that is accepted:
+
+```xml
+<joint name="slide" type="prismatic">
+  <parent link="base"/> <child link="carriage"/> <axis xyz="0 0 1"/>
+  <limit lower="0" upper="0.5" velocity="1" effort="10"/>
+  <mimic joint="turn"/>
+</joint>
+```
+
+Fix: name a joint of the same description.
+
+Source: URDF specification, element mimic.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity, did_you_mean
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield mimic joints whose leader is missing."""
+    for part in graph.model.joints():
+        mimic = part.joint.mimic
+        description = part.device.description
+        if mimic is not None and description.joint(mimic.joint) is None:
+            message = f"joint `{part.joint.name}` mimics `{mimic.joint}`, which is no joint of `{part.device.name}`"
+            names = (joint.name for joint in description.joints)
+            yield Finding(message, part.span, part.path, did_you_mean(mimic.joint, names, "joints"))
+
+
+RULE = define("mimic-of-nothing", Severity.ERROR, check, __doc__)

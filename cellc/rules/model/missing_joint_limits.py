@@ -1,0 +1,52 @@
+"""A joint that has ends does not state its limits.
+
+URDF demands limits of revolute and prismatic joints. Where they are missing, one library refuses, one takes zero and
+one takes infinity; the planner then moves the joint into its mechanical stop.
+
+Example that is reported:
+
+```xml
+<joint name="slide" type="prismatic">
+  <parent link="base"/> <child link="carriage"/> <axis xyz="0 0 1"/>
+</joint>
+```
+
+Example that is accepted:
+
+```xml
+<joint name="slide" type="prismatic">
+  <parent link="base"/> <child link="carriage"/> <axis xyz="0 0 1"/>
+  <limit lower="0" upper="0.5" velocity="1" effort="10"/>
+</joint>
+```
+
+Fix: write `lower`, `upper`, `velocity` and `effort`, in rad or m, or declare the joint continuous.
+
+Source: URDF specification, element limit: required for revolute and prismatic joints.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield joints with ends of which a limit is not stated."""
+    for part in graph.model.joints():
+        if part.joint.type not in ("revolute", "prismatic"):
+            continue
+        limit = part.joint.limit
+        stated = {} if limit is None else {"lower": limit.lower, "upper": limit.upper, "velocity": limit.velocity}
+        missing = [name for name in ("lower", "upper", "velocity") if stated.get(name) is None]
+        if missing:
+            names = ", ".join(f"`{name}`" for name in missing)
+            message = f"{part.joint.type} joint `{part.joint.name}` does not state {names}"
+            yield Finding(message, part.span, part.path, "write `<limit>` in rad or m and per second")
+
+
+RULE = define("missing-joint-limits", Severity.ERROR, check, __doc__)

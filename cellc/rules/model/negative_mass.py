@@ -1,0 +1,46 @@
+"""A link has a mass below zero.
+
+Dynamics with a negative mass accelerate against the force. URDF libraries load it, and the error shows as an unstable
+simulation or a gravity compensation that pushes down.
+
+Example that is reported:
+
+```xml
+<link name="carriage">
+  <inertial><mass value="-1"/><inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial>
+</link>
+```
+
+Example that is accepted:
+
+```xml
+<link name="carriage">
+  <inertial><mass value="1"/><inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial>
+</link>
+```
+
+Fix: write the mass in kg, or leave `<inertial>` out for a bare frame.
+
+Source: URDF specification, element inertial; REP-103 for the unit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield links that weigh less than nothing."""
+    for part in graph.model.links():
+        inertial = part.link.inertial
+        if inertial is not None and inertial.mass < 0.0:
+            message = f"link `{part.link.name}` has a mass of {inertial.mass:g} kg"
+            yield Finding(message, part.span, part.path, "write the mass in kg, or leave `<inertial>` out")
+
+
+RULE = define("negative-mass", Severity.ERROR, check, __doc__)

@@ -1,0 +1,52 @@
+"""The axis of a moving joint is not of unit length.
+
+Some libraries normalise the axis, others multiply the joint position by its length, so that the same model moves by
+different amounts in the planner, in the viewer and in the controller.
+
+Example that is reported:
+
+```xml
+<joint name="slide" type="prismatic">
+  <parent link="base"/> <child link="carriage"/> <axis xyz="0 0 2"/>
+  <limit lower="0" upper="0.5" velocity="1" effort="10"/>
+</joint>
+```
+
+Example that is accepted:
+
+```xml
+<joint name="slide" type="prismatic">
+  <parent link="base"/> <child link="carriage"/> <axis xyz="0 0.6 0.8"/>
+  <limit lower="0" upper="0.5" velocity="1" effort="10"/>
+</joint>
+```
+
+Fix: divide the vector by its length.
+
+Source: URDF specification, element axis: the vector should be normalised.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+
+_TOLERANCE = 1e-3  # axes are often written with three or four digits
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield axes whose length is neither zero, which is another mistake, nor one."""
+    for part in graph.model.joints():
+        length = math.hypot(*part.joint.axis)
+        if part.joint.movable and length > 0.0 and abs(length - 1.0) > _TOLERANCE:
+            message = f"the axis of joint `{part.joint.name}` has length {length:g}, not 1"
+            unit = " ".join(f"{component / length:.6g}" for component in part.joint.axis)
+            yield Finding(message, part.span, part.path, f"write `{unit}` if the direction is right")
+
+
+RULE = define("non-unit-axis", Severity.ERROR, check, __doc__)

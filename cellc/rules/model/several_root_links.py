@@ -1,0 +1,43 @@
+"""A description has more than one root link.
+
+What does not hang on the mounted root is in no tree: it has no pose in the cell, so it collides with nothing and
+nobody can look it up. One public parser picks a root and is silent.
+
+Example that is reported:
+
+```xml
+<link name="stray"/>
+```
+
+Example that is accepted:
+
+```xml
+<link name="stray"/>
+<joint name="stray_mount" type="fixed"><parent link="base"/> <child link="stray"/></joint>
+```
+
+Fix: connect the link with a joint, or delete it.
+
+Source: URDF specification: a robot is a tree of links with one root.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield every root but the one that is mounted."""
+    for part in graph.model.links():
+        root = part.device.root_link
+        if part.link.name != root and part.link.name in part.device.description.roots():
+            message = f"link `{part.link.name}` hangs on nothing; the root of `{part.device.name}` is `{root}`"
+            yield Finding(message, part.span, part.path, "connect it with a joint, or delete it")
+
+
+RULE = define("several-root-links", Severity.ERROR, check, __doc__, assumes=("joint-of-unknown-link",))

@@ -1,0 +1,48 @@
+"""A moving joint has an axis of length zero.
+
+The joint has no direction to move in. URDF libraries load it; kinematics then yields NaN or a joint that stands still
+while its position counts up.
+
+Example that is reported:
+
+```xml
+<joint name="slide" type="prismatic">
+  <parent link="base"/> <child link="carriage"/> <axis xyz="0 0 0"/>
+  <limit lower="0" upper="0.5" velocity="1" effort="10"/>
+</joint>
+```
+
+Example that is accepted:
+
+```xml
+<joint name="slide" type="prismatic">
+  <parent link="base"/> <child link="carriage"/> <axis xyz="0 0 1"/>
+  <limit lower="0" upper="0.5" velocity="1" effort="10"/>
+</joint>
+```
+
+Fix: write the unit vector along which, or about which, the joint moves, in the joint frame.
+
+Source: URDF specification, element axis: the vector should be normalised.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield joints that have no direction."""
+    for part in graph.model.joints():
+        if part.joint.movable and math.hypot(*part.joint.axis) == 0.0:
+            message = f"joint `{part.joint.name}` is {part.joint.type} but its axis is `0 0 0`"
+            yield Finding(message, part.span, part.path, "write a unit vector in the joint frame, such as `0 0 1`")
+
+
+RULE = define("zero-axis", Severity.ERROR, check, __doc__)

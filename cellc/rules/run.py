@@ -1,0 +1,39 @@
+"""Runs the rules over a cell."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Diagnostic
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Rule
+from cellc.rules.all_rules import ALL_RULES
+
+
+def run_rules(graph: CellGraph, rules: tuple[Rule, ...] = ALL_RULES) -> tuple[Diagnostic, ...]:
+    """Return what every rule finds, sorted by place.
+
+    A rule is skipped where a code that it assumes absent was reported, so that one cause gives one finding. Rules
+    are run in the order given, except that those with assumptions come after those without.
+    """
+    diagnostics: list[Diagnostic] = []
+    reported: set[str] = set()
+    for rule in sorted(rules, key=lambda rule: bool(rule.assumes)):
+        if reported.isdisjoint(rule.assumes):
+            found = list(_diagnostics(rule, graph))
+            diagnostics += found
+            reported.update(diagnostic.code for diagnostic in found)
+    return tuple(sorted(diagnostics, key=Diagnostic.sort_key))
+
+
+def _diagnostics(rule: Rule, graph: CellGraph) -> Iterator[Diagnostic]:
+    for found in rule.check(graph):
+        yield Diagnostic(
+            code=rule.code,
+            severity=rule.severity,
+            message=found.message,
+            span=found.span,
+            yaml_path=found.path,
+            help=found.help,
+            related=found.related,
+        )
