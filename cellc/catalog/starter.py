@@ -29,7 +29,7 @@ def starter_spec(name: str, distro: Distro, devices: Mapping[str, CatalogDevice]
         "format: 1",
         f"cell: {name}",
         f"summary: {', '.join(entry.model.model for entry in devices.values())}, on the mock",
-        f"versions: {{ros: {distro}}}        # os, kernel, rmw, ros2_control, moveit, rollback: UNKNOWN blocks the real target",
+        f"versions: {{ros: {distro}}}        # what is missing here is UNKNOWN and blocks the real target",
         "devices:",
         *(line for device, entry in devices.items() for line in _device(device, entry, arms, devices)),
         *_control(distro, devices),
@@ -49,7 +49,8 @@ def _device(name: str, entry: CatalogDevice, arms: list[str], devices: Mapping[s
     elif arms:
         of_kind = [other for other, one in devices.items() if one.model.kind == entry.model.kind]
         arm = arms[of_kind.index(name) % len(arms)]
-        yield f"    mount: {{parent: {arm}/{devices[arm].model.tool_frame or devices[arm].model.base}}}"
+        aside = ", xyz: 0 -70 30 mm" if entry.model.camera is not None else ""
+        yield f"    mount: {{parent: {arm}/{devices[arm].model.tool_frame or devices[arm].model.base}{aside}}}"
 
 
 def _control(distro: Distro, devices: Mapping[str, CatalogDevice]) -> Iterator[str]:

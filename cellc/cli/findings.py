@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Sequence
 
@@ -9,9 +10,10 @@ import click
 
 from cellc.diagnostics import Severity
 from cellc.pipeline import Checked
-from cellc.report.colour import use_colour
+from cellc.report.colour import wants_colour
 from cellc.report.json_report import render_json
-from cellc.report.text_report import render_text, summary
+from cellc.report.summary import summary
+from cellc.report.text_report import render_text
 
 FORMAT = click.option(
     "--format",
@@ -37,11 +39,11 @@ def show_findings(checked: Sequence[Checked], output_format: str) -> None:
     if output_format == "json":
         click.echo(render_json([d for one in checked for d in one.diagnostics]), nl=False)
         return
-    colour = use_colour(sys.stdout)
+    colour = wants_colour(sys.stdout, os.environ)
     for one in checked:
         if one.diagnostics:
-            click.echo(render_text(one.diagnostics, one.texts, colour=colour), nl=False)
-        click.echo(summary(one.diagnostics, one.file, colour=colour))
+            click.echo(render_text(one.diagnostics, one.texts, colour=colour), color=colour)
+        click.echo(summary(one.diagnostics, [one.file], colour=colour), color=colour)
 
 
 def finish(checked: Sequence[Checked], fail_on: str) -> None:

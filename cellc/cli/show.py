@@ -1,0 +1,55 @@
+"""``cellc show``: the value that cellc uses, and where it came from."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+import click
+
+from cellc.cli.findings import show_findings
+from cellc.diagnostics import did_you_mean
+from cellc.pipeline import check
+from cellc.report.colour import wants_colour
+from cellc.report.resolved import Leaf, Tree, flatten, resolved_tree
+
+
+@click.command()
+@click.argument("file", type=click.Path(path_type=str))
+@click.argument("path", required=False, default="")
+def show(file: str, path: str) -> None:
+    """Show the resolved value at PATH of the cell in FILE, such as `devices.arm.joints`, and where it came from.
+
+    Without PATH the sections are listed.
+    """
+    checked = check(file)
+    if checked.graph is None:
+        show_findings([checked], "text")
+        raise click.exceptions.Exit(1)
+    tree = resolved_tree(checked.graph.cell)
+    if not path:
+        click.echo("\n".join(tree))
+        return
+    leaves = list(flatten(_at(tree, path), path))
+    colour = wants_colour(sys.stdout, os.environ)
+    if not leaves:
+        click.echo(f"`{path}` is empty")
+    width = max((len(name) for name, _ in leaves), default=0)
+    for name, leaf in leaves:
+        origin = click.style(f"  # {leaf.origin}", dim=True) if colour else f"  # {leaf.origin}"
+        click.echo(f"{name:<{width}}  {leaf.text}{origin}", color=colour)
+
+
+def _at(tree: Tree, path: str) -> Tree:
+    """Walk down a dotted path; keys may hold dots themselves, so the longest key that fits is taken."""
+    rest = path
+    while rest:
+        if isinstance(tree, Leaf):
+            raise click.UsageError(f"`{path}` goes on below a value; there is nothing at `{rest}`")
+        keys = [key for key in tree if rest == key or rest.startswith(f"{key}.")]
+        if not keys:
+            wanted = rest.partition(".")[0]
+            raise click.UsageError(f"there is no `{wanted}` in `{path}`: {did_you_mean(wanted, tree, 'names here')}")
+        key = max(keys, key=len)
+        tree, rest = tree[key], rest[len(key) + 1 :]
+    return tree

@@ -1,0 +1,81 @@
+"""What linking reports: references that nothing has, and choices that the catalogue does not offer."""
+
+from __future__ import annotations
+
+from cellc.diagnostics import Severity
+from cellc.diagnostics.page import CodePage
+
+
+def _page(code: str, title: str, why: str, fix: str) -> CodePage:
+    return CodePage(code=code, severity=Severity.ERROR, title=title, why=why, fix=fix)
+
+
+def _unknown(code: str, thing: str, where: str) -> CodePage:
+    return _page(
+        code,
+        f"a reference names a {thing} that does not exist",
+        f"Names are references: {where}. ROS itself would start and wait for ever for a name that nothing has, so a "
+        "misspelt one is found here, with the nearest names that exist.",
+        f"name an existing {thing}, or declare it",
+    )
+
+
+CODES: tuple[CodePage, ...] = (
+    _unknown("unknown-calibration", "calibration", "a measured transform names an entry of `calibrations`"),
+    _unknown("unknown-controller", "controller", "switches and faults name controllers of the cell"),
+    _unknown("unknown-device", "device", "controllers, steps and faults name entries of `devices`"),
+    _unknown("unknown-frame", "frame", "a frame is `world`, an entry of `frames` or `scene`, or `device/link`"),
+    _unknown("unknown-goal", "pose or goal", "a `move` step names an entry of `motion.poses` or `motion.goals`"),
+    _unknown("unknown-group", "planning group", "poses and goals belong to an entry of `motion.groups`"),
+    _unknown("unknown-host", "host", "nodes, managers and connections name entries of `hosts`"),
+    _unknown("unknown-joint", "joint", "a joint is `device/joint`, with the joint's name in its description"),
+    _unknown("unknown-model", "model", "a device names an entry of the catalogue, or a folder with a device.yaml"),
+    _unknown("unknown-nic", "network card", "a connection names a card of its host"),
+    _unknown("unknown-node", "node", "interfaces, frames and clients name nodes, devices or controllers"),
+    _unknown("unknown-rehearsal", "rehearsal", "`use` names another entry of `rehearsals`"),
+    _page(
+        "controller-not-in-distro",
+        "the pinned distribution has no plugin for this kind of controller",
+        "Controllers come and go between distributions: the generic gripper controller is gone from Kilted, parallel "
+        "grippers came with Jazzy. The controller manager would refuse to load an unknown type.",
+        "choose a kind that the pinned distribution has",
+    ),
+    _page(
+        "controller-without-device",
+        "a controller that drives joints names no device",
+        "Joints and claims follow from the device. Without one the controller would have an empty list of joints, which "
+        "the controller manager refuses.",
+        "add `device:` to the controller",
+    ),
+    _page(
+        "not-a-chain",
+        "the tip of a planning group does not hang on its base",
+        "A group is the chain of joints between two links. Where the tip is not below the base there is no chain, and "
+        "MoveIt would drop the group with a line in its log.",
+        "name a tip whose parents lead to the base link",
+    ),
+    _page(
+        "not-an-executable",
+        "`run` is not a package and an executable",
+        "The launch file needs both to start a node.",
+        "write `package/executable`",
+    ),
+    _page(
+        "rehearsal-cycle",
+        "rehearsals use each other's steps in a circle",
+        "Following `use` would never reach a list of steps.",
+        "give one of them its own `steps`",
+    ),
+    _page(
+        "unknown-controller-kind",
+        "a controller is of a kind that neither the catalogue nor its device has",
+        "The plugin, the claims and the action follow from the kind.",
+        "use a kind of the catalogue",
+    ),
+    _page(
+        "unknown-distro",
+        "the version tuple names a ROS 2 distribution that cellc does not know",
+        "Plugins, parameters and their defaults differ between distributions; without one nothing can be generated.",
+        "pin humble, jazzy, kilted or lyrical",
+    ),
+)

@@ -1,0 +1,185 @@
+"""The resolved cell as a tree of values, each with where it came from: spec line, catalogue, or default."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, fields, is_dataclass
+from enum import Enum
+from typing import Union
+
+from pydantic import BaseModel
+
+from cellc.cell.cell import Cell
+from cellc.cell.control import Controller
+from cellc.cell.device import Device, DeviceJoint
+from cellc.cell.entity import Entity
+from cellc.cell.frame import Frame
+from cellc.diagnostics import YamlPath
+from cellc.spec.quantity import Quantity, QuantityVector
+from cellc.transforms import Pose
+
+Tree = Union["Leaf", dict[str, "Tree"]]
+
+# Fields that a reader of `show` does not ask for: bookkeeping, and the raw forms behind the resolved values.
+_HIDDEN = {"name", "path", "span", "spec", "facts", "description", "document"}
+# Resolved field → key that the user writes, where dropping the unit's suffix does not give it.
+_KEYS = {
+    "transform_to_parent": "xyz",
+    "transform_root_to_parent": "mount",
+    "parent_frame": "mount",
+    "transform_tip_to_frame": "xyz",
+    "base_link": "base",
+    "tip_frame": "tip",
+    "authority": "published_by",
+    "size": "box",
+    "package": "run",
+    "executable": "run",
+    "kind": "type",
+    "velocity": "limits",
+    "acceleration": "limits",
+}
+_FROM_CATALOGUE = {
+    Device: {"root_link", "frames", "joints", "hardware", "tool_frame"},
+    Controller: {"behaviour", "plugin", "joints", "command_interfaces", "state_interfaces", "action", "action_type"},
+    Frame: {"parent", "transform_to_parent", "kind", "moving", "device"},
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Leaf:
+    """One value as text, and its origin."""
+
+    text: str
+    origin: str
+
+
+def resolved_tree(cell: Cell) -> dict[str, Tree]:
+    """Return the whole cell under the keys that the spec uses."""
+    spec = cell.spec
+    tree: dict[str, Tree] = {"cell": Leaf(cell.name, _written(cell, ("cell",)))}
+    for section in ("versions", "hosts", "network", "calibrations"):
+        tree[section] = _spec_tree(cell, getattr(spec, section), (section,))
+    tree |= {
+        "devices": _entities(cell, cell.devices),
+        "frames": _entities(cell, cell.frames),
+        "scene": _entities(cell, cell.scene),
+        "nodes": {node.full_name.lstrip("/"): _entity(cell, node) for node in cell.nodes},
+        "interfaces": _entities(cell, cell.interfaces),
+        "managers": _entities(cell, cell.managers),
+        "controllers": _entities(cell, cell.controllers),
+    }
+    tree["motion"] = {
+        "groups": _entities(cell, cell.groups),
+        "poses": {f"{pose.name}.{pose.group}": _entity(cell, pose) for pose in cell.poses},
+        "goals": _entities(cell, cell.goals),
+    }
+    tree["rehearsals"] = _entities(cell, cell.rehearsals)
+    for section in ("owners", "safety", "bringup", "kpis", "recording", "targets"):
+        tree[section] = _spec_tree(cell, getattr(spec, section), (section,))
+    return tree
+
+
+def _entities(cell: Cell, entities: tuple[Entity, ...]) -> Tree:
+    return {entity.name: _entity(cell, entity) for entity in entities}
+
+
+def _entity(cell: Cell, entity: Entity) -> Tree:
+    tree: dict[str, Tree] = {}
+    for field in fields(entity):
+        value = getattr(entity, field.name)
+        if field.name in _HIDDEN or value is None or value == ():
+            continue
+        tree[field.name] = _value(cell, value, _origin(cell, entity, field.name), (*entity.path, field.name))
+    if isinstance(entity, Device):
+        tree |= _device_identity(cell, entity)
+    return tree
+
+
+def _device_identity(cell: Cell, device: Device) -> dict[str, Tree]:
+    """Return what the user states of a device and nothing binds: versions, connection, stamp, payload."""
+    stated = _spec_tree(cell, device.spec, device.path)
+    assert isinstance(stated, dict)
+    return {key: value for key, value in stated.items() if key not in ("mount", "prefix")}
+
+
+def _value(cell: Cell, value: object, origin: str, path: YamlPath) -> Tree:
+    if isinstance(value, tuple) and value and all(isinstance(item, Entity) for item in value):
+        return {f"{item.name or index}": _entity(cell, item) for index, item in enumerate(value)}
+    if isinstance(value, Mapping):
+        return {str(key): _value(cell, item, origin, path) for key, item in value.items()}
+    if isinstance(value, tuple) and value and all(is_dataclass(item) for item in value):
+        return {str(index): _value(cell, item, origin, path) for index, item in enumerate(value)}
+    if is_dataclass(value) and not isinstance(value, (Pose, Quantity, QuantityVector, type)):
+        shown = (field.name for field in fields(value) if field.name not in ("path", "span"))
+        return {name: _value(cell, getattr(value, name), origin, path) for name in shown}
+    return Leaf(_text(value), origin)
+
+
+def _spec_tree(cell: Cell, value: object, path: YamlPath) -> Tree:
+    if isinstance(value, BaseModel):
+        names = {name: field.alias or name for name, field in type(value).model_fields.items()}
+        return {key: _spec_tree(cell, getattr(value, name), (*path, key)) for name, key in names.items()}
+    if isinstance(value, Mapping):
+        return {str(key): _spec_tree(cell, item, (*path, key)) for key, item in value.items()}
+    return Leaf(_text(value), _written(cell, path))
+
+
+def _written(cell: Cell, path: YamlPath) -> str:
+    if not cell.document.has(path):
+        return "default"
+    span = cell.document.locate(path)
+    return f"{span.file}:{span.line}"
+
+
+def _origin(cell: Cell, entity: Entity, field: str) -> str:
+    key = _KEYS.get(field) or field.removesuffix("_hz").removesuffix("_s")
+    path = (*entity.path, key)
+    catalogue = f"catalogue {_catalogue_entry(cell, entity)}"
+    if isinstance(entity, DeviceJoint):
+        tightened = key == "limits" and cell.document.has((*path, field))
+        return f"{_written(cell, (*path, field))} of {catalogue}" if tightened else catalogue
+    if cell.document.has(path):
+        return _written(cell, path)
+    known = next((names for kind, names in _FROM_CATALOGUE.items() if isinstance(entity, kind)), set[str]())
+    derived = field in known or getattr(entity, "derived", False)
+    return catalogue if derived else "default"
+
+
+def _catalogue_entry(cell: Cell, entity: Entity) -> str:
+    if isinstance(entity, Controller):
+        return f"controllers/{entity.kind}"
+    device = next((one for one in cell.devices if entity.path[:2] == one.path), None)
+    return "interfaces" if device is None else f"devices/{device.facts.model}"
+
+
+def _text(value: object) -> str:
+    if isinstance(value, Pose):
+        xyz = " ".join(_number(part) for part in value.position)
+        rpy = " ".join(_number(math.degrees(part)) for part in value.rpy())
+        return f"xyz {xyz} m, rpy {rpy} deg"
+    if isinstance(value, (Quantity, QuantityVector)):
+        return value.text
+    if isinstance(value, Enum):
+        return str(value.value)
+    if isinstance(value, bool) or value is None:
+        return {True: "true", False: "false", None: "none"}[value]
+    if isinstance(value, float):
+        return _number(value)
+    if isinstance(value, tuple):
+        return "[" + ", ".join(_text(item) for item in value) + "]"
+    return str(value)
+
+
+def _number(value: float) -> str:
+    """Write a number for reading: nine digits, so that rounding of the last bits does not show."""
+    return f"{value + 0.0:.9g}"
+
+
+def flatten(tree: Tree, prefix: str = "") -> Iterator[tuple[str, Leaf]]:
+    """Yield the leaves with their dotted paths, in order."""
+    if isinstance(tree, Leaf):
+        yield prefix, tree
+        return
+    for key, value in tree.items():
+        yield from flatten(value, f"{prefix}.{key}" if prefix else key)
