@@ -17,15 +17,13 @@ from xml.dom import minidom
 
 import xacro
 
+from cellc.catalog.expansion_limits import MAX_ELEMENTS, MAX_INCLUDE_DEPTH, MAX_MACRO_DEPTH
 from cellc.catalog.package_search import find_package, searched_folders
 from cellc.catalog.xacro_expression import evaluate, functions
 from cellc.catalog.xacro_files import ConfinedFiles, XacroRefusedError
 from cellc.catalog.xml_tree import XmlElement, read_xml
 from cellc.diagnostics import Span
 
-MAX_MACRO_DEPTH = 100
-MAX_INCLUDE_DEPTH = 32
-MAX_ELEMENTS = 200_000
 _PLACE = "cellc-place"
 _SUBSTITUTION = re.compile(r"\$\((\w+)\s*(.*?)\s*\)", re.DOTALL)
 

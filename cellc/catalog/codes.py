@@ -1,0 +1,186 @@
+"""Every code that reading descriptions and the catalogue can report, with its documentation page."""
+
+from __future__ import annotations
+
+from cellc.catalog.expansion_limits import MAX_ELEMENTS, MAX_INCLUDE_DEPTH, MAX_MACRO_DEPTH
+from cellc.catalog.xml_tree import MAX_BYTES, MAX_DEPTH
+from cellc.diagnostics import Severity
+from cellc.diagnostics.page import CodePage
+
+
+def _page(code: str, title: str, why: str, fix: str, severity: Severity = Severity.ERROR) -> CodePage:
+    return CodePage(code, severity, title, why, fix)
+
+
+_XML = (
+    _page(
+        "xml-entities",
+        "a description declares a document type",
+        "A document type can define entities that expand to gigabytes or pull in files of the machine. No robot description "
+        "needs one.",
+        "remove the `<!DOCTYPE …>` declaration",
+    ),
+    _page(
+        "xml-not-well-formed",
+        "a description is not well-formed XML",
+        "No tool can read it: a tag is not closed, an attribute has no quotes, or the file is something else.",
+        "close or quote what the message names",
+    ),
+    _page(
+        "xml-too-deep",
+        f"elements are nested deeper than {MAX_DEPTH} levels",
+        "A robot description nests five or six levels; deeper files exhaust the stack of whoever reads them.",
+        "check that the file is a robot description",
+    ),
+    _page(
+        "xml-too-large",
+        f"a description is larger than {MAX_BYTES // 2**20} MiB",
+        "A description of text is a few hundred kilobytes. More is a mesh or a mistake.",
+        "keep meshes in files of their own",
+    ),
+)
+_URDF = (
+    _page(
+        "urdf-bad-geometry",
+        "a geometry holds no shape, several, or one that URDF does not know",
+        "Parsers skip such a shape, and the link is then invisible to collision checking.",
+        "write one of `box`, `cylinder`, `sphere` or `mesh`",
+    ),
+    _page(
+        "urdf-bad-number",
+        "a number is malformed, not finite, or the count of numbers is wrong",
+        "Parsers of robot descriptions read `nan`, `1,5` or a missing third number in different ways, some silently as zero.",
+        "write finite numbers with a decimal point, in m, kg and rad",
+    ),
+    _page(
+        "urdf-missing-attribute",
+        "an element lacks an attribute that URDF demands",
+        "The element cannot be bound to anything; most parsers refuse the whole file with one line on stderr.",
+        "add the attribute",
+    ),
+    _page(
+        "urdf-missing-element",
+        "an element lacks a child that URDF demands",
+        "A joint without a parent or an inertia without a mass has no meaning; parsers refuse the whole file.",
+        "add the element",
+    ),
+    _page(
+        "urdf-not-a-robot",
+        "the root element is not `<robot>`",
+        "The file is XML of another kind: a launch file, an SDF world, an SRDF fragment.",
+        "name a URDF or xacro file whose root is `<robot>`",
+    ),
+    _page(
+        "urdf-not-expanded",
+        "a URDF still holds xacro elements",
+        "Consumers of URDF ignore elements that they do not know, so whatever the macros hold would be missing from the robot.",
+        "name the file `….xacro` so that it is expanded first",
+    ),
+    _page(
+        "urdf-unknown-joint-type",
+        "a joint has a type that URDF does not know",
+        "Parsers refuse the whole file for it.",
+        "use `revolute`, `continuous`, `prismatic`, `fixed`, `floating` or `planar`",
+    ),
+)
+_XACRO = (
+    _page(
+        "xacro-bad-yaml",
+        "a parameter file of a description is not plain YAML",
+        "Aliases can expand to far more than the file holds, and other tags can stand for anything.",
+        "write plain values, and units as xacro's own tags",
+    ),
+    _page(
+        "xacro-failed",
+        "xacro cannot expand the description",
+        "What xacro says stands in the message: an unknown macro, a missing parameter, an expression that fails.",
+        "mend the line that is marked",
+    ),
+    _page(
+        "xacro-file-not-found",
+        "a file of a description does not exist or cannot be read",
+        "Includes are looked for beside the file that includes them.",
+        "check the path and its spelling",
+    ),
+    _page(
+        "xacro-missing-argument",
+        "a description asks for an argument that nobody gave",
+        "It has no default, so the description cannot be expanded.",
+        "give the argument a value, or a default in `<xacro:arg>`",
+    ),
+    _page(
+        "xacro-not-text",
+        "a file of a description is not UTF-8 text",
+        "It may be a mesh, an archive or text in an old encoding, which other tools would read differently.",
+        "save it as UTF-8",
+    ),
+    _page(
+        "xacro-outside-root",
+        "a description reaches for a file outside of its folder",
+        "What is built must come from what was reviewed. A file elsewhere on the machine is not under review, differs between "
+        "machines, and could be a private one. Symbolic links are followed before the place is judged.",
+        "copy the file beside the description",
+    ),
+    _page(
+        "xacro-package-not-found",
+        "`$(find PACKAGE)` names a package that does not lie beside the spec",
+        "Packages installed on the machine are left out on purpose, so that a build depends on nothing that the spec's folder "
+        "does not hold. The message lists the folders that were searched.",
+        "put the package, or a link-free copy of its description, in one of the folders searched",
+    ),
+    _page(
+        "xacro-refused-expression",
+        "an expression does more than compute a value",
+        "xacro evaluates `${…}` as Python. A description is data: attributes with underscores, comprehensions, huge powers and "
+        "functions beyond arithmetic are refused, so that no description can run a program or exhaust the machine.",
+        "use numbers, texts, lists and the functions that xacro documents",
+    ),
+    _page(
+        "xacro-refused-substitution",
+        "`$(…)` asks for the environment, the current folder or an evaluation",
+        "The same description would then give different robots on different machines.",
+        "use `$(arg NAME)`, `$(find PACKAGE)`, `$(dirname)` or `${…}`",
+    ),
+    _page(
+        "xacro-too-large",
+        "an expansion does not end within its bounds",
+        f"At most {MAX_INCLUDE_DEPTH} nested includes, {MAX_MACRO_DEPTH} nested macros, {MAX_ELEMENTS} elements, "
+        f"{MAX_BYTES // 2**20} MiB and ten seconds. More is a macro or an include that calls itself.",
+        "look for a macro or an include that calls itself",
+    ),
+    _page(
+        "xacro-unknown-argument",
+        "a value is given for an argument that the description does not declare",
+        "xacro would ignore it without a word, and the robot would silently be the default one.",
+        "remove it, or name one that the description declares",
+    ),
+    _page(
+        "xacro-warning",
+        "xacro warns while it expands the description",
+        "The expansion goes on, but something in it is ignored or redefined.",
+        "mend what the message names",
+        Severity.WARNING,
+    ),
+)
+_CATALOGUE = (
+    _page(
+        "catalogue-entry-invalid",
+        "a `device.yaml` is not what the catalogue expects",
+        "Everything derived from the device rests on it: joints, interfaces, versions, limits.",
+        "mend the value that is marked; CONTRIBUTING.md walks through a device",
+    ),
+    _page(
+        "unknown-controller-kind",
+        "the catalogue has no controller kind of that name",
+        "Plugin, claims and parameters of a controller come from its kind.",
+        "use a kind that the catalogue or the device lists",
+    ),
+    _page(
+        "unknown-device",
+        "the catalogue has no device of that name",
+        "Joints, frames, limits and interfaces of a device come from its entry.",
+        "use a device that the catalogue lists, or name a folder with your own `device.yaml`",
+    ),
+)
+
+CODES: tuple[CodePage, ...] = (*_CATALOGUE, *_URDF, *_XACRO, *_XML)

@@ -1,0 +1,232 @@
+"""The descriptions of the catalogue against published figures and physics."""
+
+from __future__ import annotations
+
+import math
+import os
+import subprocess
+import sys
+from itertools import combinations
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+import pinocchio
+import pytest
+
+from cellc.catalog.expansion import expand_here
+from cellc.catalog.load import CATALOGUE, device_names, load_device
+from cellc.cell.description import Description, Inertial, Joint
+
+Matrix = npt.NDArray[np.float64]
+
+# Classic DH of the arm as the vendor publishes it: a, alpha, d; theta is the joint.
+PI = math.pi
+UR5E_DH = (
+    (0.0, PI / 2, 0.1625),
+    (-0.425, 0.0, 0.0),
+    (-0.3922, 0.0, 0.0),
+    (0.0, PI / 2, 0.1333),
+    (0.0, -PI / 2, 0.0997),
+    (0.0, 0.0, 0.0996),
+)
+UR5E_JOINTS = (
+    "shoulder_pan_joint",
+    "shoulder_lift_joint",
+    "elbow_joint",
+    "wrist_1_joint",
+    "wrist_2_joint",
+    "wrist_3_joint",
+)
+
+
+def _description(name: str) -> Description:
+    device = load_device(name).value
+    assert device is not None
+    return device.description
+
+
+def _dh(a: float, alpha: float, d: float, theta: float) -> Matrix:
+    ct, st, ca, sa = math.cos(theta), math.sin(theta), math.cos(alpha), math.sin(alpha)
+    return np.array(
+        [[ct, -st * ca, st * sa, a * ct], [st, ct * ca, -ct * sa, a * st], [0, sa, ca, d], [0, 0, 0, 1]], dtype=float
+    )
+
+
+def _axis_rotation(axis: tuple[float, float, float], angle: float) -> Matrix:
+    # Rodrigues' formula.
+    x, y, z = axis
+    k = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]], dtype=float)
+    result = np.eye(4)
+    result[:3, :3] = np.eye(3) + math.sin(angle) * k + (1 - math.cos(angle)) * k @ k
+    return result
+
+
+def _joint_transform(joint: Joint, angle: float) -> Matrix:
+    x, y, z, w = joint.pose.quaternion
+    fixed = np.eye(4)
+    fixed[:3, :3] = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+    ]
+    fixed[:3, 3] = joint.pose.position
+    return fixed @ _axis_rotation(joint.axis, angle)
+
+
+def _transform(description: Description, root: str, tip: str, positions: dict[str, float]) -> Matrix:
+    by_child = {joint.child: joint for joint in description.joints}
+    result = np.eye(4)
+    while tip != root:
+        joint = by_child[tip]
+        result = _joint_transform(joint, positions.get(joint.name, 0.0)) @ result
+        tip = joint.parent
+    return result
+
+
+def test_arm_has_the_forward_kinematics_of_the_published_parameters() -> None:
+    description = _description("ur5e")
+    generator = np.random.default_rng(20260722)
+    for configuration in generator.uniform(-PI, PI, size=(100, 6)):
+        expected = _axis_rotation((0.0, 0.0, 1.0), PI)  # base_link is turned by pi against the vendor's base
+        for (a, alpha, d), theta in zip(UR5E_DH, configuration, strict=True):
+            expected = expected @ _dh(a, alpha, d, theta)
+        actual = _transform(description, "base_link", "tool0", dict(zip(UR5E_JOINTS, configuration, strict=True)))
+        np.testing.assert_allclose(actual, expected, atol=1e-9)
+
+
+def test_vendor_base_frame_is_base() -> None:
+    turned = _transform(_description("ur5e"), "base_link", "base", {})
+    np.testing.assert_allclose(turned, _axis_rotation((0.0, 0.0, 1.0), PI), atol=1e-12)
+
+
+def test_flange_points_out_with_x_and_tool0_with_z() -> None:
+    # REP-199 draft: X+ leaves the flange; tool0 keeps the vendor's Z+ out.
+    description = _description("ur5e")
+    wrist_to_flange = _transform(description, "wrist_3_link", "flange", {})
+    np.testing.assert_allclose(wrist_to_flange[:3, 0], [0, 0, 1], atol=1e-12)
+    np.testing.assert_allclose(_transform(description, "wrist_3_link", "tool0", {}), np.eye(4), atol=1e-12)
+
+
+@pytest.mark.parametrize(("angle", "gap_mm"), [(0.0, 85.0), (0.7929, 0.97), (0.8, 0.16)])
+def test_jaws_open_to_the_stroke_and_close(angle: float, gap_mm: float) -> None:
+    # By hand: 2 (0.03060114 + 0.0371575 cos q - 0.04342168 sin q - 0.02526).
+    description = _description("robotiq_2f_85")
+    positions = {"robotiq_85_left_knuckle_joint": angle}
+    for joint in description.joints:
+        if joint.mimic is not None:
+            assert joint.mimic.joint == "robotiq_85_left_knuckle_joint"
+            positions[joint.name] = angle * joint.mimic.multiplier + joint.mimic.offset
+    pads = []
+    for side in ("left", "right"):
+        tip = f"robotiq_85_{side}_finger_tip_link"
+        link = description.link(tip)
+        assert link is not None
+        (collision,) = link.collisions
+        frame = _transform(description, "base_link", tip, positions)
+        np.testing.assert_allclose(frame[:3, :3], np.eye(3), atol=1e-9)  # the pads stay parallel
+        sign = 1.0 if side == "left" else -1.0
+        half_width = getattr(collision.geometry, "size")[0] / 2  # noqa: B009 - a box, checked by the access
+        pads.append(frame[0, 3] + collision.pose.position[0] - sign * half_width)
+    assert (pads[0] - pads[1]) * 1000 == pytest.approx(gap_mm, abs=0.05)
+
+
+@pytest.mark.parametrize("frame", ["color_optical_frame", "depth_optical_frame"])
+def test_optical_frames_look_along_z(frame: str) -> None:
+    # REP-103: z forward, x right, y down, seen from a body with x forward, y left, z up.
+    turned = _transform(_description("realsense_d435i"), "link", frame, {})[:3, :3]
+    np.testing.assert_allclose(turned, [[0, 0, 1], [-1, 0, 0], [0, -1, 0]], atol=1e-12)
+
+
+@pytest.mark.parametrize("name", device_names())
+def test_every_inertia_is_possible(name: str) -> None:
+    description = _description(name)
+    inertials = [link.inertial for link in description.links if link.inertial is not None]
+    assert inertials
+    for inertial in inertials:
+        _assert_possible(inertial)
+
+
+def _assert_possible(inertial: Inertial) -> None:
+    assert inertial.mass > 0
+    tensor = np.array(
+        [
+            [inertial.ixx, inertial.ixy, inertial.ixz],
+            [inertial.ixy, inertial.iyy, inertial.iyz],
+            [inertial.ixz, inertial.iyz, inertial.izz],
+        ]
+    )
+    low, middle, high = np.linalg.eigvalsh(tensor)
+    assert low > 0
+    assert low + middle >= high * (1 - 1e-12)
+
+
+def _touching(name: str, positions: dict[str, float]) -> set[tuple[str, str]]:
+    """Pairs of links that collide though no joint connects them."""
+    devices = CATALOGUE / "devices"
+    expanded = expand_here((devices / name / f"{name}.urdf.xacro").as_posix(), {}, devices.as_posix()).value
+    assert expanded is not None
+    model = pinocchio.buildModelFromXML(expanded.text)
+    geometry = pinocchio.buildGeomFromUrdfString(model, expanded.text, pinocchio.GeometryType.COLLISION)
+    geometry.addAllCollisionPairs()
+    data, geometry_data = model.createData(), geometry.createData()
+    q = np.array([positions[joint] for joint in list(model.names)[1:]])
+    pinocchio.computeCollisions(model, data, geometry, geometry_data, q, False)
+    neighbours = {frozenset((joint.parent, joint.child)) for joint in _description(name).joints}
+    found = set()
+    for pair, result in zip(geometry.collisionPairs, geometry_data.collisionResults, strict=True):
+        ends = [geometry.geometryObjects[index] for index in (pair.first, pair.second)]
+        first, second = sorted(model.frames[end.parentFrame].name for end in ends)
+        if result.isCollision() and first != second and frozenset((first, second)) not in neighbours:
+            found.add((first, second))
+    return found
+
+
+@pytest.mark.parametrize("degrees", [(0, -90, 90, -90, -90, 0), (0, -90, 0, -90, 0, 0), (30, -60, 100, -130, -90, 45)])
+def test_arm_does_not_touch_itself(degrees: tuple[float, ...]) -> None:
+    positions = dict(zip(UR5E_JOINTS, np.radians(degrees), strict=True))
+    assert _touching("ur5e", positions) == set()
+
+
+def test_folded_arm_touches_itself() -> None:
+    # The elbow bent by 175 deg lays the forearm into the upper arm: shapes that enclose the links must meet.
+    assert _touching("ur5e", dict(zip(UR5E_JOINTS, np.radians((0, -90, 175, 0, 0, 0)), strict=True)))
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.2, 0.4, 0.6, 0.7929, 0.8])
+def test_gripper_does_not_touch_itself(angle: float) -> None:
+    multipliers = {joint.name: joint.mimic for joint in _description("robotiq_2f_85").joints}
+    positions = {name: angle * (1.0 if mimic is None else mimic.multiplier) for name, mimic in multipliers.items()}
+    assert _touching("robotiq_2f_85", positions) == set()
+
+
+def test_expansion_is_the_same_under_any_hash_seed() -> None:
+    program = (
+        "from cellc.catalog.load import device_names, CATALOGUE\n"
+        "from cellc.catalog.expansion import expand_here\n"
+        "d = CATALOGUE / 'devices'\n"
+        "for n in device_names():\n"
+        "    print(expand_here(f'{d}/{n}/{n}.urdf.xacro', {}, str(d)).value)\n"
+    )
+    folder = Path(__file__).resolve().parents[2]
+    outputs = [
+        subprocess.run(
+            [sys.executable, "-c", program],
+            cwd=folder,
+            env={**os.environ, "PYTHONHASHSEED": seed},
+            stdout=subprocess.PIPE,
+            check=True,
+        ).stdout
+        for seed in ("1", "2")
+    ]
+    assert outputs[0] == outputs[1]
+    assert len(outputs[0]) > 10_000
+
+
+def test_names_are_unique_within_a_description() -> None:
+    for name in device_names():
+        description = _description(name)
+        for things in (description.links, description.joints):
+            names = [thing.name for thing in things]
+            assert not [pair for pair in combinations(names, 2) if pair[0] == pair[1]]
+        assert len(description.roots()) == 1
