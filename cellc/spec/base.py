@@ -2,27 +2,29 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Literal, Union
 
-from pydantic import BaseModel, ConfigDict, StringConstraints
+from pydantic import BaseModel, ConfigDict, Discriminator, StringConstraints, Tag
 
 
 class SpecModel(BaseModel):
     """A part of the spec as written: shape only, the user's own names and units."""
 
-    model_config = ConfigDict(strict=True, frozen=True, extra="forbid", populate_by_name=True, regex_engine="python-re")
+    model_config = ConfigDict(strict=True, frozen=True, extra="forbid")
 
+
+NAME_PATTERN = r"^[A-Za-z][A-Za-z0-9_]*$"
+PACKAGE_NAME_PATTERN = r"^[a-z][a-z0-9_]+$"
+REFERENCE_PATTERN = r"^[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)?$"
 
 # Device, controller, node and interface tokens end up in ROS graph names: one token of `[A-Za-z_][A-Za-z0-9_]*`.
-Name = Annotated[str, StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=64)]
+Name = Annotated[str, StringConstraints(pattern=NAME_PATTERN, max_length=64)]
 
 # REP-144: lower case, at least two characters, starts with a letter; the cell's name becomes a package name.
-PackageName = Annotated[str, StringConstraints(pattern=r"^[a-z][a-z0-9_]+$", max_length=64)]
+PackageName = Annotated[str, StringConstraints(pattern=PACKAGE_NAME_PATTERN, max_length=64)]
 
 # A frame or link: `world`, `tcp`, or `device/link`.
-FrameReference = Annotated[
-    str, StringConstraints(pattern=r"^[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)?$", max_length=128)
-]
+FrameReference = Annotated[str, StringConstraints(pattern=REFERENCE_PATTERN, max_length=128)]
 
 # A pinned version, an image digest or UNKNOWN; what is written is judged by rules, not by shape.
 Pin = Annotated[str, StringConstraints(min_length=1, max_length=200)]
@@ -31,3 +33,40 @@ Text = Annotated[str, StringConstraints(min_length=1, max_length=500)]
 
 # `sensor_msgs/msg/Image`, `control_msgs/action/FollowJointTrajectory`: whether it exists is a rule's question.
 InterfaceType = Annotated[str, StringConstraints(min_length=1, max_length=200)]
+
+
+def shape_of(value: object) -> str | None:
+    """Tell the branch of a union by the shape of its value, so that only that branch reports errors."""
+    if isinstance(value, str):
+        return "text"
+    if isinstance(value, (list, tuple)):
+        return "list"
+    return "mapping" if isinstance(value, (dict, SpecModel)) else None
+
+
+def _parameter_shape(value: object) -> str | None:
+    # bool before int: `True` is an int to Python.
+    kinds: tuple[tuple[type, str], ...] = ((bool, "flag"), (int, "integer"), (float, "number"))
+    return next((kind for type_, kind in kinds if isinstance(value, type_)), shape_of(value))
+
+
+StandardOr = Annotated[
+    Union[Annotated[Literal["standard"], Tag("text")], Annotated[tuple[Text, ...], Tag("list")]],
+    Discriminator(shape_of, custom_error_type="wrong-type", custom_error_message="`standard` or a list of names"),
+]
+
+# ROS distinguishes `1` from `1.0`: each scalar keeps the type that the user wrote.
+ParameterValue = Annotated[
+    Union[
+        Annotated[bool, Tag("flag")],
+        Annotated[int, Tag("integer")],
+        Annotated[float, Tag("number")],
+        Annotated[str, Tag("text")],
+        Annotated[tuple[str, ...], Tag("list")],
+    ],
+    Discriminator(
+        _parameter_shape,
+        custom_error_type="wrong-type",
+        custom_error_message="true, false, a number, text or a list of texts",
+    ),
+]

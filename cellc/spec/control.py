@@ -6,7 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from cellc.spec.base import Name, SpecModel, Text
+from cellc.spec.base import Name, ParameterValue, SpecModel, Text
 from cellc.spec.quantity import Duration, Frequency, JointPosition
 
 
@@ -36,7 +36,7 @@ class ControllerSpec(SpecModel):
         "abort_and_hold", description="What happens on a tolerance violation.", examples=["abort_and_hold"]
     )
     update_rate: Frequency | None = Field(None, description="Slower rate than the manager's.", examples=["100 Hz"])
-    parameters: dict[str, bool | int | float | str | tuple[str, ...]] = Field(
+    parameters: dict[str, ParameterValue] = Field(
         default_factory=dict,
         description="Further parameters, dots for nesting.",
         examples=[{"action_monitor_rate": 50.0}],
@@ -57,7 +57,7 @@ class ManagerSpec(SpecModel):
 
     update_rate: Frequency = Field(..., description="Rate of read, update, write.", examples=["500 Hz"])
     namespace: str = Field(
-        "", description="Namespace of the manager.", pattern=r"^(/[A-Za-z_]\w*)*$", examples=["/left"]
+        "", description="Namespace of the manager.", pattern=r"^(/[A-Za-z_][A-Za-z0-9_]*)*$", examples=["/left"]
     )
     host: Name | None = Field(None, description="Host that runs it.", examples=["control_pc"])
     controllers: dict[Name, ControllerSpec] = Field(

@@ -6,7 +6,7 @@ from typing import Annotated, Literal, Union
 
 from pydantic import Discriminator, Field, Tag
 
-from cellc.spec.base import FrameReference, InterfaceType, Name, SpecModel, Text
+from cellc.spec.base import FrameReference, InterfaceType, Name, ParameterValue, SpecModel, Text, shape_of
 from cellc.spec.quantity import Duration, Frequency
 
 OnStale = Literal["reject_goal", "stop_and_hold", "ignore_sample", "continue"]
@@ -27,7 +27,7 @@ class NodeSpec(SpecModel):
         None, description="Time it runs on; that of the target if absent.", examples=["wall"]
     )
     respawn: bool = Field(False, description="Start it again when it ends; never for a driver.", examples=[False])
-    parameters: dict[str, bool | int | float | str] = Field(
+    parameters: dict[str, ParameterValue] = Field(
         default_factory=dict, description="Parameters of the node.", examples=[{"min_score": 0.8}]
     )
 
@@ -53,7 +53,18 @@ class QosSpec(SpecModel):
     lease_duration: Duration | None = Field(None, description="Bound of the assertion.", examples=["1 s"])
 
 
-Endpoints = Union[Name, tuple[Name, ...], dict[Name, QosSpec]]
+Endpoints = Annotated[
+    Union[
+        Annotated[Name, Tag("text")],
+        Annotated[tuple[Name, ...], Tag("list")],
+        Annotated[dict[Name, QosSpec], Tag("mapping")],
+    ],
+    Discriminator(
+        shape_of,
+        custom_error_type="wrong-type",
+        custom_error_message="a name, a list of names, or a mapping from names to their QoS",
+    ),
+]
 
 
 class InterfaceFields(SpecModel):

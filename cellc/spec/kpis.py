@@ -6,7 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from cellc.spec.base import SpecModel, Text
+from cellc.spec.base import SpecModel, StandardOr, Text
 from cellc.spec.quantity import Duration, Ratio
 
 
@@ -29,7 +29,7 @@ class KpisSpec(SpecModel):
 class RecordingSpec(SpecModel):
     """What every attempt leaves behind."""
 
-    attempt_fields: Literal["standard"] | tuple[Text, ...] = Field(
+    attempt_fields: StandardOr = Field(
         "standard", description="`standard` for all fields of the checkpoint, or their names.", examples=["standard"]
     )
     topics: tuple[Text, ...] = Field(

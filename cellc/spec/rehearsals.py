@@ -6,7 +6,7 @@ from typing import Annotated, Literal, Union
 
 from pydantic import Discriminator, Field, Tag
 
-from cellc.spec.base import FrameReference, Name, SpecModel
+from cellc.spec.base import FrameReference, Name, SpecModel, shape_of
 from cellc.spec.quantity import Duration
 
 OutcomeName = Literal[
@@ -175,14 +175,18 @@ FaultSpec = Annotated[
 ]
 
 
+FaultsSpec = Annotated[
+    Union[Annotated[FaultSpec, Tag("mapping")], Annotated[tuple[FaultSpec, ...], Tag("list")]],
+    Discriminator(shape_of, custom_error_type="wrong-type", custom_error_message="a fault or a list of faults"),
+]
+
+
 class RehearsalSpec(SpecModel):
     """One run of the mock: steps of its own or of another rehearsal, faults, and the expected end."""
 
     steps: tuple[StepSpec, ...] = Field((), description="Steps in order.", examples=[[{"move": "home"}]])
     use: Name | None = Field(None, description="Rehearsal whose steps are used.", examples=["pick_and_place"])
-    inject: FaultSpec | tuple[FaultSpec, ...] = Field(
-        (), description="One fault or several.", examples=[{"freeze": "camera", "at": "2 s"}]
-    )
+    inject: FaultsSpec = Field((), description="One fault or several.", examples=[{"freeze": "camera", "at": "2 s"}])
     expect: OutcomeName = Field("succeeded", description="Outcome that it must end in.", examples=["stale_state"])
     within: Duration | None = Field(
         None, description="Bound from the fault (or its effect's start) to the outcome.", examples=["200 ms"]

@@ -6,7 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from cellc.spec.base import FrameReference, Name, SpecModel, Text
+from cellc.spec.base import FrameReference, Name, SpecModel, StandardOr, Text
 from cellc.spec.quantity import Duration, JointPosition, JointVelocity
 
 
@@ -76,7 +76,7 @@ class FirstMotionSpec(SpecModel):
 class BringupSpec(SpecModel):
     """Gates G0–G7 and L1–L6; a gate may be tightened, never removed."""
 
-    gates: Literal["standard"] | tuple[Text, ...] = Field(
+    gates: StandardOr = Field(
         "standard", description="`standard`, or the gates by name in order.", examples=["standard"]
     )
     first_motion: FirstMotionSpec | None = Field(

@@ -1,0 +1,50 @@
+"""Change one place of a real spec."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+
+from hypothesis import strategies as st
+
+from cellc.diagnostics import YamlPath
+from cellc.source import Plain, read
+from cellc.spec.wording import value_at
+
+
+@cache
+def data_of(path: Path) -> Plain:
+    """Return the plain data of a spec."""
+    outcome = read(path)
+    assert outcome.value is not None
+    return outcome.value.data
+
+
+def places(data: Plain, path: YamlPath = ()) -> Iterator[YamlPath]:
+    """Walk all paths of the data below its root."""
+    children: Iterator[tuple[str | int, Plain]] = iter(())
+    if isinstance(data, dict):
+        children = iter(data.items())
+    elif isinstance(data, list):
+        children = iter(enumerate(data))
+    for part, value in children:
+        yield (*path, part)
+        yield from places(value, (*path, part))
+
+
+def mutated(path: Path, data: st.DataObject, values: st.SearchStrategy[Plain]) -> Plain:
+    """Return the spec with one value replaced, one entry deleted, or one key renamed."""
+    spec = copy.deepcopy(data_of(path))
+    place = data.draw(st.sampled_from(list(places(spec))))
+    holder, key = value_at(spec, place[:-1]), place[-1]
+    deed = data.draw(st.sampled_from(["replace", "delete", "rename"]))
+    if isinstance(holder, dict) and isinstance(key, str):
+        value = holder.pop(key)
+        new_key = data.draw(st.sampled_from(["a", "9", "from_", "to", "nmae"])) if deed == "rename" else key
+        if deed != "delete":
+            holder[new_key] = data.draw(values) if deed == "replace" else value
+    elif isinstance(holder, list) and isinstance(key, int):
+        holder[key : key + 1] = [] if deed == "delete" else [data.draw(values)]
+    return spec

@@ -1,0 +1,42 @@
+"""Read a spec that a test writes, and a small one to change."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from cellc.diagnostics import Outcome
+from cellc.source import Plain, read
+from cellc.source.document import SourceDocument
+from cellc.spec.cell_spec import CellSpec
+from cellc.spec.parse import parse
+
+ROOT = Path(__file__).resolve().parents[2]
+CELLS = sorted(ROOT.glob("cells/*/cell.yaml"))
+
+HEAD = """\
+format: 1
+cell: small
+versions: {ros: jazzy}
+"""
+ARM = "devices: {arm: {model: ur5e}}\n"
+
+
+def document_of(text: str, folder: Path) -> SourceDocument:
+    """Return the document of a spec; what the text says must be legal YAML."""
+    path = folder / "cell.yaml"
+    path.write_text(text, encoding="utf-8")
+    outcome = read(path)
+    assert outcome.ok, outcome.diagnostics
+    assert outcome.value is not None
+    return outcome.value
+
+
+def parsed(text: str, folder: Path) -> Outcome[CellSpec]:
+    """Return what the spec stage says of a text."""
+    return parse(document_of(text, folder))
+
+
+def as_yaml(data: Plain) -> str:
+    """Write data as JSON, which is YAML 1.2."""
+    return json.dumps(data, ensure_ascii=False)

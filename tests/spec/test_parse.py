@@ -1,0 +1,135 @@
+"""Each mistake of shape gives one diagnostic: its code, at its place, with a help that names what would do."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.spec.reading import ARM, CELLS, HEAD, parsed
+
+FRAME = "frames: {a: {parent: world, "
+TOPIC = "interfaces: {/a: {topic: sensor_msgs/msg/Image, from: arm, "
+RUN = "rehearsals: {r: {steps: [{move: home}], "
+
+# text after the head and the arm, code, marked text, part of the message, part of the help
+CASES = [
+    ("summry: x", "unknown-key", "summry", "`summry`", "did you mean `summary`?"),
+    ("xyz: 0 0 0 m", "unknown-key", "xyz", "the spec has no key `xyz`", "use one of the keys that are allowed"),
+    ("hosts: {pc: {domain: ros}}", "unknown-key", "domain", "`hosts.pc`", "move it under `clock`"),
+    ("safety: {stop: {recovery: {}}}", "unknown-key", "recovery", "`safety.stop`", "move it out of `safety.stop` into"),
+    ("targets: {mok: {}}", "unknown-key", "mok", "`targets` has no key `mok`", "did you mean `mock`?"),
+    (TOPIC + "service: a/srv/B}}", "unknown-key", "service", "`interfaces./a`", "allowed"),
+    (TOPIC + "to: {b: {depht: 1}}}}", "unknown-key", "depht", "`interfaces./a.to.b`", "did you mean `depth`?"),
+    ("hosts: {pc: {nics: {a: {}}}}", "missing-key", "a", "`hosts.pc.nics.a` has no `address`", "192.168.56.10/24"),
+    (RUN + "inject: {freeze: arm}}}", "missing-key", "inject", "has no `at`", "such as `2 s`"),
+    (RUN + "inject: [{freeze: arm}]}}", "missing-key", "{freeze: arm}", "inject[0]` has no `at`", "such as `2 s`"),
+    (FRAME + "xyz: 0 0 162}}", "missing-unit", "0 0 162", "`0 0 162` carries no unit", "`mm`, `cm`, `m` or `um`"),
+    (TOPIC + "rate: 30}}", "missing-unit", "30", "`30` carries no unit", "`Hz`, `kHz` or `MHz`, such as `500 Hz`"),
+    (FRAME + "rpy: 0 0 90 mm}}", "wrong-unit", "0 0 90 mm", "`mm` is not a unit of an angle", "`deg` or `rad`"),
+    (FRAME + "xyz: somewhere}}", "not-a-quantity", "somewhere", "`somewhere`", "such as `0 0 162 mm`"),
+    (FRAME + "xyz: [0, 0, 1]}}", "not-a-quantity", "xyz", "is a list where a length is due", "such as `0 0 162 mm`"),
+    (FRAME + "xyz: 0 0 m}}", "wrong-count", "0 0 m", "has 2 numbers where 3 are due", "write 3 numbers"),
+    ("hosts: []", "wrong-type", "hosts", "is a list where a mapping is due", "write a mapping"),
+    ("frames: {a: 5}", "wrong-type", "5", "is the number `5` where a mapping is due", "write a mapping"),
+    ("summary: 4.10", "wrong-type", "4.10", "is the number `4.10` where text is due", '`"4.10"`'),
+    (FRAME + "dynamic: yes}}", "wrong-type", "yes", "where `true` or `false` is due", "such as `true`"),
+    (FRAME + "reference_points: 2.5}}", "wrong-type", "2.5", "where a whole number is due", "such as `3`"),
+    (TOPIC + "to: 5}}", "wrong-type", "5", "where a name, a list of names, or a mapping", "write a name"),
+    (TOPIC + "to: [b, 5]}}", "wrong-type", "5", "`interfaces./a.to[1]` is the number `5`", '`"5"`'),
+    ("interfaces: {/a: text}", "wrong-type", "text", "where a mapping is due", "write a mapping"),
+    (RUN + "inject: 7}}", "wrong-type", "7", "where a fault or a list of faults is due", "write a fault"),
+    ("bringup: {gates: 7}", "wrong-type", "7", "where `standard` or a list of names is due", "write `standard`"),
+    (TOPIC + "wants: newst}}", "not-a-choice", "newst", "none of its choices", "did you mean `newest`?"),
+    ("bringup: {gates: standart}", "not-a-choice", "standart", "none of its choices", "did you mean `standard`?"),
+    ("nodes: {a-b: {run: x/y}}", "bad-name", "a-b", "`a-b` cannot be used in `nodes`", "such as `a_b`"),
+    ("frames: {a: {parent: tool 0}}", "bad-name", "tool 0", "`tool 0` cannot be used", "such as `tool_0`"),
+    (TOPIC + "to: [9b]}}", "bad-name", "9b", "`9b` cannot be used as `interfaces./a.to[0]`", "letter"),
+    (FRAME + "reference_points: -1}}", "out-of-range", "-1", "is `-1` where at least 0 is allowed", "at least 0"),
+    ('calibrations: {a: {revision: 1, owner: ""}}', "out-of-range", '""', "has 0 characters", "at least 1"),
+    ("interfaces: {/a: {from: arm}}", "interface-kind-missing", "/a", "`topic`, `service`, `action`", "write one of"),
+    ("interfaces: {/a: {topik: x/y}}", "interface-kind-missing", "/a", "interfaces./a", "did you mean `topic`"),
+    ("rehearsals: {r: {steps: [{}]}}", "step-kind-missing", "{}", "steps[0]` has none of the keys `move`", "write one"),
+    (
+        RUN + "inject: {at: 1 s}}}",
+        "fault-kind-missing",
+        "inject",
+        "has none of the keys `freeze`",
+        "write one of the keys",
+    ),
+    ("hosts: {pc: }", "empty-value", "pc", "`hosts.pc` has no value", "delete the key"),
+    (FRAME + "xyz: }}", "empty-value", "xyz", "`frames.a.xyz` has no value", "delete the key"),
+    (TOPIC + "to: [null]}}", "empty-value", "null", "to[0]` has no value", "delete the dash"),
+]
+
+
+@pytest.mark.parametrize(("text", "code", "marked", "message", "help_"), CASES, ids=[case[0][:40] for case in CASES])
+def test_mistake_is_reported_once_at_its_place(
+    text: str, code: str, marked: str, message: str, help_: str, tmp_path: Path
+) -> None:
+    lines = (HEAD + ARM + text).split("\n")
+    found = parsed("\n".join(lines), tmp_path).diagnostics
+    assert [d.code for d in found] == [code]
+    span = found[0].span
+    assert lines[span.line - 1][span.column - 1 : span.end_column - 1] == marked
+    assert message in found[0].message
+    assert help_ in found[0].help
+    assert "\n" not in found[0].message
+
+
+@pytest.mark.parametrize("path", CELLS, ids=lambda path: path.parent.name)
+def test_cells_of_the_repository_parse(path: Path, tmp_path: Path) -> None:
+    outcome = parsed(path.read_text(encoding="utf-8"), tmp_path)
+    assert outcome.ok
+    assert outcome.value is not None
+    assert outcome.value.cell == path.parent.name
+
+
+def test_misspelt_required_key_is_one_error(tmp_path: Path) -> None:
+    found = parsed(HEAD + "devices: {arm: {modle: ur5e}}", tmp_path).diagnostics
+    assert [(d.code, d.help) for d in found] == [("unknown-key", "did you mean `model`?")]
+
+
+def test_all_mistakes_come_at_once_in_the_order_of_the_file(tmp_path: Path) -> None:
+    text = "format: 1\ncell: A\nversions: {ros: 2}\ndevices: {}\nframes: {a: {parent: world, xyz: 1}}\n"
+    found = parsed(text, tmp_path).diagnostics
+    expected = [("bad-name", 2), ("wrong-type", 3), ("out-of-range", 4), ("missing-unit", 5)]
+    assert [(d.code, d.span.line) for d in found] == expected
+
+
+def test_missing_section_is_reported_at_the_start_of_the_file(tmp_path: Path) -> None:
+    found = parsed("format: 1\ncell: small\nversions: {ros: jazzy}\n", tmp_path).diagnostics
+    assert [(d.code, d.message, str(d.span)[-4:]) for d in found] == [
+        ("missing-key", "the spec has no `devices`", ":1:1")
+    ]
+
+
+@pytest.mark.parametrize("written", ["2", "true", "1.0", '"1"', "[1]"])
+def test_another_format_is_the_only_error(written: str, tmp_path: Path) -> None:
+    found = parsed(f"format: {written}\nanything: else\n", tmp_path).diagnostics
+    assert [(d.code, d.span.line, d.span.column) for d in found] == [
+        ("unsupported-format", 1, 1 if written == "[1]" else 9)
+    ]
+
+
+def test_name_that_ends_in_a_line_break_is_bad(tmp_path: Path) -> None:
+    found = parsed(HEAD + 'devices: {"arm\\n": {model: ur5e}}', tmp_path).diagnostics
+    assert [(d.code, d.message) for d in found] == [("bad-name", "`arm ` cannot be used in `devices`")]
+
+
+def test_quantity_keeps_value_and_text(tmp_path: Path) -> None:
+    spec = parsed(HEAD + ARM + "frames: {tcp: {parent: world, xyz: 0 0 162 mm}}", tmp_path).value
+    assert spec is not None
+    xyz = spec.frames["tcp"].xyz
+    assert xyz is not None
+    assert (xyz.si, xyz.text) == ((0.0, 0.0, 0.162), "0 0 162 mm")
+
+
+def test_parameters_keep_the_type_that_was_written(tmp_path: Path) -> None:
+    text = "nodes: {a: {run: x/y, parameters: {i: 1, f: 1.0, b: true, s: '1', l: [a]}}}"
+    spec = parsed(HEAD + ARM + text, tmp_path).value
+    assert spec is not None
+    values = spec.nodes["a"].parameters
+    assert [(type(value), value) for value in values.values()] == [
+        (int, 1), (float, 1.0), (bool, True), (str, "1"), (tuple, ("a",))
+    ]  # fmt: skip
