@@ -16,8 +16,8 @@ _XML = (
     _page(
         "xml-entities",
         "a description declares a document type",
-        "A document type can define entities that expand to gigabytes or pull in files of the machine. No robot description "
-        "needs one.",
+        "A document type can define entities that expand to gigabytes or pull in files of the machine. No robot "
+        "description needs one.",
         "remove the `<!DOCTYPE …>` declaration",
     ),
     _page(
@@ -49,7 +49,8 @@ _URDF = (
     _page(
         "urdf-bad-number",
         "a number is malformed, not finite, or the count of numbers is wrong",
-        "Parsers of robot descriptions read `nan`, `1,5` or a missing third number in different ways, some silently as zero.",
+        "Parsers of robot descriptions read `nan`, `1,5` or a missing third number in different ways, some "
+        "silently as zero.",
         "write finite numbers with a decimal point, in m, kg and rad",
     ),
     _page(
@@ -73,7 +74,8 @@ _URDF = (
     _page(
         "urdf-not-expanded",
         "a URDF still holds xacro elements",
-        "Consumers of URDF ignore elements that they do not know, so whatever the macros hold would be missing from the robot.",
+        "Consumers of URDF ignore elements that they do not know, so whatever the macros hold would be missing "
+        "from the robot.",
         "name the file `….xacro` so that it is expanded first",
     ),
     _page(
@@ -117,22 +119,22 @@ _XACRO = (
     _page(
         "xacro-outside-root",
         "a description reaches for a file outside of its folder",
-        "What is built must come from what was reviewed. A file elsewhere on the machine is not under review, differs between "
-        "machines, and could be a private one. Symbolic links are followed before the place is judged.",
+        "What is built must come from what was reviewed. A file elsewhere on the machine is not under review, differs "
+        "between machines, and could be a private one. Symbolic links are followed before the place is judged.",
         "copy the file beside the description",
     ),
     _page(
         "xacro-package-not-found",
         "`$(find PACKAGE)` names a package that does not lie beside the spec",
-        "Packages installed on the machine are left out on purpose, so that a build depends on nothing that the spec's folder "
-        "does not hold. The message lists the folders that were searched.",
+        "Packages installed on the machine are left out on purpose, so that a build depends on nothing that the spec's "
+        "folder does not hold. The message lists the folders that were searched.",
         "put the package, or a link-free copy of its description, in one of the folders searched",
     ),
     _page(
         "xacro-refused-expression",
         "an expression does more than compute a value",
-        "xacro evaluates `${…}` as Python. A description is data: attributes with underscores, comprehensions, huge powers and "
-        "functions beyond arithmetic are refused, so that no description can run a program or exhaust the machine.",
+        "xacro evaluates `${…}` as Python. A description is data: attributes with underscores, comprehensions, huge "
+        "powers and functions beyond arithmetic are refused, so that no description can run a program or exhaust the machine.",
         "use numbers, texts, lists and the functions that xacro documents",
     ),
     _page(

@@ -31,9 +31,7 @@ DECLARATIONS = {
     "joint_trajectory": "joint_trajectory_controller__joint_trajectory_controller_parameters",
     "joint_state_broadcaster": "joint_state_broadcaster__joint_state_broadcaster_parameters",
     "forward_command": "forward_command_controller__forward_command_controller_parameters",
-    "force_torque_sensor_broadcaster": (
-        "force_torque_sensor_broadcaster__force_torque_sensor_broadcaster_parameters"
-    ),
+    "force_torque_sensor_broadcaster": ("force_torque_sensor_broadcaster__force_torque_sensor_broadcaster_parameters"),
     "gpio_command": "gpio_controllers__gpio_command_controller_parameters",
     "parallel_gripper": "parallel_gripper_controller__gripper_action_controller_parameters",
 }
