@@ -58,7 +58,7 @@ def solve_inverse(
         descent = descend(chain, target_to_world, seed, limits)
         if not descent.reached:
             continue
-        near = _undo_turns(descent.configuration, current, limits, chain.turning)
+        near = undo_turns(descent.configuration, current, limits, chain.turning)
         if all(float(np.max(np.abs(near - known))) > _SAME_SOLUTION for _, known, _ in found):
             found.append((float(np.linalg.norm(near - current)), near, descent))
     if not found:
@@ -77,7 +77,7 @@ def _seeds(limits: JointLimits, current: Array, seeds: int, rng_seed: int) -> li
     return [np.clip(current, limits.lower, limits.upper), *drawn]
 
 
-def _undo_turns(configuration: Array, current: Array, limits: JointLimits, turning: npt.NDArray[np.bool_]) -> Array:
+def undo_turns(configuration: Array, current: Array, limits: JointLimits, turning: npt.NDArray[np.bool_]) -> Array:
     """Move turning joints by whole turns to the place within limits that is nearest to the current one."""
     turn = 2.0 * math.pi
     near: Array = configuration.copy()

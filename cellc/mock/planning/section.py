@@ -36,9 +36,10 @@ def time_at_rest(waypoints: Sequence[Sequence[float]], limits: JointLimits) -> T
     curve = SectionCurve(waypoints)
     bounds = _scaled(fastest_bounds(curve, limits), _TARGET_USE)
     section = _sample(curve, rest_to_rest(bounds), limits)
-    for _ in range(_MAX_RESCALINGS):
+    for rescaling in range(_MAX_RESCALINGS):
         use = section.limit_use.as_speed
-        if _LEAST_USE < use <= 1.0:
+        # Faster only once: a phase too short for a point of its own may come and go with the scale.
+        if _LEAST_USE < use <= 1.0 or (use <= 1.0 and rescaling > 0):
             break
         bounds = _scaled(bounds, _TARGET_USE / use)
         section = _sample(curve, rest_to_rest(bounds), limits)

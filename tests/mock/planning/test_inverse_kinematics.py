@@ -17,6 +17,7 @@ from cellc.mock.planning import (
     Planner,
     RobotModel,
 )
+from cellc.mock.planning.inverse import undo_turns
 from cellc.transforms import Pose, from_xyz_rpy
 
 from .arm import ADJACENT, GROUP, HOME, JOINTS, LIMITS, arm_urdf, dh_tool_to_base
@@ -82,6 +83,15 @@ def test_turn_that_would_leave_the_limits_is_undone(planner: Planner) -> None:
         dh_tool_to_base(np.array((*HOME[:5], 0.2 * math.pi))),
         atol=1e-5,
     )
+
+
+def test_whole_turns_lead_to_the_nearest_place_within_limits() -> None:
+    # -1.8 pi is 0.2 pi and 2.2 pi: nearest to 1.9 pi would be 2.2 pi, which is past the limit of 2 pi.
+    found = np.array((0.0, 0.0, 0.0, 0.0, 0.0, -1.8 * math.pi))
+    near = undo_turns(found, np.array((0.0, 0.0, 0.0, 0.0, 0.0, 1.9 * math.pi)), LIMITS, np.full(6, True))
+    np.testing.assert_allclose(near, (0.0, 0.0, 0.0, 0.0, 0.0, 0.2 * math.pi), atol=1e-12)
+    kept = undo_turns(found, np.array((0.0, 0.0, 0.0, 0.0, 0.0, 1.9 * math.pi)), LIMITS, np.full(6, False))
+    np.testing.assert_array_equal(kept, found)
 
 
 def test_target_beyond_reach_has_no_solution(planner: Planner) -> None:

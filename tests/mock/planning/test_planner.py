@@ -18,7 +18,7 @@ from cellc.mock.planning import (
     PlanningGroup,
     RobotModel,
 )
-from cellc.transforms import Pose
+from cellc.transforms import Pose, from_xyz_rpy
 
 from .arm import ADJACENT, GROUP, HOME, JOINTS, LIMITS, arm_urdf, dh_tool_to_base
 
@@ -135,12 +135,18 @@ def test_line_past_a_joint_limit_is_out_of_limits(planner: Planner) -> None:
     assert _refused(result) is FailureReason.OUT_OF_LIMITS
 
 
-def test_line_over_the_shoulder_axis_jumps(planner: Planner) -> None:
-    # Past the shoulder the pan joint has to turn by half a turn within a few millimetres.
-    start = planner.inverse_kinematics(Pose((-0.25, -0.14, 0.75), DOWN), HOME)
-    assert isinstance(start, IkSolution)
-    reason = _refused(planner.plan_cartesian(start.configuration, Pose((0.25, -0.12, 0.75), DOWN)))
-    assert reason in (FailureReason.JOINT_JUMP, FailureReason.SINGULAR, FailureReason.NO_IK_SOLUTION)
+def test_turn_past_the_stretched_wrist_jumps(planner: Planner) -> None:
+    # With wrist 2 at 0.1 rad, 0.05 rad about the tool's x ask wrist 1 and 3 for about 0.05 / sin(0.1) = 0.5 rad.
+    start = (*HOME[:4], 0.1, 0.0)
+    turn = from_xyz_rpy((0.0, 0.0, 0.0), (0.6, 0.0, 0.0))
+    assert _refused(planner.plan_cartesian(start, planner.tip_pose(start) @ turn)) is FailureReason.JOINT_JUMP
+
+
+def test_turn_through_the_stretched_wrist_is_singular(planner: Planner) -> None:
+    # The tool's y is the axis of wrist 2 here: the turn takes it from 0.1 rad through 0.
+    start = (*HOME[:4], 0.1, 0.0)
+    turn = from_xyz_rpy((0.0, 0.0, 0.0), (0.0, 0.6, 0.0))
+    assert _refused(planner.plan_cartesian(start, planner.tip_pose(start) @ turn)) is FailureReason.SINGULAR
 
 
 def test_limits_of_other_joints_are_refused(scene: CollisionScene) -> None:

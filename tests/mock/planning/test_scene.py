@@ -21,7 +21,7 @@ SLIDER = """
   <joint name="post_mount" type="fixed"><parent link="world"/><child link="post"/><origin xyz="1 0 0.1"/></joint>
   <joint name="slide" type="prismatic"><parent link="world"/><child link="ball"/><axis xyz="1 0 0"/>
     <limit lower="-2" upper="2" velocity="1" effort="1"/></joint>
-  <joint name="grip" type="fixed"><parent link="ball"/><child link="hand"/><origin xyz="0 0 0.3"/></joint>
+  <joint name="grip" type="fixed"><parent link="ball"/><child link="hand"/><origin xyz="0.1 0 0.3"/></joint>
 </robot>
 """
 UPRIGHT = (0.0, 0.0, 0.0, 1.0)
@@ -56,11 +56,11 @@ def test_disabled_pair_is_not_checked_in_either_order(scene: CollisionScene) -> 
 
 
 def test_box_in_the_hand_moves_with_it(scene: CollisionScene) -> None:
-    # Half the box's edge is 0.2: it meets the post of radius 0.05 from x = 0.75 on, where the ball alone is free.
+    # The box ends 0.3 ahead of the ball's centre: it meets the post of radius 0.05 from x = 0.65 on.
     carrying = scene.attach("part", "hand", (0.4, 0.1, 0.1), _at((0.0, 0.0, -0.1)))
-    assert _contacts(carrying, 0.749) == ()
-    assert _contacts(carrying, 0.751) == (("part", "post"),)
-    assert _contacts(scene, 0.751) == ()
+    assert _contacts(carrying, 0.649) == ()
+    assert _contacts(carrying, 0.651) == (("part", "post"),)
+    assert _contacts(scene, 0.651) == ()
 
 
 def test_box_on_a_fixture_stands_still_and_is_checked_against_moving_links(scene: CollisionScene) -> None:
