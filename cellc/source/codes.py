@@ -49,8 +49,8 @@ CODES: tuple[CodePage, ...] = (
     _page(
         "file-too-large",
         "the file is larger than a spec can be",
-        f"A cell is a page or two of text. Above {MAX_FILE_BYTES // 1024**2} MiB it is a recording, a mesh or a mistake, "
-        "and it is refused before it is read into memory.",
+        f"A cell is a page or two of text. Above {MAX_FILE_BYTES // 1024**2} MiB it is a recording, a mesh or a "
+        "mistake, and it is refused before it is read into memory.",
         "name the cell spec itself, and keep recorded or generated data in files of their own",
     ),
     _page(
@@ -69,7 +69,8 @@ CODES: tuple[CodePage, ...] = (
         "include-escape",
         "an include leads out of the folder of the spec",
         "A spec is reviewed and shipped as one folder. A part from elsewhere on the machine is not under review, "
-        "differs between machines, and could pull in a private file. Symbolic links are followed before the place is judged.",
+        "differs between machines, and could pull in a private file. Symbolic links are followed before the "
+        "place is judged.",
         "move the included file into the folder of the root spec and write a relative path",
     ),
     _page(

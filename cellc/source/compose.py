@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import yaml
 
-from cellc.diagnostics import Diagnostic, Outcome, Related, Span
+from cellc.diagnostics import Diagnostic, Outcome, Related, Span, YamlPath
 from cellc.source.collection import Key, OpenCollection
 from cellc.source.events import parse_events
 from cellc.source.finding import finding
@@ -140,7 +140,9 @@ class _Composer:
         first = collection.children.get(node.data)
         if first is not None:
             related = (Related("first written here", first.key_span or first.span),)
-            self._report("duplicate-key", f"the key `{_short(node.data)}` is written twice", span, related)
+            self._report(
+                "duplicate-key", f"the key `{_short(node.data)}` is written twice", span, related, (node.data,)
+            )
             return None
         return node.data
 
@@ -148,8 +150,10 @@ class _Composer:
         if event.tag is not None:
             self._report("yaml-tag", f"the value carries the tag `{_short(event.tag)}`", self._span(event))
 
-    def _report(self, code: str, message: str, span: Span, related: tuple[Related, ...] = ()) -> None:
-        path = tuple(part for collection in self._open if (part := collection.position) is not None)
+    def _report(
+        self, code: str, message: str, span: Span, related: tuple[Related, ...] = (), key: YamlPath = ()
+    ) -> None:
+        path = tuple(part for collection in self._open if (part := collection.position) is not None) + key
         self.findings.append(finding(code, message, span, path=path, related=related))
         self.is_hopeless = self.is_hopeless or len(self.findings) >= MAX_FINDINGS
 

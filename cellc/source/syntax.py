@@ -6,6 +6,7 @@ import yaml
 
 from cellc.diagnostics import Diagnostic, Related, Span
 from cellc.source.finding import finding
+from cellc.source.marks import last_written
 
 # Fragments of the problems that libyaml and PyYAML report, with what they mean to the author of the file.
 _MEANINGS: tuple[tuple[str, str, str], ...] = (
@@ -29,7 +30,7 @@ _MEANINGS: tuple[tuple[str, str, str], ...] = (
 def syntax_finding(error: yaml.YAMLError | ValueError, file: str, text: str) -> Diagnostic:
     """Return the finding for an exception of the YAML parser."""
     problem = str(getattr(error, "problem", None) or "the text has no YAML structure")
-    span = _span(getattr(error, "problem_mark", None), file)
+    span = _problem_span(getattr(error, "problem_mark", None), file, text)
     tab = _tab_near(span, text)
     if tab is not None:
         return tab_finding(tab)
@@ -57,6 +58,16 @@ def _explain(problem: str) -> tuple[str, str]:
         if fragment in problem:
             return meaning, advice
     return "", ""
+
+
+def _problem_span(mark: yaml.Mark | None, file: str, text: str) -> Span:
+    """Return the marked character, or where the text ends if the parser complains about its end."""
+    span = _span(mark, file)
+    lines = text.split("\n")
+    if any(line.strip() for line in lines[span.line - 1 :]):
+        return span
+    line, column = last_written(lines, span.line - 1, 0)
+    return Span(file, line + 1, column + 1, line + 1, column + 2)
 
 
 def _span(mark: yaml.Mark | None, file: str) -> Span:

@@ -88,11 +88,12 @@ def _normalise(text: str) -> str:
 
 
 def _unlike_yaml(text: str, name: str) -> Diagnostic | None:
+    zero = text.find("\0")
+    if zero >= 0:
+        return finding("not-utf8", f"`{name}` is binary: it holds a zero byte", _span_after(text[:zero], name, 1))
     if match := _FORBIDDEN.search(text):
-        span = _span_after(text[: match.start()], name, 1)
-        code = "not-utf8" if match[0] == "\0" else "control-character"
-        what = "a zero byte: the file is binary" if match[0] == "\0" else f"the character U+{ord(match[0]):04X}"
-        return finding(code, f"the text holds {what}", span)
+        message = f"the text holds the character U+{ord(match[0]):04X}"
+        return finding("control-character", message, _span_after(text[: match.start()], name, 1))
     if text.lstrip().startswith("<"):
         before = text[: len(text) - len(text.lstrip())]
         advice = "name the cell spec; a URDF or xacro belongs under `description:` of a device"

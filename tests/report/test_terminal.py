@@ -1,0 +1,96 @@
+"""Colour and progress on terminals, pipes and everything between."""
+
+from __future__ import annotations
+
+import io
+
+import pytest
+
+from cellc.report import progress, wants_colour
+
+
+class _Terminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+class _Clock:
+    def __init__(self) -> None:
+        self.now_s = 0.0
+
+    def __call__(self) -> float:
+        return self.now_s
+
+
+@pytest.mark.parametrize(
+    ("environment", "on_terminal", "in_pipe"),
+    [
+        ({}, True, False),
+        ({"NO_COLOR": "1"}, False, False),
+        ({"NO_COLOR": ""}, True, False),
+        ({"FORCE_COLOR": "1"}, True, True),
+        ({"FORCE_COLOR": "0"}, True, False),
+        ({"NO_COLOR": "1", "FORCE_COLOR": "1"}, False, False),
+        ({"CLICOLOR_FORCE": "1"}, True, True),
+        ({"CLICOLOR": "0"}, False, False),
+        ({"CLICOLOR": "1"}, True, False),
+        ({"TERM": "dumb"}, False, False),
+        ({"TERM": "dumb", "FORCE_COLOR": "1"}, True, True),
+    ],
+)
+def test_colour_follows_the_conventions(environment: dict[str, str], on_terminal: bool, in_pipe: bool) -> None:
+    assert wants_colour(_Terminal(), environment) is on_terminal
+    assert wants_colour(io.StringIO(), environment) is in_pipe
+
+
+def test_progress_is_silent_for_a_second_and_erased_at_the_end() -> None:
+    terminal, clock = _Terminal(), _Clock()
+    with progress("build", terminal, clock) as update:
+        clock.now_s = 0.9
+        update("reading")
+        assert terminal.getvalue() == ""
+        clock.now_s = 1.1
+        update("frames")
+        assert terminal.getvalue() == "\r\rbuild: frames"
+    assert terminal.getvalue().endswith("\r" + " " * len("build: frames") + "\r")
+    assert "\x1b" not in terminal.getvalue()
+
+
+def test_progress_is_erased_when_the_work_fails() -> None:
+    terminal, clock = _Terminal(), _Clock()
+
+    def work() -> None:
+        with progress("build", terminal, clock) as update:
+            clock.now_s = 2.0
+            update("frames")
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        work()
+    assert terminal.getvalue().endswith(" \r")
+
+
+def test_progress_redraws_at_most_ten_times_a_second() -> None:
+    terminal, clock = _Terminal(), _Clock()
+    with progress("mock", terminal, clock) as update:
+        for tick in range(2000):
+            clock.now_s = 1.0 + tick * 1e-3
+            update(str(tick))
+    assert terminal.getvalue().count("mock") <= 20
+
+
+def test_progress_stays_out_of_pipes() -> None:
+    pipe, clock = io.StringIO(), _Clock()
+    with progress("build", pipe, clock) as update:
+        clock.now_s = 5.0
+        update("frames")
+    assert pipe.getvalue() == ""
+
+
+def test_progress_fits_the_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "20")
+    terminal, clock = _Terminal(), _Clock()
+    with progress("build", terminal, clock) as update:
+        clock.now_s = 2.0
+        update("a very long name\x1b[2J" * 5)
+        assert terminal.getvalue() == "\r\rbuild: a very long n"[:21]

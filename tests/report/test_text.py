@@ -1,0 +1,131 @@
+"""What a person sees."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from cellc.diagnostics import Related, Severity, Span
+from cellc.report import render_text, summary
+from cellc.report.colour import SEVERITY_COLOURS
+from tests.report.findings import FILE, finding
+
+
+def _rows(line: str, start: int, end: int) -> tuple[str, str]:
+    """Return the source line and the carets below it, without gutter."""
+    shown = render_text([finding(Span(FILE, 1, start, 1, end))], {FILE: line}, colour=False).split("\n")
+    source, carets = shown[3], shown[4]
+    return source.removeprefix("1 | "), carets.removeprefix("  | ")
+
+
+def test_finding_looks_like_that_of_a_compiler() -> None:
+    text = "\n" * 8 + "lower: 1\nupper: -1\n"
+    found = finding(
+        Span(FILE, 10, 8, 10, 10), advice="swap them", related=(Related("lower is here", Span(FILE, 9, 1, 9, 6)),)
+    )
+    assert render_text([found], {FILE: text}, colour=False) == (
+        "error[reversed-limits]: limit is reversed\n"
+        "  --> cells/a.yaml:10:8\n"
+        "   |\n"
+        "10 | upper: -1\n"
+        "   |        ^^\n"
+        "note: lower is here\n"
+        "  --> cells/a.yaml:9:1\n"
+        "   |\n"
+        " 9 | lower: 1\n"
+        "   | -----\n"
+        "help: swap them\n"
+    )
+
+
+def test_findings_stand_in_the_order_of_the_file() -> None:
+    later, earlier = finding(Span(FILE, 2, 1, 2, 2), "later"), finding(Span(FILE, 1, 1, 1, 2), "earlier")
+    shown = render_text([later, earlier], {}, colour=False)
+    assert shown.index("earlier") < shown.index("later")
+    assert shown.count("\n\n") == 1
+    assert shown == render_text([earlier, later], {}, colour=False)
+
+
+def test_nothing_found_is_no_text() -> None:
+    assert render_text([], {}, colour=True) == ""
+
+
+@pytest.mark.parametrize("line", [0, 7])
+def test_place_without_text_is_only_named(line: int) -> None:
+    shown = render_text([finding(Span(FILE, line, 1, line, 1))], {FILE: "a\n"}, colour=False)
+    assert shown.endswith(f"--> cells/a.yaml:{line}:1\n")
+
+
+@pytest.mark.parametrize(
+    ("line", "start", "end", "source", "carets"),
+    [
+        ("a: 1", 4, 5, "a: 1", "   ^"),
+        # A tab reaches to the next multiple of four cells.
+        ("a\tb", 3, 4, "a   b", "    ^"),
+        ("\t\tb", 2, 3, "        b", "    ^^^^"),
+        # Wide characters take two cells, combining ones none (UAX #11).
+        ("漢字: x", 5, 6, "漢字: x", "      ^"),
+        ("漢字: x", 1, 3, "漢字: x", "^^^^"),
+        ("e\u0301: x", 5, 6, "e\u0301: x", "   ^"),
+        # An empty span, the end of a line, and a place behind it are still marked.
+        ("abc", 2, 2, "abc", " ^"),
+        ("abc", 4, 4, "abc", "   ^"),
+        ("abc", 9, 12, "abc", "   ^"),
+        ("", 1, 1, "", "^"),
+        ("a\x1b[2Jb", 6, 7, "a\\x1b[2Jb", "        ^"),
+    ],
+)
+def test_carets_stand_under_the_culprit(line: str, start: int, end: int, source: str, carets: str) -> None:
+    shown, marks = _rows(line, start, end)
+    assert shown.removeprefix("1 |") == source
+    assert marks == carets
+
+
+def test_span_of_several_lines_is_marked_to_the_end_of_the_first() -> None:
+    shown = render_text([finding(Span(FILE, 1, 4, 3, 2))], {FILE: "a: |\n  b\n  c\n"}, colour=False)
+    assert "1 | a: |\n  |    ^\n" in shown
+
+
+def test_long_line_is_cut_around_the_culprit() -> None:
+    source, carets = _rows("x" * 5000 + "HERE" + "y" * 5000, 5001, 5005)
+    assert len(source) <= 120
+    assert source.startswith("...x")
+    assert source.endswith("y...")
+    assert source[carets.index("^") : carets.rindex("^") + 1] == "HERE"
+
+
+def test_long_culprit_is_cut_too() -> None:
+    source, carets = _rows("x" * 5000, 1, 5001)
+    assert len(source) <= 120
+    assert len(carets) <= 120
+
+
+_STYLES = re.compile(r"\x1b\[[0-9;]*m")
+
+
+@given(line=st.text(max_size=60), start=st.integers(1, 80), length=st.integers(0, 80), message=st.text(max_size=40))
+def test_hostile_text_cannot_drive_the_terminal(line: str, start: int, length: int, message: str) -> None:
+    found = finding(Span(message, 1, start, 1, start + length), message, advice=message)
+    plain = render_text([found], {message: line}, colour=False)
+    coloured = render_text([found], {message: line}, colour=True)
+    assert not re.search("[\x00-\x09\x0b-\x1f\x7f-\x9f\u200b-\u200f\u2028-\u202e\u2066-\u2069]", plain)
+    assert _STYLES.sub("", coloured) == plain
+    plain.encode()
+
+
+def test_severity_has_its_colour() -> None:
+    for severity in Severity:
+        shown = render_text([finding(severity=severity)], {FILE: "abc"}, colour=True)
+        assert f"{SEVERITY_COLOURS[severity]}{severity.value}[reversed-limits]" in shown
+        assert f"{SEVERITY_COLOURS[severity]}^^^" in shown
+
+
+def test_summary_counts_by_severity() -> None:
+    severities = [Severity.WARNING] * 3 + [Severity.ERROR] * 2 + [Severity.BLOCKER]
+    found = [finding(severity=severity) for severity in severities]
+    assert summary(found, [FILE]) == "2 errors, 1 blocker, 3 warnings in cells/a.yaml"
+    assert summary([], [FILE]) == "no findings in cells/a.yaml"
+    assert summary([finding(severity=Severity.AUDIT)], ["a", "b"]) == "1 audit item in 2 files"

@@ -1,0 +1,29 @@
+"""Short ways to read a spec in a test."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from cellc.diagnostics import Outcome
+from cellc.source import SourceDocument, read
+
+
+def read_bytes(folder: Path, content: bytes | str) -> Outcome[SourceDocument]:
+    path = folder / "cell.yaml"
+    path.write_bytes(content if isinstance(content, bytes) else content.encode())
+    return read(path)
+
+
+def codes(outcome: Outcome[SourceDocument]) -> list[str]:
+    return [diagnostic.code for diagnostic in outcome.diagnostics]
+
+
+def places(outcome: Outcome[SourceDocument]) -> list[tuple[str, int, int]]:
+    return [(found.code, found.span.line, found.span.column) for found in outcome.diagnostics]
+
+
+def document(folder: Path, content: bytes | str) -> SourceDocument:
+    outcome = read_bytes(folder, content)
+    assert outcome.ok, outcome.diagnostics
+    assert outcome.value is not None
+    return outcome.value
