@@ -15,8 +15,12 @@ from typing import Annotated, Any
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import PydanticCustomError, core_schema
 
-_NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
-_NUMBERS_THEN_UNIT = re.compile(rf"\s*({_NUMBER}(?:[\s,]+{_NUMBER})*)\s*([^\s\d].*?)?\s*", re.ASCII)
+# Two digits of exponent: nothing in a cell is 1e100, and no factor then takes a value past the range of a double.
+_NUMBER = r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]{1,2})?"
+_SPACE = r" \t\r\n"
+_NUMBERS_THEN_UNIT = re.compile(
+    rf"[{_SPACE}]*({_NUMBER}(?:[{_SPACE},]+{_NUMBER})*)[{_SPACE}]*([^{_SPACE}0-9].*?)?[{_SPACE}]*", re.ASCII
+)
 _MAX_TEXT = 400  # a pose of 20 joints is under 200 characters; more is no quantity
 
 
@@ -88,10 +92,11 @@ class QuantityType:
     def __get_pydantic_json_schema__(
         self, schema: core_schema.CoreSchema, handler: GetJsonSchemaHandler
     ) -> dict[str, Any]:
-        count = {0: "+", 1: ""}.get(self.size, f"{{{self.size}}}")
-        numbers = _NUMBER if self.size == 1 else rf"(?:{_NUMBER}[\s,]*){count}"
-        units = "|".join(re.escape(unit) for unit in self.units())
-        return {"type": "string", "pattern": rf"^\s*{numbers}\s*(?:{units})\s*$", "examples": [self.example]}
+        more = {0: "*", 1: "{0}"}.get(self.size, f"{{{self.size - 1}}}")
+        numbers = rf"{_NUMBER}(?:[{_SPACE},]+{_NUMBER}){more}"
+        units = "|".join(re.escape(unit).replace("\\ ", " ") for unit in self.units())
+        pattern = rf"^[{_SPACE}]*{numbers}[{_SPACE}]*(?:{units})[{_SPACE}]*$"
+        return {"type": "string", "pattern": pattern, "maxLength": _MAX_TEXT, "x-units": list(self.units())}
 
     def units(self) -> tuple[str, ...]:
         """List the units that fit, in the order of the dimensions."""

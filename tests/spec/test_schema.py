@@ -1,0 +1,133 @@
+"""The published schemas are those of the models, complete for editors, and judge as the compiler does."""
+
+from __future__ import annotations
+
+import json
+import re
+import tempfile
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from cellc.source import Plain
+from cellc.spec.schema import Json, cell_schema, schema_files
+from tests.spec.mutations import data_of, mutated
+from tests.spec.reading import ARM, CELLS, HEAD, ROOT, as_yaml, document_of, parsed
+from tests.spec.test_parse import CASES
+
+SCHEMA = cell_schema()
+
+
+def _is_integer(checker: object, value: object) -> bool:
+    # JSON Schema counts 4.0 among the integers, YAML and ROS do not.
+    return isinstance(value, int) and not isinstance(value, bool)
+
+
+def _matches(validator: object, pattern: str, value: object, schema: object) -> Iterator[jsonschema.ValidationError]:
+    # JSON Schema's patterns are ECMA-262, whose `$` is the very end; Python's also stands before a last line break.
+    if isinstance(value, str) and not re.search(re.sub(r"\$$", r"\\Z", pattern), value):
+        yield jsonschema.ValidationError(f"{value!r} does not match {pattern!r}")
+
+
+_BASE = jsonschema.Draft202012Validator
+_STRICT = jsonschema.validators.extend(  # type: ignore[no-untyped-call]  # its stubs leave `extend` untyped
+    _BASE, {"pattern": _matches}, type_checker=_BASE.TYPE_CHECKER.redefine("integer", _is_integer)
+)
+
+
+def schema_accepts(data: Plain) -> bool:
+    """Whether a parser that is not ours finds the data legal."""
+    return bool(_STRICT(SCHEMA).is_valid(data))
+
+
+def compiler_accepts(data: Plain) -> bool:
+    """Whether the spec stage makes models of the data."""
+    with tempfile.TemporaryDirectory() as folder:
+        return parsed(as_yaml(data), Path(folder)).ok
+
+
+@pytest.mark.parametrize("name", sorted(schema_files()))
+def test_committed_schema_is_the_one_of_the_models(name: str) -> None:
+    assert (ROOT / "schemas" / name).read_text(encoding="utf-8") == schema_files()[name]
+
+
+@pytest.mark.parametrize("name", sorted(schema_files()))
+def test_schema_is_legal(name: str) -> None:
+    jsonschema.Draft202012Validator.check_schema(json.loads(schema_files()[name]))
+
+
+def _name_of(value: object) -> str:
+    return value if isinstance(value, str) else ""
+
+
+def _fields(schema: Mapping[str, Any]) -> Iterator[tuple[str, Mapping[str, Any]]]:
+    models = {"": schema, **schema["$defs"]}
+    for name, model in models.items():
+        for key, value in model.get("properties", {}).items():
+            yield f"{name}.{key}", value
+
+
+@pytest.mark.parametrize(("name", "field"), list(_fields(SCHEMA)), ids=_name_of)
+def test_field_tells_title_meaning_and_example(name: str, field: Mapping[str, Any]) -> None:
+    assert field["title"]
+    assert field["description"].endswith((".", "?"))
+    assert field["examples"]
+    # What is written as a pattern of units is also said in words.
+    assert ("x-units" in field) == ("Units: " in field["description"])
+
+
+@pytest.mark.parametrize(("name", "field"), list(_fields(SCHEMA)), ids=_name_of)
+def test_example_of_a_field_is_legal_or_a_part_of_what_is(name: str, field: Mapping[str, Any]) -> None:
+    if isinstance(field["examples"][0], dict):
+        pytest.skip("examples of mappings show some keys, not all that are required")
+    whole = {**field, "$defs": SCHEMA["$defs"]}
+    assert _STRICT(whole).is_valid(field["examples"][0])
+
+
+def test_schema_names_no_python_type() -> None:
+    text = schema_files()["cell.schema.json"]
+    assert not re.search(r'"title": "\w*Spec"|NoneType|"null"', text)
+
+
+@pytest.mark.parametrize("path", CELLS, ids=lambda path: path.parent.name)
+def test_cells_are_legal_for_both(path: Path) -> None:
+    assert schema_accepts(data_of(path))
+    assert compiler_accepts(data_of(path))
+
+
+@pytest.mark.parametrize("text", [case[0] for case in CASES])
+def test_what_the_compiler_refuses_the_schema_refuses(text: str, tmp_path: Path) -> None:
+    assert not schema_accepts(document_of(HEAD + ARM + text, tmp_path).data)
+
+
+_NUMBERS = r"[-+ ,]{0,2}[0-9.e]{1,4}([ ,]{1,2}-?[0-9.]{1,3}){0,3}"
+_QUANTITIES = st.from_regex(_NUMBERS + r" ?(mm|m|deg|rad|s|ms|Hz|%|kg|)\n?", fullmatch=True)
+_VALUES = st.one_of(
+    st.none(),
+    st.booleans(),
+    st.integers(-3, 3),
+    st.floats(allow_nan=False, allow_infinity=False),
+    st.sampled_from(["", "a", "9", "a-b", "arm/tool0", "a/b/c", "UNKNOWN", "standard", "mock", "a\n", "é", "x" * 501]),
+    _QUANTITIES,
+    st.lists(st.sampled_from(["a", 5, "a b"]), max_size=2),
+    st.dictionaries(
+        st.sampled_from(["a", "9", "topic", "move", "at", "x" * 65]), st.sampled_from(["a", 1, {}]), max_size=2
+    ),
+)
+
+
+@given(st.sampled_from(CELLS), st.data())
+@settings(max_examples=200, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+def test_compiler_and_schema_give_one_verdict(path: Path, data: st.DataObject) -> None:
+    spec = mutated(path, data, _VALUES)
+    assert schema_accepts(spec) == compiler_accepts(spec)
+
+
+def test_schema_is_the_same_in_every_run() -> None:
+    first: Json = cell_schema()
+    assert first == cell_schema()
