@@ -134,7 +134,8 @@ _XACRO = (
         "xacro-refused-expression",
         "an expression does more than compute a value",
         "xacro evaluates `${…}` as Python. A description is data: attributes with underscores, comprehensions, huge "
-        "powers and functions beyond arithmetic are refused, so that no description can run a program or exhaust the machine.",
+        "powers and functions beyond arithmetic are refused, so that no description can run a program "
+        "or exhaust the machine.",
         "use numbers, texts, lists and the functions that xacro documents",
     ),
     _page(

@@ -4,4 +4,4 @@ from __future__ import annotations
 
 MAX_MACRO_DEPTH = 100
 MAX_INCLUDE_DEPTH = 32
-MAX_ELEMENTS = 200_000
+MAX_ELEMENTS = 50_000

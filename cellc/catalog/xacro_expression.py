@@ -11,6 +11,7 @@ import ast
 import math
 import operator
 from collections.abc import Callable, Mapping
+from functools import lru_cache
 from typing import Any
 
 MAX_TEXT = 65_536
@@ -68,8 +69,13 @@ def evaluate(text: str, symbols: Mapping[str, Any]) -> Any:
     """
     if len(text) > MAX_TEXT:
         raise ExpressionError(f"the expression has {len(text)} characters, at most {MAX_TEXT} are evaluated")
-    tree = ast.parse(text.strip(), mode="eval")
-    return _value(tree.body, symbols)
+    return _value(_parsed(text.strip()), symbols)
+
+
+@lru_cache(maxsize=512)
+def _parsed(text: str) -> ast.expr:
+    # Macros evaluate the same few texts again and again.
+    return ast.parse(text, mode="eval").body
 
 
 def bounded(value: Any) -> Any:
