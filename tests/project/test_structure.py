@@ -1,0 +1,69 @@
+"""Habits that no linter knows: small files and functions, no vendor in Python, light imports."""
+
+from __future__ import annotations
+
+import ast
+import re
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from cellc.catalog.load import device_names, load_device
+
+ROOT = Path(__file__).resolve().parents[2]
+SOURCES = sorted((ROOT / "cellc").rglob("*.py"))
+
+
+def test_no_source_file_is_longer_than_300_lines() -> None:
+    long = {file.relative_to(ROOT).as_posix(): len(file.read_text().splitlines()) for file in SOURCES}
+    assert {name: lines for name, lines in long.items() if lines > 300} == {}
+
+
+def test_no_function_body_is_longer_than_40_lines() -> None:
+    long = [f"{file.relative_to(ROOT)}:{line} {name} {size}" for file in SOURCES for name, line, size in _bodies(file)]
+    assert long == []
+
+
+def _bodies(file: Path) -> Iterator[tuple[str, int, int]]:
+    for node in ast.walk(ast.parse(file.read_text())):
+        if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)):
+            documented = ast.get_docstring(node) is not None and len(node.body) > 1
+            first = node.body[1] if documented else node.body[0]
+            size = (node.end_lineno or 0) - first.lineno + 1
+            if size > 40:
+                yield node.name, node.lineno, size
+
+
+def test_no_vendor_or_model_stands_in_python() -> None:
+    names: set[str] = set()
+    for name in device_names():
+        device = load_device(name).value
+        assert device is not None
+        packages = device.model.packages
+        names |= {name, device.model.vendor, *filter(None, (packages.driver, packages.sdk, packages.description))}
+    pattern = re.compile("|".join(rf"\b{re.escape(name)}" for name in sorted(names)), re.IGNORECASE)
+    found = [
+        f"{file.relative_to(ROOT)}:{number}: {line.strip()}"
+        for file in SOURCES
+        for number, line in enumerate(file.read_text().splitlines(), 1)
+        if pattern.search(line)
+    ]
+    assert found == []
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        "import cellc, cellc.cli.main",
+        "from cellc.pipeline import check; assert check('cells/ur5e_pick/cell.yaml').ok",
+    ],
+    ids=["import", "check"],
+)
+def test_heavy_libraries_are_not_imported(code: str) -> None:
+    heavy = ("pinocchio", "yourdfpy", "trimesh", "matplotlib", "scipy", "ruckig")
+    script = f"import sys\n{code}\nprint(sorted(set(sys.modules) & set({heavy!r})))"
+    done = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
