@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from cellc.rule import Rule
-from cellc.rules import clocks, frames, model
+from cellc.rules import clocks, frames, interfaces, model, qos
 
 ALL_RULES: tuple[Rule, ...] = (
     *model.RULES,
     *frames.RULES,
     *clocks.RULES,
+    *interfaces.RULES,
+    *qos.RULES,
 )

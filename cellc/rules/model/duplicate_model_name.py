@@ -37,9 +37,10 @@ from cellc.rules.define import define
 def check(graph: CellGraph) -> Iterator[Finding]:
     """Yield the second and every later bearer of a name."""
     seen: dict[tuple[str, str, str], ModelLink | ModelJoint] = {}
-    links = [("link", part.link.name, part) for part in graph.model.links()]
-    joints = [("joint", part.joint.name, part) for part in graph.model.joints()]
-    for kind, name, part in (*links, *joints):
+    named: list[tuple[str, str, ModelLink | ModelJoint]] = []
+    named += [("link", link.link.name, link) for link in graph.model.links()]
+    named += [("joint", joint.joint.name, joint) for joint in graph.model.joints()]
+    for kind, name, part in named:
         first = seen.setdefault((part.device.name, kind, name), part)
         if first is not part:
             message = f"`{part.device.name}` has two {kind}s named `{name}`"

@@ -1,0 +1,50 @@
+"""An action does not say how soon a cancel takes effect.
+
+Cancel is a request. How long the arm may go on after it has to be known before anybody relies on it.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /dock: {action: moveit_msgs/action/MoveGroup, server: dock, client: task, frame: world, timeout: 20 s,
+          on_timeout: cancel_and_hold}
+nodes:
+  dock: {run: cell_tasks/dock, host: control_pc, owner: integration}
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /dock: {action: moveit_msgs/action/MoveGroup, server: dock, client: task, frame: world, timeout: 20 s,
+          on_timeout: cancel_and_hold, cancel_within: 200 ms}
+nodes:
+  dock: {run: cell_tasks/dock, host: control_pc, owner: integration}
+```
+
+Fix: write `cancel_within:` with the bound from cancel to hold.
+
+Source: chapter 4, section 2: verify when cancellation takes effect; section 11, gate G7.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.cell.interface import InterfaceKind
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield actions of the spec without a bound from cancel to hold."""
+    for interface in graph.cell.interfaces:
+        if interface.kind is InterfaceKind.ACTION and not interface.derived and interface.cancel_within_s is None:
+            message = f"action `{interface.name}` does not say how soon a cancel takes effect"
+            yield found(graph, interface.path, message, "add `cancel_within:`, such as `200 ms`")
+
+
+RULE = define("action-without-cancel-bound", Severity.ERROR, check, __doc__)

@@ -1,0 +1,46 @@
+"""Nobody calls a service or sends goals to an action.
+
+A server that nobody is meant to use is open to everybody: the wrong owner finds it first.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /inspect: {service: std_srvs/srv/Trigger, server: perception, client: [], timeout: 1 s, on_timeout: error,
+             on_error: response.success is false}
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /inspect: {service: std_srvs/srv/Trigger, server: perception, client: task, timeout: 1 s, on_timeout: error,
+             on_error: response.success is false}
+```
+
+Fix: name the client, or delete the interface.
+
+Source: chapter 4, section 7: command ownership.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.cell.interface import InterfaceKind
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield services and actions of the spec without a client."""
+    for interface in graph.cell.interfaces:
+        if not interface.derived and interface.kind is not InterfaceKind.TOPIC and not interface.sinks:
+            message = f"nobody calls the {interface.kind.value} `{interface.name}`"
+            yield found(graph, (*interface.path, "client"), message, "name its client")
+
+
+RULE = define("call-without-client", Severity.WARNING, check, __doc__)

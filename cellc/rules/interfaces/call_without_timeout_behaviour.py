@@ -1,0 +1,47 @@
+"""Nothing is said on what happens when a service or action does not answer.
+
+A missing responder has to end in a state that somebody can see, not in a caller that hangs.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /inspect: {service: std_srvs/srv/Trigger, server: perception, client: task, timeout: 1 s,
+             on_error: response.success is false}
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /inspect: {service: std_srvs/srv/Trigger, server: perception, client: task, timeout: 1 s, on_timeout: error,
+             on_error: response.success is false}
+```
+
+Fix: write `on_timeout: cancel_and_hold` for motion and `error` for a query.
+
+Source: chapter 4, section 2: inject a missing responder; each case produces a visible, bounded state.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.cell.interface import InterfaceKind
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield services and actions of the spec without a behaviour on timeout."""
+    for interface in graph.cell.interfaces:
+        if interface.kind is InterfaceKind.TOPIC or interface.derived or interface.on_timeout is not None:
+            continue
+        message = f"{interface.kind.value} `{interface.name}` does not say what happens when no answer comes"
+        yield found(graph, interface.path, message, "add `on_timeout:`, such as `cancel_and_hold`")
+
+
+RULE = define("call-without-timeout-behaviour", Severity.ERROR, check, __doc__)

@@ -1,0 +1,50 @@
+"""A Cartesian command path names no frame.
+
+Numbers without a frame are right in one node's base and wrong in the other's. The arm moves, and to the wrong side.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /dock: {action: moveit_msgs/action/MoveGroup, server: dock, client: task, timeout: 20 s,
+          on_timeout: cancel_and_hold, cancel_within: 200 ms}
+nodes:
+  dock: {run: cell_tasks/dock, host: control_pc, owner: integration}
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /dock: {action: moveit_msgs/action/MoveGroup, server: dock, client: task, frame: world, timeout: 20 s,
+          on_timeout: cancel_and_hold, cancel_within: 200 ms}
+nodes:
+  dock: {run: cell_tasks/dock, host: control_pc, owner: integration}
+```
+
+Fix: write `frame:` with the frame in which goals are given.
+
+Source: chapter 4, section 12: for every command path state frame, unit, rate, time source.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.cell.interface import InterfaceKind
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield actions of the spec without a frame."""
+    for interface in graph.cell.interfaces:
+        if interface.kind is InterfaceKind.ACTION and not interface.derived and interface.frame is None:
+            message = f"action `{interface.name}` does not say in which frame its goals are"
+            yield found(graph, interface.path, message, "add `frame:`, such as `world`")
+
+
+RULE = define("command-without-frame", Severity.ERROR, check, __doc__)

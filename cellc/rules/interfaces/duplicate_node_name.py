@@ -1,0 +1,50 @@
+"""Two nodes of a cell have one full name.
+
+Parameters, actions and lifecycle services of the two mix: a request reaches one of them, by chance. The middleware
+allows it and prints one warning.
+
+Example that is reported:
+
+```yaml
+nodes:
+  arm_trajectory: {run: cell_tasks/tracker, host: control_pc, owner: integration}
+```
+
+Example that is accepted:
+
+```yaml
+nodes:
+  tracker: {run: cell_tasks/tracker, host: control_pc, owner: integration}
+```
+
+Fix: rename one of the two, or give it a namespace.
+
+Source: ROS 2 design article on unique node names.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Related, Severity, YamlPath
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield nodes and controllers whose full name is taken."""
+    namespaces = {manager.name: manager.namespace for manager in graph.cell.managers}
+    named = [(node.full_name, node.path) for node in graph.cell.nodes]
+    named += [(f"{namespaces[c.manager]}/{c.name}", c.path) for c in graph.cell.controllers]
+    first: dict[str, YamlPath] = {}
+    for name, path in named:
+        earlier = first.setdefault(name, path)
+        if earlier != path:
+            message = f"there is already a node `{name}`"
+            related = (Related("the first is here", graph.cell.locate(*earlier)),)
+            yield found(graph, path, message, "rename one of the two", related)
+
+
+RULE = define("duplicate-node-name", Severity.ERROR, check, __doc__)

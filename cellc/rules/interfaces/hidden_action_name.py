@@ -1,0 +1,47 @@
+"""An interface takes a name inside an action.
+
+Below `/_action/` live the five entities of an action server. A topic of that name mixes with them, and a client that
+talks to one of them goes round the goal states.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /move_action/_action/feedback:
+             {topic: geometry_msgs/msg/PoseStamped, from: perception, to: {task: {depth: 1}}, frame: world,
+             wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: reject_goal}
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /markers: {topic: geometry_msgs/msg/PoseStamped, from: perception, to: {task: {depth: 1}}, frame: world,
+             wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: reject_goal}
+```
+
+Fix: declare the action itself, and use it as an action.
+
+Source: ROS 2 design article on actions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield names with the part `_action`."""
+    for interface in graph.cell.interfaces:
+        if "_action" in interface.name.split("/"):
+            message = f"`{interface.name}` is a hidden name of an action"
+            yield found(graph, interface.path, message, "declare the action instead")
+
+
+RULE = define("hidden-action-name", Severity.ERROR, check, __doc__)

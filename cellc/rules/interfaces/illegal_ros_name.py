@@ -1,0 +1,55 @@
+"""An interface has a name that ROS does not allow.
+
+The node that creates it ends with an exception, or the name is expanded to another one than the other side uses.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /camera-markers: {topic: geometry_msgs/msg/PoseStamped, from: perception, to: {task: {depth: 1}}, frame: world,
+             wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: reject_goal}
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /camera_markers: {topic: geometry_msgs/msg/PoseStamped, from: perception, to: {task: {depth: 1}}, frame: world,
+             wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: reject_goal}
+```
+
+Fix: begin with `/` and use letters, digits and `_` between slashes, no part beginning with a digit.
+
+Source: ROS 2 design article on topic and service names; at most 247 characters with what is added for actions.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from cellc.cell.interface import InterfaceKind
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+_NAME = re.compile(r"(/[A-Za-z_][A-Za-z0-9_]*)+")
+_LONGEST = {InterfaceKind.TOPIC: 247, InterfaceKind.SERVICE: 240, InterfaceKind.ACTION: 221}
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield names that are not fully qualified, hold other characters or are too long."""
+    for interface in graph.cell.interfaces:
+        longest = _LONGEST[interface.kind]
+        if _NAME.fullmatch(interface.name) is None:
+            legal = "/" + re.sub(r"[^A-Za-z0-9_/]", "_", interface.name).strip("/")
+            message = f"`{interface.name}` is no full ROS name"
+            yield found(graph, interface.path, message, f"write `{legal}`, as the nodes do")
+        elif len(interface.name) > longest:
+            message = f"`{interface.name[:40]}…` has {len(interface.name)} characters, at most {longest} are allowed"
+            yield found(graph, interface.path, message, "shorten the name")
+
+
+RULE = define("illegal-ros-name", Severity.ERROR, check, __doc__)

@@ -1,0 +1,52 @@
+"""The type of an interface is of another kind.
+
+A message cannot be called and a service cannot be streamed: the nodes do not compile, or never meet. A stream
+declared as a service or an action is the usual reason.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /inspect: {service: sensor_msgs/msg/Image, server: perception, client: task, timeout: 1 s, on_timeout: error,
+             on_error: response.success is false}
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /inspect: {service: std_srvs/srv/Trigger, server: perception, client: task, timeout: 1 s, on_timeout: error,
+             on_error: response.success is false}
+```
+
+Fix: use `msg` types for topics, `srv` types for services, `action` types for actions.
+
+Source: chapter 4, section 2: topics serve streams, services bounded requests, actions long-running goals.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.cell.interface import InterfaceKind
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+_FOLDER = {InterfaceKind.TOPIC: "msg", InterfaceKind.SERVICE: "srv", InterfaceKind.ACTION: "action"}
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield interfaces whose type stands in the folder of another kind."""
+    for interface in graph.cell.interfaces:
+        parts = interface.type.split("/")
+        due = _FOLDER[interface.kind]
+        if len(parts) == 3 and parts[1] in _FOLDER.values() and parts[1] != due:
+            message = f"`{interface.name}` is a {interface.kind.value}, but `{interface.type}` is a `{parts[1]}` type"
+            path = (*interface.path, interface.kind.value)
+            yield found(graph, path, message, f"use a `{due}` type, or declare it as what it is")
+
+
+RULE = define("interface-kind-mismatch", Severity.ERROR, check, __doc__)

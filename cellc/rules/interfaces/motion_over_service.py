@@ -1,0 +1,72 @@
+"""Motion is requested over a service.
+
+A service answers once. Nobody sees progress, nobody can cancel, and after a timeout nobody knows how far the arm
+went.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /move_to_bin: {service: cell_msgs/srv/MoveToPose, server: move_group, client: task, timeout: 20 s,
+                 on_timeout: error, on_error: response.success is false}
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /plan_to_bin: {service: moveit_msgs/srv/GetMotionPlan, server: move_group, client: task, timeout: 5 s,
+                 on_timeout: error, on_error: response.error_code}
+```
+
+Fix: declare it as an action, with feedback, cancel and result; a service that only plans or reads is fine.
+
+Source: chapter 4, section 2: a blocking service for motion leaves timeout and partial execution semantics unclear.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from cellc.cell.interface import InterfaceKind
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+_MOTION = frozenset(
+    [
+        "Move",
+        "Motion",
+        "Execute",
+        "Trajectory",
+        "Grip",
+        "Grasp",
+        "Pick",
+        "Place",
+        "Follow",
+        "Servo",
+        "Jog",
+        "Home",
+        "Dock",
+    ]
+)
+_READING = ("Get", "Check", "Query", "Plan", "List", "Compute", "Set")
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield services whose type speaks of motion and does not merely read, plan or set."""
+    for interface in graph.cell.interfaces:
+        words = re.findall(r"[A-Z][a-z]+", interface.type.rpartition("/")[2])
+        if interface.kind is not InterfaceKind.SERVICE or not words or words[0] in _READING:
+            continue
+        if not _MOTION.isdisjoint(words):
+            message = f"`{interface.name}` requests motion over the service `{interface.type}`"
+            yield found(
+                graph, (*interface.path, "service"), message, "use an action: it reports progress and can be cancelled"
+            )
+
+
+RULE = define("motion-over-service", Severity.ERROR, check, __doc__)

@@ -1,0 +1,51 @@
+"""Motion is commanded over a bare topic.
+
+A topic has no acceptance, no feedback, no result and no cancel. Whether the trajectory was taken, finished or dropped
+shows in nothing but the arm.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /arm_trajectory/joint_trajectory: {topic: trajectory_msgs/msg/JointTrajectory, from: task, to: [arm_trajectory],
+                                     wants: every_sample, rate: 1 Hz, max_age: 2 s, on_stale: ignore_sample,
+                                     frame: world}
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /planned_trajectory: {topic: trajectory_msgs/msg/JointTrajectory, from: move_group, to: [task], frame: world,
+                        wants: every_sample, rate: 1 Hz, max_age: 2 s, on_stale: ignore_sample}
+```
+
+Fix: send goals to the action of the controller.
+
+Source: chapter 4, section 2: a topic command lacks action results and is less inspectable for first bring-up.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.cell.interface import InterfaceKind
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield topics of the spec that end in a controller with command interfaces."""
+    for interface in graph.cell.interfaces:
+        if interface.derived or interface.kind is not InterfaceKind.TOPIC:
+            continue
+        for sink in interface.sinks:
+            if sink.node in graph.data.commanders:
+                message = f"controller `{sink.node}` is commanded over the topic `{interface.name}`"
+                yield found(graph, sink.path, message, "send goals to the action of the controller")
+
+
+RULE = define("motion-over-topic", Severity.WARNING, check, __doc__)

@@ -1,0 +1,45 @@
+"""A service does not say how it reports an error.
+
+A caller that cannot tell refusal from success goes on in both cases.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /inspect: {service: std_srvs/srv/Trigger, server: perception, client: task, timeout: 1 s, on_timeout: error}
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /inspect: {service: std_srvs/srv/Trigger, server: perception, client: task, timeout: 1 s, on_timeout: error,
+             on_error: response.success is false}
+```
+
+Fix: write `on_error:` with the field of the response that tells it.
+
+Source: chapter 4, section 2, table: a one-shot query has a bounded response and an explicit error.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.cell.interface import InterfaceKind
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield services of the spec without a stated error answer."""
+    for interface in graph.cell.interfaces:
+        if interface.kind is InterfaceKind.SERVICE and not interface.derived and interface.on_error is None:
+            message = f"service `{interface.name}` does not say how an error is told"
+            yield found(graph, interface.path, message, "add `on_error:` with the field that tells it")
+
+
+RULE = define("service-without-error-answer", Severity.ERROR, check, __doc__)

@@ -1,0 +1,53 @@
+"""A topic with positions names no frame.
+
+Poses, points and images are in some frame. If the spec does not say which, nobody can check that the reader
+transforms from the right one.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /markers: {topic: geometry_msgs/msg/PoseStamped, from: perception, to: {task: {depth: 1}},
+             wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: reject_goal}
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /markers: {topic: geometry_msgs/msg/PoseStamped, from: perception, to: {task: {depth: 1}}, frame: world,
+             wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: reject_goal}
+```
+
+Fix: write `frame:`, for camera data the optical frame.
+
+Source: chapter 4, section 12: for every command path state frame, unit, rate, time source; REP-103.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.catalog.load import load_message_types
+from cellc.cell.interface import InterfaceKind
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield topics of the spec that carry positions and can move something, without a frame."""
+    table = load_message_types().value
+    known = table.types if table is not None else {}
+    for interface in graph.cell.interfaces:
+        facts = known.get(interface.type)
+        if interface.kind is not InterfaceKind.TOPIC or interface.derived or interface.frame is not None:
+            continue
+        if facts is not None and facts.feeds_motion and (facts.unit or "").startswith("m"):
+            message = f"`{interface.name}` carries `{interface.type}` but names no frame"
+            yield found(graph, interface.path, message, "add `frame:`")
+
+
+RULE = define("spatial-topic-without-frame", Severity.ERROR, check, __doc__)

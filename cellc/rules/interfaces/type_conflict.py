@@ -1,0 +1,62 @@
+"""One name carries two types.
+
+Endpoints of different types never meet. The name shows in every list, and no sample arrives.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /camera/camera/color/camera_info: {topic: sensor_msgs/msg/Image, from: {camera: {depth: 1}},
+                                     to: {perception: {depth: 1}}, frame: camera/color_optical, wants: newest,
+                                     rate: 30 Hz, max_age: 100 ms, on_stale: reject_goal}
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /camera/camera/color/camera_info: {topic: sensor_msgs/msg/CameraInfo, from: {camera: {depth: 1}},
+                                     to: {perception: {depth: 1}}, frame: camera/color_optical, wants: newest,
+                                     rate: 30 Hz, max_age: 100 ms, on_stale: reject_goal}
+```
+
+Fix: use the type that the device or the controller publishes.
+
+Source: chapter 4, section 5, gate L4: type, QoS, age, loss.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield interfaces of the spec whose device or controller has another type for the name."""
+    for interface in graph.cell.interfaces:
+        for source in interface.sources:
+            due = _type_of(graph, source.node, interface.name)
+            if due is not None and due != interface.type:
+                message = f"`{interface.name}` is declared as `{interface.type}`, but `{source.node}` has `{due}`"
+                yield found(graph, (*interface.path, interface.kind.value), message, f"write `{due}`")
+
+
+def _type_of(graph: CellGraph, node: str, name: str) -> str | None:
+    for device in graph.cell.devices:
+        if device.name == node:
+            facts = [(topic.name, topic.type) for topic in device.facts.topics]
+            if device.facts.camera is not None:
+                for stream in device.facts.camera.streams.values():
+                    facts.append((stream.topic, stream.type))
+                    facts.append((stream.info_topic, "sensor_msgs/msg/CameraInfo"))
+            filled = {text.format(device=device.name, prefix=device.prefix): type_ for text, type_ in facts}
+            return filled.get(name)
+    return next((c.action_type for c in graph.cell.controllers if c.name == node and c.action == name), None)
+
+
+RULE = define("type-conflict", Severity.ERROR, check, __doc__)

@@ -1,0 +1,55 @@
+"""An interface type does not exist in the pinned distribution.
+
+The type was added or removed between distributions, so the node does not build, or two parts of the cell speak
+different types under one name.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /squeeze: {action: control_msgs/action/ParallelGripperCommand, server: gripper_action, client: task, frame: world,
+             timeout: 5 s, on_timeout: cancel_and_hold, cancel_within: 200 ms}
+versions: {os: ubuntu 22.04, ros: humble, rmw: rmw_fastrtps_cpp 6.2.10, ros2_control: 2.54.0, moveit: 2.5.9}
+control: {controllers: {gripper_action: null}}
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /squeeze: {action: control_msgs/action/ParallelGripperCommand, server: gripper_action, client: task, frame: world,
+             timeout: 5 s, on_timeout: cancel_and_hold, cancel_within: 200 ms}
+```
+
+Fix: use the type of the distribution that the cell pins.
+
+Source: catalogue of interface types, with its sources and date.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.catalog.load import load_message_types
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield known types that the distribution does not have."""
+    table = load_message_types().value
+    known = table.types if table is not None else {}
+    for interface in graph.cell.interfaces:
+        facts = known.get(interface.type)
+        if facts is not None and facts.only and graph.cell.distro not in facts.only and not interface.derived:
+            message = f"`{interface.type}` does not exist in {graph.cell.distro}"
+            names = ", ".join(facts.only)
+            yield found(
+                graph, (*interface.path, interface.kind.value), message, f"it exists in {names}; use another type"
+            )
+
+
+RULE = define("type-of-another-distribution", Severity.ERROR, check, __doc__)

@@ -1,0 +1,50 @@
+"""An action has no bound on a whole goal.
+
+A goal that never ends blocks the next one, and a task that waits for it looks as if it were working.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /dock: {action: moveit_msgs/action/MoveGroup, server: dock, client: task, frame: world,
+          on_timeout: cancel_and_hold, cancel_within: 200 ms}
+nodes:
+  dock: {run: cell_tasks/dock, host: control_pc, owner: integration}
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /dock: {action: moveit_msgs/action/MoveGroup, server: dock, client: task, frame: world, timeout: 20 s,
+          on_timeout: cancel_and_hold, cancel_within: 200 ms}
+nodes:
+  dock: {run: cell_tasks/dock, host: control_pc, owner: integration}
+```
+
+Fix: write `timeout:` with the longest time that a goal may take.
+
+Source: chapter 4, section 2: an unambiguous terminal result.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.cell.interface import InterfaceKind
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield actions of the spec without a timeout."""
+    for interface in graph.cell.interfaces:
+        if interface.kind is InterfaceKind.ACTION and not interface.derived and interface.timeout_s is None:
+            message = f"action `{interface.name}` has no bound on a whole goal"
+            yield found(graph, interface.path, message, "add `timeout:`, such as `20 s`")
+
+
+RULE = define("unbounded-action", Severity.ERROR, check, __doc__)

@@ -1,0 +1,46 @@
+"""A service has no bound on its response time.
+
+If the server dies, the caller waits for ever: DDS tells nobody that an answer will not come.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /inspect: {service: std_srvs/srv/Trigger, server: perception, client: task, on_timeout: error,
+             on_error: response.success is false}
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /inspect: {service: std_srvs/srv/Trigger, server: perception, client: task, timeout: 1 s, on_timeout: error,
+             on_error: response.success is false}
+```
+
+Fix: write `timeout:` with the longest time that an answer may take.
+
+Source: chapter 4, section 2: services serve bounded request-response interactions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.cell.interface import InterfaceKind
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield services of the spec without a timeout."""
+    for interface in graph.cell.interfaces:
+        if interface.kind is InterfaceKind.SERVICE and not interface.derived and interface.timeout_s is None:
+            message = f"service `{interface.name}` has no bound on its response time"
+            yield found(graph, interface.path, message, "add `timeout:`, such as `1 s`")
+
+
+RULE = define("unbounded-service", Severity.ERROR, check, __doc__)

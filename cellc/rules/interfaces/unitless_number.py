@@ -1,0 +1,49 @@
+"""A topic carries bare numbers without a unit.
+
+A Float64 is millimetres for its writer and metres for its reader, until the arm shows which. Types of std_msgs fix no
+unit.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /part_height: {topic: std_msgs/msg/Float64, from: perception, to: {task: {depth: 1}}, wants: newest, rate: 10 Hz,
+                 max_age: 200 ms, on_stale: reject_goal}
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /part_height: {topic: std_msgs/msg/Float64, from: perception, to: {task: {depth: 1}}, wants: newest, rate: 10 Hz,
+                 max_age: 200 ms, on_stale: reject_goal, unit: m}
+```
+
+Fix: write `unit:`, in SI where you can choose, or use a type that fixes it.
+
+Source: REP-103; chapter 4, section 12: for every command path state frame, unit.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+_NUMBER = re.compile(r"std_msgs/msg/(Float|Int|UInt)(8|16|32|64)(MultiArray)?")
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield topics of plain numbers without a unit."""
+    for interface in graph.cell.interfaces:
+        if not interface.derived and interface.unit is None and _NUMBER.fullmatch(interface.type):
+            message = f"`{interface.name}` carries bare numbers without a unit"
+            yield found(graph, interface.path, message, "add `unit:`, such as `m`")
+
+
+RULE = define("unitless-number", Severity.ERROR, check, __doc__)

@@ -1,0 +1,45 @@
+"""Nobody publishes a topic.
+
+Its subscribers wait for ever, or go on with what they had.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /markers: {topic: geometry_msgs/msg/PoseStamped, from: [], to: {task: {depth: 1}}, frame: world,
+             wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: reject_goal}
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /markers: {topic: geometry_msgs/msg/PoseStamped, from: perception, to: {task: {depth: 1}}, frame: world,
+             wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: reject_goal}
+```
+
+Fix: name the publisher.
+
+Source: chapter 4, section 5: endpoint match.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.cell.interface import InterfaceKind
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield topics without a publisher."""
+    for interface in graph.cell.interfaces:
+        if interface.kind is InterfaceKind.TOPIC and not interface.sources:
+            yield found(graph, (*interface.path, "from"), f"nobody publishes `{interface.name}`", "name the publisher")
+
+
+RULE = define("unpublished-topic", Severity.ERROR, check, __doc__)

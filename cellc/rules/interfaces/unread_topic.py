@@ -1,0 +1,49 @@
+"""Nobody subscribes to a topic.
+
+Either a reader was forgotten, or bandwidth and attention go to data that nobody uses.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /markers: {topic: geometry_msgs/msg/PoseStamped, from: perception, to: [], frame: world,
+             wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: reject_goal}
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /markers: {topic: geometry_msgs/msg/PoseStamped, from: perception, to: {task: {depth: 1}}, frame: world,
+             wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: reject_goal}
+```
+
+Fix: name the subscribers, or delete the topic; what is only recorded belongs under `recording.topics`.
+
+Source: chapter 4, section 5: endpoint match.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.cell.interface import InterfaceKind
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield topics of the spec without a subscriber that are not recorded either."""
+    for interface in graph.cell.interfaces:
+        if interface.derived or interface.kind is not InterfaceKind.TOPIC or interface.sinks:
+            continue
+        if interface.name not in graph.cell.spec.recording.topics:
+            yield found(
+                graph, interface.path, f"nobody subscribes to `{interface.name}`", "name its readers under `to:`"
+            )
+
+
+RULE = define("unread-topic", Severity.WARNING, check, __doc__)

@@ -1,0 +1,54 @@
+"""The age of a sample is limited, but its type has no stamp.
+
+Without a header the reader knows when a message arrived, not when it was true. A sample that waited in a queue passes
+every age test.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /markers: {topic: geometry_msgs/msg/Pose, from: perception, to: {task: {depth: 1}}, frame: world,
+             wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: reject_goal}
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /markers: {topic: geometry_msgs/msg/PoseStamped, from: perception, to: {task: {depth: 1}}, frame: world,
+             wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: reject_goal}
+```
+
+Fix: use the stamped variant of the type.
+
+Source: chapter 4, section 3: store the image stamp, robot-state stamp and transform stamp used to form every goal.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.catalog.load import load_message_types
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield topics that feed motion with an age limit and a type without header."""
+    table = load_message_types().value
+    known = table.types if table is not None else {}
+    for interface in graph.cell.interfaces:
+        facts = known.get(interface.type)
+        if interface.derived or interface.max_age_s is None or facts is None:
+            continue
+        if facts.feeds_motion and not facts.stamped:
+            stamped = f"{interface.type}Stamped"
+            advice = f"use `{stamped}`" if stamped in known else "use a type that begins with a header"
+            message = f"`{interface.name}` limits the age of `{interface.type}`, which has no stamp"
+            yield found(graph, (*interface.path, "topic"), message, advice)
+
+
+RULE = define("unstamped-age-limit", Severity.ERROR, check, __doc__)

@@ -1,0 +1,52 @@
+"""A topic does not say whether every sample counts or only the newest.
+
+Queue, reliability and age follow from that answer. Left open, the default queue of ten serves neither: it drops
+samples for one and delays them for the other.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /markers: {topic: geometry_msgs/msg/PoseStamped, from: perception, to: {task: {depth: 1}}, frame: world,
+             rate: 10 Hz, max_age: 200 ms, on_stale: reject_goal}
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /markers: {topic: geometry_msgs/msg/PoseStamped, from: perception, to: {task: {depth: 1}}, frame: world,
+             wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: reject_goal}
+```
+
+Fix: write `wants: newest` for state and images, `wants: every_sample` for events.
+
+Source: chapter 4, section 2: write whether the consumer needs every sample or only the newest one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.cell.interface import InterfaceKind
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield topics of the spec with a reader and without a stated need."""
+    for interface in graph.cell.interfaces:
+        if (
+            interface.kind is InterfaceKind.TOPIC
+            and not interface.derived
+            and interface.sinks
+            and interface.wants is None
+        ):
+            message = f"`{interface.name}` does not say whether every sample counts or only the newest"
+            yield found(graph, interface.path, message, "add `wants: newest` or `wants: every_sample`")
+
+
+RULE = define("unstated-need", Severity.WARNING, check, __doc__)

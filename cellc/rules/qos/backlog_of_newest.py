@@ -1,0 +1,65 @@
+"""A reader that wants the newest sample queues old ones reliably.
+
+When the reader is late, a reliable queue hands it the oldest sample first. It then works through a backlog of images
+in which the part is still where it was.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /markers:
+    topic: geometry_msgs/msg/PoseStamped
+    from: {perception: {depth: 1}}
+    to: {task: {reliability: reliable, depth: 10}}
+    frame: world
+    wants: newest
+    rate: 10 Hz
+    max_age: 200 ms
+    on_stale: reject_goal
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /markers:
+    topic: geometry_msgs/msg/PoseStamped
+    from: {perception: {depth: 1}}
+    to: {task: {reliability: reliable, depth: 1}}
+    frame: world
+    wants: newest
+    rate: 10 Hz
+    max_age: 200 ms
+    on_stale: reject_goal
+```
+
+Fix: use `depth: 1`; for high-rate sensor data also `reliability: best_effort`.
+
+Source: chapter 4, section 2, table: reliable backlog processes stale images.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield subscribers with a deep reliable queue on a topic of which they want the newest sample."""
+    for topic in graph.cell.interfaces:
+        if topic.derived or topic.wants != "newest":
+            continue
+        for end in topic.sinks:
+            deep = end.qos.history == "keep_all" or end.qos.depth > 1
+            if deep and end.qos.reliability == "reliable":
+                queue = "every sample" if end.qos.history == "keep_all" else f"{end.qos.depth} samples"
+                message = f"`{end.node}` wants the newest of `{topic.name}` but queues {queue} reliably"
+                yield found(graph, end.path, message, "use `depth: 1`, or best effort for sensor data")
+
+
+RULE = define("backlog-of-newest", Severity.WARNING, check, __doc__)

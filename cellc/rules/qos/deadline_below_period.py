@@ -1,0 +1,67 @@
+"""A deadline is shorter than the publishing period.
+
+Every period misses it, so the event that should tell of a dead publisher fires all the time and is ignored.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /markers:
+    topic: geometry_msgs/msg/PoseStamped
+    from: {perception: {depth: 1, deadline: 50 ms}}
+    to: {task: {depth: 1}}
+    frame: world
+    wants: newest
+    rate: 10 Hz
+    max_age: 200 ms
+    on_stale: reject_goal
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /markers:
+    topic: geometry_msgs/msg/PoseStamped
+    from: {perception: {depth: 1, deadline: 150 ms}}
+    to: {task: {depth: 1}}
+    frame: world
+    wants: newest
+    rate: 10 Hz
+    max_age: 200 ms
+    on_stale: reject_goal
+```
+
+Fix: make the deadline longer than one period, with room for jitter.
+
+Source: chapter 4, section 2: a QoS deadline can report a missed contract.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.cell.interface import InterfaceKind
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield endpoints with a deadline that a publisher on time cannot keep."""
+    for topic in graph.cell.interfaces:
+        if topic.kind is not InterfaceKind.TOPIC or not topic.rate_hz:
+            continue
+        for end in (*topic.sources, *topic.sinks):
+            if end.qos.deadline_s is not None and end.qos.deadline_s < 1.0 / topic.rate_hz:
+                deadline, period = end.qos.deadline_s * 1e3, 1e3 / topic.rate_hz
+                message = (
+                    f"deadline {deadline:g} ms of `{end.node}` on `{topic.name}` is below its period {period:.4g} ms"
+                )
+                path = (*end.path, "deadline")
+                yield found(graph, path, message, f"allow more than {period:.4g} ms")
+
+
+RULE = define("deadline-below-period", Severity.ERROR, check, __doc__)

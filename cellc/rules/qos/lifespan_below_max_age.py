@@ -1,0 +1,63 @@
+"""Samples expire before they are too old.
+
+The middleware drops what the reader would still use, silently: the reader sees a gap and not a stale sample.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /markers:
+    topic: geometry_msgs/msg/PoseStamped
+    from: {perception: {depth: 1, lifespan: 100 ms}}
+    to: {task: {depth: 1}}
+    frame: world
+    wants: newest
+    rate: 10 Hz
+    max_age: 200 ms
+    on_stale: reject_goal
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /markers:
+    topic: geometry_msgs/msg/PoseStamped
+    from: {perception: {depth: 1, lifespan: 500 ms}}
+    to: {task: {depth: 1}}
+    frame: world
+    wants: newest
+    rate: 10 Hz
+    max_age: 200 ms
+    on_stale: reject_goal
+```
+
+Fix: make `lifespan` longer than `max_age`, or leave it out.
+
+Source: chapter 4, section 2: acceptable sample age.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield publishers whose samples expire before the age limit of the topic."""
+    for topic in graph.cell.interfaces:
+        for end in topic.sources:
+            if topic.max_age_s is not None and end.qos.lifespan_s is not None and end.qos.lifespan_s < topic.max_age_s:
+                message = (
+                    f"samples of `{topic.name}` expire after {end.qos.lifespan_s * 1e3:g} ms, "
+                    f"but may be {topic.max_age_s * 1e3:g} ms old"
+                )
+                yield found(graph, (*end.path, "lifespan"), message, "make `lifespan` longer than `max_age`")
+
+
+RULE = define("lifespan-below-max-age", Severity.ERROR, check, __doc__)

@@ -1,0 +1,62 @@
+"""A reader that wants every sample accepts losses.
+
+Best effort drops what does not get through, and nobody is told.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /markers:
+    topic: geometry_msgs/msg/PoseStamped
+    from: {perception: {reliability: best_effort}}
+    to: {task: {reliability: best_effort}}
+    frame: world
+    wants: every_sample
+    rate: 10 Hz
+    max_age: 200 ms
+    on_stale: reject_goal
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /markers:
+    topic: geometry_msgs/msg/PoseStamped
+    from: {perception: {reliability: reliable}}
+    to: {task: {reliability: reliable}}
+    frame: world
+    wants: every_sample
+    rate: 10 Hz
+    max_age: 200 ms
+    on_stale: reject_goal
+```
+
+Fix: publish and subscribe reliably, with a depth that covers the longest pause of the reader.
+
+Source: chapter 4, section 2: sparse configuration data may need reliable delivery.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield best-effort endpoints on a topic of which every sample counts."""
+    for topic in graph.cell.interfaces:
+        if topic.derived or topic.wants != "every_sample":
+            continue
+        lossy = next((end for end in (*topic.sinks, *topic.sources) if end.qos.reliability == "best_effort"), None)
+        if lossy is not None:
+            message = f"every sample of `{topic.name}` counts, but `{lossy.node}` uses best effort"
+            yield found(graph, lossy.path, message, "use `reliability: reliable` on both sides")
+
+
+RULE = define("lossy-every-sample", Severity.WARNING, check, __doc__)

@@ -1,0 +1,69 @@
+"""The pinned middleware does not do what a QoS policy asks for.
+
+With Zenoh, deadline, liveliness and incompatible QoS raise no event: a watchdog that rests on one of them never
+fires.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /markers:
+    topic: geometry_msgs/msg/PoseStamped
+    from: {perception: {depth: 1, deadline: 150 ms}}
+    to: {task: {depth: 1}}
+    frame: world
+    wants: newest
+    rate: 10 Hz
+    max_age: 200 ms
+    on_stale: reject_goal
+versions: {rmw: rmw_zenoh_cpp 0.2.10}
+network: {discovery: multicast}
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /markers:
+    topic: geometry_msgs/msg/PoseStamped
+    from: {perception: {depth: 1}}
+    to: {task: {depth: 1}}
+    frame: world
+    wants: newest
+    rate: 10 Hz
+    max_age: 200 ms
+    on_stale: reject_goal
+versions: {rmw: rmw_zenoh_cpp 0.2.10}
+network: {discovery: multicast}
+```
+
+Fix: watch `max_age` in the reader instead, or choose a DDS middleware.
+
+Source: rmw_zenoh: incompatible-QoS, deadline and liveliness-lost events are not produced.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield endpoints that set a policy which Zenoh does not watch."""
+    if not graph.cell.spec.versions.rmw.startswith("rmw_zenoh"):
+        return
+    for topic in graph.cell.interfaces:
+        for end in (*topic.sources, *topic.sinks):
+            watched = (("deadline", end.qos.deadline_s), ("lease_duration", end.qos.lease_duration_s))
+            field = next((field for field, value in watched if value is not None), None)
+            if field is not None and not topic.derived:
+                message = f"`{end.node}` sets `{field}` on `{topic.name}`, which Zenoh does not watch"
+                yield found(graph, (*end.path, field), message, "watch `max_age` in the reader instead")
+
+
+RULE = define("qos-ignored-by-rmw", Severity.WARNING, check, __doc__)

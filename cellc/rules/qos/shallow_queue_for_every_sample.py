@@ -1,0 +1,62 @@
+"""A reader that wants every sample keeps only one.
+
+Two samples that arrive between two calls of the reader overwrite each other, reliable or not.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /markers:
+    topic: geometry_msgs/msg/PoseStamped
+    from: {perception: {reliability: reliable, depth: 10}}
+    to: {task: {reliability: reliable, depth: 1}}
+    frame: world
+    wants: every_sample
+    rate: 10 Hz
+    max_age: 200 ms
+    on_stale: reject_goal
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /markers:
+    topic: geometry_msgs/msg/PoseStamped
+    from: {perception: {reliability: reliable, depth: 10}}
+    to: {task: {reliability: reliable, depth: 10}}
+    frame: world
+    wants: every_sample
+    rate: 10 Hz
+    max_age: 200 ms
+    on_stale: reject_goal
+```
+
+Fix: raise `depth` to what arrives during the longest pause of the reader.
+
+Source: chapter 4, section 2: write whether the consumer needs every sample or only the newest one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield subscribers of depth one on a topic of which every sample counts."""
+    for topic in graph.cell.interfaces:
+        if topic.derived or topic.wants != "every_sample":
+            continue
+        for end in topic.sinks:
+            if end.qos.history == "keep_last" and end.qos.depth == 1:
+                message = f"every sample of `{topic.name}` counts, but `{end.node}` keeps one"
+                yield found(graph, end.path, message, "raise `depth`, or use `history: keep_all`")
+
+
+RULE = define("shallow-queue-for-every-sample", Severity.WARNING, check, __doc__)
