@@ -1,0 +1,50 @@
+"""All artifacts of a cell, in memory."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+from cellc.artifact import Artifact
+from cellc.emit import (
+    cmake,
+    controllers,
+    frames,
+    joint_limits,
+    node_parameters,
+    package_xml,
+    rehearsals,
+    responsibility_graph,
+    urdf,
+)
+from cellc.emit.contract import contract
+from cellc.emit.launch import launch
+from cellc.emit.readme import readme
+from cellc.formats.configuration import configuration_id, configuration_inputs
+from cellc.formats.header import Header, header_of
+from cellc.graph.cell_graph import CellGraph
+
+EMITTERS: tuple[Callable[[CellGraph, Header], Iterator[Artifact]], ...] = (
+    package_xml.emit,
+    cmake.emit,
+    urdf.emit,
+    controllers.emit,
+    joint_limits.emit,
+    node_parameters.emit,
+    frames.emit,
+    launch.emit,
+    contract.emit,
+    rehearsals.emit,
+    responsibility_graph.emit,
+    readme.emit,
+)
+"""Every emitter; a new one is one file and one line here."""
+
+
+def emit_all(graph: CellGraph) -> tuple[Artifact, ...]:
+    """Emit every artifact of a checked cell but the manifest, which is taken over them.
+
+    Returns:
+        Artifacts in the order of the emitters; their paths are relative to the generated package and differ.
+    """
+    header = header_of(graph.cell, configuration_id(configuration_inputs(graph.cell)))
+    return tuple(artifact for emit in EMITTERS for artifact in emit(graph, header))

@@ -1,0 +1,63 @@
+"""``config/frames.yaml``: the frame tree for people and tools: parent, authority, calibration, transform.
+
+No ROS node reads it: static frames come from the URDF, dynamic ones from their publishers. Transforms are in metres and
+fixed-axis roll, pitch, yaw in radians; a frame that moves has the one at joint position zero, a dynamic one has none.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.artifact import Artifact
+from cellc.cell.cell import Cell
+from cellc.cell.frame import Frame
+from cellc.formats.header import Header
+from cellc.formats.numbers import settled
+from cellc.formats.yaml_text import Tree, render
+from cellc.graph.cell_graph import CellGraph
+
+
+def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
+    """Yield the frame tree."""
+    tree: Tree = {
+        "calibrations": {name: _calibration(graph.cell, name) for name in graph.cell.spec.calibrations},
+        "frames": {frame.name: _frame(frame) for frame in graph.cell.frames},
+    }
+    yield Artifact("config/frames.yaml", header.commented("#") + render(tree))
+
+
+def _calibration(cell: Cell, name: str) -> Tree:
+    written = cell.spec.calibrations[name]
+    samples = {} if written.samples is None else {"samples": written.samples}
+    residual = {} if written.residual is None else {"residual_m": written.residual.si}
+    return {
+        "revision": written.revision,
+        "measured": written.measured,
+        "method": written.method,
+        **samples,
+        **residual,
+        "owner": written.owner,
+    }
+
+
+def _frame(frame: Frame) -> Tree:
+    calibration = {} if frame.calibration is None else {"calibration": frame.calibration}
+    rate = {} if frame.rate_hz is None else {"rate_hz": frame.rate_hz}
+    buffer = {} if frame.buffer_s is None else {"buffer_s": frame.buffer_s}
+    parent = {"parent": frame.parent} if frame.parent else {}
+    return {
+        **parent,
+        "kind": frame.kind.value,
+        "authority": frame.authority,
+        **calibration,
+        **rate,
+        **buffer,
+        **_transform(frame),
+    }
+
+
+def _transform(frame: Frame) -> Tree:
+    pose = frame.transform_to_parent
+    if pose is None or not frame.parent:
+        return {}
+    return {"xyz": tuple(map(settled, pose.position)), "rpy": tuple(map(settled, pose.rpy()))}

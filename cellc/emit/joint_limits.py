@@ -1,0 +1,40 @@
+"""``config/joint_limits.yaml``: limits of the cell for planning, in the keys that MoveIt reads.
+
+MoveIt takes positions from here over those of the URDF and has accelerations and jerks from nowhere else: without an
+acceleration for every active joint its time parameterization fails. Left out: joints that follow another.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.artifact import Artifact
+from cellc.cell.device import DeviceJoint
+from cellc.formats.header import Header
+from cellc.formats.yaml_text import Tree, render
+from cellc.graph.cell_graph import CellGraph
+
+# The limits below are the cell's own and already tightened, so that nothing is scaled a second time.
+_SCALING: dict[str, float] = {"default_velocity_scaling_factor": 1.0, "default_acceleration_scaling_factor": 1.0}
+
+
+def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
+    """Yield the limits of every joint that moves on its own."""
+    joints = (joint for device in graph.cell.devices for joint in device.joints if joint.mimics is None)
+    tree: Tree = {**_SCALING, "joint_limits": {joint.name: _limits(joint) for joint in joints}}
+    yield Artifact("config/joint_limits.yaml", header.commented("#") + render(tree))
+
+
+def _limits(joint: DeviceJoint) -> Tree:
+    position = {} if joint.type == "continuous" else {"min_position": joint.lower, "max_position": joint.upper}
+    return {
+        **_stated("has_position_limits", position),
+        **_stated("has_velocity_limits", {"max_velocity": joint.velocity}),
+        **_stated("has_acceleration_limits", {"max_acceleration": joint.acceleration}),
+        **_stated("has_jerk_limits", {"max_jerk": joint.jerk}),
+    }
+
+
+def _stated(switch: str, values: dict[str, float | None]) -> dict[str, bool | float]:
+    known = {name: float(value) for name, value in values.items() if value is not None}
+    return {switch: bool(known)} | known

@@ -1,0 +1,1 @@
+"""The launch files, part by part."""

@@ -1,0 +1,67 @@
+"""``package.xml``: the generated folder as a ROS package (format 3, REP-149), read by colcon and rosdep.
+
+Run-time dependencies follow from what is in use: nodes, controllers, hardware drivers. The version is that of the
+artifacts' format; what the cell was made from stands in ``manifest.json``. Left out: test dependencies, because the
+artifacts are tested where they are made.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from xml.etree.ElementTree import Element
+
+from cellc.artifact import Artifact
+from cellc.catalog.load import load_controller_kind
+from cellc.cell.cell import Cell
+from cellc.cell.control import Controller
+from cellc.formats.header import Header
+from cellc.formats.xml_text import element, render
+from cellc.graph.cell_graph import CellGraph
+
+_ALWAYS = ("ros2launch", "xacro")
+_SPAWNED_BY = "controller_manager"
+_EMAIL = "unset@example.com"  # the format demands an address, and the spec names owners, not mailboxes
+
+
+def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
+    """Yield the package manifest."""
+    yield Artifact("package.xml", render(_package(graph.cell), header.text))
+
+
+def _package(cell: Cell) -> Element:
+    return element(
+        "package",
+        {"format": "3"},
+        [
+            element("name", text=cell.name),
+            element("version", text="1.0.0"),
+            element("description", text=cell.spec.summary or f"Robot cell {cell.name}."),
+            element("maintainer", {"email": _EMAIL}, text=cell.spec.owners.approvals.graph),
+            element("license", text="Apache-2.0"),
+            element("buildtool_depend", text="ament_cmake"),
+            *(element("exec_depend", text=name) for name in _dependencies(cell)),
+            element("export", children=[element("build_type", text="ament_cmake")]),
+        ],
+    )
+
+
+def _dependencies(cell: Cell) -> tuple[str, ...]:
+    """Return package names in alphabetical order, so that a new device shows as new lines alone."""
+    controllers = (_package_of(cell, controller) for controller in cell.controllers)
+    hardware = (device.facts.packages.driver for device in cell.devices if device.hardware is not None)
+    names = {*_ALWAYS, *(node.package for node in cell.nodes)}
+    names |= {name for name in (*controllers, *hardware) if name is not None}
+    if cell.managers:
+        names |= {_SPAWNED_BY, "hardware_interface"}
+    return tuple(sorted(names))
+
+
+def _package_of(cell: Cell, controller: Controller) -> str | None:
+    """Return the package of a controller's plugin; its type string need not begin with it."""
+    own = {} if controller.device is None else cell.device(controller.device).facts.controllers
+    if controller.kind in own:
+        plugins = own[controller.kind].plugins
+    else:
+        kind = load_controller_kind(controller.kind).value
+        plugins = {} if kind is None else kind.plugins
+    return next((use.package for use in plugins.values() if use.type == controller.plugin), None)

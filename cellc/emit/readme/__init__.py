@@ -1,0 +1,1 @@
+"""The generated package's own page, part by part."""

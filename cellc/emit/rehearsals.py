@@ -1,0 +1,56 @@
+"""``rehearsals.json``: what the mock executes, and the outcome that each run must end in.
+
+Format 1, ``cellc.contract.rehearsals``: every name resolved, times in simulated seconds. Read by ``cellc.mock``. Left
+out: ``use``; a rehearsal that takes another's steps carries its own copy.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.artifact import Artifact
+from cellc.cell.rehearsal import Fault, Rehearsal, Step
+from cellc.contract.rehearsals import FaultEntry, RehearsalEntry, Rehearsals, StepEntry
+from cellc.formats.header import Header
+from cellc.formats.json_text import render
+from cellc.formats.package_files import REHEARSALS
+from cellc.graph.cell_graph import CellGraph
+
+
+def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
+    """Yield the rehearsals."""
+    entries = tuple(map(_rehearsal, graph.cell.rehearsals))
+    model = Rehearsals(format=1, configuration_id=header.configuration_id, rehearsals=entries)
+    yield Artifact(REHEARSALS, render(model))
+
+
+def _rehearsal(rehearsal: Rehearsal) -> RehearsalEntry:
+    return RehearsalEntry.model_validate(
+        {
+            "name": rehearsal.name,
+            "steps": tuple(map(_step, rehearsal.steps)),
+            "faults": tuple(map(_fault, rehearsal.faults)),
+            "expect": rehearsal.expect,
+            "within_s": rehearsal.within_s,
+            "timeout_s": rehearsal.timeout_s,
+        }
+    )
+
+
+def _step(step: Step) -> StepEntry:
+    return StepEntry.model_validate(
+        {"kind": step.kind, "target": step.name, "command": step.command, "duration_s": step.duration_s}
+    )
+
+
+def _fault(fault: Fault) -> FaultEntry:
+    return FaultEntry.model_validate(
+        {
+            "kind": fault.kind,
+            "target": fault.name,
+            "at_s": fault.at_s,
+            "lasting_s": fault.lasting_s,
+            "cycles": fault.cycles,
+            "delay_s": fault.delay_s,
+        }
+    )

@@ -1,0 +1,111 @@
+"""``graph/responsibility.mmd``: who tells what to whom, and who answers for it, on one page (chapter 4, last section).
+
+Mermaid flowchart, for code hosts and editors that draw it. Every arrow carries type, frame, unit, rate, time source,
+owner and failure behaviour; an interface with several ends carries them once, in a box between its ends, whose arrows
+tell the QoS. Vendor control and physical safety are boundaries of their own, drawn bold. Left out: what every ROS node
+has anyway, such as parameter services and ``/rosout``.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from cellc.artifact import Artifact
+from cellc.cell.cell import Cell
+from cellc.cell.interface import Endpoint, Interface, InterfaceKind
+from cellc.formats.header import Header
+from cellc.formats.interface_label import interface_facts
+from cellc.graph.cell_graph import CellGraph
+
+_BOLD = "stroke-width:5px,stroke:#000,fill:none"
+
+
+def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
+    """Yield the diagram."""
+    lines = ["flowchart LR", *(f"  {line}" for line in _diagram(graph.cell))]
+    yield Artifact("graph/responsibility.mmd", header.commented("%%") + "\n".join(lines) + "\n")
+
+
+def _diagram(cell: Cell) -> Iterator[str]:
+    yield from _ros_graph(cell)
+    yield from _vendor_control(cell)
+    yield from _physical_safety(cell)
+    devices = {device.name for device in cell.devices} - {node.name for node in cell.nodes}
+    for interface in cell.interfaces:
+        yield from _arrows(interface, devices)
+    yield from _claims(cell)
+    yield f"style vendor {_BOLD}"
+    yield f"style safety {_BOLD}"
+
+
+def _ros_graph(cell: Cell) -> Iterator[str]:
+    yield 'subgraph ros["ROS 2 graph"]'
+    for node in cell.nodes:
+        yield f"  {_box('node', node.name, f'{node.package}/{node.executable}', f'owner {node.owner}')}"
+    for controller in cell.controllers:
+        client = f"commanded by {controller.client}" if controller.client else "no client"
+        yield f"  {_box('node', controller.name, controller.plugin, client)}"
+    yield "end"
+
+
+def _vendor_control(cell: Cell) -> Iterator[str]:
+    owner = cell.spec.owners.responsibilities.vendor_safety
+    yield f'subgraph vendor["Vendor control: servo, limits, safety state; owner {owner}"]'
+    for device in cell.devices:
+        yield f"  {_box('device', device.name, device.facts.model, device.spec.architecture)}"
+    yield "end"
+
+
+def _physical_safety(cell: Cell) -> Iterator[str]:
+    stop = cell.spec.safety.stop
+    owner = cell.spec.owners.responsibilities.physical_stop
+    yield 'subgraph safety["Physical safety: outside of all software"]'
+    yield f"  {_box('stop', stop.authority, f'path {stop.path}', f'owner {owner}')}"
+    yield "end"
+    for device in cell.devices:
+        if device.hardware is not None:
+            yield f'{_id("stop", stop.authority)} == "stops, whatever software says" ==> {_id("device", device.name)}'
+
+
+def _arrows(interface: Interface, devices: set[str]) -> Iterator[str]:
+    # A sample travels from the publisher to the subscriber, a goal or a request from the client to the server.
+    topic = interface.kind is InterfaceKind.TOPIC
+    starts, ends = (interface.sources, interface.sinks) if topic else (interface.sinks, interface.sources)
+    if len(starts) == len(ends) == 1:
+        label = _text("<br/>".join([interface.name, *interface_facts(interface)]))
+        yield f'{_end(starts[0], devices)} -- "{label}" --> {_end(ends[0], devices)}'
+        return
+    yield _box("interface", interface.name, *interface_facts(interface))
+    hub = _id("interface", interface.name)
+    yield from (f'{_end(start, devices)} -- "{_qos(start)}" --> {hub}' for start in starts)
+    yield from (f'{hub} -- "{_qos(end)}" --> {_end(end, devices)}' for end in ends)
+
+
+def _qos(end: Endpoint) -> str:
+    kept = f"last {end.qos.depth}" if end.qos.history == "keep_last" else "all"
+    return f"{end.qos.reliability}, {end.qos.durability}, {kept}"
+
+
+def _claims(cell: Cell) -> Iterator[str]:
+    for controller in cell.controllers:
+        if controller.device is not None and controller.command_interfaces:
+            label = _text("<br/>".join(["claims", *controller.command_interfaces]))
+            arrow = "-->" if controller.active else "-.->"
+            yield f'{_id("node", controller.name)} {arrow} |"{label}"| {_id("device", controller.device)}'
+
+
+def _end(end: Endpoint, devices: set[str]) -> str:
+    return _id("device" if end.node in devices else "node", end.node)
+
+
+def _box(kind: str, name: str, *lines: str) -> str:
+    return f'{_id(kind, name)}["{_text("<br/>".join([name, *lines]))}"]'
+
+
+def _id(kind: str, name: str) -> str:
+    return f"{kind}_" + re.sub(r"\W", "_", name)
+
+
+def _text(text: str) -> str:
+    return text.replace('"', "#quot;")

@@ -1,0 +1,25 @@
+"""Paths inside the generated package that several artifacts refer to."""
+
+from __future__ import annotations
+
+from cellc.cell.cell import Cell
+from cellc.cell.control import ControllerManager
+from cellc.cell.interface import Node
+
+REHEARSALS = "rehearsals.json"
+"""What the mock executes."""
+
+
+def description_file(cell: Cell, target: str) -> str:
+    """Return the path of the URDF for ``mock`` or ``real``."""
+    return f"urdf/{cell.name}.{target}.urdf"
+
+
+def controllers_file(cell: Cell, manager: ControllerManager) -> str:
+    """Return the path of a controller manager's parameter file."""
+    return "config/controllers.yaml" if len(cell.managers) == 1 else f"config/{manager.name}.controllers.yaml"
+
+
+def node_file(node: Node) -> str:
+    """Return the path of a node's parameter file; there is none for a node without parameters."""
+    return f"config/{node.full_name.lstrip('/').replace('/', '.')}.yaml"

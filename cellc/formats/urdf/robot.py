@@ -1,0 +1,86 @@
+"""The whole ``<robot>``: the world, devices at their mounts, fixed frames and the scene, one tree.
+
+Every static frame stands in it, so that robot_state_publisher is the one authority for all of them. Dynamic frames and
+what hangs on them stay out: their publisher is their authority.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from xml.etree.ElementTree import Element
+
+from cellc.cell.cell import Cell
+from cellc.cell.device import Device
+from cellc.cell.frame import WORLD, Frame, FrameKind, SceneBox
+from cellc.formats.urdf.hardware import ros2_control
+from cellc.formats.urdf.joints import device_joint, fixed_joint
+from cellc.formats.urdf.links import device_link, frame_link, scene_link, scene_materials
+from cellc.formats.urdf.materials import palette_of
+from cellc.formats.urdf.start import start_positions
+from cellc.formats.xml_text import comment, element
+from cellc.link.frames import ROBOT_STATE_PUBLISHER
+
+
+def robot_description(cell: Cell, target: str) -> Element:
+    """Return the description of a cell for the target ``mock`` or ``real``."""
+    return element("robot", {"name": cell.name}, _parts(cell, target))
+
+
+def _parts(cell: Cell, target: str) -> Iterator[Element]:
+    apart = _off_the_tree(cell)
+    yield frame_link(WORLD)
+    for device in cell.devices:
+        yield comment(f"devices.{device.name}: {device.facts.model}")
+        yield from _device(device)
+    for frame in cell.frames:
+        if frame.kind is FrameKind.FIXED and frame.authority == ROBOT_STATE_PUBLISHER and frame.name not in apart:
+            yield comment(f"frames.{frame.name}{_calibration(cell, frame)}")
+            yield frame_link(frame.name)
+            yield _held(frame.name, frame)
+    yield from scene_materials(cell.scene)
+    for box in (box for box in cell.scene if box.parent not in apart):
+        yield comment(f"scene.{box.name}: {box.kind}")
+        yield scene_link(box)
+        yield _held(box.name, box)
+    start = start_positions(cell) if target == "mock" else {}
+    for device in cell.devices:
+        if device.hardware is not None:
+            yield comment(f"hardware of devices.{device.name}, {target}")
+            yield ros2_control(device, device.hardware, target, start)
+
+
+def _device(device: Device) -> Iterator[Element]:
+    limits = {joint.name: joint for joint in device.joints}
+    palette = palette_of(device)
+    yield from palette.definitions()
+    yield fixed_joint(
+        f"{device.root_link}_mount", device.parent_frame, device.root_link, device.transform_root_to_parent
+    )
+    yield from (device_link(link, palette) for link in device.description.links)
+    yield from (device_joint(joint, limits.get(joint.name)) for joint in device.description.joints)
+
+
+def _held(name: str, placed: Frame | SceneBox) -> Element:
+    pose = placed.transform_to_parent
+    assert pose is not None, "only a dynamic frame has no pose"
+    return fixed_joint(f"{name}_mount", placed.parent, name, pose)
+
+
+def _calibration(cell: Cell, frame: Frame) -> str:
+    written = cell.spec.calibrations.get(frame.calibration) if frame.calibration else None
+    return f": calibration {frame.calibration}, revision {written.revision}" if written else ""
+
+
+def _off_the_tree(cell: Cell) -> frozenset[str]:
+    """Return the dynamic frames and all that hangs on them."""
+    parents = {frame.name: frame.parent for frame in cell.frames}
+    dynamic = {frame.name for frame in cell.frames if frame.kind is FrameKind.DYNAMIC}
+    found: set[str] = set()
+    for name in parents:
+        above, seen = name, set[str]()
+        while above in parents and above not in seen and above not in dynamic:
+            seen.add(above)
+            above = parents[above]
+        if above in dynamic:
+            found.add(name)
+    return frozenset(found)

@@ -1,0 +1,58 @@
+"""XML text from a tree: two spaces a level, one element a line, attributes in the order given."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from xml.etree.ElementTree import Element
+from xml.sax.saxutils import escape, quoteattr
+
+_COMMENT = "!--"
+
+
+def element(
+    tag: str, attributes: Mapping[str, str] | None = None, children: Iterable[Element] = (), text: str = ""
+) -> Element:
+    """Build an element with its attributes, children and text."""
+    built = Element(tag, dict(attributes or {}))
+    built.text = text or None
+    built.extend(children)
+    return built
+
+
+def comment(text: str) -> Element:
+    """Build a comment; two hyphens in a row, which XML forbids there, are set apart."""
+    built = Element(_COMMENT)
+    built.text = text.replace("--", "- -")
+    return built
+
+
+def render(root: Element, header: str = "") -> str:
+    """Write a document: the declaration, the header comment, the tree.
+
+    Args:
+        root: the root element.
+        header: text of a comment before the root; several lines are allowed, empty for none.
+    """
+    # Without an encoding, which is UTF-8 then: some parsers refuse a text in memory that declares one.
+    lines = ['<?xml version="1.0"?>']
+    if header:
+        lines += ["<!--", *(f"  {line.replace('--', '- -')}".rstrip() for line in header.splitlines()), "-->"]
+    lines += _lines(root, 0)
+    return "\n".join(lines) + "\n"
+
+
+def _lines(node: Element, depth: int) -> Iterator[str]:
+    indent = "  " * depth
+    if node.tag == _COMMENT:
+        if depth == 1:
+            yield ""
+        yield f"{indent}<!-- {node.text} -->"
+        return
+    start = node.tag + "".join(f" {name}={quoteattr(value)}" for name, value in node.attrib.items())
+    if len(node) == 0:
+        yield f"{indent}<{start}>{escape(node.text)}</{node.tag}>" if node.text else f"{indent}<{start}/>"
+        return
+    yield f"{indent}<{start}>"
+    for child in node:
+        yield from _lines(child, depth + 1)
+    yield f"{indent}</{node.tag}>"
