@@ -35,7 +35,7 @@ def placeholders(name: str, prefix: str, written: DeviceSpec, spec: CellSpec) ->
         {
             "device": name,
             "prefix": prefix,
-            "stem": prefix.removesuffix("_"),
+            "stem": prefix.removesuffix("_") or name,
             "address": (connection.address if connection is not None else None) or UNKNOWN,
             "port": (connection.port if connection is not None else None) or UNKNOWN,
             "host_address": host_address,
