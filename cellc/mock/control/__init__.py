@@ -1,0 +1,67 @@
+"""The simulated control stack: what ros2_control and its controllers would do with a URDF and a controllers.yaml.
+
+Time is simulated, in integer nanoseconds; nothing sleeps and nothing is random.
+"""
+
+from cellc.mock.control.controllers.joint_state_broadcaster import JointStateBlock
+from cellc.mock.control.controllers.joint_trajectory.recorder import Recording
+from cellc.mock.control.errors import ManagerAborted
+from cellc.mock.control.events import (
+    ControlEvent,
+    ControllerChanged,
+    GoalEnded,
+    GoalStatus,
+    GripperEnded,
+    HardwareChanged,
+    TrajectoryEnded,
+    TrajectoryFeedback,
+)
+from cellc.mock.control.hardware import Disturbances
+from cellc.mock.control.log import LogLevel, LogLine
+from cellc.mock.control.manager import ControllerManager
+from cellc.mock.control.manager.spawner import SpawnResponse
+from cellc.mock.control.manager.switching import Strictness
+from cellc.mock.control.messages import (
+    CancelResponse,
+    GoalResponse,
+    GripperGoal,
+    HardwareStateResponse,
+    JointTolerance,
+    ParameterResponse,
+    ServiceResponse,
+    Trajectory,
+    TrajectoryGoal,
+    TrajectoryPoint,
+    TrajectoryStateResponse,
+)
+
+__all__ = [
+    "CancelResponse",
+    "ControlEvent",
+    "ControllerChanged",
+    "ControllerManager",
+    "Disturbances",
+    "GoalEnded",
+    "GoalResponse",
+    "GoalStatus",
+    "GripperEnded",
+    "GripperGoal",
+    "HardwareChanged",
+    "HardwareStateResponse",
+    "JointStateBlock",
+    "JointTolerance",
+    "LogLevel",
+    "LogLine",
+    "ManagerAborted",
+    "ParameterResponse",
+    "Recording",
+    "ServiceResponse",
+    "SpawnResponse",
+    "Strictness",
+    "Trajectory",
+    "TrajectoryEnded",
+    "TrajectoryFeedback",
+    "TrajectoryGoal",
+    "TrajectoryPoint",
+    "TrajectoryStateResponse",
+]

@@ -1,0 +1,1 @@
+"""The controllers, each by the behaviour that its plugin type stands for."""

@@ -1,0 +1,196 @@
+"""What the controller manager asks of a controller."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+from cellc.mock.control.block import Block
+from cellc.mock.control.description import RobotDescription
+from cellc.mock.control.events import ControlEvent
+from cellc.mock.control.hardware import CommandLimiter
+from cellc.mock.control.interfaces import InterfaceTable
+from cellc.mock.control.log import Log
+from cellc.mock.control.parameters import ParameterSet, ParameterValue
+
+
+@dataclass(frozen=True, slots=True)
+class Cycle:
+    """One update of one controller; `period_ns` is the time since its last one."""
+
+    time_ns: int
+    period_ns: int
+
+
+@dataclass(slots=True)
+class Context:
+    """What a controller node is given by the manager.
+
+    Attributes:
+        name: name of the controller.
+        parameters: its parameters.
+        distro: ROS distribution.
+        period_ns: period of the manager.
+        update_rate: rate of the controller, filled in when it is configured (Hz).
+        description: the robot description.
+        table: the interfaces.
+        limiter: limits commands as they are set; None where limits are not enforced.
+        log: the log.
+        events: where events for the outside are put.
+    """
+
+    name: str
+    parameters: ParameterSet
+    distro: str
+    period_ns: int
+    update_rate: int
+    description: RobotDescription
+    table: InterfaceTable
+    limiter: CommandLimiter | None
+    log: Log
+    events: list[ControlEvent]
+
+    def command(self, column: int, value: float) -> None:
+        """Set a command interface, limited where limits are enforced."""
+        self.table.command[column] = value if self.limiter is None else self.limiter.limit(column, value)
+
+
+class ConfigureError(Exception):
+    """A transition of a controller failed.
+
+    Args:
+        reason: what the controller logs.
+    """
+
+    def __init__(self, reason: str) -> None:
+        super().__init__(reason)
+        self.reason = reason
+
+
+class Controller(Protocol):
+    """A controller between its transitions.
+
+    The manager runs it either cycle by cycle (`update`) or in blocks: `preview` writes the commands of coming cycles
+    as they will be if nothing happens, `regular` tells how many of them nothing happened in, `commit` adopts those.
+    Both ways must agree bit by bit, so `preview` and `update` share their arithmetic.
+    """
+
+    @property
+    def releases_itself(self) -> bool:
+        """Whether it releases its interfaces in its own deactivation, not only when the manager does it."""
+
+    def configure(self) -> None:
+        """Read and check parameters. Raises ConfigureError or ParameterError."""
+
+    def command_interfaces(self) -> tuple[str, ...]:
+        """Command interfaces that it claims while active."""
+
+    def state_interfaces(self) -> tuple[str, ...]:
+        """State interfaces that it needs."""
+
+    def reference_interfaces(self) -> tuple[str, ...]:
+        """Command interfaces that it offers to a preceding controller, with its own name in front."""
+
+    def activation_refusal(self) -> str:
+        """Why activation would fail, empty where it would not."""
+
+    def activate(self, now_ns: int) -> None:
+        """Start, with interfaces claimed."""
+
+    def deactivate(self, now_ns: int) -> None:
+        """Stop; interfaces are released afterwards."""
+
+    def update(self, cycle: Cycle) -> None:
+        """Do one cycle. Raises UpdateError."""
+
+    def preview(self, block: Block) -> int:
+        """Write the commands of a block of this controller's cycles; return how many leading cycles are regular."""
+
+    def regular(self, block: Block) -> int:
+        """Tell, with the states known, how many leading cycles of the previewed block are regular."""
+
+    def commit(self, block: Block) -> None:
+        """Adopt the cycles of the block, all of them regular."""
+
+    def next_monitor_ns(self) -> int | None:
+        """The time at which it has to tell the outside something, None for never."""
+
+    def monitor(self, now_ns: int) -> None:
+        """Tell the outside what is due."""
+
+    def parameter_changed(self, name: str, value: ParameterValue) -> None:
+        """React to a parameter that was set at run time."""
+
+
+class QuietController:
+    """Defaults of controllers that have nothing of the kind.
+
+    Args:
+        context: what the manager gives.
+    """
+
+    def __init__(self, context: Context) -> None:
+        self.context = context
+
+    @property
+    def releases_itself(self) -> bool:
+        """Left to the manager."""
+        return False
+
+    def command_interfaces(self) -> tuple[str, ...]:
+        """No command interface."""
+        return ()
+
+    def state_interfaces(self) -> tuple[str, ...]:
+        """No state interface."""
+        return ()
+
+    def reference_interfaces(self) -> tuple[str, ...]:
+        """Not chainable."""
+        return ()
+
+    def activation_refusal(self) -> str:
+        """Never refused."""
+        return ""
+
+    def configure(self) -> None:
+        """Nothing to configure."""
+
+    def activate(self, now_ns: int) -> None:
+        """Nothing to start."""
+
+    def deactivate(self, now_ns: int) -> None:
+        """Nothing to stop."""
+
+    def update(self, cycle: Cycle) -> None:
+        """Nothing to command."""
+
+    def preview(self, block: Block) -> int:
+        """Command nothing in any cycle."""
+        return len(block)
+
+    def regular(self, block: Block) -> int:
+        """Nothing happens in any cycle."""
+        return len(block)
+
+    def commit(self, block: Block) -> None:
+        """Nothing to adopt."""
+
+    def next_monitor_ns(self) -> int | None:
+        """Never."""
+        return None
+
+    def monitor(self, now_ns: int) -> None:
+        """Nothing is due."""
+
+    def parameter_changed(self, name: str, value: ParameterValue) -> None:
+        """No parameter is looked at again."""
+
+
+def claimed_names(joints: Sequence[str], kinds: Sequence[str]) -> tuple[str, ...]:
+    """Full interface names of several kinds, joint by joint."""
+    return tuple(f"{joint}/{kind}" for joint in joints for kind in kinds)
+
+
+Behaviours = Mapping[str, str]

@@ -1,0 +1,91 @@
+"""Forward command controllers: commands of a topic go straight to command interfaces."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from cellc.mock.control.block import Block
+from cellc.mock.control.controllers.base import Context, Cycle, QuietController
+from cellc.mock.control.errors import UpdateError
+from cellc.mock.control.parameters import Parameter
+from cellc.mock.control.parameters.requirements import not_empty
+
+
+class ForwardCommandController(QuietController):
+    """A forward command controller.
+
+    Args:
+        context: what the manager gives.
+        kind: kind of the command interfaces where the type fixes it, "" where the parameter `interface_name` tells it,
+            "multi" where the parameters name one joint with several interfaces.
+
+    Raises:
+        ParameterError: from the declaration of the parameters.
+    """
+
+    def __init__(self, context: Context, kind: str) -> None:
+        super().__init__(context)
+        self._kind = kind
+        many = Parameter("joints", "string_array", None, (not_empty,), True)
+        declared = [many]
+        if kind == "":
+            declared.append(Parameter("interface_name", "string", None, (not_empty,), True))
+        if kind == "multi":
+            declared = [
+                Parameter("joint", "string", None, (not_empty,), True),
+                Parameter("interface_names", "string_array", None, (not_empty,), True),
+            ]
+        context.parameters.declare(declared)
+        self._data: tuple[float, ...] | None = None
+        self.active = False
+
+    def command_interfaces(self) -> tuple[str, ...]:
+        """The commanded interfaces, in the order of the values."""
+        parameters = self.context.parameters
+        if self._kind == "multi":
+            joint = parameters.text("joint")
+            return tuple(f"{joint}/{name}" for name in parameters.texts("interface_names"))
+        kind = self._kind or parameters.text("interface_name")
+        return tuple(f"{joint}/{kind}" for joint in parameters.texts("joints"))
+
+    def activate(self, now_ns: int) -> None:
+        """Command nothing before the first message."""
+        self._columns = self.context.table.command_columns(self.command_interfaces())
+        self._data = None
+        self.active = True
+        self.context.log.info(self.context.name, "activate successful")
+
+    def deactivate(self, now_ns: int) -> None:
+        """Forget the last message."""
+        self._data = None
+        self.active = False
+
+    def receive(self, data: Sequence[float]) -> None:
+        """Take a message of `~/commands`; one with a value that is not finite is dropped."""
+        if not self.active:
+            return
+        if not all(math.isfinite(value) for value in data):
+            self.context.log.warn(self.context.name, "Non-finite value received. Dropping message")
+            return
+        self._data = tuple(data)
+
+    def update(self, cycle: Cycle) -> None:
+        """Command the last message."""
+        if self._data is None:
+            return
+        if len(self._data) != len(self._columns):
+            text = f"command size ({len(self._data)}) does not match number of interfaces ({len(self._columns)})"
+            self.context.log.error(self.context.name, text)
+            raise UpdateError("")
+        for column, value in zip(self._columns.tolist(), self._data, strict=True):
+            self.context.command(column, value)
+
+    def preview(self, block: Block) -> int:
+        """Command the last message in every cycle."""
+        if self._data is None:
+            return len(block)
+        if len(self._data) != len(self._columns):
+            return 0
+        block.command[:, self._columns] = self._data
+        return len(block)

@@ -1,0 +1,139 @@
+"""Goals of the FollowJointTrajectory action: the running one, its tolerances, and results that wait for delivery."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Protocol
+
+from cellc.mock.control.controllers.base import Context
+from cellc.mock.control.controllers.joint_trajectory.interfaces import JointInterfaces
+from cellc.mock.control.controllers.joint_trajectory.motion import Motion, Samples
+from cellc.mock.control.controllers.joint_trajectory.spline import StartState
+from cellc.mock.control.controllers.joint_trajectory.tolerances import Tolerances, goal_tolerances
+from cellc.mock.control.controllers.monitor import GoalMonitor
+from cellc.mock.control.events import ControlEvent, GoalStatus, TrajectoryEnded, TrajectoryFeedback
+from cellc.mock.control.messages import TrajectoryGoal
+
+
+class Seen(Protocol):
+    """What feedback needs of the last update."""
+
+    time_ns: int
+    measured: StartState
+    samples: Samples | None
+    row: int
+
+
+class GoalBook:
+    """The goals of one controller.
+
+    Args:
+        context: the controller's context.
+        joints: its joints.
+        defaults: the controller's tolerances.
+    """
+
+    def __init__(self, context: Context, joints: Sequence[str], defaults: Tolerances) -> None:
+        self._context = context
+        self._joints = joints
+        self.defaults = defaults
+        self.tolerances = defaults
+        self._period_ns = round(1e9 / context.parameters.number("action_monitor_rate"))
+        self._active: GoalMonitor | None = None
+        self._accepted_ns = 0
+        self._waiting: list[GoalMonitor] = []
+
+    @property
+    def running(self) -> bool:
+        """Whether a goal is being executed."""
+        return self._active is not None
+
+    @property
+    def running_id(self) -> int:
+        """Number of the running goal, 0 for none."""
+        return 0 if self._active is None else self._active.goal_id
+
+    def accept(self, goal_id: int, goal: TrajectoryGoal, now_ns: int, listened: bool) -> None:
+        """Make a goal the running one; a goal that runs is aborted at once."""
+        if self._active is not None:
+            humble = self._context.distro == "humble"
+            verb = "cancelled due to" if humble else "preempted by"
+            preempted = self._active
+            self._active = None
+            text = f"Current goal {verb} new incoming action."
+            self._emit(self._ended(preempted, now_ns, GoalStatus.ABORTED, -1, text, now_ns))
+        self.tolerances = goal_tolerances(self.defaults, goal, self._joints, self._context.log, self._context.name)
+        self._active = GoalMonitor(goal_id, now_ns, self._period_ns, listened)
+        self._accepted_ns = now_ns
+
+    def succeed(self, now_ns: int) -> None:
+        """Decide that the running goal succeeded."""
+        self._decide(now_ns, GoalStatus.SUCCEEDED, 0, "Goal successfully reached!")
+
+    def abort(self, now_ns: int, code: int, text: str) -> None:
+        """Decide that the running goal is aborted."""
+        self._decide(now_ns, GoalStatus.ABORTED, code, text)
+
+    def cancel(self, now_ns: int) -> None:
+        """Decide that the running goal is canceled."""
+        self._decide(now_ns, GoalStatus.CANCELED, 0, "")
+
+    def _decide(self, now_ns: int, status: GoalStatus, code: int, text: str) -> None:
+        monitor = self._active
+        assert monitor is not None, "only a running goal is decided"
+        self._active = None
+        monitor.decide(now_ns, lambda stamp_ns: self._ended(monitor, stamp_ns, status, code, text, now_ns))
+        self._waiting.append(monitor)
+
+    def _ended(
+        self, monitor: GoalMonitor, stamp_ns: int, status: GoalStatus, code: int, text: str, decided_ns: int
+    ) -> TrajectoryEnded:
+        return TrajectoryEnded(stamp_ns, decided_ns, self._context.name, monitor.goal_id, status, code, text)
+
+    def _emit(self, event: ControlEvent) -> None:
+        self._context.events.append(event)
+
+    def is_waiting(self, goal_id: int) -> bool:
+        """Whether a goal is decided and its result not delivered yet."""
+        return any(monitor.goal_id == goal_id for monitor in self._waiting)
+
+    def next_monitor_ns(self) -> int | None:
+        """The next time at which a result or feedback is due."""
+        monitors = [*self._waiting, *([self._active] if self._active else [])]
+        due = [time for monitor in monitors if (time := monitor.next_ns()) is not None]
+        return min(due, default=None)
+
+    def deliver(self, now_ns: int, last: Seen, motion: Motion | None, interfaces: JointInterfaces) -> None:
+        """Deliver what is due now."""
+        for monitor in [m for m in self._waiting if m.next_ns() == now_ns]:
+            event = monitor.tick(now_ns)
+            self._waiting.remove(monitor)
+            if event is not None:
+                self._emit(event)
+        monitor_active = self._active
+        if monitor_active is not None and monitor_active.listened and monitor_active.next_ns() == now_ns:
+            monitor_active.tick(now_ns)
+            if last.samples is not None and motion is not None and last.time_ns >= self._accepted_ns:
+                self._emit(self._feedback(monitor_active, now_ns, last, last.samples, motion, interfaces))
+
+    def _feedback(
+        self,
+        monitor: GoalMonitor,
+        now_ns: int,
+        last: Seen,
+        samples: Samples,
+        motion: Motion,
+        interfaces: JointInterfaces,
+    ) -> TrajectoryFeedback:
+        desired, actual = samples.desired[last.row], last.measured.position
+        return TrajectoryFeedback(
+            now_ns,
+            last.time_ns,
+            self._context.name,
+            monitor.goal_id,
+            max(int(samples.next_reached[last.row]) - 1, 0),
+            int(samples.times_ns[last.row]) - motion.spline.start_ns,
+            tuple(desired.tolist()),
+            tuple(actual.tolist()),
+            tuple(interfaces.difference(desired, actual).tolist()),
+        )

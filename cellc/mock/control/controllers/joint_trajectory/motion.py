@@ -1,0 +1,149 @@
+"""The trajectory that is being executed: its time, its samples, its tolerances."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from cellc.mock.control.controllers.joint_trajectory.interfaces import JointInterfaces
+from cellc.mock.control.controllers.joint_trajectory.spline import Indices, Spline, StartState
+from cellc.mock.control.controllers.joint_trajectory.tolerances import StateTolerance, Tolerances
+from cellc.mock.control.interfaces import Array, Flags, Times
+from cellc.mock.control.messages import TrajectoryPoint
+
+
+@dataclass(frozen=True, slots=True)
+class PendingTrajectory:
+    """A trajectory that the next update takes over; `held` marks one that the controller holds a position with."""
+
+    points: tuple[TrajectoryPoint, ...]
+    stamp_ns: int
+    held: bool
+
+
+@dataclass(slots=True)
+class Samples:
+    """Desired states now and one period ahead, for successive updates."""
+
+    times_ns: Times
+    reached: Indices
+    desired: Array
+    desired_velocity: Array
+    next_reached: Indices
+    next_into: Array
+    next: Array
+
+
+class Motion:
+    """Samples one trajectory.
+
+    Args:
+        spline: the trajectory.
+        time_ns: trajectory time of the first update.
+        held: whether the trajectory only holds a position.
+        interfaces: the controller's interfaces.
+        ahead_ns: how far ahead commands are sampled: the period of the controller.
+    """
+
+    def __init__(self, spline: Spline, time_ns: int, held: bool, interfaces: JointInterfaces, ahead_ns: int) -> None:
+        self.spline = spline
+        self.time_ns = time_ns
+        self.held = held
+        self._interfaces = interfaces
+        self._ahead_ns = ahead_ns
+
+    def sample(self, times_ns: Times) -> Samples:
+        """Sample the trajectory at evenly spaced trajectory times."""
+        spline, count = self.spline, len(times_ns)
+        if count > 1 and int(times_ns[1] - times_ns[0]) == self._ahead_ns:
+            # What is one period ahead now is due in the next update: sample it once.
+            longer = np.append(times_ns, times_ns[-1] + self._ahead_ns)
+            reached, into = spline.locate(longer)
+            positions = spline.positions(reached, into)
+            velocities = spline.velocities(reached[:-1], into[:-1])
+            return Samples(times_ns, reached[:-1], positions[:-1], velocities, reached[1:], into[1:], positions[1:])
+        reached, into = spline.locate(times_ns)
+        next_reached, next_into = spline.locate(times_ns + self._ahead_ns)
+        return Samples(
+            times_ns,
+            reached,
+            spline.positions(reached, into),
+            spline.velocities(reached, into),
+            next_reached,
+            next_into,
+            spline.positions(next_reached, next_into),
+        )
+
+    def overtime_s(self, samples: Samples) -> Array:
+        """Time since the point that the next sample's segment starts with was due; negative before it is (s)."""
+        start = np.maximum(samples.next_reached - 1, 0)
+        return (samples.times_ns - self.spline.point_times_ns[start]) / 1e9
+
+    def violated(self, tolerance: StateTolerance, samples: Samples, state: Array, rows: slice) -> Flags:
+        """Which joints are outside a tolerance in which updates, shape (updates, joints) of bool."""
+        interfaces = self._interfaces
+        error = interfaces.difference(samples.desired[rows], state[:, interfaces.states["position"]])
+        outside: Flags = np.abs(error) > tolerance.position
+        if interfaces.checks_velocity:
+            rates = samples.desired_velocity[rows] - state[:, interfaces.states["velocity"]]
+            outside |= np.abs(rates) > tolerance.velocity
+        return outside
+
+
+def first_true(flags: Flags) -> int:
+    """Index of the first true flag, the length if none is."""
+    if not len(flags):
+        return 0
+    index = int(flags.argmax())
+    return index if flags[index] else len(flags)
+
+
+def regular_updates(
+    motion: Motion, samples: Samples, state: Array, tolerances: Tolerances, has_goal: bool, timeout_s: float
+) -> int:
+    """How many leading updates go by without anything being decided.
+
+    Args:
+        motion: the motion that is executed, not a held one.
+        samples: its samples.
+        state: measured states of the same updates.
+        tolerances: tolerances in force.
+        has_goal: whether an action goal is being executed.
+        timeout_s: command timeout, 0 for none.
+    """
+    ended = samples.next_reached == motion.spline.count
+    end = first_true(ended)
+    if end:
+        moving = np.logical_or.reduce(motion.violated(tolerances.path, samples, state[:end], slice(0, end)), axis=1)
+        first = first_true(moving)
+        if first < end or end == len(ended):
+            return first
+    rows = slice(end, None)
+    outside = np.logical_or.reduce(motion.violated(tolerances.goal, samples, state[end:], rows), axis=1)
+    overtime = motion.overtime_s(samples)[rows]
+    decided: Flags = np.zeros(len(outside), dtype=np.bool_)
+    if has_goal:
+        decided |= ~outside
+    if tolerances.goal_time_s != 0.0:
+        decided |= outside & (overtime > tolerances.goal_time_s)
+    if timeout_s > 0.0:
+        decided |= overtime > timeout_s
+    return end + first_true(decided)
+
+
+def held_point(position: Array) -> tuple[TrajectoryPoint, ...]:
+    """The trajectory that holds a position."""
+    return (TrajectoryPoint(tuple(position.tolist())),)
+
+
+def start_of(
+    measured: StartState, commanded: StartState | None, pending: PendingTrajectory, interfaces: JointInterfaces
+) -> StartState:
+    """The state that a trajectory starts from, continuous joints turned next to its first point."""
+    state = measured if commanded is None else commanded
+    first = pending.points[0].positions
+    if not first:
+        return state
+    position = interfaces.unwrap(state.position, np.array(first[: len(state.position)]))
+    return StartState(state.time_ns, position, state.velocity, state.acceleration)

@@ -1,0 +1,160 @@
+"""Faults of joints and hardware, asked for from outside, effective with the next update cycle."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from cellc.mock.control.hardware.ramp import rate_limit
+from cellc.mock.control.interfaces import Array
+
+
+@dataclass(frozen=True, slots=True)
+class JointFault:
+    """How a joint differs from one that follows its command at once.
+
+    Attributes:
+        stuck: the joint does not move at all.
+        max_velocity: rad/s or m/s that the joint cannot exceed.
+        time_constant_s: of a first-order lag behind the command; 0 is none.
+        offset: rad or m added to the position.
+        lower: the joint is blocked below this position.
+        upper: the joint is blocked above this position, as a gripper is by the object.
+    """
+
+    stuck: bool = False
+    max_velocity: float = math.inf
+    time_constant_s: float = 0.0
+    offset: float = 0.0
+    lower: float = -math.inf
+    upper: float = math.inf
+
+    def follow(self, wanted: Array, previous: float, period_s: float) -> Array:
+        """Positions that the joint really takes.
+
+        Args:
+            wanted: positions that it would take in successive cycles.
+            previous: its position before.
+            period_s: time between two cycles.
+
+        Returns:
+            Positions of the same cycles.
+        """
+        if self.stuck:
+            return np.full_like(wanted, previous)
+        moved = wanted + self.offset
+        if self.time_constant_s > 0.0:
+            moved = _lag(moved, previous, period_s / (self.time_constant_s + period_s))
+        if math.isfinite(self.max_velocity):
+            moved, _ = rate_limit(moved, previous, self.max_velocity * period_s, self.lower, self.upper)
+        return np.minimum(np.maximum(moved, self.lower), self.upper)
+
+
+def _lag(wanted: Array, previous: float, share: float) -> Array:
+    """First-order lag, each value a `share` of the way nearer to the wanted one."""
+    lagged = wanted.tolist()
+    for index, value in enumerate(lagged):
+        previous = previous + share * (value - previous)
+        lagged[index] = previous
+    return np.array(lagged)
+
+
+class Disturbances:
+    """Switches faults on and off.
+
+    Args:
+        skip: called with the number of update cycles that the manager misses.
+        set_state: called with component and lifecycle state.
+    """
+
+    def __init__(self, skip: Callable[[int], None], set_state: Callable[[str, str], object]) -> None:
+        self._skip = skip
+        self._set_state = set_state
+        self._joints: dict[str, JointFault] = {}
+        self._deaf: set[str] = set()
+        self._failing_read: set[str] = set()
+        self._failing_write: set[str] = set()
+
+    def fault_of(self, joint: str) -> JointFault | None:
+        """The fault of a joint, None for a healthy one."""
+        return self._joints.get(joint)
+
+    def is_deaf(self, component: str) -> bool:
+        """Whether a component ignores its commands."""
+        return component in self._deaf
+
+    def take_read_failure(self, component: str) -> bool:
+        """Whether the component's read fails in this cycle; asked once."""
+        failing = component in self._failing_read
+        self._failing_read.discard(component)
+        return failing
+
+    def take_write_failure(self, component: str) -> bool:
+        """Whether the component's write fails in this cycle; asked once."""
+        failing = component in self._failing_write
+        self._failing_write.discard(component)
+        return failing
+
+    def pending(self) -> bool:
+        """Whether a read or write is to fail."""
+        return bool(self._failing_read or self._failing_write)
+
+    def _change(self, joint: str, fault: JointFault) -> None:
+        self._joints[joint] = fault
+
+    def stick(self, joint: str) -> None:
+        """Let a joint stand still whatever is commanded."""
+        self._change(joint, replace(self._joints.get(joint, JointFault()), stuck=True))
+
+    def slow(self, joint: str, max_velocity: float) -> None:
+        """Let a joint not exceed a velocity (rad/s or m/s)."""
+        self._change(joint, replace(self._joints.get(joint, JointFault()), max_velocity=max_velocity))
+
+    def lag(self, joint: str, time_constant_s: float) -> None:
+        """Let a joint lag behind its command."""
+        self._change(joint, replace(self._joints.get(joint, JointFault()), time_constant_s=time_constant_s))
+
+    def offset(self, joint: str, offset: float) -> None:
+        """Let a joint stand beside its command by a constant (rad or m)."""
+        self._change(joint, replace(self._joints.get(joint, JointFault()), offset=offset))
+
+    def block(self, joint: str, lower: float = -math.inf, upper: float = math.inf) -> None:
+        """Block a joint's way, as an object between the fingers does."""
+        self._change(joint, replace(self._joints.get(joint, JointFault()), lower=lower, upper=upper))
+
+    def clear(self, joint: str) -> None:
+        """Let a joint be healthy again."""
+        self._joints.pop(joint, None)
+
+    def ignore_commands(self, component: str) -> None:
+        """Let a component no longer follow its commands."""
+        self._deaf.add(component)
+
+    def heed_commands(self, component: str) -> None:
+        """Let a component follow its commands again."""
+        self._deaf.discard(component)
+
+    def fail_read(self, component: str) -> None:
+        """Let the next read of a component return an error."""
+        self._failing_read.add(component)
+
+    def fail_write(self, component: str) -> None:
+        """Let the next write of a component return an error."""
+        self._failing_write.add(component)
+
+    def skip_cycles(self, cycles: int) -> None:
+        """Let the manager miss its next update cycles; the one after them sees the longer period."""
+        self._skip(cycles)
+
+    def protective_stop(self, component: str) -> None:
+        """Stop a component: it becomes inactive and ignores commands until it is released."""
+        self._deaf.add(component)
+        self._set_state(component, "inactive")
+
+    def release(self, component: str) -> None:
+        """End a protective stop: the component is active again and follows commands."""
+        self._deaf.discard(component)
+        self._set_state(component, "active")

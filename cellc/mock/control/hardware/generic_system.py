@@ -1,0 +1,304 @@
+"""mock_components/GenericSystem: states that follow commands, optionally with dynamics.
+
+Facts: facts/ros2_control.md §2 and oracles/OBSERVED.md "Mock hardware". All of its work is done in `read`: the commands
+of the cycle before become the states of this one.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cellc.mock.control.description import ComponentInfo, InterfaceInfo
+from cellc.mock.control.description.component import parse_bool
+from cellc.mock.control.description.urdf import UrdfJoint, UrdfMimic
+from cellc.mock.control.hardware.disturbances import Disturbances
+from cellc.mock.control.hardware.joint_states import Motion, differences, hold_last, integral
+from cellc.mock.control.interfaces import Array, InterfaceTable
+
+_MODES = ("position", "velocity", "acceleration")
+
+
+def _number(text: str, default: float) -> float:
+    return float(text) if text else default
+
+
+class GenericSystem:
+    """One hardware component.
+
+    Args:
+        info: the component's description.
+        joints: joints of the URDF, for mimic.
+        table: where the interfaces are exported to; those that exist already are left out.
+        disturbances: faults.
+
+    Raises:
+        ValueError: a parameter or initial value that cannot be read, with the message.
+    """
+
+    def __init__(
+        self, info: ComponentInfo, joints: Mapping[str, UrdfJoint], table: InterfaceTable, disturbances: Disturbances
+    ) -> None:
+        self.info = info
+        self._table = table
+        self._disturbances = disturbances
+        parameters = info.parameters
+        self._dynamics = parse_bool(parameters.get("calculate_dynamics", "false"))
+        self.commands_disabled = parse_bool(parameters.get("disable_commands", "false"))
+        self._mock_sensors = parse_bool(parameters.get("mock_sensor_commands", "false"))
+        self._mock_gpios = parse_bool(parameters.get("mock_gpio_commands", "false"))
+        self._offset = _number(parameters.get("position_state_following_offset", ""), 0.0)
+        self._custom_offset = parameters.get("custom_interface_with_following_offset", "")
+        self.command_names: list[str] = []
+        self.state_names: list[str] = []
+        self._motion: Motion | None = None
+        self._names = [part.name for part in info.joints]
+        self._modes = ["position"] * len(self._names)
+        self._export_joints()
+        self._export_others()
+        self._mimics = self._find_mimics(joints)
+        self._command_columns = {kind: self._columns(kind, True) for kind in _MODES}
+        self._state_columns = {kind: self._columns(kind, False) for kind in _MODES}
+        self._pairs = self._mirrored()
+        self._offset_pairs = self._offset_mirrored()
+
+    # -- export ------------------------------------------------------------------------------------------------------
+
+    def _export_joints(self) -> None:
+        values: dict[str, list[float]] = {kind: [] for kind in _MODES}
+        for part in self.info.joints:
+            initial = {state.name: _number(state.initial_value, 0.0) for state in part.state_interfaces}
+            for kind in _MODES:
+                values[kind].append(initial.get(kind, 0.0))
+            if not self._custom_offset:
+                values["position"][-1] += self._offset
+                initial["position"] = values["position"][-1]
+            for command in part.command_interfaces:
+                self._export_command(part.name, command, _number(command.initial_value, math.nan))
+            for state in part.state_interfaces:
+                self._export_state(part.name, state, initial[state.name])
+        self._position = np.array(values["position"])
+        self._velocity = np.array(values["velocity"])
+        self._acceleration = np.array(values["acceleration"])
+
+    def _export_others(self) -> None:
+        for parts, mock in ((self.info.sensors, self._mock_sensors), (self.info.gpios, self._mock_gpios)):
+            for part in parts:
+                for command in part.state_interfaces if mock else part.command_interfaces:
+                    self._export_command(part.name, command, math.nan)
+                for state in part.state_interfaces:
+                    unset = math.nan if state.data_type in ("double", "float32") else 0.0
+                    self._export_state(part.name, state, _number(state.initial_value, unset))
+
+    def _export_command(self, part: str, interface: InterfaceInfo, value: float) -> None:
+        name = f"{part}/{interface.name}"
+        if not self._table.has_command(name):
+            self._table.add_command(name, value, interface.data_type)
+            self.command_names.append(name)
+
+    def _export_state(self, part: str, interface: InterfaceInfo, value: float) -> None:
+        name = f"{part}/{interface.name}"
+        if not self._table.has_state(name):
+            self._table.add_state(name, value, interface.data_type)
+            self.state_names.append(name)
+
+    # -- what follows what -------------------------------------------------------------------------------------------
+
+    def _find_mimics(self, joints: Mapping[str, UrdfJoint]) -> list[tuple[int, int, UrdfMimic]]:
+        found = []
+        for index, part in enumerate(self.info.joints):
+            mimic = joints[part.name].mimic
+            if mimic is not None and (part.mimic is None or part.mimic.strip().lower() != "false"):
+                found.append((index, self._names.index(mimic.joint), mimic))
+        return found
+
+    def _columns(self, kind: str, command: bool) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Indices of the joints that have an interface of this component, and its columns."""
+        names = self.command_names if command else self.state_names
+        indices = [i for i, name in enumerate(self._names) if f"{name}/{kind}" in names]
+        labels = [f"{self._names[i]}/{kind}" for i in indices]
+        columns = self._table.command_columns(labels) if command else self._table.state_columns(labels)
+        return np.array(indices, dtype=np.intp), columns
+
+    def _mirrored(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Interfaces whose state is the command of the same name, apart from the moving ones of joints."""
+        moving = {f"{name}/{kind}" for name in self._names for kind in _MODES}
+        names = [name for name in self.command_names if name in self.state_names and name not in moving]
+        return self._table.command_columns(names), self._table.state_columns(names)
+
+    def _offset_mirrored(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Custom states that show the position command with the offset added."""
+        names = [
+            name
+            for name in self._names
+            if f"{name}/{self._custom_offset}" in self.state_names and f"{name}/position" in self.command_names
+        ]
+        commands = self._table.command_columns([f"{name}/position" for name in names])
+        return commands, self._table.state_columns([f"{name}/{self._custom_offset}" for name in names])
+
+    # -- mode switch -------------------------------------------------------------------------------------------------
+
+    def refuse_switch(self, start: Sequence[str]) -> list[str]:
+        """Answer prepare_command_mode_switch.
+
+        Args:
+            start: command interfaces that are going to be claimed.
+
+        Returns:
+            The reasons for which the switch is refused, empty where it is accepted.
+        """
+        if not self._dynamics:
+            return []
+        found: dict[str, int] = {}
+        for key in start:
+            # The real one searches the joint's name anywhere in the key, so `joint1` also finds `joint10`.
+            joint = next((name for name in self._names if name in key), None)
+            if joint is not None:
+                found[joint] = found.get(joint, 0) + (key in {f"{joint}/{kind}" for kind in _MODES})
+        reasons = []
+        for joint, count in found.items():
+            if count == 0:
+                reasons.append(f"Joint '{joint}' has to have 'position', 'velocity', or 'acceleration' interface!")
+            elif count > 1:
+                reasons.append(
+                    f"Got multiple ({count}) starting interfaces for joint '{joint}' - this is not supported!"
+                )
+        return reasons
+
+    def switch(self, start: Sequence[str]) -> None:
+        """Carry out perform_command_mode_switch: the newly claimed kind of command moves the joint."""
+        if not self._dynamics:
+            return
+        for key in start:
+            joint, _, kind = key.rpartition("/")
+            if joint in self._names and kind in _MODES:
+                self._modes[self._names.index(joint)] = kind
+
+    # -- cycles ------------------------------------------------------------------------------------------------------
+
+    def read(self, command: Array, state: Array, period_ns: int) -> int:
+        """Write the states of successive cycles.
+
+        Args:
+            command: all command interfaces as they were before the read of each cycle, shape (cycles, commands).
+            state: all state interfaces, shape (cycles, states), filled with the present ones; written in place.
+            period_ns: time between two cycles.
+
+        Returns:
+            How many leading cycles were computed; a single cycle always is.
+        """
+        self._motion = None
+        if self.commands_disabled or self._disturbances.is_deaf(self.info.name):
+            return len(command)
+        cycles = self._computable(command)
+        if cycles == 0:
+            return 0
+        motion = Motion.standing(len(command), self._position, self._velocity, self._acceleration)
+        self._move(motion, command, period_ns / 1e9)
+        for child, parent, mimic in self._mimics:
+            motion.position[:, child] = mimic.offset + mimic.multiplier * motion.position[:, parent]
+            motion.velocity[:, child] = mimic.multiplier * motion.velocity[:, parent]
+            motion.acceleration[:, child] = mimic.multiplier * motion.acceleration[:, parent]
+        for kind, values in (
+            ("position", motion.position),
+            ("velocity", motion.velocity),
+            ("acceleration", motion.acceleration),
+        ):
+            indices, columns = self._state_columns[kind]
+            state[:, columns] = values[:, indices]
+        self._mirror(command, state)
+        self._motion = motion
+        return cycles
+
+    def _computable(self, command: Array) -> int:
+        """All cycles, or none where they depend on each other in a way that only single cycles can follow."""
+        if len(command) == 1:
+            return 1
+        if any(
+            mode != "position" and self._disturbances.fault_of(name) is not None
+            for name, mode in zip(self._names, self._modes, strict=True)
+        ):
+            return 0
+        for kind in _MODES:
+            columns = self._command_columns[kind][1]
+            if not len(columns):
+                continue
+            values = command[:, columns]
+            if math.isfinite(values.sum()):
+                continue
+            # A command that turns to or from NaN, or is infinite.
+            missing = np.isnan(values)
+            if not np.array_equal(missing.any(0), missing.all(0)) or np.isinf(values).any():
+                return 0
+        return len(command)
+
+    def _move(self, motion: Motion, command: Array, period_s: float) -> None:
+        for kind in _MODES:
+            indices, columns = self._command_columns[kind]
+            if self._dynamics and len(indices):
+                chosen = np.array([self._modes[i] == kind for i in indices], dtype=bool)
+                indices, columns = indices[chosen], columns[chosen]
+            if not len(indices):
+                continue
+            values = command[:, columns]
+            given = ~np.isnan(values[0])
+            if not given.all():
+                indices, values = indices[given], values[:, given]
+            if len(indices):
+                self._move_kind(motion, kind, indices, values, period_s)
+
+    def _move_kind(self, motion: Motion, kind: str, indices: NDArray[np.intp], values: Array, period_s: float) -> None:
+        if kind == "position":
+            position = values if self._custom_offset else values + self._offset
+            self._follow(indices, position, period_s, moved_by_position=True)
+            motion.position[:, indices] = position
+            if self._dynamics:
+                velocity = differences(position, self._position[indices], period_s)
+                motion.velocity[:, indices] = velocity
+                motion.acceleration[:, indices] = differences(velocity, self._velocity[indices], period_s)
+            return
+        if not self._dynamics:
+            (motion.velocity if kind == "velocity" else motion.acceleration)[:, indices] = values
+            return
+        if kind == "velocity":
+            velocity = values
+            motion.acceleration[:, indices] = differences(values, self._velocity[indices], period_s)
+        else:
+            velocity = integral(values, self._velocity[indices], period_s)
+            motion.acceleration[:, indices] = values
+        motion.velocity[:, indices] = velocity
+        position = integral(velocity, self._position[indices], period_s)
+        self._follow(indices, position, period_s, moved_by_position=False)
+        motion.position[:, indices] = position
+
+    def _follow(self, indices: NDArray[np.intp], position: Array, period_s: float, *, moved_by_position: bool) -> None:
+        """Apply the faults of the joints in place; an integrated position knows neither offset nor lag."""
+        for column, index in enumerate(indices):
+            fault = self._disturbances.fault_of(self._names[index])
+            if fault is not None:
+                fault = fault if moved_by_position else replace(fault, offset=0.0, time_constant_s=0.0)
+                position[:, column] = fault.follow(
+                    np.ascontiguousarray(position[:, column]), float(self._position[index]), period_s
+                )
+
+    def _mirror(self, command: Array, state: Array) -> None:
+        columns, targets = self._pairs
+        if len(columns):
+            state[:, targets] = hold_last(command[:, columns], state[0, targets])
+        columns, targets = self._offset_pairs
+        if len(columns):
+            state[:, targets] = hold_last(command[:, columns] + self._offset, state[0, targets])
+
+    def commit(self, cycles: int) -> None:
+        """Adopt the joints' values after the first cycles of what `read` computed last."""
+        motion = self._motion
+        if motion is None:
+            return
+        self._position = motion.position[cycles - 1].copy()
+        self._velocity = motion.velocity[cycles - 1].copy()
+        self._acceleration = motion.acceleration[cycles - 1].copy()
+        self._motion = None

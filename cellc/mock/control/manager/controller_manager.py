@@ -1,0 +1,333 @@
+"""The controller manager as its clients see it: services, actions, topics and simulated time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from cellc.mock.control.controllers.base import Controller
+from cellc.mock.control.controllers.forward_command import ForwardCommandController
+from cellc.mock.control.controllers.gpio import GpioCommandController
+from cellc.mock.control.controllers.joint_state_broadcaster import JointStateBlock, JointStateBroadcaster
+from cellc.mock.control.controllers.joint_trajectory import JointTrajectoryController
+from cellc.mock.control.controllers.joint_trajectory.recorder import Recorder, Recording
+from cellc.mock.control.description import RobotDescription, read_description
+from cellc.mock.control.errors import DescriptionError
+from cellc.mock.control.events import ControlEvent
+from cellc.mock.control.hardware import CommandLimiter, Disturbances
+from cellc.mock.control.interfaces import InterfaceTable
+from cellc.mock.control.log import Log
+from cellc.mock.control.manager.actions import GoalDesk
+from cellc.mock.control.manager.cycles import CycleRunner
+from cellc.mock.control.manager.hardware_set import HardwareSet, all_limits
+from cellc.mock.control.manager.listing import (
+    ControllerState,
+    HardwareComponentState,
+    HardwareInterfaces,
+    Listing,
+)
+from cellc.mock.control.manager.registry import ControllerRegistry
+from cellc.mock.control.manager.settings import NODE_NAME, read_file, read_settings
+from cellc.mock.control.manager.spawner import SpawnResponse, spawn
+from cellc.mock.control.manager.switching import Strictness, Switch, Switcher
+from cellc.mock.control.messages import (
+    CancelResponse,
+    Goal,
+    GoalResponse,
+    HardwareStateResponse,
+    ParameterResponse,
+    ServiceResponse,
+    Trajectory,
+    TrajectoryStateResponse,
+)
+from cellc.mock.control.parameters import ParameterError, ParameterFile, ParameterSet, ParameterValue
+
+
+class ControllerManager:
+    """A simulated ros2_control_node.
+
+    Args:
+        urdf: the robot description.
+        parameters: text of the parameter file (controllers.yaml); empty for none.
+        namespace: namespace of the manager and its controllers.
+        distro: humble, jazzy, kilted or lyrical.
+        plugin_behaviours: behaviour of controller plugin types that are not known here, by type.
+        start_ns: simulated time of the first update cycle.
+
+    Raises:
+        ManagerAborted: where the real process would end while it starts.
+    """
+
+    def __init__(
+        self,
+        urdf: str,
+        parameters: str,
+        *,
+        namespace: str = "",
+        distro: str = "kilted",
+        plugin_behaviours: Mapping[str, str] | None = None,
+        start_ns: int = 0,
+    ) -> None:
+        self.log = Log()
+        self.log.now_ns = start_ns
+        self.now_ns = start_ns
+        self.description_error = ""
+        file = read_file(parameters)
+        settings = read_settings(ParameterSet(file.of_node(NODE_NAME, namespace)), distro)
+        self.period_ns = 1_000_000_000 // settings.update_rate
+        self._events: list[ControlEvent] = []
+        self._table = InterfaceTable()
+        self.disturbances = Disturbances(self._skip, self._set_component_state)
+        description, hardware = self._load_hardware(urdf)
+        self._hardware = hardware
+        limiter = None
+        if hardware is not None:
+            hardware.set_initial(settings.initially_unconfigured, settings.initially_inactive)
+            if settings.enforce_command_limits:
+                limiter = CommandLimiter(all_limits(description), self._table, self.period_ns, self.log)
+        self._registry = ControllerRegistry(file, namespace, distro, plugin_behaviours or {}, self.log, self._events)
+        self._registry.attach(description, self._table, limiter, self.period_ns, settings.update_rate)
+        self._switcher = Switcher(self._registry, hardware, self._table, limiter, self.log, self._events)
+        self._listing = Listing(self._registry, hardware, self._table, settings.update_rate)
+        self._goals = GoalDesk(self._registry, self.log)
+        self._cycles = None
+        if hardware is not None:
+            self._cycles = CycleRunner(
+                self._registry,
+                hardware,
+                self._switcher,
+                self._table,
+                limiter,
+                self.disturbances,
+                self.log,
+                self.period_ns,
+                settings.update_rate,
+            )
+            self._cycles.next_ns = start_ns
+        self._events.clear()
+
+    def _load_hardware(self, urdf: str) -> tuple[RobotDescription, HardwareSet | None]:
+        try:
+            description = read_description(urdf)
+        except DescriptionError as error:
+            self.description_error = f"Error importing joint limiters: {error.reason}"
+            self.log.error(NODE_NAME, self.description_error)
+            return RobotDescription({}, ()), None
+        try:
+            return description, HardwareSet(description, self._table, self.disturbances, self.log, self._events)
+        except DescriptionError as error:
+            self.description_error = error.reason
+            self.log.error("resource_manager", error.reason)
+            self.log.warn(
+                NODE_NAME,
+                "Could not load and initialize hardware. Please check previous output for more details. After you have "
+                "corrected your URDF, try to publish robot description again.",
+            )
+            self._table = InterfaceTable()
+            return RobotDescription({}, ()), None
+
+    # -- services ----------------------------------------------------------------------------------------------------
+
+    def spawn(self, names: Sequence[str], inactive: bool = False, parameters: str | None = None) -> SpawnResponse:
+        """Bring controllers up as one call of the spawner does; switches act at once.
+
+        Args:
+            names: controllers in order; the first failure stops the rest.
+            inactive: configure them only.
+            parameters: text of the file given with --param-file.
+        """
+        if self._cycles is None:
+            # Without a robot description the services are not offered and the spawner waits in vain.
+            return SpawnResponse(False, "", self.description_error, tuple(names))
+        file = None if parameters is None else ParameterFile(parameters)
+        return spawn(names, inactive, file, self._registry, self._switcher, self._apply, self.log)
+
+    def load_controller(self, name: str) -> ServiceResponse:
+        """Answer load_controller."""
+        return self._registry.load(name, None)
+
+    def configure_controller(self, name: str) -> ServiceResponse:
+        """Answer configure_controller."""
+        return self._registry.configure(name)
+
+    def cleanup_controller(self, name: str) -> ServiceResponse:
+        """Answer cleanup_controller."""
+        return self._registry.cleanup(name)
+
+    def unload_controller(self, name: str) -> ServiceResponse:
+        """Answer unload_controller."""
+        return self._registry.unload(name)
+
+    def switch_controllers(
+        self, activate: Sequence[str], deactivate: Sequence[str], strictness: Strictness = Strictness.STRICT
+    ) -> ServiceResponse:
+        """Answer switch_controller; what it says is carried out at the end of the next update cycle."""
+        if self._cycles is not None:
+            self._cycles.apply_pending(self.now_ns)
+        answer, switch = self._switcher.check(activate, deactivate, strictness)
+        if switch is not None and self._cycles is not None:
+            self._cycles.request(switch)
+        return answer
+
+    def _apply(self, switch: Switch) -> None:
+        if self._cycles is not None:
+            self._cycles.apply_pending(self.now_ns)
+            self._cycles.apply(switch, self.now_ns)
+
+    def list_controllers(self) -> tuple[ControllerState, ...]:
+        """Answer list_controllers."""
+        return self._listing.controllers()
+
+    def list_hardware_components(self) -> tuple[HardwareComponentState, ...]:
+        """Answer list_hardware_components."""
+        return self._listing.components()
+
+    def list_hardware_interfaces(self) -> HardwareInterfaces:
+        """Answer list_hardware_interfaces."""
+        return self._listing.interfaces()
+
+    def set_hardware_component_state(self, name: str, state: str) -> HardwareStateResponse:
+        """Answer set_hardware_component_state."""
+        if self._hardware is None:
+            return HardwareStateResponse(False)
+        return self._hardware.set_state(name, state)
+
+    def set_parameter(self, controller: str, name: str, value: ParameterValue) -> ParameterResponse:
+        """Answer set_parameters of a controller's node for one parameter."""
+        loaded = self._registry.controllers[controller]
+        try:
+            loaded.context.parameters.set(name, value)
+        except ParameterError as error:
+            return ParameterResponse(False, error.reason)
+        loaded.controller.parameter_changed(name, value)
+        return ParameterResponse(True)
+
+    def _skip(self, cycles: int) -> None:
+        if self._cycles is not None:
+            self._cycles.skip(cycles)
+
+    def _set_component_state(self, name: str, state: str) -> None:
+        self.set_hardware_component_state(name, state)
+
+    # -- time --------------------------------------------------------------------------------------------------------
+
+    def advance(self, until_ns: int) -> int:
+        """Run update cycles and action monitors up to a time.
+
+        Args:
+            until_ns: the time to reach; a cycle that is due exactly then is run.
+
+        Returns:
+            The time that was reached: earlier than asked for where something happened that the outside must see,
+            which is then among the events.
+        """
+        before = len(self._events)
+        while len(self._events) == before:
+            monitor_ns = min(
+                (t for c in self._controllers() if (t := c.next_monitor_ns()) is not None), default=until_ns + 1
+            )
+            horizon = min(until_ns, monitor_ns)
+            if self._cycles is not None and self._cycles.first_time_ns() <= horizon:
+                due = (horizon - self._cycles.first_time_ns()) // self.period_ns + 1
+                self.now_ns = self._cycles.run(due)
+                continue
+            self.now_ns = self.log.now_ns = max(horizon, self.now_ns)
+            if monitor_ns > until_ns:
+                break
+            for controller in self._controllers():
+                controller.monitor(self.now_ns)
+        return self.now_ns
+
+    def _controllers(self) -> list[Controller]:
+        return [loaded.controller for loaded in self._registry.controllers.values()]
+
+    def take_events(self) -> tuple[ControlEvent, ...]:
+        """Hand over what happened since the last time, in order."""
+        events = tuple(self._events)
+        self._events.clear()
+        return events
+
+    # -- actions and topics ------------------------------------------------------------------------------------------
+
+    def send_goal(self, controller: str, goal: Goal, feedback: bool = False) -> GoalResponse:
+        """Send a goal to a controller's action; `feedback` asks for feedback events."""
+        return self._goals.send(controller, goal, self.now_ns, feedback)
+
+    def cancel_goal(self, goal_id: int) -> CancelResponse:
+        """Ask to cancel one goal."""
+        return self._goals.cancel(goal_id, self.now_ns)
+
+    def cancel_all(self, controller: str) -> CancelResponse:
+        """Ask to cancel all goals of a controller."""
+        return self._goals.cancel_all(controller, self.now_ns)
+
+    def publish_trajectory(self, controller: str, trajectory: Trajectory) -> str:
+        """Publish to `~/joint_trajectory`; returns why the controller ignored it, empty where it did not."""
+        return self._goals.take_trajectory(controller, trajectory, self.now_ns)
+
+    def publish_commands(self, controller: str, data: Sequence[float]) -> None:
+        """Publish to `~/commands` of a forward command controller."""
+        found = self._registry.controllers[controller].controller
+        assert isinstance(found, ForwardCommandController), f"{controller} takes no lists of commands"
+        found.receive(data)
+
+    def publish_gpio_commands(self, controller: str, values: Mapping[str, float]) -> None:
+        """Publish to `~/commands` of a gpio command controller, values by full interface name."""
+        found = self._registry.controllers[controller].controller
+        assert isinstance(found, GpioCommandController), f"{controller} takes no gpio commands"
+        found.receive(values)
+
+    def publish_speed_scaling(self, controller: str, factor: float) -> None:
+        """Publish to `~/speed_scaling_input` of a trajectory controller."""
+        self._trajectory_controller(controller).scaling.set(factor)
+
+    def query_state(self, controller: str, time_ns: int) -> TrajectoryStateResponse:
+        """Answer `~/query_state` of a trajectory controller."""
+        return self._trajectory_controller(controller).query_state(time_ns)
+
+    def _trajectory_controller(self, name: str) -> JointTrajectoryController:
+        found = self._registry.controllers[name].controller
+        assert isinstance(found, JointTrajectoryController), f"{name} is no trajectory controller"
+        return found
+
+    # -- values ------------------------------------------------------------------------------------------------------
+
+    def state(self, name: str) -> float:
+        """Present value of a state interface."""
+        return float(self._table.state[self._table.state_column(name)])
+
+    def command(self, name: str) -> float:
+        """Present value of a command interface."""
+        return float(self._table.command[self._table.command_column(name)])
+
+    def joint_positions(self) -> dict[str, float]:
+        """Present positions of all joints that have a position state."""
+        names = [name for name in self._table.state_names() if name.endswith("/position") and name.count("/") == 1]
+        return {name.removesuffix("/position"): self.state(name) for name in names}
+
+    def write_state(self, name: str, value: float) -> None:
+        """Let the outside world set a state interface that no command moves: a sensor, a speed scaling factor."""
+        self._table.state[self._table.state_column(name)] = value
+
+    def subscribe_joint_states(self, controller: str) -> None:
+        """Collect what a joint state broadcaster publishes, from the next cycle on."""
+        self._broadcaster(controller).listen()
+
+    def take_joint_states(self, controller: str) -> JointStateBlock:
+        """Hand over the joint states that were published since the last time."""
+        return self._broadcaster(controller).take()
+
+    def _broadcaster(self, name: str) -> JointStateBroadcaster:
+        found = self._registry.controllers[name].controller
+        assert isinstance(found, JointStateBroadcaster), f"{name} is no joint state broadcaster"
+        return found
+
+    def record(self, controller: str, rate_hz: float) -> None:
+        """Record a trajectory controller from now on, thinned to a rate."""
+        found = self._trajectory_controller(controller)
+        found.recorder = Recorder(found.interfaces.joints, round(1e9 / rate_hz))
+
+    def recording(self, controller: str) -> Recording:
+        """What was recorded of a trajectory controller."""
+        recorder = self._trajectory_controller(controller).recorder
+        assert recorder is not None, f"{controller} is not recorded"
+        return recorder.recording()

@@ -1,0 +1,198 @@
+"""The hardware components of the manager and their life cycles."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from cellc.mock.control.description import RobotDescription, joint_limits
+from cellc.mock.control.description.limits import JointLimits
+from cellc.mock.control.errors import DescriptionError
+from cellc.mock.control.events import ControlEvent, HardwareChanged
+from cellc.mock.control.hardware import Disturbances, GenericSystem
+from cellc.mock.control.interfaces import InterfaceTable
+from cellc.mock.control.log import Log
+from cellc.mock.control.manager.plugins import HARDWARE_BEHAVIOURS
+from cellc.mock.control.messages import HardwareStateResponse
+
+_STATES = ("unconfigured", "inactive", "active", "finalized")
+_LOGGER = "resource_manager"
+
+
+@dataclass(slots=True)
+class Component:
+    """One component with its lifecycle state and the time of its last read."""
+
+    system: GenericSystem
+    state: str
+    last_read_ns: int | None = None
+
+    @property
+    def name(self) -> str:
+        """Name of the component."""
+        return self.system.info.name
+
+    @property
+    def available(self) -> bool:
+        """Whether its interfaces can be used."""
+        return self.state in ("inactive", "active")
+
+
+class HardwareSet:
+    """All components.
+
+    Args:
+        description: the robot description.
+        table: where interfaces are exported to.
+        disturbances: faults.
+        log: the log.
+        events: where changes are told.
+
+    Raises:
+        DescriptionError: a component cannot be loaded or initialised.
+    """
+
+    def __init__(
+        self,
+        description: RobotDescription,
+        table: InterfaceTable,
+        disturbances: Disturbances,
+        log: Log,
+        events: list[ControlEvent],
+    ) -> None:
+        self._log = log
+        self._events = events
+        self._disturbances = disturbances
+        self._table = table
+        self.components: dict[str, Component] = {}
+        self._owners: dict[str, Component] = {}
+        for info in description.components:
+            if info.name in self.components:
+                raise DescriptionError(
+                    f"Hardware name {info.name} is duplicated. Please provide a unique 'name' in the URDF."
+                )
+            _check_plugin(info.type, info.plugin)
+            self.components[info.name] = Component(self._initialise(info.name, description), "active")
+        for component in self.components.values():
+            for name in (*component.system.command_names, *component.system.state_names):
+                self._owners.setdefault(name, component)
+
+    def _initialise(self, name: str, description: RobotDescription) -> GenericSystem:
+        info = next(info for info in description.components if info.name == name)
+        try:
+            return GenericSystem(info, description.joints, self._table, self._disturbances)
+        except ValueError as error:
+            self._log.error(
+                _LOGGER,
+                f"Exception of type : St16invalid_argument occurred while initializing hardware '{name}': {error}",
+            )
+            raise DescriptionError(
+                f"System hardware component '{name}' from plugin '{info.plugin}' failed to initialize."
+            ) from None
+
+    def set_initial(self, unconfigured: tuple[str, ...], inactive: tuple[str, ...]) -> None:
+        """Bring components into the states that the parameters ask for."""
+        for state, names in (("unconfigured", unconfigured), ("inactive", inactive)):
+            for name in names:
+                if name in self.components:
+                    self.components[name].state = state
+                else:
+                    self._log.warn(
+                        "controller_manager",
+                        f"Hardware component '{name}' is unknown, therefore not set in '{state}' state.",
+                    )
+
+    def owner(self, interface: str) -> Component | None:
+        """The component that exports an interface."""
+        return self._owners.get(interface)
+
+    def is_available(self, interface: str) -> bool:
+        """Whether an interface can be used now."""
+        owner = self._owners.get(interface)
+        return owner is not None and owner.available
+
+    def set_state(self, name: str, state: str) -> HardwareStateResponse:
+        """Answer set_hardware_component_state."""
+        component = self.components.get(name)
+        if component is None:
+            self._log.error(_LOGGER, f"hardware component with name '{name}' does not exist")
+            return HardwareStateResponse(False)
+        if component.state == "finalized" and state != "finalized":
+            self._log.warn(_LOGGER, f"hardware '{name}' is in finalized state and can be only destroyed.")
+            return HardwareStateResponse(False, component.state)
+        if state not in _STATES:
+            return HardwareStateResponse(False, component.state)
+        if component.state != state:
+            component.state = state
+            self._events.append(HardwareChanged(self._log.now_ns, name, state))
+        return HardwareStateResponse(True, state)
+
+    def fail(self, component: Component, reason: str) -> None:
+        """A read or write returned an error: without an error handler the component is finalized."""
+        component.state = "finalized"
+        self._log.error(_LOGGER, reason)
+        self._events.append(HardwareChanged(self._log.now_ns, component.name, "finalized", reason))
+
+    # -- cycles ------------------------------------------------------------------------------------------------------
+
+    def read(self, time_ns: int, period_ns: int, rate: int) -> list[Component]:
+        """Read all components once; returns those whose read failed."""
+        failed = []
+        for component in self.components.values():
+            if not component.available or not _is_due(component, time_ns, rate):
+                continue
+            if self._disturbances.take_read_failure(component.name):
+                failed.append(component)
+                continue
+            since = period_ns if component.last_read_ns is None else time_ns - component.last_read_ns
+            component.last_read_ns = time_ns
+            state = self._table.state[None, :].copy()
+            component.system.read(self._table.command[None, :], state, since)
+            component.system.commit(1)
+            self._table.state[:] = state[0]
+        return failed
+
+    def write(self) -> list[Component]:
+        """Write all components once; returns those whose write failed: an infinite command does that."""
+        failed = []
+        for component in self.components.values():
+            if not component.available:
+                continue
+            names = component.system.command_names
+            infinite = bool(names) and bool(np.isinf(self._table.command[self._table.command_columns(names)]).any())
+            if self._disturbances.take_write_failure(component.name) or infinite:
+                failed.append(component)
+        return failed
+
+    def single_cycles_only(self, rate: int) -> bool:
+        """Whether a component reads more rarely than the manager cycles."""
+        return any(0 < component.system.info.rw_rate < rate for component in self.components.values())
+
+
+def _is_due(component: Component, time_ns: int, rate: int) -> bool:
+    own = component.system.info.rw_rate
+    if own == 0 or own >= rate or component.last_read_ns is None:
+        return True
+    # The factor is the one that the manager uses for its controllers.
+    return (time_ns - component.last_read_ns) / 1e9 * own >= 0.99
+
+
+def _check_plugin(kind: str, plugin: str) -> None:
+    if kind not in ("system", "actuator", "sensor"):
+        raise DescriptionError("Discrepancy between robot description file (urdf) and actually exported HW interfaces.")
+    if kind != "system" or plugin not in HARDWARE_BEHAVIOURS:
+        raise DescriptionError(
+            "Caught exception of type : N9pluginlib20LibraryLoadExceptionE while loading hardware: According to the "
+            f"loaded plugin descriptions the class {plugin} with base class type "
+            f"hardware_interface::{kind.capitalize()}Interface does not exist."
+        )
+
+
+def all_limits(description: RobotDescription) -> dict[str, JointLimits]:
+    """Limits of the joints that stand in a component."""
+    return {
+        part.name: joint_limits(description.joints[part.name], part)
+        for info in description.components
+        for part in info.joints
+    }

@@ -1,0 +1,207 @@
+"""Loading, configuring and unloading of controllers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from cellc.mock.control.controllers.base import ConfigureError, Context
+from cellc.mock.control.description import RobotDescription
+from cellc.mock.control.events import ControlEvent, ControllerChanged
+from cellc.mock.control.hardware import CommandLimiter
+from cellc.mock.control.interfaces import InterfaceTable
+from cellc.mock.control.log import Log
+from cellc.mock.control.manager.loaded import LoadedController
+from cellc.mock.control.manager.plugins import controller_factory
+from cellc.mock.control.manager.settings import NODE_NAME
+from cellc.mock.control.messages import ServiceResponse
+from cellc.mock.control.parameters import Parameter, ParameterError, ParameterFile, ParameterSet
+
+
+class ControllerRegistry:
+    """The loaded controllers.
+
+    Args:
+        file: parameters of the manager's process.
+        namespace: namespace of the manager.
+        distro: ROS distribution.
+        behaviours: behaviours of further plugin types.
+        log: the log.
+        events: where changes are told.
+    """
+
+    def __init__(
+        self,
+        file: ParameterFile,
+        namespace: str,
+        distro: str,
+        behaviours: Mapping[str, str],
+        log: Log,
+        events: list[ControlEvent],
+    ) -> None:
+        self._file = file
+        self._namespace = namespace
+        self._distro = distro
+        self._behaviours = behaviours
+        self._log = log
+        self._events = events
+        self._types = {
+            name: value for name, value in file.of_node(NODE_NAME, namespace).items() if name.endswith(".type")
+        }
+        self.controllers: dict[str, LoadedController] = {}
+
+    def attach(
+        self,
+        description: RobotDescription,
+        table: InterfaceTable,
+        limiter: CommandLimiter | None,
+        period_ns: int,
+        rate: int,
+    ) -> None:
+        """Tell what controllers work on."""
+        self._description, self._table, self._limiter = description, table, limiter
+        self._period_ns, self._rate = period_ns, rate
+
+    def _change(self, loaded: LoadedController, state: str) -> None:
+        loaded.state = state
+        self._events.append(ControllerChanged(self._log.now_ns, loaded.name, state))
+
+    def _refuse(self, text: str) -> ServiceResponse:
+        self._log.error(NODE_NAME, text)
+        return ServiceResponse(False, text)
+
+    def load(self, name: str, spawner_file: ParameterFile | None) -> ServiceResponse:
+        """Answer load_controller; `spawner_file` is the file of the spawner's --param-file."""
+        own = self._file.of_node(name, self._namespace)
+        given = self._types.get(f"{name}.type")
+        if spawner_file is not None:
+            from_spawner = spawner_file.of_node(name, self._namespace)
+            own.update(from_spawner)
+            given = from_spawner.get("type", given)
+        if name in self.controllers:
+            return self._refuse(f"A controller named '{name}' was already loaded inside the controller manager")
+        if not isinstance(given, str) or not given:
+            return self._refuse(f"The 'type' param was not defined for '{name}'.")
+        factory = controller_factory(given, self._distro, self._behaviours)
+        if factory is None:
+            return self._refuse(f"Loader for controller '{name}' (type '{given}') not found.")
+        context = Context(
+            name,
+            ParameterSet(own),
+            self._distro,
+            self._period_ns,
+            self._rate,
+            self._description,
+            self._table,
+            self._limiter,
+            self._log,
+            self._events,
+        )
+        try:
+            context.parameters.declare(
+                (Parameter("update_rate", "integer", self._rate), Parameter("is_async", "bool", False))
+            )
+            controller = factory(context)
+        except ParameterError as error:
+            reason = f"Exception thrown during init stage with message: {error.reason}"
+            self._log.error(name, reason)
+            self._log.error(NODE_NAME, f"Could not initialize the controller named '{name}'")
+            return ServiceResponse(False, reason)
+        self.controllers[name] = LoadedController(name, given, controller, context)
+        self._change(self.controllers[name], "unconfigured")
+        return ServiceResponse(True)
+
+    def configure(self, name: str) -> ServiceResponse:
+        """Answer configure_controller."""
+        loaded = self.controllers.get(name)
+        if loaded is None:
+            return self._refuse(
+                f"Could not configure controller with name '{name}' because no controller with this name exists"
+            )
+        if loaded.state not in ("unconfigured", "inactive"):
+            return self._refuse(f"Controller '{name}' can not be configured from '{loaded.state}' state.")
+        loaded.rate = self._achievable_rate(loaded)
+        loaded.context.update_rate = loaded.rate
+        try:
+            loaded.controller.configure()
+        except ConfigureError as failure:
+            self._log.error(name, failure.reason)
+            return self._refuse(
+                f"After configuring, controller '{name}' is in state 'unconfigured' , expected inactive."
+            )
+        for interface in loaded.controller.reference_interfaces():
+            self._table.add_command(interface)
+            self._table.add_state(interface, float("nan"))
+        self._change(loaded, "inactive")
+        return ServiceResponse(True)
+
+    def _achievable_rate(self, loaded: LoadedController) -> int:
+        """The rate that the manager can give; a higher one is lowered, one that does not divide is rounded up."""
+        wanted = int(loaded.context.parameters.number("update_rate"))
+        if wanted > self._rate:
+            self._log.warn(
+                loaded.name,
+                f"The update rate of the controller : '{wanted} Hz' should be less than or equal to controller "
+                f"manager's update rate : '{self._rate} Hz'!. The controller will be updated at controller_manager's "
+                "update rate.",
+            )
+            return self._rate
+        if wanted <= 0 or self._rate % wanted == 0:
+            return wanted or self._rate
+        achievable = self._rate // round(self._rate / wanted)
+        self._log.warn(
+            loaded.name,
+            f"The requested update rate of '{wanted}' Hz is not achievable with the controller manager update rate of "
+            f"'{self._rate}' Hz. Setting it to the closest achievable frequency '{achievable}' Hz.",
+        )
+        return achievable
+
+    def cleanup(self, name: str) -> ServiceResponse:
+        """Answer cleanup_controller."""
+        loaded = self.controllers.get(name)
+        if loaded is None:
+            return self._refuse(
+                f"Could not clean-up controller with name '{name}' because no controller with this name exists"
+            )
+        if loaded.state == "active":
+            return self._refuse(f"Controller '{name}' cannot be cleaned-up from '{loaded.state}' state.")
+        self._change(loaded, "unconfigured")
+        return ServiceResponse(True)
+
+    def unload(self, name: str) -> ServiceResponse:
+        """Answer unload_controller."""
+        loaded = self.controllers.get(name)
+        if loaded is None:
+            return self._refuse(
+                f"Could not unload controller with name '{name}' because no controller with this name exists"
+            )
+        if loaded.state == "active":
+            return self._refuse(f"Could not unload controller with name '{name}' because it is still active")
+        self._change(loaded, "finalized")
+        del self.controllers[name]
+        return ServiceResponse(True)
+
+    def exporter(self, reference: str) -> LoadedController | None:
+        """The configured controller that offers a reference interface."""
+        for loaded in self.controllers.values():
+            if loaded.state in ("inactive", "active") and reference in loaded.controller.reference_interfaces():
+                return loaded
+        return None
+
+    def in_update_order(self) -> list[LoadedController]:
+        """The controllers, each before those whose references it writes."""
+        ordered: list[LoadedController] = []
+
+        def place(loaded: LoadedController) -> None:
+            if loaded in ordered:
+                return
+            if loaded.state in ("inactive", "active"):
+                own = set(loaded.controller.reference_interfaces())
+                for other in self.controllers.values():
+                    configured = other.state in ("inactive", "active")
+                    if own and configured and own & set(other.controller.command_interfaces()):
+                        place(other)
+            ordered.append(loaded)
+
+        for loaded in self.controllers.values():
+            place(loaded)
+        return ordered

@@ -1,0 +1,73 @@
+"""Parameters of the controller manager node itself."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from cellc.mock.control.errors import ManagerAborted
+from cellc.mock.control.parameters import Parameter, ParameterError, ParameterFile, ParameterFileError, ParameterSet
+
+NODE_NAME = "controller_manager"
+
+
+@dataclass(frozen=True, slots=True)
+class ManagerSettings:
+    """What the manager is told by its parameters."""
+
+    update_rate: int
+    enforce_command_limits: bool
+    initially_unconfigured: tuple[str, ...]
+    initially_inactive: tuple[str, ...]
+
+
+def read_file(text: str) -> ParameterFile:
+    """Read the parameter file of the manager's process.
+
+    Raises:
+        ManagerAborted: where rcl refuses it.
+    """
+    try:
+        return ParameterFile(text)
+    except ParameterFileError as error:
+        raise ManagerAborted(
+            "failed to initialize rcl: Couldn't parse params file: '--params-file controllers.yaml'. "
+            f"Error: {error.reason}"
+        ) from None
+
+
+def read_settings(parameters: ParameterSet, distro: str) -> ManagerSettings:
+    """Declare and read the parameters of the manager.
+
+    Raises:
+        ManagerAborted: where its process would end.
+    """
+    # Command limits are enforced by default since Kilted (facts/ros2_control.md §3.1).
+    enforced = distro in ("kilted", "lyrical")
+    initial = "hardware_components_initial_state."
+    given = parameters.given("update_rate")
+    if isinstance(given, float):
+        raise ManagerAborted(
+            "Exception thrown while initializing controller manager parameters: expected [integer] got [double]"
+        )
+    try:
+        parameters.declare(
+            (
+                Parameter("update_rate", "integer", 100, (), True),
+                Parameter("enforce_command_limits", "bool", enforced, (), True),
+                Parameter(f"{initial}unconfigured", "string_array", [], (), True),
+                Parameter(f"{initial}inactive", "string_array", [], (), True),
+            )
+        )
+    except ParameterError as error:
+        raise ManagerAborted(
+            f"Exception thrown while initializing controller manager parameters: {error.reason}"
+        ) from None
+    rate = int(parameters.number("update_rate"))
+    if rate <= 0:
+        raise ManagerAborted("cannot store a negative time point in rclcpp::Time")
+    return ManagerSettings(
+        rate,
+        parameters.flag("enforce_command_limits") and distro != "humble",
+        parameters.texts(f"{initial}unconfigured"),
+        parameters.texts(f"{initial}inactive"),
+    )

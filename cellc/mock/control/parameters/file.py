@@ -1,0 +1,117 @@
+"""A ROS parameter file and its match to node names, by rcl_yaml_param_parser and rcl_yaml_node_match.
+
+PyYAML is used for the grammar alone: its nodes are typed here, since its own resolver is YAML 1.1 with other rules.
+"""
+
+from __future__ import annotations
+
+import re
+
+import yaml
+
+from cellc.mock.control.parameters.values import ParameterValue, scalar
+
+
+class ParameterFileError(Exception):
+    """The file is not one; a node that is given it ends before it starts.
+
+    Args:
+        reason: the message.
+    """
+
+    def __init__(self, reason: str) -> None:
+        super().__init__(reason)
+        self.reason = reason
+
+
+def _line(node: yaml.Node) -> int:
+    return int(node.start_mark.line) + 1
+
+
+def _sequence(node: yaml.SequenceNode) -> ParameterValue:
+    values = []
+    for item in node.value:
+        if not isinstance(item, yaml.ScalarNode):
+            raise ParameterFileError(f"Sequences can not be nested. Error at line {_line(item)}")
+        values.append(scalar(item.value, item.style is not None))
+    if len({type(value) for value in values}) > 1:
+        raise ParameterFileError(f"Sequence should be of same type. Value type at line_num {_line(node)}")
+    return values  # type: ignore[return-value] # the items were just seen to be of one type
+
+
+def _parameters(node: yaml.MappingNode, prefix: str) -> dict[str, ParameterValue]:
+    found: dict[str, ParameterValue] = {}
+    for key, value in node.value:
+        name = f"{prefix}{key.value}"
+        if isinstance(value, yaml.MappingNode):
+            found.update(_parameters(value, f"{name}."))
+        elif isinstance(value, yaml.SequenceNode):
+            found[name] = _sequence(value)
+        elif value.value == "" and value.style is None:
+            raise ParameterFileError(f"No value at line {_line(value)}")
+        else:
+            found[name] = scalar(value.value, value.style is not None)
+    return found
+
+
+def _sections(node: yaml.Node, path: str) -> list[tuple[str, dict[str, ParameterValue]]]:
+    if not isinstance(node, yaml.MappingNode):
+        raise ParameterFileError(f"Cannot have a value before ros__parameters at line {_line(node)}")
+    found: list[tuple[str, dict[str, ParameterValue]]] = []
+    for key, value in node.value:
+        if key.value == "ros__parameters":
+            if not isinstance(value, yaml.MappingNode):
+                raise ParameterFileError(f"Cannot have a value before ros__parameters at line {_line(value)}")
+            found.append((path, _parameters(value, "")))
+        elif isinstance(value, yaml.SequenceNode):
+            raise ParameterFileError(
+                f"Sequences can only be values and not keys in params. Error at line {_line(value)}"
+            )
+        else:
+            child = key.value if key.value.startswith("/") or not path else f"/{key.value}"
+            found.extend(_sections(value, f"{path}{child}"))
+    return found
+
+
+def _matches(pattern: str, full_name: str) -> bool:
+    """Match a node key: `*` is one token, `**` any number of them, also none."""
+    expression = "/" + pattern.lstrip("/")
+    expression = re.escape(expression).replace(r"/\*\*", r"(/[^/]+)*").replace(r"\*", "[^/]+")
+    return re.fullmatch(expression, full_name) is not None
+
+
+class ParameterFile:
+    """The text of one parameter file.
+
+    Args:
+        text: the file; empty text is a file without any parameter.
+
+    Raises:
+        ParameterFileError: where rcl would refuse the file, which ends the node.
+    """
+
+    def __init__(self, text: str) -> None:
+        if any("\t" in line[: len(line) - len(line.lstrip())] for line in text.splitlines()):
+            raise ParameterFileError("found character that cannot start any token (tab)")
+        try:
+            root = yaml.compose(text, Loader=yaml.SafeLoader)
+        except yaml.YAMLError as error:
+            raise ParameterFileError(f"Error parsing a event near line: {error}") from None
+        self._sections = [] if root is None else _sections(root, "")
+
+    def of_node(self, name: str, namespace: str) -> dict[str, ParameterValue]:
+        """The parameters for one node, later sections winning.
+
+        Args:
+            name: name of the node.
+            namespace: its namespace, "" or "/" for the root.
+
+        Returns:
+            Values by full parameter name, with dots.
+        """
+        full_name = f"{namespace.rstrip('/')}/{name}"
+        merged: dict[str, ParameterValue] = {}
+        for pattern, values in self._sections:
+            if _matches(pattern, full_name):
+                merged.update(values)
+        return merged
