@@ -13,8 +13,11 @@ from pathlib import Path
 from cellc.artifact import Artifact
 from cellc.diagnostics import Diagnostic, Outcome, Severity
 from cellc.emit.emit_all import emit_all
+from cellc.formats.configuration import configuration_id, configuration_inputs
+from cellc.formats.version_tuple import version_tuple
 from cellc.graph.cell_graph import CellGraph, build_graph
 from cellc.link.link import link
+from cellc.output.manifest import with_manifest
 from cellc.rules.run import run_rules
 from cellc.source import read
 from cellc.spec.parse import parse
@@ -57,13 +60,21 @@ def check(path: str | Path) -> Checked:
 
 
 def compile_cell(checked: Checked) -> Outcome[tuple[Artifact, ...]]:
-    """Emit the artifacts of a checked cell and have foreign parsers read them back."""
+    """Emit the artifacts of a checked cell with the manifest over them, and have foreign parsers read them back."""
     if checked.graph is None or not checked.ok:
         return Outcome(None)
     # Foreign parsers are heavy: a check does not pay for them.
     from cellc.verify.verify import verify
 
-    artifacts = emit_all(checked.graph)
+    cell = checked.graph.cell
+    inputs = configuration_inputs(cell)
+    artifacts = with_manifest(
+        emit_all(checked.graph),
+        cell=cell.name,
+        configuration_id=configuration_id(inputs),
+        configuration_inputs=inputs,
+        version_tuple=version_tuple(cell),
+    )
     return Outcome(artifacts, verify(artifacts, checked.graph))
 
 

@@ -25,7 +25,7 @@ from cellc.diagnostics import did_you_mean
 )
 @click.option("--force", is_flag=True, help="Replace a file that exists.")
 def init(name: str, devices: tuple[str, ...], ros: Distro, output: Path | None, force: bool) -> None:
-    """Write a cell NAME with the given devices, such as `cellc init bench MODEL MODEL`; `cellc init` lists the models.
+    """Write a cell NAME with the given devices, such as `cellc init bench MODEL MODEL`; without models they are listed.
 
     A device is called after its kind (arm, gripper, camera) unless DEVICE= names it.
     """

@@ -1,0 +1,90 @@
+"""``cellc build``: check cells and write their artifacts, or tell how a folder differs from what they would be."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from cellc.artifact import Artifact
+from cellc.cli.findings import FAIL_ON, FORMAT, finish, show_findings
+from cellc.output.compare import Difference, compare
+from cellc.output.write import WriteReport, write
+from cellc.pipeline import Checked, compile_cell, with_findings
+from cellc.pipeline import check as check_cell
+from cellc.report.differences import render_difference
+from cellc.report.progress import progress
+
+
+@click.command()
+@click.argument("files", nargs=-1, required=True, type=click.Path(path_type=str))
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path),
+    default=Path("generated"),
+    show_default=True,
+    help="Folder that holds a folder for each cell.",
+)
+@click.option(
+    "--check", "only_compare", is_flag=True, help="Write nothing; fail where a folder is not what its cell makes."
+)
+@click.option("--force", is_flag=True, help="Discard edits that were made by hand in generated files.")
+@FORMAT
+@FAIL_ON
+def build(
+    files: tuple[str, ...], output: Path, only_compare: bool, force: bool, output_format: str, fail_on: str
+) -> None:
+    """Check each cell in FILES and write its ROS 2 package to OUTPUT/<cell>.
+
+    Errors stop a cell from being written. Blockers do not: they refuse the real target, not the mock. Files that you
+    put beside the generated ones stay.
+    """
+    built: list[Checked] = []
+    told: list[str] = []
+    differs = False
+    with progress("building") as update:
+        for file in files:
+            update(file)
+            checked, artifacts = _compiled(file)
+            if artifacts is not None and checked.graph is not None:
+                folder = output / checked.graph.cell.name
+                if only_compare:
+                    differences = compare(artifacts, folder)
+                    differs = differs or bool(differences)
+                    told += _differences(differences, folder)
+                else:
+                    checked, report = _written(checked, artifacts, folder, force)
+                    told += [] if report is None else [_told(report, folder)]
+            built.append(checked)
+    show_findings(built, output_format)
+    if output_format == "text" and told:
+        click.echo("\n".join(told))
+    if differs:
+        raise click.exceptions.Exit(1)
+    finish(built, fail_on)
+
+
+def _compiled(file: str) -> tuple[Checked, tuple[Artifact, ...] | None]:
+    checked = check_cell(file)
+    artifacts = compile_cell(checked)
+    return with_findings(checked, artifacts.diagnostics), artifacts.value if artifacts.ok else None
+
+
+def _written(
+    checked: Checked, artifacts: tuple[Artifact, ...], folder: Path, force: bool
+) -> tuple[Checked, WriteReport | None]:
+    outcome = write(artifacts, folder, force=force)
+    return with_findings(checked, outcome.diagnostics), outcome.value
+
+
+def _told(report: WriteReport, folder: Path) -> str:
+    parts = [(len(report.written), "written"), (len(report.removed), "removed"), (len(report.unchanged), "unchanged")]
+    shown = ", ".join(f"{number} {word}" for number, word in parts if number)
+    return f"{folder.as_posix()}: {shown}"
+
+
+def _differences(differences: tuple[Difference, ...], folder: Path) -> list[str]:
+    if not differences:
+        return [f"{folder.as_posix()}: as the cell makes it"]
+    return [render_difference(difference, folder) for difference in differences]
