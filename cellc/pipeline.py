@@ -12,12 +12,8 @@ from pathlib import Path
 
 from cellc.artifact import Artifact
 from cellc.diagnostics import Diagnostic, Outcome, Severity
-from cellc.emit.emit_all import emit_all
-from cellc.formats.configuration import configuration_id, configuration_inputs
-from cellc.formats.version_tuple import version_tuple
 from cellc.graph.cell_graph import CellGraph, build_graph
 from cellc.link.link import link
-from cellc.output.manifest import with_manifest
 from cellc.rules.run import run_rules
 from cellc.source import read
 from cellc.spec.parse import parse
@@ -63,7 +59,11 @@ def compile_cell(checked: Checked) -> Outcome[tuple[Artifact, ...]]:
     """Emit the artifacts of a checked cell with the manifest over them, and have foreign parsers read them back."""
     if checked.graph is None or not checked.ok:
         return Outcome(None)
-    # Foreign parsers are heavy: a check does not pay for them.
+    # Emitters and foreign parsers are imported here: a check does not pay for them.
+    from cellc.emit.emit_all import emit_all
+    from cellc.formats.configuration import configuration_id, configuration_inputs
+    from cellc.formats.version_tuple import version_tuple
+    from cellc.output.manifest import with_manifest
     from cellc.verify.verify import verify
 
     cell = checked.graph.cell

@@ -44,8 +44,11 @@ class Cell:
     behaviours: Mapping[str, str]
 
     def locate(self, *path: str | int) -> Span:
-        """Return the place of a YAML path, or of its nearest ancestor that the user wrote."""
-        return self.document.locate(path)
+        """Return the place of a YAML path, or of its nearest ancestor that the user wrote.
+
+        Where a whole section is missing that is the cell's own name, not the first line of the file.
+        """
+        return self.document.locate(path if self.document.has(path[:1]) else ("cell",))
 
     def states(self, *path: str | int) -> bool:
         """Tell whether the user wrote something at a YAML path."""
