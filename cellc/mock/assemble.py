@@ -1,0 +1,131 @@
+"""Builds the plant of one rehearsal from what the folder says."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from cellc.contract.contract import Contract, ContractFrame, ContractInterface
+from cellc.mock.bus.topic import Topic
+from cellc.mock.control import ControllerManager
+from cellc.mock.engine.control_stack import ControlStack
+from cellc.mock.engine.simulation import Simulation
+from cellc.mock.folder import GeneratedFolder
+from cellc.mock.nodes.camera import Camera, Image
+from cellc.mock.nodes.motion_model import MotionModel
+from cellc.mock.nodes.motion_planner import MotionPlanner
+from cellc.mock.nodes.observations import ObservationInbox
+from cellc.mock.nodes.perception import ObjectPose, Perception
+from cellc.mock.nodes.robot_state_publisher import PUBLISH_FREQUENCY_HZ, RobotStatePublisher
+from cellc.mock.plant import Plant, Requests
+from cellc.mock.tf.buffer import DEFAULT_BUFFER_S, TransformBuffer
+from cellc.mock.tf.sources import SampledSource
+from cellc.mock.world.objects import World
+from cellc.transforms import Pose
+
+POSE_TYPE = "geometry_msgs/msg/PoseStamped"
+_DEFAULT_RATE_HZ = 10.0
+"""Of a dynamic frame whose rate is not stated."""
+
+
+def assemble(folder: GeneratedFolder, motion: MotionModel, seed: int) -> Plant:
+    """Create every node of the cell at time zero; nothing runs yet.
+
+    Raises:
+        ManagerAborted: a controller manager ended while it started.
+    """
+    contract = folder.contract
+    horizon_s = max([DEFAULT_BUFFER_S, *(frame.buffer_s or 0.0 for frame in contract.frames.values())])
+    control = ControlStack(_managers(folder), contract.managers, horizon_s)
+    simulation = Simulation(control)
+    histories = tuple(control.histories.values())
+    plant = Plant(
+        contract=contract,
+        simulation=simulation,
+        control=control,
+        world=World(motion.links, histories),
+        buffer=TransformBuffer(),
+        robot_state_publisher=RobotStatePublisher(motion.links, histories, PUBLISH_FREQUENCY_HZ, horizon_s),
+        planner=MotionPlanner(motion, seed),
+        cameras={},
+        perceptions={},
+        inboxes={},
+        requests=Requests(),
+    )
+    images = _add_cameras(plant)
+    for name, frame in contract.frames.items():
+        if frame.kind == "dynamic" and frame.simulated_parent is not None:
+            _add_object(plant, name, frame, images)
+    return plant
+
+
+def _managers(folder: GeneratedFolder) -> Mapping[str, ControllerManager]:
+    contract = folder.contract
+    return {
+        name: ControllerManager(
+            folder.urdf,
+            folder.parameters[name],
+            namespace=manager.namespace,
+            distro=contract.distro,
+            plugin_behaviours=contract.plugin_behaviours,
+        )
+        for name, manager in contract.managers.items()
+    }
+
+
+def _add_cameras(plant: Plant) -> dict[str, Topic[Image]]:
+    topics: dict[str, Topic[Image]] = {}
+    for device, facts in plant.contract.devices.items():
+        if facts.camera is None or facts.camera.topic not in plant.contract.interfaces:
+            continue
+        interface = plant.contract.interfaces[facts.camera.topic]
+        topic = topics.setdefault(facts.camera.topic, Topic[Image](facts.camera.topic, interface))
+        source = interface.sources[0].node if interface.sources else device
+        plant.cameras[device] = Camera(source, facts.camera, topic, interface.transport_s, plant.simulation)
+    return topics
+
+
+def _add_object(plant: Plant, name: str, frame: ContractFrame, images: Mapping[str, Topic[Image]]) -> None:
+    """Place the object that a dynamic frame follows, with the node that sees it and the inbox of the task."""
+    pose = frame.simulated_pose
+    assert frame.simulated_parent is not None  # the caller asked
+    position = Pose((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)) if pose is None else Pose(pose.xyz, pose.quaternion)
+    plant.world.place(name, frame.simulated_parent, position, 0)
+    transform = SampledSource(frame.parent, frame.authority, frame.buffer_s or DEFAULT_BUFFER_S)
+    plant.buffer.add(name, transform)
+    topic, interface = _pose_topic(plant.contract, frame)
+    inbox = ObservationInbox(interface, plant.simulation)
+    plant.inboxes[name] = inbox
+    if topic is not None and interface is not None and interface.sinks:
+        inbox.subscribe(topic, interface.sinks[0].node)
+
+    def publish(sample: ObjectPose) -> None:
+        if topic is None:
+            inbox.accept(sample)  # the task hears of the frame through /tf alone
+        else:
+            topic.publish(frame.authority, sample, plant.now_ns)
+
+    for image_topic, stream in images.items():
+        subscription = stream.subscribe(frame.authority, 0)
+        if subscription is not None:
+            max_age_s = plant.contract.interfaces[image_topic].max_age_s
+            plant.perceptions[name] = Perception(
+                name, frame, subscription, max_age_s, publish, transform, plant.world, plant.simulation
+            )
+            break
+
+
+def _pose_topic(contract: Contract, frame: ContractFrame) -> tuple[Topic[ObjectPose] | None, ContractInterface | None]:
+    """Return the topic on which a dynamic frame's publisher states its pose in the frame's parent."""
+    for name, interface in sorted(contract.interfaces.items()):
+        sources = [source.node for source in interface.sources]
+        if interface.type == POSE_TYPE and interface.frame == frame.parent and frame.authority in sources:
+            return Topic[ObjectPose](name, interface), interface
+    return None, None
+
+
+def start_nodes(plant: Plant) -> None:
+    """Start cameras and perception."""
+    for camera in plant.cameras.values():
+        camera.start()
+    for name, perception in plant.perceptions.items():
+        perception.start(plant.contract.frames[name].rate_hz or _DEFAULT_RATE_HZ)

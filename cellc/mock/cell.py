@@ -1,0 +1,65 @@
+"""A loaded cell: rehearsals by name."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from cellc.contract.contract import Contract
+from cellc.mock.errors import MockError
+from cellc.mock.folder import GeneratedFolder, read_folder
+from cellc.mock.nodes.motion_model import MotionModel, build_motion_model
+from cellc.mock.rehearse import rehearse
+from cellc.mock.result import RehearsalResult
+from cellc.mock.world.links import read_links
+
+
+class MockCell:
+    """A generated folder ready to be executed; every run starts from a cell that is off."""
+
+    def __init__(self, folder: GeneratedFolder, motion: MotionModel) -> None:
+        """Bind what ``load`` has read."""
+        self._folder = folder
+        self._motion = motion
+
+    @property
+    def contract(self) -> Contract:
+        """The contract of the cell."""
+        return self._folder.contract
+
+    @property
+    def rehearsals(self) -> tuple[str, ...]:
+        """Names of the rehearsals in the order of the folder."""
+        return tuple(entry.name for entry in self._folder.rehearsals)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What is odd about the folder but no reason to stop, such as files edited by hand."""
+        return self._folder.notes
+
+    def run(self, rehearsal: str, *, seed: int = 0) -> RehearsalResult:
+        """Run one rehearsal; the same folder and seed give the same result to the last bit.
+
+        Raises:
+            MockError: there is no rehearsal of this name, or it names what the contract does not have.
+        """
+        for entry in self._folder.rehearsals:
+            if entry.name == rehearsal:
+                return rehearse(self._folder, self._motion, entry, seed)
+        known = ", ".join(f"`{name}`" for name in self.rehearsals) or "none"
+        raise MockError(self.contract.files.rehearsals, f"has no rehearsal `{rehearsal}`; it has {known}")
+
+
+def load(folder: Path) -> MockCell:
+    """Load a generated folder.
+
+    Raises:
+        MockError: the folder cannot be executed; names the file and the reason.
+    """
+    read = read_folder(folder)
+    links = read_links(read.urdf, read.contract.files.urdf_mock)
+    return MockCell(read, build_motion_model(read.contract, read.urdf, links))
+
+
+def run_all(cell: MockCell, *, seed: int = 0) -> tuple[RehearsalResult, ...]:
+    """Run every rehearsal of a cell in the order of its folder."""
+    return tuple(cell.run(name, seed=seed) for name in cell.rehearsals)

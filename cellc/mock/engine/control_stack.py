@@ -1,0 +1,105 @@
+"""All controller managers of the cell behind the simulated clock."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+
+from cellc.contract.contract import ContractManager
+from cellc.mock.control import ControlEvent, ControllerManager, HardwareChanged
+from cellc.mock.engine.process import Signal
+from cellc.mock.world.joint_states import JointStateHistory
+
+_LOCKSTEP_NS = 10_000_000
+"""With several managers none may run ahead of an event of another by more than this."""
+
+
+class ControlStack:
+    """Advances the managers in blocks, gathers their joint states, and hands their events on.
+
+    Attributes:
+        managers: by the name they have in the contract.
+        changed: fires after a manager had something to tell.
+        unready_hardware: hardware components that are not active, with their state.
+    """
+
+    def __init__(
+        self, managers: Mapping[str, ControllerManager], contracts: Mapping[str, ContractManager], horizon_s: float
+    ) -> None:
+        """Bind the managers; ``horizon_s`` bounds the history of joint states."""
+        self.managers = dict(managers)
+        self.changed = Signal()
+        self.events: list[ControlEvent] = []
+        self.unready_hardware: dict[str, str] = {}
+        self.histories: dict[tuple[str, str], JointStateHistory] = {}
+        self._listeners: list[Callable[[ControlEvent], None]] = []
+        self._manager_of = {
+            controller: name for name, manager in contracts.items() for controller in manager.controllers
+        }
+        for name, manager in contracts.items():
+            for controller, facts in manager.controllers.items():
+                if facts.behaviour == "joint_state_broadcaster":
+                    history = JointStateHistory(horizon_s, managers[name].period_ns)
+                    self.histories[(name, controller)] = history
+
+    def manager_of(self, controller: str) -> ControllerManager:
+        """Return the manager of a controller of the contract."""
+        return self.managers[self._manager_of[controller]]
+
+    def manager_of_joint(self, joint: str) -> Iterator[ControllerManager]:
+        """Yield the managers whose hardware has a joint."""
+        for manager in self.managers.values():
+            if joint in manager.joint_positions():
+                yield manager
+
+    def listen(self, listener: Callable[[ControlEvent], None]) -> None:
+        """Call ``listener`` with every event of every manager, in order."""
+        self._listeners.append(listener)
+
+    def subscribe_joint_states(self) -> None:
+        """Collect from now on what the broadcasters publish; they must be configured."""
+        for (manager, controller), history in self.histories.items():
+            self.managers[manager].subscribe_joint_states(controller)
+            history.subscribed = True
+
+    def advance(self, until_ns: int) -> int:
+        """Advance to ``until_ns`` or to the first event before it; return the time reached."""
+        managers = tuple(self.managers.values())
+        if len(managers) > 1:
+            until_ns = min(until_ns, managers[0].now_ns + _LOCKSTEP_NS)
+        reached = until_ns
+        for manager in managers:
+            while manager.now_ns < reached and not self._advance_one(manager, reached, len(managers) == 1):
+                pass
+            reached = min(reached, manager.now_ns) if len(managers) == 1 else reached
+        self._collect()
+        return reached
+
+    def _advance_one(self, manager: ControllerManager, until_ns: int, alone: bool) -> bool:
+        """Advance one manager once; tell whether what it has to say must be heard before it goes on."""
+        manager.advance(until_ns)
+        events = manager.take_events()
+        self.events += events
+        return alone and bool(events)
+
+    def dispatch(self, now_ns: int) -> None:
+        """Hand what happened to the listeners, then wake who waits for the control stack."""
+        if not self.events:
+            return
+        events, self.events = self.events, []
+        for event in events:
+            if isinstance(event, HardwareChanged):
+                self._note_hardware(event)
+            for listener in self._listeners:
+                listener(event)
+        self.changed.fire(now_ns)
+
+    def _note_hardware(self, event: HardwareChanged) -> None:
+        if event.state == "active":
+            self.unready_hardware.pop(event.component, None)
+        else:
+            self.unready_hardware[event.component] = event.state
+
+    def _collect(self) -> None:
+        for (manager, controller), history in self.histories.items():
+            if history.subscribed:
+                history.append(self.managers[manager].take_joint_states(controller))

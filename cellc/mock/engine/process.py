@@ -1,0 +1,78 @@
+"""Processes that wait: generators that the simulation resumes at a signal, or at the bound of their wait."""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+from dataclasses import dataclass
+from typing import TypeVar
+
+from cellc.mock.engine.queue import EventQueue
+
+_Result = TypeVar("_Result")
+
+
+class Signal:
+    """Something that processes wait for; it carries no value, who wakes looks for itself."""
+
+    def __init__(self) -> None:
+        self._waiting: list[tuple[Process, int]] = []
+
+    def add(self, process: Process, wait_number: int) -> None:
+        """Let a process be woken by the next firing; an earlier wait of the same process is over and forgotten."""
+        self._waiting = [entry for entry in self._waiting if entry[0] is not process]
+        self._waiting.append((process, wait_number))
+
+    def fire(self, now_ns: int) -> None:
+        """Wake everyone who waits, at the current instant and in the order in which they began to wait."""
+        waiting, self._waiting = self._waiting, []
+        for process, wait_number in waiting:
+            process.wake(wait_number, now_ns)
+
+
+@dataclass(frozen=True, slots=True)
+class Wait:
+    """A request of a process: resume me when one of the signals fires, at the latest at ``until_ns``.
+
+    There is no wait without a bound, so that no missing responder can block the cell for ever.
+    """
+
+    until_ns: int
+    signals: tuple[Signal, ...] = ()
+
+
+Waiting = Generator[Wait, None, _Result]
+"""What a function that waits returns: it yields waits and ends with a result."""
+
+
+class Process:
+    """Runs a generator of waits on an event queue; a wake that comes after another one already did is ignored."""
+
+    def __init__(self, queue: EventQueue, body: Waiting[None]) -> None:
+        """Bind the process; it does not run before ``start``."""
+        self.finished = False
+        self._queue = queue
+        self._body = body
+        self._wait_number = 0
+
+    def start(self, now_ns: int) -> None:
+        """Run the first part of the body at ``now_ns``."""
+        self._queue.at(now_ns, self._resume)
+
+    def wake(self, wait_number: int, at_ns: int) -> None:
+        """Resume at ``at_ns`` unless the wait of this number is over by then."""
+        self._queue.at(at_ns, lambda: self._resume_if(wait_number))
+
+    def _resume_if(self, wait_number: int) -> None:
+        if wait_number == self._wait_number:
+            self._resume()
+
+    def _resume(self) -> None:
+        self._wait_number += 1
+        try:
+            wait = next(self._body)
+        except StopIteration:
+            self.finished = True
+            return
+        for signal in wait.signals:
+            signal.add(self, self._wait_number)
+        self.wake(self._wait_number, wait.until_ns)

@@ -1,0 +1,106 @@
+"""Reads a generated folder: the only thing that the mock knows of a cell."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+from typing import TypeVar
+
+from pydantic import BaseModel, ValidationError
+
+from cellc.contract.contract import Contract
+from cellc.contract.manifest import Manifest
+from cellc.contract.rehearsals import RehearsalEntry, Rehearsals
+from cellc.mock.errors import MockError
+
+CONTRACT_FILE = "contract.json"
+MANIFEST_FILE = "manifest.json"
+MAX_BYTES = 50_000_000
+"""A larger file is not one that the compiler wrote."""
+
+_Model = TypeVar("_Model", bound=BaseModel)
+
+
+@dataclass(frozen=True, slots=True)
+class GeneratedFolder:
+    """The parts of a generated folder that the mock executes.
+
+    Attributes:
+        parameters: text of the parameter file of each controller manager, by manager.
+        notes: what is odd but no reason to stop, such as a file edited by hand.
+    """
+
+    contract: Contract
+    rehearsals: tuple[RehearsalEntry, ...]
+    urdf: str
+    parameters: dict[str, str]
+    notes: tuple[str, ...]
+
+
+def read_folder(folder: Path) -> GeneratedFolder:
+    """Read and validate what the mock needs.
+
+    Raises:
+        MockError: a file is missing, unreadable, not what its name says, or lies outside the folder.
+    """
+    if not folder.is_dir():
+        raise MockError(folder.as_posix(), "is not a folder" if folder.exists() else "no such folder")
+    contract = _read_model(folder, CONTRACT_FILE, Contract)
+    rehearsals = _read_model(folder, contract.files.rehearsals, Rehearsals)
+    manifest = _read_model(folder, MANIFEST_FILE, Manifest)
+    missing = sorted(set(contract.managers) - set(contract.files.parameters))
+    if missing:
+        raise MockError(CONTRACT_FILE, f"controller manager `{missing[0]}` has no parameter file")
+    return GeneratedFolder(
+        contract=contract,
+        rehearsals=rehearsals.rehearsals,
+        urdf=_read_text(folder, contract.files.urdf_mock),
+        parameters={name: _read_text(folder, path) for name, path in contract.files.parameters.items()},
+        notes=tuple(_notes(folder, contract, rehearsals, manifest)),
+    )
+
+
+def _read_model(folder: Path, name: str, model: type[_Model]) -> _Model:
+    text = _read_text(folder, name)
+    try:
+        return model.model_validate_json(text)
+    except ValidationError as error:
+        first = error.errors(include_url=False)[0]
+        at = ".".join(str(part) for part in first["loc"])
+        raise MockError(name, f"{f'`{at}`: ' if at else ''}{first['msg'].lower()}") from None
+
+
+def _read_text(folder: Path, name: str) -> str:
+    path = _inside(folder, name)
+    try:
+        if path.stat().st_size > MAX_BYTES:
+            raise MockError(name, f"is larger than {MAX_BYTES} bytes")
+        return path.read_bytes().decode("utf-8")
+    except FileNotFoundError:
+        raise MockError(name, "is missing from the generated folder") from None
+    except OSError as error:
+        raise MockError(name, f"cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise MockError(name, "is not UTF-8 text") from None
+
+
+def _inside(folder: Path, name: str) -> Path:
+    """Return the path of a file of the folder; a contract must not make the mock read the rest of the disk."""
+    relative = PurePosixPath(name)
+    if not name or relative.is_absolute() or ".." in relative.parts or "\\" in name or "\0" in name:
+        raise MockError(CONTRACT_FILE, f"names the file `{name}`, which is not a path inside the folder")
+    return folder.joinpath(*relative.parts)
+
+
+def _notes(folder: Path, contract: Contract, rehearsals: Rehearsals, manifest: Manifest) -> Iterator[str]:
+    for name, identity in ((contract.files.rehearsals, rehearsals), (MANIFEST_FILE, manifest)):
+        if identity.configuration_id != contract.configuration_id:
+            yield f"`{name}` is of configuration `{identity.configuration_id}`, not `{contract.configuration_id}`"
+    for name, expected in sorted(manifest.files.items()):
+        path = _inside(folder, name)
+        if not path.is_file():
+            yield f"`{name}` stands in the manifest and is missing"
+        elif hashlib.sha256(path.read_bytes()).hexdigest() != expected.removeprefix("sha256:"):
+            yield f"`{name}` differs from the manifest: it was edited after it was generated"

@@ -1,0 +1,68 @@
+"""The task's view of what perception publishes: the newest observation of each frame that has reached it."""
+
+from __future__ import annotations
+
+from cellc.contract.contract import ContractInterface
+from cellc.mock.bus.subscription import Subscription
+from cellc.mock.bus.topic import Topic
+from cellc.mock.engine.process import Signal
+from cellc.mock.engine.simulation import Simulation
+from cellc.mock.nodes.perception import ObjectPose
+
+DEFAULT_MAX_AGE_S = 0.2
+"""Where no interface states how old an observation may be."""
+
+
+class ObservationInbox:
+    """Receives the poses of one frame.
+
+    Attributes:
+        arrived: fires with each pose.
+        newest: the pose that arrived last.
+        max_age_s: older observations are stale.
+        on_stale: what the contract says to do with a stale one.
+    """
+
+    def __init__(self, interface: ContractInterface | None, simulation: Simulation) -> None:
+        """Bind the inbox to the contract of the topic; None where poses reach the task by /tf alone."""
+        max_age_s = None if interface is None else interface.max_age_s
+        self.arrived = Signal()
+        self.newest: ObjectPose | None = None
+        self.max_age_s = DEFAULT_MAX_AGE_S if max_age_s is None else max_age_s
+        self.on_stale = "reject_goal" if interface is None or interface.on_stale is None else interface.on_stale
+        self._simulation = simulation
+        self._subscription: Subscription[ObjectPose] | None = None
+
+    def subscribe(self, topic: Topic[ObjectPose], node: str) -> None:
+        """Subscribe as a node of the contract."""
+        self._subscription = topic.subscribe(node, self._simulation.now_ns, self._receive)
+
+    def age_s(self, stamp_ns: int) -> float:
+        """Return the age of a stamp in seconds."""
+        return (self._simulation.now_ns - stamp_ns) * 1e-9
+
+    def is_stale(self, stamp_ns: int, allowance_s: float = 0.0) -> bool:
+        """Tell whether a stamp is too old to act on, ``allowance_s`` beyond the bound of the contract."""
+        late_ns = self._simulation.now_ns - round(allowance_s * 1e9)
+        return self.on_stale != "continue" and late_ns >= self.stale_from_ns(stamp_ns)
+
+    def stale_from_ns(self, stamp_ns: int) -> int:
+        """Return the first nanosecond at which an observation of this stamp is stale."""
+        return stamp_ns + round(self.max_age_s * 1e9) + 1
+
+    def describe(self, frame: str) -> str:
+        """Say how old the newest observation of ``frame`` is."""
+        if self.newest is None:
+            return f"no observation of {frame} has arrived"
+        age_s = self.age_s(self.newest.stamp_ns)
+        return f"newest observation of {frame} is {age_s:.3f} s old, {self.max_age_s:g} s allowed"
+
+    def accept(self, pose: ObjectPose) -> None:
+        """Take note of a pose that has reached the task."""
+        self.newest = pose
+        self.arrived.fire(self._simulation.now_ns)
+
+    def _receive(self) -> None:
+        received = None if self._subscription is None else self._subscription.take(self._simulation.now_ns)
+        if received is not None:
+            self.accept(received.sample)

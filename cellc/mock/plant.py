@@ -1,0 +1,60 @@
+"""Everything that runs in one rehearsal, by its name in the contract."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from cellc.contract.contract import Contract
+from cellc.mock.engine.control_stack import ControlStack
+from cellc.mock.engine.process import Signal
+from cellc.mock.engine.simulation import Simulation
+from cellc.mock.nodes.camera import Camera
+from cellc.mock.nodes.motion_planner import MotionPlanner
+from cellc.mock.nodes.observations import ObservationInbox
+from cellc.mock.nodes.perception import Perception
+from cellc.mock.nodes.robot_state_publisher import RobotStatePublisher
+from cellc.mock.tf.buffer import TransformBuffer
+from cellc.mock.world.objects import World
+
+
+@dataclass(slots=True)
+class Requests:
+    """What the outside asks of the task while it runs.
+
+    Attributes:
+        cancel: kinds of step whose next executing goal is to be cancelled.
+        displaced: goals that are not where they were, by goal: metres along the axes of their frame.
+        changed: fires when something is asked.
+    """
+
+    cancel: set[str] = field(default_factory=set)
+    displaced: dict[str, tuple[float, float, float]] = field(default_factory=dict)
+    changed: Signal = field(default_factory=Signal)
+
+
+@dataclass(frozen=True, slots=True)
+class Plant:
+    """The parts of a running cell.
+
+    Attributes:
+        cameras: by device.
+        perceptions: by the dynamic frame that they publish.
+        inboxes: the task's observations, by dynamic frame.
+    """
+
+    contract: Contract
+    simulation: Simulation
+    control: ControlStack
+    world: World
+    buffer: TransformBuffer
+    robot_state_publisher: RobotStatePublisher
+    planner: MotionPlanner
+    cameras: dict[str, Camera]
+    perceptions: dict[str, Perception]
+    inboxes: dict[str, ObservationInbox]
+    requests: Requests
+
+    @property
+    def now_ns(self) -> int:
+        """The simulated time."""
+        return self.simulation.now_ns

@@ -1,0 +1,100 @@
+"""Runs one rehearsal: bring the cell up, inject the faults at their times, run the task to its named end."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from cellc.contract.contract import Contract
+from cellc.contract.rehearsals import FaultEntry, RehearsalEntry
+from cellc.mock.assemble import assemble, start_nodes
+from cellc.mock.bringup.sequence import Bringup
+from cellc.mock.bus.matching import unmatched_pairs
+from cellc.mock.control import ManagerAborted
+from cellc.mock.faults.build import build_fault
+from cellc.mock.faults.fault import Fault
+from cellc.mock.folder import GeneratedFolder
+from cellc.mock.nodes.motion_model import MotionModel
+from cellc.mock.plant import Plant
+from cellc.mock.record import AttemptRecord
+from cellc.mock.result import BRINGUP_FAILURE, RehearsalResult, StageEvidence
+from cellc.mock.task.context import TaskContext
+from cellc.mock.task.task import Task
+
+
+def rehearse(folder: GeneratedFolder, motion: MotionModel, rehearsal: RehearsalEntry, seed: int) -> RehearsalResult:
+    """Run a rehearsal from a cell that is off to its named end.
+
+    Raises:
+        MockError: a fault names what the contract does not have.
+    """
+    faults = [(entry, build_fault(entry, folder.contract)) for entry in rehearsal.faults]
+    try:
+        plant = assemble(folder, motion, seed)
+    except ManagerAborted as aborted:
+        evidence = StageEvidence("discover", (), (f"the controller manager ended: {aborted.reason}",))
+        return _not_up(rehearsal, (evidence,), unmatched_pairs(folder.contract))
+    start_nodes(plant)
+    bringup = Bringup(plant)
+    plant.simulation.run_process(bringup.run())
+    if not bringup.passed:
+        return _not_up(rehearsal, tuple(bringup.evidence), _findings(plant))
+    begun_ns = plant.now_ns
+    _schedule(plant, faults, begun_ns)
+    task = Task(rehearsal, TaskContext(plant, begun_ns + round(rehearsal.timeout_s * 1e9), seed))
+    plant.simulation.run_process(task.run())
+    return RehearsalResult(
+        name=rehearsal.name,
+        outcome=task.outcome.value,
+        expected=rehearsal.expect,
+        sim_time_s=(plant.now_ns - begun_ns) * 1e-9,
+        response_s=_response_s(rehearsal, task.records, begun_ns),
+        within_s=rehearsal.within_s,
+        attempts=tuple(task.records),
+        bringup=tuple(bringup.evidence),
+        findings=_findings(plant),
+    )
+
+
+def _schedule(plant: Plant, faults: Sequence[tuple[FaultEntry, Fault]], begun_ns: int) -> None:
+    for entry, fault in faults:
+        at_ns = begun_ns + round(entry.at_s * 1e9)
+        plant.simulation.at(at_ns, lambda fault=fault: fault.begin(plant))  # type: ignore[misc]
+        if entry.lasting_s is not None:
+            end_ns = at_ns + round(entry.lasting_s * 1e9)
+            plant.simulation.at(end_ns, lambda fault=fault: fault.end(plant))  # type: ignore[misc]
+
+
+def _response_s(rehearsal: RehearsalEntry, records: Sequence[AttemptRecord], begun_ns: int) -> float | None:
+    """Return the time from the last fault taking effect to the bounded end of the attempt that it ended.
+
+    A cancel takes effect when it is requested and ends when the joints stand still. Any other fault takes effect when
+    it begins, or when the attempt begins that meets it, and ends with the attempt.
+    """
+    if not rehearsal.faults or len(records) < 2:
+        return None
+    ended = records[-2]
+    if ended.outcome == "cancelled" and ended.cancel is not None:
+        return ended.cancel.latency_s
+    fault_ns = begun_ns + round(max(entry.at_s for entry in rehearsal.faults) * 1e9)
+    return (ended.ended_ns - max(fault_ns, ended.started_ns)) * 1e-9
+
+
+def _not_up(
+    rehearsal: RehearsalEntry, evidence: tuple[StageEvidence, ...], findings: tuple[str, ...]
+) -> RehearsalResult:
+    return RehearsalResult(
+        name=rehearsal.name,
+        outcome=BRINGUP_FAILURE,
+        expected=rehearsal.expect,
+        sim_time_s=0.0,
+        response_s=None,
+        within_s=rehearsal.within_s,
+        attempts=(),
+        bringup=evidence,
+        findings=findings,
+    )
+
+
+def _findings(plant: Plant) -> tuple[str, ...]:
+    contract: Contract = plant.contract
+    return (*unmatched_pairs(contract), *plant.buffer.conflicts)

@@ -1,0 +1,92 @@
+"""What every step of the task needs: the plant, the bound of the rehearsal, and waits that notice trouble."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from cellc.mock.control import ControlEvent, GripperEnded, TrajectoryEnded
+from cellc.mock.engine.process import Signal, Wait, Waiting
+from cellc.mock.plant import Plant
+from cellc.mock.task.outcome import AttemptError, Outcome
+from cellc.transforms import Pose
+
+NORMAL = "normal"
+PROTECTIVE_STOP = "protective_stop"
+_WATCH_NS = 100_000_000
+"""The task looks at the state of the cell at least ten times a second, whatever it waits for."""
+
+GoalEnded = TrajectoryEnded | GripperEnded
+
+
+@dataclass(slots=True)
+class TaskContext:
+    """State of the task between steps.
+
+    Attributes:
+        deadline_ns: end of the whole rehearsal.
+        seed: told to whatever draws numbers.
+        observed: stamp of the kept observation, by dynamic frame.
+        retreats: pose of the tip link in the base from which a group's goal was approached, while it stands there.
+        held: object in each gripper.
+        acting_on: dynamic frame whose observation the present motion rests on; it must keep arriving.
+        ended: results that have arrived, by controller and goal.
+    """
+
+    plant: Plant
+    deadline_ns: int
+    seed: int
+    observed: dict[str, int] = field(default_factory=dict)
+    retreats: dict[str, Pose] = field(default_factory=dict)
+    held: dict[str, str] = field(default_factory=dict)
+    acting_on: str | None = None
+    ended: dict[tuple[str, int], GoalEnded] = field(default_factory=dict)
+
+    @property
+    def now_ns(self) -> int:
+        """The simulated time."""
+        return self.plant.simulation.now_ns
+
+    def hear(self, event: ControlEvent) -> None:
+        """Keep the results of goals."""
+        if isinstance(event, (TrajectoryEnded, GripperEnded)):
+            self.ended[(event.controller, event.goal_id)] = event
+
+    def safety_state(self) -> str:
+        """Return ``protective_stop`` while a hardware component refuses commands, else ``normal``."""
+        return PROTECTIVE_STOP if self.plant.control.unready_hardware else NORMAL
+
+    def pause(self, until_ns: int, *signals: Signal) -> Waiting[None]:
+        """Wait for a signal, an event of the control stack, or ``until_ns``, whatever comes first; may wake early.
+
+        Raises:
+            AttemptError: the cell stopped, missed cycles, or the rehearsal's time is over.
+        """
+        until_ns = min(until_ns, self.deadline_ns, self.now_ns + _WATCH_NS, self._observed_until_ns())
+        yield Wait(until_ns, (self.plant.control.changed, *signals))
+        self.check_cell()
+
+    def check_cell(self) -> None:
+        """Raise AttemptError for what ends any attempt: a stop first, then missed cycles, stale observations, time."""
+        for component, state in sorted(self.plant.control.unready_hardware.items()):
+            raise AttemptError(Outcome.PROTECTIVE_STOP, f"hardware component {component} is {state}")
+        missed = sum(history.missed_cycles for history in self.plant.control.histories.values())
+        allowed = self.plant.contract.kpis.missed_cycles
+        if allowed is not None and missed > allowed:
+            raise AttemptError(Outcome.MISSED_CYCLE, f"{missed} update cycles missed, {allowed} allowed")
+        self._check_observation()
+        if self.now_ns >= self.deadline_ns:
+            raise AttemptError(Outcome.TIMEOUT, "the rehearsal's own timeout passed")
+
+    def _observed_until_ns(self) -> int:
+        """Return when the observation that is acted on turns stale; the deadline where none is."""
+        inbox = None if self.acting_on is None else self.plant.inboxes.get(self.acting_on)
+        if inbox is None or inbox.newest is None or inbox.on_stale == "continue":
+            return self.deadline_ns
+        return max(self.now_ns, inbox.stale_from_ns(inbox.newest.stamp_ns))
+
+    def _check_observation(self) -> None:
+        """Raise AttemptError where the frame that is acted on is no longer observed: a frozen camera stops the arm."""
+        inbox = None if self.acting_on is None else self.plant.inboxes.get(self.acting_on)
+        if inbox is None or (inbox.newest is not None and not inbox.is_stale(inbox.newest.stamp_ns)):
+            return
+        raise AttemptError(Outcome.STALE_STATE, inbox.describe(self.acting_on or ""))

@@ -1,0 +1,150 @@
+"""Sends a goal to a controller's action and waits for its end."""
+
+from __future__ import annotations
+
+import hashlib
+
+import numpy as np
+
+from cellc.mock.control import GoalStatus, GripperGoal, TrajectoryEnded, TrajectoryGoal
+from cellc.mock.engine.process import Waiting
+from cellc.mock.plant import Plant
+from cellc.mock.record import PacketStep, ResultRecord
+from cellc.mock.task.attempt import Attempt
+from cellc.mock.task.context import GoalEnded, TaskContext
+from cellc.mock.task.hold import cancel_and_hold
+from cellc.mock.task.outcome import AttemptError, Outcome
+
+_MOVED = 1e-9
+"""rad or m: the least change of a joint that counts as having been driven."""
+
+
+def execute(
+    context: TaskContext,
+    attempt: Attempt,
+    kind: str,
+    controller: str,
+    goal: TrajectoryGoal | GripperGoal,
+    timeout_s: float,
+) -> Waiting[GoalEnded]:
+    """Send a goal, and wait for its result, a cancel request, or the end of its time.
+
+    Args:
+        kind: kind of the step, which a cancel request names.
+        timeout_s: bound from acceptance to result; then the goal is cancelled and the joints are held.
+
+    Returns:
+        The result of a goal that its controller ended.
+
+    Raises:
+        AttemptError: the goal was rejected, cancelled or not ended in time, or the cell stopped.
+    """
+    context.check_cell()
+    goal_id = _send(context, attempt, controller, goal)
+    sent_ns = context.now_ns
+    until_ns = sent_ns + round(timeout_s * 1e9)
+    joints = _joints(context.plant, controller)
+    try:
+        while (controller, goal_id) not in context.ended:
+            if kind in context.plant.requests.cancel:
+                raise AttemptError(Outcome.CANCELLED, "")
+            if context.now_ns >= until_ns:
+                raise AttemptError(Outcome.TIMEOUT, f"no result of {controller} within {timeout_s:g} s")
+            yield from context.pause(until_ns, context.plant.requests.changed)
+    except AttemptError as failure:
+        held = yield from cancel_and_hold(context, attempt, controller, goal_id, joints)
+        _note_result(context, attempt, controller, goal_id, sent_ns, joints)
+        if failure.outcome is Outcome.CANCELLED and not held:
+            raise AttemptError(Outcome.TIMEOUT, "cancelled, and the joints did not stand still in time") from None
+        raise
+    finally:
+        context.plant.requests.cancel.discard(kind)
+    _note_result(context, attempt, controller, goal_id, sent_ns, joints)
+    return context.ended[(controller, goal_id)]
+
+
+def require_success(ended: GoalEnded, context: TaskContext) -> None:
+    """Raise AttemptError for the result of a trajectory that did not succeed."""
+    if ended.status is GoalStatus.SUCCEEDED:
+        return
+    if ended.status is GoalStatus.CANCELED:
+        raise AttemptError(Outcome.CANCELLED, "cancelled by another client")
+    context.check_cell()
+    if isinstance(ended, TrajectoryEnded):
+        text = f"{ended.error_code}: {ended.error_string}"
+        violated = ended.error_code in (-4, -5)  # PATH_ and GOAL_TOLERANCE_VIOLATED of FollowJointTrajectory
+        raise AttemptError(Outcome.TOLERANCE_VIOLATION if violated else Outcome.GOAL_REJECTION, text)
+    raise AttemptError(Outcome.TOLERANCE_VIOLATION, "gripper goal aborted before it was reached")
+
+
+def _send(context: TaskContext, attempt: Attempt, controller: str, goal: TrajectoryGoal | GripperGoal) -> int:
+    manager = context.plant.control.manager_of(controller)
+    attempt.controller_name = controller
+    attempt.speed_scaling = _speed_scaling(context.plant, controller)
+    attempt.mark(PacketStep.GOAL_SENT, context.now_ns)
+    response = manager.send_goal(controller, goal)
+    attempt.action_goal_id = _goal_uuid(context.seed, attempt.attempt_id)
+    if not response.accepted:
+        raise AttemptError(Outcome.GOAL_REJECTION, response.log_reason)
+    attempt.mark(PacketStep.ACCEPTED, context.now_ns)
+    next_cycle_ns = (context.now_ns // manager.period_ns + 1) * manager.period_ns
+    attempt.mark(PacketStep.WRITTEN, next_cycle_ns)
+    return response.goal_id
+
+
+def _note_result(
+    context: TaskContext, attempt: Attempt, controller: str, goal_id: int, sent_ns: int, joints: tuple[str, ...]
+) -> None:
+    driven_ns = _driven_ns(context.plant, joints, sent_ns)
+    if driven_ns is not None:
+        attempt.mark(PacketStep.DRIVEN, driven_ns)
+    ended = context.ended.get((controller, goal_id))
+    if ended is None:
+        return
+    attempt.mark(PacketStep.RETURNED, ended.stamp_ns)
+    if isinstance(ended, TrajectoryEnded):
+        error_code, error_string = ended.error_code, ended.error_string
+        attempt.result = ResultRecord(ended.status.name.lower(), error_code, error_string, ended.stamp_ns)
+    else:
+        text = "stalled" if ended.stalled else ""
+        attempt.result = ResultRecord(ended.status.name.lower(), None, text, ended.stamp_ns)
+
+
+def _driven_ns(plant: Plant, joints: tuple[str, ...], since_ns: int) -> int | None:
+    """Return the first stamp at which a joint is not where it was at ``since_ns``; None where none moved."""
+    found: list[int] = []
+    for history in plant.control.histories.values():
+        columns = [history.names.index(joint) for joint in joints if joint in history.names]
+        first = max(0, int(np.searchsorted(history.stamps, since_ns, side="right")) - 1)
+        positions = history.positions[first:, columns]
+        if columns and len(positions):
+            moved = np.flatnonzero(np.abs(positions - positions[0]).max(axis=1) > _MOVED)
+            if moved.size:
+                found.append(int(history.stamps[first + int(moved[0])]))
+    return min(found) if found else None
+
+
+def _joints(plant: Plant, controller: str) -> tuple[str, ...]:
+    for manager in plant.contract.managers.values():
+        if controller in manager.controllers:
+            return manager.controllers[controller].joints
+    raise AttemptError(Outcome.GOAL_REJECTION, f"no action server of a controller {controller}")
+
+
+def _speed_scaling(plant: Plant, controller: str) -> float | None:
+    """Return the factor that the hardware reports; None for hardware without speed scaling."""
+    for manager in plant.contract.managers.values():
+        facts = manager.controllers.get(controller)
+        if facts is None or facts.device is None:
+            continue
+        interface = plant.contract.devices[facts.device].speed_scaling_interface
+        if interface is not None:
+            value = plant.control.manager_of(controller).state(interface)
+            return value if np.isfinite(value) else None
+    return None
+
+
+def _goal_uuid(seed: int, attempt_id: str) -> str:
+    """Return an identifier in the form of a UUID (RFC 9562, version 8: free use), made of seed and attempt."""
+    digest = hashlib.sha256(f"{seed}/{attempt_id}".encode()).hexdigest()
+    return f"{digest[:8]}-{digest[8:12]}-8{digest[13:16]}-a{digest[17:20]}-{digest[20:32]}"

@@ -1,0 +1,110 @@
+"""A grip step: drive the gripper, and let it take or release an object that is between its fingers."""
+
+from __future__ import annotations
+
+import math
+
+from cellc.contract.contract import ContractGripper
+from cellc.mock.control import GripperEnded, GripperGoal
+from cellc.mock.engine.process import Waiting
+from cellc.mock.task.attempt import Attempt
+from cellc.mock.task.context import TaskContext
+from cellc.mock.task.execute import execute, require_success
+from cellc.mock.task.outcome import AttemptError, Outcome
+
+GRIP_TIMEOUT_S = 10.0
+"""Bound of one opening or closing."""
+GRASP_TOLERANCE_M = 0.03
+"""Largest distance of the tip from an object's frame at which closing fingers take it."""
+
+
+def grip(context: TaskContext, attempt: Attempt, device: str, command: str) -> Waiting[None]:
+    """Open or close a gripper; raise AttemptError where it does not get there."""
+    facts = context.plant.contract.devices[device].gripper
+    if facts is None or facts.controller is None:
+        raise AttemptError(Outcome.GOAL_REJECTION, f"no controller drives gripper {device}")
+    between = _object_between(context, device) if command == "close" else None
+    if between is not None:
+        _block(context, facts)
+    elif command == "open":
+        _free(context, facts)
+    goal = _goal(context, facts, facts.closed if command == "close" else facts.open)
+    ended = yield from execute(context, attempt, "grip", facts.controller, goal, GRIP_TIMEOUT_S)
+    holds = between is not None and isinstance(ended, GripperEnded) and ended.stalled
+    if not holds:  # fingers that stall on an object have done what they were told
+        require_success(ended, context)
+    if between is not None:
+        _take(context, device, between)
+    elif command == "open":
+        _release(context, device)
+
+
+def _goal(context: TaskContext, facts: ContractGripper, position: float) -> GripperGoal:
+    """Return the goal; GripperCommand has a field for effort, ParallelGripperCommand needs an interface for it."""
+    for manager in context.plant.contract.managers.values():
+        controller = manager.controllers.get(facts.controller or "")
+        if controller is not None and controller.behaviour == "gripper":
+            return GripperGoal(position=(position,), effort=(facts.max_effort,))
+    return GripperGoal(position=(position,), joint_names=(facts.joint,))
+
+
+def _object_between(context: TaskContext, device: str) -> str | None:
+    """Return the object whose frame is nearest to the tip behind the gripper, if it is within the tolerance."""
+    plant = context.plant
+    tip = _tip_link(context, device)
+    if tip is None or device in context.held:
+        return None
+    position = plant.world.link_pose(tip, plant.now_ns).position
+    distances = [
+        (math.dist(position, plant.world.object_pose(name, plant.now_ns).position), name)
+        for name in plant.world.objects()
+    ]
+    near = [entry for entry in distances if entry[0] <= GRASP_TOLERANCE_M]
+    return min(near)[1] if near else None
+
+
+def _tip_link(context: TaskContext, device: str) -> str | None:
+    """Return the tip frame of the group whose chain goes through the gripper."""
+    contract = context.plant.contract
+    root = contract.devices[device].root_link
+    for group in contract.groups.values():
+        frame = group.tip_frame
+        for _ in range(len(contract.frames) + 1):
+            if frame == root:
+                return group.tip_frame
+            if frame not in contract.frames:
+                break
+            frame = contract.frames[frame].parent
+    return None
+
+
+def _block(context: TaskContext, facts: ContractGripper) -> None:
+    """Let the object stop the fingers where the contract says that it does."""
+    if facts.held_object_position is None:
+        return
+    closing = facts.closed > facts.open
+    lower = -math.inf if closing else facts.held_object_position
+    upper = facts.held_object_position if closing else math.inf
+    for manager in context.plant.control.manager_of_joint(facts.joint):
+        manager.disturbances.block(facts.joint, lower, upper)
+
+
+def _free(context: TaskContext, facts: ContractGripper) -> None:
+    for manager in context.plant.control.manager_of_joint(facts.joint):
+        manager.disturbances.block(facts.joint, -math.inf, math.inf)
+
+
+def _take(context: TaskContext, device: str, name: str) -> None:
+    plant = context.plant
+    link = plant.contract.devices[device].root_link
+    pose_in_link = plant.world.move(name, link, plant.now_ns)
+    plant.planner.attach(name, link, pose_in_link, plant.world.joint_positions(plant.now_ns))
+    context.held[device] = name
+    context.acting_on = None
+
+
+def _release(context: TaskContext, device: str) -> None:
+    name = context.held.pop(device, None)
+    if name is not None:
+        context.plant.world.move(name, context.plant.contract.root_frame, context.plant.now_ns)
+        context.plant.planner.detach(name)

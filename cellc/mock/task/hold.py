@@ -1,0 +1,78 @@
+"""Cancels a goal and measures when the joints stand still."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from cellc.mock.engine.process import Wait, Waiting
+from cellc.mock.plant import Plant
+from cellc.mock.record import CancelRecord
+from cellc.mock.task.attempt import Attempt
+from cellc.mock.task.context import TaskContext
+from cellc.mock.world.joint_states import JointStateHistory
+
+STANDSTILL = 1e-3
+"""rad/s or m/s below which a joint is held; far below what a person sees and above what rounding makes."""
+DEFAULT_BOUND_S = 0.5
+"""Where the contract bounds neither the cancel of an action nor that of the cell."""
+_LOOK_NS = 10_000_000
+
+
+def cancel_and_hold(
+    context: TaskContext, attempt: Attempt, controller: str, goal_id: int, joints: tuple[str, ...]
+) -> Waiting[bool]:
+    """Cancel a goal, and wait until its joints stand still or the bound has passed.
+
+    The wait goes on whatever else is wrong with the cell: a hold is what every failure has to end in.
+
+    Returns:
+        Whether the joints stood still within the bound; the record of the attempt says when.
+    """
+    plant = context.plant
+    requested_ns = plant.now_ns
+    response = plant.control.manager_of(controller).cancel_goal(goal_id)
+    until_ns = requested_ns + round(cancel_bound_s(plant) * 1e9)
+    held_ns = held_since(plant, joints, requested_ns)
+    while held_ns is None and plant.now_ns < until_ns:
+        yield Wait(min(until_ns, plant.now_ns + _LOOK_NS), (plant.control.changed,))
+        held_ns = held_since(plant, joints, requested_ns)
+    latency_s = None if held_ns is None else (held_ns - requested_ns) * 1e-9
+    attempt.cancel = CancelRecord(requested_ns, held_ns, latency_s, response.return_code)
+    while (controller, goal_id) not in context.ended and plant.now_ns < until_ns:
+        yield Wait(min(until_ns, plant.now_ns + _LOOK_NS), (plant.control.changed,))
+    return held_ns is not None
+
+
+def cancel_bound_s(plant: Plant) -> float:
+    """Return the tightest bound that the contract sets for a cancel."""
+    bounds = [plant.contract.kpis.cancel_s, *(each.cancel_within_s for each in plant.contract.interfaces.values())]
+    stated = [bound for bound in bounds if bound is not None]
+    return min(stated) if stated else DEFAULT_BOUND_S
+
+
+def held_since(plant: Plant, joints: Iterable[str], since_ns: int) -> int | None:
+    """Return the first stamp from ``since_ns`` on from which all joints stand still until now; None while they move."""
+    stamps = [
+        _history_held_since(history, [joint for joint in joints if joint in history.names], since_ns)
+        for history in plant.control.histories.values()
+        if any(joint in history.names for joint in joints)
+    ]
+    known = [stamp for stamp in stamps if stamp is not None]
+    return max(known) if known and len(known) == len(stamps) else None
+
+
+def _history_held_since(history: JointStateHistory, joints: list[str], since_ns: int) -> int | None:
+    first = max(0, int(np.searchsorted(history.stamps, since_ns)) - 1)
+    stamps = history.stamps[first:]
+    if len(stamps) < 3:
+        return None
+    columns = [history.names.index(joint) for joint in joints]
+    seconds = np.diff(stamps) * 1e-9
+    speeds = np.abs(np.diff(history.positions[first:, columns], axis=0)) / seconds[:, None]
+    moving = np.flatnonzero(speeds.max(axis=1) > STANDSTILL)
+    settled = int(moving[-1]) + 1 if moving.size else 0
+    if settled >= len(seconds):
+        return None
+    return max(since_ns, int(stamps[settled]))

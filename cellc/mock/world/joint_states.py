@@ -1,0 +1,119 @@
+"""The recent joint states of one broadcaster, as arrays."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from cellc.mock.control import JointStateBlock
+
+FloatArray = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True)
+class LateArrival:
+    """States stamped from ``from_ns`` up to ``until_ns`` (None is for ever) arrive ``delay_ns`` after their stamp."""
+
+    from_ns: int
+    until_ns: int | None
+    delay_ns: int
+
+
+class JointStateHistory:
+    """Stamped positions of the joints of one broadcaster over a bounded time.
+
+    Attributes:
+        names: joints in the order of the columns; empty before the first message.
+        late: samples that arrive later than they are stamped.
+        subscribed: somebody collects the messages of the broadcaster.
+        missed_cycles: update cycles that left no message, counted from the gaps between stamps.
+    """
+
+    def __init__(self, horizon_s: float, period_ns: int) -> None:
+        """Keep at least ``horizon_s`` seconds of messages that come every ``period_ns``."""
+        self.names: tuple[str, ...] = ()
+        self.missed_cycles = 0
+        self.late: list[LateArrival] = []
+        self.subscribed = False
+        self._keep = int(horizon_s * 1e9 / period_ns) + 2
+        self._spacing_ns: int | None = None
+        self._stamps: IntArray = np.empty(0, dtype=np.int64)
+        self._positions: FloatArray = np.empty((0, 0))
+        self._count = 0
+
+    def append(self, block: JointStateBlock) -> None:
+        """Add the messages that a broadcaster published; a message of other joints than before starts anew."""
+        size = len(block.stamps_ns)
+        if size == 0:
+            return
+        if block.names != self.names:
+            self._restart(block.names)
+        self._make_room(size)
+        self._stamps[self._count : self._count + size] = block.stamps_ns
+        self._positions[self._count : self._count + size] = block.positions
+        self._count_missed(max(0, self._count - 1), self._count + size)
+        self._count += size
+
+    @property
+    def stamps(self) -> IntArray:
+        """Stamps of the kept messages in nanoseconds, rising."""
+        return self._stamps[: self._count]
+
+    @property
+    def positions(self) -> FloatArray:
+        """Positions of the kept messages, shape (messages, joints)."""
+        return self._positions[: self._count]
+
+    def arrived(self, now_ns: int) -> int:
+        """Return how many of the kept messages have arrived by ``now_ns``, late ones not counted."""
+        stamps = self.stamps
+        if not self.late:
+            return int(np.searchsorted(stamps, now_ns, side="right"))
+        arrivals = stamps.copy()
+        for late in self.late:
+            until = np.iinfo(np.int64).max if late.until_ns is None else late.until_ns
+            arrivals[(stamps >= late.from_ns) & (stamps < until)] += late.delay_ns
+        here = np.flatnonzero(arrivals <= now_ns)
+        return int(here[-1]) + 1 if here.size else 0
+
+    def at(self, stamp_ns: int) -> dict[str, float]:
+        """Return the positions at a time, linear between messages and held beyond the first and last."""
+        stamps, positions = self.stamps, self.positions
+        if not stamps.size:
+            return {}
+        after = int(np.searchsorted(stamps, stamp_ns, side="left"))
+        if after == 0 or after == stamps.size:
+            row = positions[min(after, stamps.size - 1)]
+        else:
+            span = int(stamps[after] - stamps[after - 1])
+            fraction = int(stamp_ns - stamps[after - 1]) / span
+            row = (1.0 - fraction) * positions[after - 1] + fraction * positions[after]
+        return dict(zip(self.names, row.tolist(), strict=True))
+
+    def _restart(self, names: tuple[str, ...]) -> None:
+        self.names = names
+        self._stamps = np.empty(2 * self._keep, dtype=np.int64)
+        self._positions = np.empty((2 * self._keep, len(names)))
+        self._count = 0
+
+    def _make_room(self, size: int) -> None:
+        if self._count + size <= len(self._stamps):
+            return
+        kept = min(self._count, self._keep)
+        capacity = max(2 * self._keep, kept + size)
+        stamps: IntArray = np.empty(capacity, dtype=np.int64)
+        positions: FloatArray = np.empty((capacity, len(self.names)))
+        stamps[:kept] = self._stamps[self._count - kept : self._count]
+        positions[:kept] = self._positions[self._count - kept : self._count]
+        self._stamps, self._positions, self._count = stamps, positions, kept
+
+    def _count_missed(self, first: int, last: int) -> None:
+        gaps = np.diff(self._stamps[first:last])
+        if not gaps.size:
+            return
+        least = int(gaps.min())
+        self._spacing_ns = least if self._spacing_ns is None else min(self._spacing_ns, least)
+        self.missed_cycles += int(np.sum(np.rint(gaps / self._spacing_ns).astype(np.int64) - 1))
