@@ -1,0 +1,99 @@
+"""What a build changes in its folder, decided before the first byte is written."""
+
+from __future__ import annotations
+
+import stat
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from cellc.artifact import Artifact
+from cellc.diagnostics import Diagnostic
+from cellc.output.finding import finding
+from cellc.output.manifest import MANIFEST, hashes_in, sha256
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """The difference between the folder as it is and as it shall be.
+
+    Args:
+        write: artifacts whose file is absent or has other content; the manifest is the last one.
+        former: paths that an earlier build made and this one does not.
+        remove: those of them where a file still stands.
+        unchanged: paths whose files already are as they shall be.
+        edited: paths whose content cellc did not write and would overwrite or remove.
+    """
+
+    write: tuple[Artifact, ...]
+    former: tuple[str, ...]
+    remove: tuple[str, ...]
+    unchanged: tuple[str, ...]
+    edited: tuple[str, ...]
+
+
+def plan(artifacts: Sequence[Artifact], folder: Path, interrupted: Sequence[Mapping[str, str]] = ()) -> Plan:
+    """Compare the folder with the artifacts.
+
+    Args:
+        interrupted: hashes that a build would have left which was killed while it replaced files: a file that has
+            one of them was made by cellc, though the manifest in the folder does not know it.
+
+    Raises:
+        OSError: a file cannot be read.
+    """
+    known: list[Mapping[str, str]] = [hashes_in(content_of(folder / MANIFEST)), *interrupted]
+    write, unchanged, edited = [], [], []
+    for artifact in sorted(artifacts, key=lambda one: (one.path == MANIFEST, one.path)):
+        content = content_of(folder / artifact.path)
+        if content == artifact.text.encode():
+            unchanged.append(artifact.path)
+            continue
+        write.append(artifact)
+        if content is not None and artifact.path != MANIFEST and not _is_ours(artifact.path, content, known):
+            edited.append(artifact.path)
+    made = {artifact.path for artifact in artifacts}
+    former = sorted({path for hashes in known for path in hashes if _is_inside(path)} - made)
+    remove = []
+    for path in former:
+        content = content_of(folder / path)
+        if content is not None:
+            remove.append(path)
+            edited += [] if _is_ours(path, content, known) else [path]
+    return Plan(tuple(write), tuple(former), tuple(remove), tuple(unchanged), tuple(sorted(edited)))
+
+
+def content_of(path: Path) -> bytes | None:
+    """Return the bytes of a regular file, or None where there is none; links are not followed."""
+    try:
+        return path.read_bytes() if stat.S_ISREG(path.lstat().st_mode) else None
+    except (FileNotFoundError, NotADirectoryError):
+        return None
+
+
+def check_places(artifacts: Sequence[Artifact], folder: Path) -> Iterator[Diagnostic]:
+    """Yield a diagnostic for each link, file or folder that stands where something else is due."""
+    if folder.is_symlink():
+        yield finding("output-symlink", f"`{folder.as_posix()}` is a symbolic link", folder)
+        return
+    if folder.exists() and not folder.is_dir():
+        yield finding("output-blocked", f"`{folder.as_posix()}` is no folder", folder)
+        return
+    folders = {parent for one in artifacts for parent in Path(one.path).parents if parent != Path()}
+    files = {Path(one.path) for one in artifacts}
+    for relative in sorted(folders | files):
+        path = folder / relative
+        if path.is_symlink():
+            yield finding("output-symlink", f"`{path.as_posix()}` is a symbolic link", path)
+        elif path.exists() and (path.is_dir() if relative in files else not path.is_dir()):
+            due = "a file" if relative in files else "a folder"
+            yield finding("output-blocked", f"`{path.as_posix()}` stands where {due} is due", path)
+
+
+def _is_ours(path: str, content: bytes, known: Sequence[Mapping[str, str]]) -> bool:
+    return any(hashes.get(path) == sha256(content) for hashes in known)
+
+
+def _is_inside(path: str) -> bool:
+    # A manifest is data that others may have written: it must not make a build delete what lies elsewhere.
+    return bool(path) and not Path(path).is_absolute() and ".." not in Path(path).parts and "\0" not in path

@@ -1,0 +1,81 @@
+"""Put prepared files in the place of old ones, or put every old one back."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from dataclasses import dataclass, field
+from pathlib import Path
+
+
+@dataclass
+class Swap:
+    """Replaces files of a folder one by one; each replacement is atomic, so that no reader sees half a file.
+
+    Each step is noted before it is taken, so that `undo` is right wherever an interrupt falls.
+
+    Args:
+        folder: the output folder.
+        staging: holds new files below ``new``; old ones are kept below ``old``.
+    """
+
+    folder: Path
+    staging: Path
+    _changed: list[str] = field(default_factory=list)
+    _absent: set[str] = field(default_factory=set)
+    _made: list[Path] = field(default_factory=list)
+
+    def put(self, path: str) -> None:
+        """Move a new file into its place."""
+        self.make_folder((self.folder / path).parent)
+        self._keep(path)
+        os.replace(self.staging / "new" / path, self.folder / path)
+
+    def remove(self, path: str) -> None:
+        """Take a file away."""
+        self._keep(path)
+        os.unlink(self.folder / path)
+
+    def make_folder(self, folder: Path) -> None:
+        """Make a folder and those above it."""
+        if folder.is_dir():
+            return
+        self.make_folder(folder.parent)
+        self._made.append(folder)
+        os.mkdir(folder)
+
+    def settle(self) -> None:
+        """Have the system put the names of the changed files on the disk, before the old files are let go."""
+        for folder in sorted({(self.folder / path).parent for path in self._changed}):
+            if os.name != "posix" or not folder.is_dir():
+                continue
+            descriptor = os.open(folder, os.O_RDONLY)
+            try:
+                os.fsync(descriptor)
+            finally:
+                os.close(descriptor)
+
+    def undo(self) -> None:
+        """Put back what was there, the same files with the same times, and remove what was not."""
+        for path in reversed(self._changed):
+            kept = self.staging / "old" / path
+            if path in self._absent:
+                (self.folder / path).unlink(missing_ok=True)
+            elif kept.exists():
+                os.replace(kept, self.folder / path)
+        for folder in reversed(self._made):
+            if folder.is_dir():
+                folder.rmdir()
+
+    def _keep(self, path: str) -> None:
+        here, kept = self.folder / path, self.staging / "old" / path
+        if not os.path.lexists(here):
+            self._absent.add(path)
+            self._changed.append(path)
+            return
+        kept.parent.mkdir(parents=True, exist_ok=True)
+        self._changed.append(path)
+        try:
+            os.link(here, kept)
+        except OSError:  # a file system without hard links
+            shutil.copy2(here, kept)
