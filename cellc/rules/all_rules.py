@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from cellc.rule import Rule
-from cellc.rules import clocks, frames, interfaces, model, qos
+from cellc.rules import clocks, frames, interfaces, model, ownership, qos, versions
 
 ALL_RULES: tuple[Rule, ...] = (
     *model.RULES,
@@ -11,4 +11,6 @@ ALL_RULES: tuple[Rule, ...] = (
     *clocks.RULES,
     *interfaces.RULES,
     *qos.RULES,
+    *ownership.RULES,
+    *versions.RULES,
 )

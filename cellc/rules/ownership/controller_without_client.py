@@ -1,0 +1,46 @@
+"""A controller that moves something has no declared commander.
+
+Whoever finds the action first commands the arm. Only a declared client can be checked, and only it gets permission in
+the access policy.
+
+Example that is reported:
+
+```yaml
+control:
+  controllers:
+    arm_trajectory: {client: null}
+```
+
+Example that is accepted:
+
+```yaml
+control:
+  controllers:
+    arm_trajectory: {client: move_group}
+```
+
+Fix: write `client:` with the one node that may command it.
+
+Source: chapter 4, sections 5 and 7: restrict command publishers; one command owner.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield controllers with command interfaces and without a client."""
+    for controller in graph.cell.controllers:
+        if controller.command_interfaces and controller.client is None:
+            message = f"nobody is declared to command `{controller.name}`"
+            yield found(graph, controller.path, message, "add `client:` with the one node that may command it")
+
+
+RULE = define("controller-without-client", Severity.BLOCKER, check, __doc__)

@@ -1,0 +1,50 @@
+"""Two controllers that are active at start claim one command interface.
+
+ros2_control grants a command interface to one controller. The second is refused when it is activated, so which of the
+two drives the joint depends on the order of the spawners.
+
+Example that is reported:
+
+```yaml
+control:
+  controllers:
+    arm_forward: {type: forward_command, device: arm, client: task, active: true,
+                  parameters: {interface_name: position}}
+```
+
+Example that is accepted:
+
+```yaml
+control:
+  controllers:
+    arm_forward: {type: forward_command, device: arm, client: task, active: false,
+                  parameters: {interface_name: position}}
+```
+
+Fix: let one of them start inactive, and declare the switch between them.
+
+Source: controller_manager: a command interface has one owner; chapter 4, section 7.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Related, Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield the second claimant of an interface in the first state of a manager."""
+    for conflict in graph.claims.conflicts():
+        if not conflict.state.switches:
+            first, second = conflict.first, conflict.second
+            message = f"`{second.name}` claims `{conflict.interface}`, which `{first.name}` claims too, from the start"
+            related = (Related("first claimed here", first.span),)
+            yield found(graph, second.path, message, "let one of them start with `active: false`", related)
+
+
+RULE = define("double-claim", Severity.ERROR, check, __doc__)

@@ -1,0 +1,58 @@
+"""A declared switch leads to two controllers that claim one command interface.
+
+The controller manager refuses the switch, and refuses it as a whole: the controllers that were to stop go on. It
+shows the first time that the switch is needed.
+
+Example that is reported:
+
+```yaml
+control:
+  controllers:
+    arm_forward: {type: forward_command, device: arm, client: task, active: false,
+                  parameters: {interface_name: position}}
+  switches:
+    to_forward: {activate: [arm_forward]}
+```
+
+Example that is accepted:
+
+```yaml
+control:
+  controllers:
+    arm_forward: {type: forward_command, device: arm, client: task, active: false,
+                  parameters: {interface_name: position}}
+  switches:
+    to_forward: {activate: [arm_forward], deactivate: [arm_trajectory]}
+```
+
+Fix: deactivate in the same switch what holds the interface.
+
+Source: controller_manager, switch_controller: refused with either strictness where an interface is claimed twice.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Related, Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield the switch that leads into a state with two claimants, with the way to that state."""
+    for conflict in graph.claims.conflicts():
+        if not conflict.state.switches:
+            continue
+        first, second = conflict.first, conflict.second
+        way = " → ".join(f"`{name}`" for name in ("start", *conflict.state.switches))
+        message = f"after {way} both `{first.name}` and `{second.name}` claim `{conflict.interface}`"
+        manager = next(m for m in graph.cell.managers if m.name == conflict.state.manager)
+        path = (*manager.path, "switches", conflict.state.switches[-1])
+        related = (Related("first claimed here", first.span), Related("claimed again here", second.span))
+        yield found(graph, path, message, f"deactivate `{first.name}` in the same switch", related)
+
+
+RULE = define("double-claim-after-switch", Severity.ERROR, check, __doc__)

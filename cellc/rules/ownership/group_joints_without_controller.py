@@ -1,0 +1,52 @@
+"""A group plans for joints that its controllers do not move.
+
+The trajectory names a joint that the controller does not have, and the goal is rejected. The name of the controller
+in the list proves nothing about its joints.
+
+Example that is reported:
+
+```yaml
+control:
+  controllers:
+    arm_trajectory: {joints: [arm/joint_1, arm/joint_2, arm/joint_3]}
+```
+
+Example that is accepted:
+
+```yaml
+motion:
+  groups:
+    arm_only: {base: arm/base_link, tip: arm/tool0}
+```
+
+Fix: give the controller all joints of the group, or shorten the group.
+
+Source: chapter 4, section 7: a listed controller name does not prove the correct joints are claimed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Related, Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield groups with joints that are in none of their controllers."""
+    for group in graph.cell.groups:
+        controllers = [c for c in graph.cell.controllers if c.name in group.controllers]
+        moved = {joint for controller in controllers for joint in controller.joints}
+        missing = [joint for joint in group.joints if joint not in moved]
+        if controllers and missing:
+            names = ", ".join(f"`{joint}`" for joint in missing)
+            message = f"group `{group.name}` plans for {names}, which `{controllers[0].name}` does not move"
+            related = (Related("the group is here", group.span),)
+            path = (*controllers[0].path, "joints")
+            yield found(graph, path, message, "give the controller all joints of the group", related)
+
+
+RULE = define("group-joints-without-controller", Severity.ERROR, check, __doc__)

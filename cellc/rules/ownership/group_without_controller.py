@@ -1,0 +1,46 @@
+"""No controller executes what is planned for a group.
+
+Planning succeeds and execution fails: there is no action server for the joints.
+
+Example that is reported:
+
+```yaml
+control:
+  controllers:
+    arm_trajectory: null
+    arm_forward: {type: forward_command, device: arm, client: move_group, parameters: {interface_name: position}}
+```
+
+Example that is accepted:
+
+```yaml
+motion:
+  groups:
+    arm_only: {base: arm/base_link, tip: arm/tool0}
+```
+
+Fix: add a trajectory controller for the joints of the group.
+
+Source: chapter 4, section 10: a missing action server prevents execution even if planning succeeds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield groups whose joints no controller with an action moves."""
+    for group in graph.cell.groups:
+        if group.joints and not group.controllers:
+            message = f"no controller takes trajectories for the joints of group `{group.name}`"
+            yield found(graph, group.path, message, "add a trajectory controller for them")
+
+
+RULE = define("group-without-controller", Severity.ERROR, check, __doc__)

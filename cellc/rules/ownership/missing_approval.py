@@ -1,0 +1,49 @@
+"""An approval area has no owner.
+
+Before the cell moves, seven questions are answered with evidence. Without an owner nobody signs, or everybody does.
+
+Example that is reported:
+
+```yaml
+owners:
+  approvals: {safety: UNKNOWN}
+```
+
+Example that is accepted:
+
+```yaml
+owners:
+  approvals: {safety: safety}
+```
+
+Fix: name the role or the person who signs.
+
+Source: chapter 4, manufacturing cell checkpoint, table of approval areas.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield the approval areas that nobody has; those that the spec does not mention in one finding."""
+    unwritten = []
+    for item in graph.responsibilities.of_kind("approval"):
+        if item.open and graph.cell.states(*item.path):
+            yield found(graph, item.path, f"nobody approves `{item.name}`", "name its owner")
+        elif item.open:
+            unwritten.append(item.name)
+    if unwritten:
+        names = ", ".join(f"`{name}`" for name in unwritten)
+        path = ("owners", "approvals")
+        yield found(graph, path, f"nobody approves {names}", "name an owner of each under `owners.approvals`")
+
+
+RULE = define("missing-approval", Severity.BLOCKER, check, __doc__)

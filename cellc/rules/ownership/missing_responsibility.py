@@ -1,0 +1,50 @@
+"""A responsibility has no owner.
+
+Frames, time, limits, watchdogs, commands, logs, the vendor's safety configuration and the physical stop: whatever the
+architecture, somebody answers for each. A stack only hides the question, an SDK hands it back.
+
+Example that is reported:
+
+```yaml
+owners:
+  responsibilities: {limits: UNKNOWN}
+```
+
+Example that is accepted:
+
+```yaml
+owners:
+  responsibilities: {limits: controls}
+```
+
+Fix: name the role or the team that answers for it.
+
+Source: chapter 4, sections 1 and 9.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield the responsibilities that nobody has; those that the spec does not mention in one finding."""
+    unwritten = []
+    for item in graph.responsibilities.of_kind("responsibility"):
+        if item.open and graph.cell.states(*item.path):
+            yield found(graph, item.path, f"nobody answers for `{item.name}`", "name its owner")
+        elif item.open:
+            unwritten.append(item.name)
+    if unwritten:
+        names = ", ".join(f"`{name}`" for name in unwritten)
+        path = ("owners", "responsibilities")
+        yield found(graph, path, f"nobody answers for {names}", "name an owner of each under `owners.responsibilities`")
+
+
+RULE = define("missing-responsibility", Severity.BLOCKER, check, __doc__)

@@ -1,0 +1,42 @@
+"""A node has no owner.
+
+When it fails, or when its parameters change, nobody is asked.
+
+Example that is reported:
+
+```yaml
+nodes:
+  tracker: {run: cell_tasks/tracker, host: control_pc}
+```
+
+Example that is accepted:
+
+```yaml
+nodes:
+  tracker: {run: cell_tasks/tracker, host: control_pc, owner: integration}
+```
+
+Fix: write `owner:`.
+
+Source: chapter 4, closing exercise: label every arrow with its owner.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield nodes of the spec that nobody answers for."""
+    for item in graph.responsibilities.of_kind("node"):
+        if item.open:
+            yield found(graph, item.path, f"nobody answers for node `{item.name}`", "add `owner:`")
+
+
+RULE = define("node-without-owner", Severity.BLOCKER, check, __doc__)

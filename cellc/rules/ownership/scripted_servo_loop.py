@@ -1,0 +1,64 @@
+"""A Python node closes a servo loop.
+
+A publish rate is no deadline. An interpreter with garbage collection and a shared executor misses cycles, and the arm
+follows references that stop and jump.
+
+Example that is reported:
+
+```yaml
+nodes:
+  follower: {run: cell_tasks/follower, host: control_pc, owner: integration, language: python}
+interfaces:
+  /arm_forward/commands: {topic: std_msgs/msg/Float64MultiArray, from: {follower: {depth: 1}},
+                          to: {arm_forward: {depth: 1}}, unit: rad, wants: newest, rate: 250 Hz, max_age: 20 ms,
+                          on_stale: stop_and_hold}
+control:
+  controllers:
+    arm_forward: {type: forward_command, device: arm, client: follower, active: false,
+                  parameters: {interface_name: position}}
+  switches:
+    to_forward: {activate: [arm_forward], deactivate: [arm_trajectory]}
+```
+
+Example that is accepted:
+
+```yaml
+nodes:
+  follower: {run: cell_tasks/follower, host: control_pc, owner: integration, language: python}
+```
+
+Fix: leave the loop to a controller or to the vendor's servo, and send goals or trajectories.
+
+Source: chapter 4, section 2, table: treating Python publish rate as servo guarantee.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.cell.interface import InterfaceKind
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+_SERVO_HZ = 100.0  # above it a reference stream is a servo loop, below it a set point
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield Python nodes that stream references to a controller at a servo rate."""
+    scripted = {node.name: node for node in graph.cell.nodes if node.language == "python"}
+    for interface in graph.cell.interfaces:
+        commanded = any(sink.node in graph.data.commanders for sink in interface.sinks)
+        if interface.kind is not InterfaceKind.TOPIC or not commanded or (interface.rate_hz or 0.0) < _SERVO_HZ:
+            continue
+        for source in interface.sources:
+            if source.node in scripted:
+                message = (
+                    f"Python node `{source.node}` streams references on `{interface.name}` at {interface.rate_hz:g} Hz"
+                )
+                yield found(graph, source.path, message, "send goals, and leave the loop to a controller")
+
+
+RULE = define("scripted-servo-loop", Severity.ERROR, check, __doc__)

@@ -1,0 +1,61 @@
+"""Two nodes serve one action.
+
+A goal reaches both, each accepts it, and two controllers move. The client sees one answer.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /arm_trajectory/follow_joint_trajectory:
+    action: control_msgs/action/FollowJointTrajectory
+    server: task
+    client: move_group
+    frame: world
+    timeout: 20 s
+    on_timeout: cancel_and_hold
+    cancel_within: 200 ms
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /arm_trajectory/follow_joint_trajectory:
+    action: control_msgs/action/FollowJointTrajectory
+    server: arm_trajectory
+    client: move_group
+    frame: world
+    timeout: 20 s
+    on_timeout: cancel_and_hold
+    cancel_within: 200 ms
+```
+
+Fix: let the controller serve its own action, and give the other server another name.
+
+Source: chapter 4, section 5, gate L3: unknown command publisher; checkpoint: one action server.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Related, Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield servers of an action that a controller serves itself."""
+    owners = {controller.action: controller for controller in graph.cell.controllers if controller.action}
+    for interface in graph.cell.interfaces:
+        owner = owners.get(interface.name)
+        for source in interface.sources:
+            if owner is not None and source.node != owner.name:
+                message = f"`{source.node}` serves `{interface.name}`, which controller `{owner.name}` serves itself"
+                related = (Related("the controller is here", owner.span),)
+                yield found(graph, source.path, message, "give the other server another name", related)
+
+
+RULE = define("second-action-server", Severity.ERROR, check, __doc__)

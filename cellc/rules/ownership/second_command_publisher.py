@@ -1,0 +1,52 @@
+"""Two nodes publish on one command topic.
+
+The controller follows whichever message came last, so the arm jumps between two wills.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /arm_trajectory/joint_trajectory: {topic: trajectory_msgs/msg/JointTrajectory, from: [task, move_group],
+                                     to: [arm_trajectory], wants: every_sample, rate: 1 Hz, max_age: 2 s,
+                                     on_stale: ignore_sample, frame: world}
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /planned_trajectory: {topic: trajectory_msgs/msg/JointTrajectory, from: [task, move_group], to: [perception],
+                        wants: every_sample, rate: 1 Hz, max_age: 2 s, on_stale: ignore_sample, frame: world}
+```
+
+Fix: let one node publish commands.
+
+Source: chapter 4, section 5: unknown command publisher is a stop condition.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.cell.interface import InterfaceKind
+from cellc.diagnostics import Related, Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield each further publisher of a topic that a controller follows."""
+    for interface in graph.cell.interfaces:
+        commanded = next((sink.node for sink in interface.sinks if sink.node in graph.data.commanders), None)
+        if interface.kind is not InterfaceKind.TOPIC or commanded is None:
+            continue
+        for source in interface.sources[1:]:
+            first = interface.sources[0]
+            message = f"`{source.node}` and `{first.node}` both command `{commanded}` over `{interface.name}`"
+            related = (Related("first commanded here", first.span),)
+            yield found(graph, source.path, message, "let one node publish commands", related)
+
+
+RULE = define("second-command-publisher", Severity.ERROR, check, __doc__)

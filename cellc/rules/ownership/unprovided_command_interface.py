@@ -1,0 +1,59 @@
+"""A controller claims a command interface that the hardware does not have.
+
+The controller manager refuses to activate it. In the list of controllers it stays inactive, and goals are rejected.
+
+Example that is reported:
+
+```yaml
+control:
+  controllers:
+    arm_trajectory: {command_interfaces: [effort]}
+```
+
+Example that is accepted:
+
+```yaml
+control:
+  controllers:
+    arm_trajectory: {command_interfaces: [position]}
+```
+
+Fix: claim an interface that the joint has.
+
+Source: controller_manager: a required interface does not exist, ok is false.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity, did_you_mean
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield controllers with claims that no joint, sensor or gpio of the cell provides, one finding a controller."""
+    provided = {
+        f"{joint.name}/{name}"
+        for device in graph.cell.devices
+        for joint in device.joints
+        for name in joint.command_interfaces
+    }
+    for device in graph.cell.devices:
+        for gpio in device.hardware.gpios if device.hardware is not None else ():
+            provided |= {f"{gpio.name}/{name}" for name in gpio.command_interfaces}
+    for controller in graph.cell.controllers:
+        missing = [claim for claim in controller.command_interfaces if claim not in provided]
+        if missing:
+            more = f" and {len(missing) - 1} more" if len(missing) > 1 else ""
+            message = f"`{controller.name}` claims `{missing[0]}`{more}, which no hardware provides"
+            joint = missing[0].rpartition("/")[0]
+            own = [name for name in provided if name.startswith(f"{joint}/")]
+            path = (*controller.path, "command_interfaces")
+            yield found(graph, path, message, did_you_mean(missing[0], own, f"command interfaces of `{joint}`"))
+
+
+RULE = define("unprovided-command-interface", Severity.ERROR, check, __doc__)

@@ -1,0 +1,50 @@
+"""A firmware does not fit the vendor's matrix.
+
+The driver speaks a protocol that this firmware does not have, or has no longer. It connects and fails in a mode that
+nobody tested.
+
+Example that is reported:
+
+```yaml
+devices: {arm: {firmware: controller 4.2.0}}
+```
+
+Example that is accepted:
+
+```yaml
+devices: {arm: {firmware: controller 5.21.0}}
+```
+
+Fix: update the firmware, or pin the driver and SDK that support it.
+
+Source: version rows of the device in the catalogue, each with its source and date.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.graph.pins import version_numbers
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield firmware below the minimum or beyond the range of the rows for its product."""
+    for device in graph.cell.devices:
+        text = device.spec.firmware
+        rows = [row for row in device.facts.versions if row.part == "firmware" and row.product == text.split()[0]]
+        numbers = version_numbers(text)
+        for row in rows if numbers else ():
+            minimum, below = version_numbers(row.minimum or ""), version_numbers(row.below or "")
+            if (minimum and numbers < minimum) or (below and numbers >= below):
+                least = f" from {row.minimum}" if row.minimum else ""
+                most = f" below {row.below}" if row.below else ""
+                message = f"firmware `{text}` of `{device.name}` is outside the matrix{least}{most} ({row.as_of})"
+                yield found(graph, (*device.path, "firmware"), message, row.note or "update the firmware")
+
+
+RULE = define("firmware-outside-matrix", Severity.ERROR, check, __doc__)

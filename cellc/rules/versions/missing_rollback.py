@@ -1,0 +1,45 @@
+"""There is no image and configuration to go back to.
+
+When the new configuration fails on Friday evening, the way back has to be a replay and not a reinstallation.
+
+Example that is reported:
+
+```yaml
+versions: {rollback: {image: UNKNOWN}}
+```
+
+Example that is accepted:
+
+```yaml
+versions: {rollback: {image: "sha256:9f2c1a77"}}
+```
+
+Fix: archive the last image that ran, and write its digest and configuration id.
+
+Source: chapter 4, section 4: each physical cell needs a golden image and rollback path.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.graph.responsibilities import UNKNOWN
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield the unknown parts of the rollback in one finding."""
+    rollback = graph.cell.spec.versions.rollback
+    parts = (("image", rollback.image), ("configuration", rollback.configuration))
+    missing = [part for part, text in parts if text == UNKNOWN]
+    if missing:
+        names = " and ".join(f"`{part}`" for part in missing)
+        path = ("versions", "rollback", missing[0])
+        yield found(graph, path, f"the rollback {names} is UNKNOWN", "write the digest of the last image that ran")
+
+
+RULE = define("missing-rollback", Severity.BLOCKER, check, __doc__)

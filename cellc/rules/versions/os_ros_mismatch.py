@@ -1,0 +1,50 @@
+"""Operating system and ROS distribution are no pair.
+
+Packages of a distribution are built for one release of the operating system. On another they do not install, or run
+against other libraries than they were tested with.
+
+Example that is reported:
+
+```yaml
+versions: {os: ubuntu 22.04}
+```
+
+Example that is accepted:
+
+```yaml
+versions: {os: ubuntu 24.04}
+```
+
+Fix: install the release that the distribution is built for, or choose another distribution.
+
+Source: REP-2000, target platforms; table of distributions in the catalogue, with its date.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.catalog.load import load_distros
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.graph.responsibilities import UNKNOWN
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield an operating system that the distribution is not built for."""
+    table = load_distros().value
+    facts = None if table is None else table.distros.get(graph.cell.spec.versions.ros)  # type: ignore[call-overload]  # any text
+    system = graph.cell.spec.versions.os
+    if facts is None or system == UNKNOWN:
+        return
+    written = system.lower()
+    if not any(written == due or written.startswith(f"{due}.") for due in facts.os):
+        due = ", ".join(f"`{name}`" for name in facts.os)
+        message = f"`{graph.cell.distro}` is built for {due}, not for `{system}`"
+        yield found(graph, ("versions", "os"), message, f"install {due}, or choose another distribution")
+
+
+RULE = define("os-ros-mismatch", Severity.ERROR, check, __doc__)

@@ -1,0 +1,51 @@
+"""A pinned package belongs to another distribution.
+
+Packages of ROS are versioned by distribution: the major number of ros2_control, MoveIt or the middleware tells which.
+Mixed, they do not build, or they load plugins with another binary interface.
+
+Example that is reported:
+
+```yaml
+versions: {ros2_control: 2.54.0}
+```
+
+Example that is accepted:
+
+```yaml
+versions: {ros2_control: 4.47.0}
+```
+
+Fix: pin the line that the distribution releases.
+
+Source: rosdistro, distribution files; table of distributions in the catalogue, with its date.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.catalog.load import load_distros
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.graph.pins import cell_pins, version_numbers
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield ros2_control, MoveIt and middleware pins of another major version than the distribution releases."""
+    table = load_distros().value
+    facts = None if table is None else next((f for name, f in table.distros.items() if name == graph.cell.distro), None)
+    for pin in cell_pins(graph.cell) if facts is not None else ():
+        package = pin.text.split()[0] if pin.part == "rmw" else pin.part
+        released = facts.packages.get(package, "") if facts is not None else ""
+        ours, theirs = version_numbers(pin.text), version_numbers(released)
+        # MoveIt and rmw_zenoh stay below 3 for years: their second number is what changes with the distribution.
+        digits = 2 if theirs[:1] <= (2,) and package in ("moveit", "rmw_zenoh_cpp") else 1
+        if pin.known and ours and theirs and ours[:digits] != theirs[:digits]:
+            message = f"`{pin.text}` is not of {graph.cell.distro}, which releases `{package}` {released}"
+            yield found(graph, pin.path, message, f"pin the line of {released}")
+
+
+RULE = define("package-of-another-distribution", Severity.ERROR, check, __doc__)

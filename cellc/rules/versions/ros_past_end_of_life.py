@@ -1,0 +1,52 @@
+"""The ROS distribution had reached its end of life when the cell was measured.
+
+No security fixes and no driver releases come any more. The cell's date is that of its latest calibration: a check
+must not change its answer with the clock of the machine that runs it.
+
+Example that is reported:
+
+```yaml
+versions: {os: ubuntu 22.04, ros: humble, rmw: rmw_fastrtps_cpp 6.2.10, ros2_control: 2.54.0, moveit: 2.5.9}
+calibrations:
+  fixture_a: {revision: 3, measured: 2027-09-01, method: touch probe, samples: 5, residual: 0.3 mm, owner: perception}
+devices: {arm: {driver: demo_arm_driver 2.14.0, sdk: null, description: null}}
+```
+
+Example that is accepted:
+
+```yaml
+calibrations:
+  fixture_a: {revision: 3, measured: 2026-09-01, method: touch probe, samples: 5, residual: 0.3 mm, owner: perception}
+```
+
+Fix: plan the move to a supported distribution, away from the operating cell.
+
+Source: REP-2000 and endoflife.date; table of distributions in the catalogue, with its date.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.catalog.load import load_distros
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield a distribution whose end of life lies before the latest calibration."""
+    table = load_distros().value
+    facts = None if table is None else next((f for name, f in table.distros.items() if name == graph.cell.distro), None)
+    measured = [day for c in graph.cell.spec.calibrations.values() if (day := c.measured_on()) is not None]
+    if facts is None or not measured:
+        return
+    date, end = max(measured).isoformat(), str(facts.end_of_life)
+    if date > end:
+        message = f"`{graph.cell.distro}` reached its end of life on {end}, before the calibration of {date}"
+        yield found(graph, ("versions", "ros"), message, "plan the move to a supported distribution")
+
+
+RULE = define("ros-past-end-of-life", Severity.WARNING, check, __doc__)

@@ -1,0 +1,49 @@
+"""The middleware is none that the distribution has.
+
+A misspelt middleware is not loaded; the nodes end when they start, or one of them takes the default and never meets
+the others.
+
+Example that is reported:
+
+```yaml
+versions: {rmw: rmw_fastrtps 8.4.4}
+```
+
+Example that is accepted:
+
+```yaml
+versions: {rmw: rmw_fastrtps_cpp 8.4.4}
+```
+
+Fix: write the name of the package, as in RMW_IMPLEMENTATION, and its version.
+
+Source: table of distributions in the catalogue, with its date.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.catalog.load import load_distros
+from cellc.diagnostics import Severity, did_you_mean
+from cellc.graph.cell_graph import CellGraph
+from cellc.graph.responsibilities import UNKNOWN
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield a middleware that the distribution does not have."""
+    table = load_distros().value
+    facts = None if table is None else next((f for name, f in table.distros.items() if name == graph.cell.distro), None)
+    written = graph.cell.spec.versions.rmw
+    if facts is None or written == UNKNOWN:
+        return
+    known = (*facts.rmw, *facts.rmw_unverified)
+    if written.split()[0] not in known:
+        message = f"`{written.split()[0]}` is no middleware of {graph.cell.distro}"
+        yield found(graph, ("versions", "rmw"), message, did_you_mean(written.split()[0], known, "middlewares"))
+
+
+RULE = define("unknown-rmw", Severity.ERROR, check, __doc__)

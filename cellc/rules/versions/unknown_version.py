@@ -1,0 +1,50 @@
+"""A part of the version tuple is UNKNOWN.
+
+A combination that nobody wrote down cannot be tested, repeated or rolled back. UNKNOWN is an honest answer and keeps
+the real cell closed until somebody looks.
+
+Example that is reported:
+
+```yaml
+versions: {kernel: UNKNOWN}
+```
+
+Example that is accepted:
+
+```yaml
+versions: {kernel: 6.8.0-45-generic}
+```
+
+Fix: read the version on the machine, the teach pendant or the nameplate, and write it.
+
+Source: chapter 4, section 4: replace "supports ROS 2" with a pinned tuple.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.graph.pins import Pin, cell_pins, device_pins
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield each part written as UNKNOWN, and the unwritten parts of each holder in one finding."""
+    unwritten: dict[str, list[Pin]] = {}
+    for pin in (*cell_pins(graph.cell), *device_pins(graph.cell)):
+        if pin.known:
+            continue
+        if graph.cell.states(*pin.path):
+            yield found(graph, pin.path, f"`{pin.part}` of `{pin.holder}` is UNKNOWN", "read it and write it down")
+        else:
+            unwritten.setdefault(pin.holder, []).append(pin)
+    for holder, pins in unwritten.items():
+        names = ", ".join(f"`{pin.part}`" for pin in pins)
+        yield found(graph, pins[0].path[:-1], f"`{holder}` does not state its {names}", "read them and write them down")
+
+
+RULE = define("unknown-version", Severity.BLOCKER, check, __doc__)

@@ -1,0 +1,52 @@
+"""A combination stands in no matrix.
+
+Nobody has said that it works, and nobody that it does not. It stays UNKNOWN until a test of this tuple says so.
+
+Example that is reported:
+
+```yaml
+devices: {arm: {driver: demo_arm_driver 3.1.0}}
+```
+
+Example that is accepted:
+
+```yaml
+devices: {arm: {driver: demo_arm_driver 3.8.0}}
+```
+
+Fix: pin a version of the matrix, or test the tuple on the mock and with drives disabled, and keep the evidence.
+
+Source: chapter 4, section 12: mark unsupported compatibility UNKNOWN.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.graph.pins import version_number
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield drivers, SDKs and descriptions of the right line that no row of the distribution knows."""
+    for device in graph.cell.devices:
+        for part in ("driver", "sdk", "description"):
+            text = {"driver": device.spec.driver, "sdk": device.spec.sdk, "description": device.spec.description}[part]
+            rows = [
+                row for row in device.facts.versions if row.part == part and row.distro in (None, graph.cell.distro)
+            ]
+            known = {name for row in rows for name in row.known}
+            ours = version_number(text)
+            if ours and known and ours not in known and ours.split(".")[0] in {name.split(".")[0] for name in known}:
+                names = ", ".join(sorted(known))
+                message = (
+                    f"`{text}` of `{device.name}` is not in the matrix of {graph.cell.distro}, which knows {names}"
+                )
+                yield found(graph, (*device.path, part), message, "pin a version of the matrix, or test the tuple")
+
+
+RULE = define("version-not-in-matrix", Severity.BLOCKER, check, __doc__)

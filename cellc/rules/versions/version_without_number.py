@@ -1,0 +1,45 @@
+"""A part of the tuple names a package but no version.
+
+The name of a driver says which driver, not which of its releases. Behaviour changes between releases; the name does
+not.
+
+Example that is reported:
+
+```yaml
+versions: {rmw: rmw_fastrtps_cpp}
+```
+
+Example that is accepted:
+
+```yaml
+versions: {rmw: rmw_fastrtps_cpp 8.4.4}
+```
+
+Fix: write the package and its version, such as `package 1.2.3`.
+
+Source: chapter 4, section 4: driver tag, SDK, and description package are parts of the tuple.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.graph.pins import cell_pins, device_pins, version_number
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+_NUMBERED = ("os", "kernel", "rmw", "ros2_control", "moveit", "firmware", "driver", "sdk", "description")
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield parts of the tuple without a version number."""
+    for pin in (*cell_pins(graph.cell), *device_pins(graph.cell)):
+        if pin.known and pin.part in _NUMBERED and not version_number(pin.text):
+            message = f"`{pin.part}` of `{pin.holder}` is `{pin.text}`, without a version"
+            yield found(graph, pin.path, message, f"write `{pin.text.split()[0]}` and its version")
+
+
+RULE = define("version-without-number", Severity.ERROR, check, __doc__, assumes=("floating-version",))
