@@ -11,6 +11,10 @@ from cellc.formats.header import Header
 from cellc.formats.yaml_text import nested, render
 
 
+ANY_NODE = "/**"
+"""Matches every node that reads the file."""
+
+
 @dataclass(frozen=True, slots=True)
 class NodeParameters:
     """Parameters of one node; dots in a name become nesting.
@@ -37,5 +41,6 @@ def spec_path(path: YamlPath) -> str:
 
 def _section(section: NodeParameters) -> str:
     # A plain key matches the root namespace alone, a key with its leading slash matches exactly its node.
-    key = section.node.removeprefix("/") if section.node.count("/") == 1 else section.node
+    plain = section.node.count("/") == 1 and section.node != ANY_NODE
+    key = section.node.removeprefix("/") if plain else section.node
     return f"# {spec_path(section.origin)}\n" + render({key: {"ros__parameters": nested(section.parameters)}})

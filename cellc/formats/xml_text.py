@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from xml.etree.ElementTree import Element
 from xml.sax.saxutils import escape, quoteattr
@@ -22,7 +23,7 @@ def element(
 def comment(text: str) -> Element:
     """Build a comment; two hyphens in a row, which XML forbids there, are set apart."""
     built = Element(_COMMENT)
-    built.text = text.replace("--", "- -")
+    built.text = _apart(text)
     return built
 
 
@@ -36,9 +37,13 @@ def render(root: Element, header: str = "") -> str:
     # Without an encoding, which is UTF-8 then: some parsers refuse a text in memory that declares one.
     lines = ['<?xml version="1.0"?>']
     if header:
-        lines += ["<!--", *(f"  {line.replace('--', '- -')}".rstrip() for line in header.splitlines()), "-->"]
+        lines += ["<!--", *(f"  {_apart(line)}".rstrip() for line in header.splitlines()), "-->"]
     lines += _lines(root, 0)
     return "\n".join(lines) + "\n"
+
+
+def _apart(text: str) -> str:
+    return re.sub("-(?=-)", "- ", text)
 
 
 def _lines(node: Element, depth: int) -> Iterator[str]:

@@ -1,0 +1,30 @@
+"""The mock's controller manager takes the emitted files as the real one would."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from tests.emit.cells import CELLS, DISTROS, artifacts_of
+
+control = pytest.importorskip("cellc.mock.control", reason="the mock is not there yet")
+
+
+_LYRICAL = pytest.mark.xfail(reason="the plain plugin that scales by itself there is taken for the vendor's own")
+
+
+@pytest.mark.parametrize("distro", [*DISTROS[:3], pytest.param("lyrical", marks=_LYRICAL)])
+@pytest.mark.parametrize("cell", CELLS)
+def test_every_controller_becomes_active(cell: str, distro: str) -> None:
+    artifacts = artifacts_of(cell, distro)
+    contract = json.loads(artifacts["contract.json"])
+    (manager,) = contract["managers"].values()
+    machine = control.ControllerManager(
+        artifacts[contract["files"]["urdf_mock"]],
+        artifacts["config/controllers.yaml"],
+        distro=distro,
+        plugin_behaviours=contract["plugin_behaviours"],
+    )
+    spawned = machine.spawn(list(manager["controllers"]))
+    assert spawned.ok, (spawned, machine.log.lines())

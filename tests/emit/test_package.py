@@ -1,0 +1,129 @@
+"""The generated folder as a whole: headers, references, what may not stand in it."""
+
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+from cellc.contract.contract import Contract
+from cellc.contract.rehearsals import Rehearsals
+from tests.emit.cells import CELLS, ROOT, artifacts_of, emitted, spec_text
+
+
+@pytest.mark.parametrize("cell", CELLS)
+def test_every_file_names_its_configuration_and_its_command(cell: str) -> None:
+    artifacts = artifacts_of(cell)
+    identity = json.loads(artifacts["contract.json"])["configuration_id"]
+    assert re.fullmatch(r"cfg-[0-9a-f]{12}", identity)
+    for path, text in artifacts.items():
+        head = "\n".join(text.splitlines()[:9])
+        assert identity in head, path
+        if not path.endswith(".json"):
+            assert f"cellc build cells/{cell}/cell.yaml" in head, path
+
+
+@pytest.mark.parametrize("cell", CELLS)
+def test_no_file_holds_a_date_of_its_making_or_a_path_of_the_host(cell: str, tmp_path: Path) -> None:
+    for path, text in emitted(tmp_path, spec_text(cell)).items():
+        assert str(tmp_path) not in text, path
+        assert str(ROOT) not in text, path
+        assert text.endswith("\n"), path
+        assert "\r" not in text, path
+        assert not re.search(r"[ \t]$", text, re.MULTILINE), path
+
+
+def test_artifacts_are_the_same_wherever_the_spec_lies(tmp_path: Path) -> None:
+    other = tmp_path / "elsewhere"
+    other.mkdir()
+    assert emitted(tmp_path, spec_text("minimal")) == emitted(other, spec_text("minimal"))
+
+
+def test_artifacts_are_the_same_under_any_hash_seed() -> None:
+    script = (
+        "import hashlib; from tests.emit.cells import artifacts_of;"
+        "print(hashlib.sha256(repr(sorted(artifacts_of('ur5e_pick').items())).encode()).hexdigest())"
+    )
+    runs = [
+        subprocess.run([sys.executable, "-c", script], cwd=ROOT, env={"PYTHONHASHSEED": seed}, capture_output=True)
+        for seed in ("1", "4242")
+    ]
+    assert runs[0].stdout == runs[1].stdout
+    assert len(runs[0].stdout) == 65, runs[0].stderr
+
+
+@pytest.mark.parametrize("cell", CELLS)
+def test_launch_refers_to_files_of_the_package(cell: str) -> None:
+    artifacts = artifacts_of(cell)
+    text = artifacts["launch/cell.launch.xml"]
+    paths = set(re.findall(rf"\$\(find-pkg-share {cell}\)/((?:\$\(var target\)|[^\"')])+)", text))
+    assert paths
+    for path in paths:
+        for target in ("mock", "real"):
+            assert path.replace("$(var target)", target) in artifacts
+
+
+def test_mock_target_starts_no_driver_and_real_target_needs_a_person() -> None:
+    launch = ElementTree.fromstring(artifacts_of("ur5e_pick")["launch/cell.launch.xml"])
+    only_real = "$(eval \"'$(var target)' == 'real'\")"
+    drivers = {"ur_robot_driver", "realsense2_camera"}
+    assert {node.get("if") for node in launch.findall("node") if node.get("pkg") in drivers} == {only_real}
+    assert {node.get("if") for node in launch.findall("node") if node.get("pkg") not in drivers} == {None}
+    gate = launch.find("include")
+    assert gate is not None
+    assert gate.get("if") == only_real
+    (confirmation,) = ElementTree.fromstring(artifacts_of("ur5e_pick")["launch/real_gate.launch.xml"]).findall("arg")
+    assert confirmation.get("default") is None
+    assert len(confirmation.findall("choice")) == 1
+
+
+def test_launch_arguments_are_described_and_target_is_mock_by_default() -> None:
+    launch = ElementTree.fromstring(artifacts_of("ur5e_pick")["launch/cell.launch.xml"])
+    arguments = {argument.attrib["name"]: argument for argument in launch.findall("arg")}
+    assert sorted(arguments) == ["arm_address", "target"]
+    assert all(argument.get("description") for argument in arguments.values())
+    assert arguments["target"].get("default") == "mock"
+    assert [choice.get("value") for choice in arguments["target"].findall("choice")] == ["mock", "real"]
+
+
+def test_alternates_are_spawned_inactive_and_apart(tmp_path: Path) -> None:
+    # Observed: the first failure in a spawner's list stops the rest, and a second claimant fails.
+    text = spec_text("minimal").replace(
+        "    gripper_action:",
+        "    arm_forward: {type: forward_command, device: arm, active: false}\n    gripper_action:",
+    )
+    launch = ElementTree.fromstring(emitted(tmp_path, text)["launch/cell.launch.xml"])
+    spawners = [node.get("args") for node in launch.findall("node") if node.get("exec") == "spawner"]
+    assert spawners == [
+        "joint_states arm_trajectory gripper_action -c /controller_manager",
+        "arm_forward -c /controller_manager --inactive",
+    ]
+
+
+@pytest.mark.parametrize("cell", CELLS)
+def test_contract_and_rehearsals_are_what_the_mock_reads(cell: str) -> None:
+    artifacts = artifacts_of(cell)
+    contract = Contract.model_validate_json(artifacts["contract.json"])
+    assert set(contract.files.parameters.values()) <= set(artifacts)
+    assert {contract.files.urdf_mock, contract.files.urdf_real, contract.files.rehearsals} <= set(artifacts)
+    rehearsals = Rehearsals.model_validate_json(artifacts[contract.files.rehearsals])
+    assert rehearsals.configuration_id == contract.configuration_id
+
+
+def test_contract_says_what_the_spec_says() -> None:
+    contract = Contract.model_validate_json(artifacts_of("ur5e_pick")["contract.json"])
+    assert contract.interfaces["/object_pose"].max_age_s == 0.2
+    assert contract.interfaces["/object_pose"].on_stale == "reject_goal"
+    assert contract.joint_limits["arm_elbow_joint"].acceleration == 2.5  # 50 % of 5 rad/s^2
+    assert contract.groups["manipulator"].controller == "arm_trajectory"
+    assert contract.frames["object"].pose is None
+    assert contract.frames["fixture_A"].calibration == "fixture_a"
+    assert contract.devices["camera"].camera is not None
+    assert contract.devices["camera"].camera.exposure_s == 0.008
+    assert contract.kpis.cancel_s == 0.2
+    assert len(contract.attempt_fields) == 15  # the checkpoint of chapter 4 names fifteen

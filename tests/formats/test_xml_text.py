@@ -1,0 +1,33 @@
+"""XML that another reader takes with the same values."""
+
+from __future__ import annotations
+
+from xml.etree import ElementTree
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from cellc.formats.xml_text import comment, element, render
+
+_TEXT = st.text(st.characters(min_codepoint=32, blacklist_categories=("Cs", "Cc", "Cn")), min_size=1)
+
+
+@given(_TEXT, _TEXT)
+def test_texts_and_attributes_read_back(attribute: str, text: str) -> None:
+    read = ElementTree.fromstring(render(element("a", {"b": attribute}, text=text)))
+    assert read.attrib == {"b": attribute}
+    assert read.text == text
+
+
+@given(st.text(alphabet="-> a"))
+def test_comments_never_end_early(text: str) -> None:
+    rendered = render(element("a", children=[comment(text), element("b")]), header=text or "x")
+    assert [child.tag for child in ElementTree.fromstring(rendered)] == ["b"]
+
+
+def test_document_is_laid_out_for_review() -> None:
+    tree = element("a", {"x": "1"}, [element("b", text="t"), comment("next"), element("c", children=[element("d")])])
+    assert render(tree, header="Made\nso") == (
+        '<?xml version="1.0"?>\n<!--\n  Made\n  so\n-->\n'
+        '<a x="1">\n  <b>t</b>\n\n  <!-- next -->\n  <c>\n    <d/>\n  </c>\n</a>\n'
+    )
