@@ -2,8 +2,8 @@
 
 ``{"format": 1, "diagnostics": [...], "summary": {"error": 0, "blocker": 0, "warning": 0, "audit": 0}}``. A diagnostic
 has ``code``, ``severity``, ``message``, ``file``, ``line``, ``column``, ``end_line``, ``end_column`` (from 1, end
-exclusive, in characters), ``path`` (keys and indices from the root), ``help`` (may be empty) and ``related`` (places with
-a message).
+exclusive, in characters), ``path`` (keys and indices from the root), ``help`` (may be empty) and ``related`` (places
+with a message).
 """
 
 from __future__ import annotations
