@@ -14,10 +14,12 @@ from cellc.emit import (
     package_xml,
     rehearsals,
     responsibility_graph,
+    srdf,
     urdf,
 )
 from cellc.emit.contract import contract
 from cellc.emit.launch import launch
+from cellc.emit.moveit import moveit
 from cellc.emit.readme import readme
 from cellc.formats.configuration import configuration_id, configuration_inputs
 from cellc.formats.header import Header, header_of
@@ -27,8 +29,10 @@ EMITTERS: tuple[Callable[[CellGraph, Header], Iterator[Artifact]], ...] = (
     package_xml.emit,
     cmake.emit,
     urdf.emit,
+    srdf.emit,
     controllers.emit,
     joint_limits.emit,
+    moveit.emit,
     node_parameters.emit,
     frames.emit,
     launch.emit,

@@ -1,4 +1,4 @@
-"""``config/joint_limits.yaml``: limits of the cell for planning, in the keys that MoveIt reads.
+"""``config/joint_limits.yaml``: limits of the cell for planning, as ROS parameters that MoveIt reads.
 
 MoveIt takes positions from here over those of the URDF and has accelerations and jerks from nowhere else: without an
 acceleration for every active joint its time parameterization fails. Left out: joints that follow another.
@@ -11,6 +11,8 @@ from collections.abc import Iterator
 from cellc.artifact import Artifact
 from cellc.cell.device import DeviceJoint
 from cellc.formats.header import Header
+from cellc.formats.moveit_files import JOINT_LIMITS
+from cellc.formats.parameter_file import ANY_NODE
 from cellc.formats.yaml_text import Tree, render
 from cellc.graph.cell_graph import CellGraph
 
@@ -21,8 +23,9 @@ _SCALING: dict[str, float] = {"default_velocity_scaling_factor": 1.0, "default_a
 def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
     """Yield the limits of every joint that moves on its own."""
     joints = (joint for device in graph.cell.devices for joint in device.joints if joint.mimics is None)
-    tree: Tree = {**_SCALING, "joint_limits": {joint.name: _limits(joint) for joint in joints}}
-    yield Artifact("config/joint_limits.yaml", header.commented("#") + render(tree))
+    limits: Tree = {**_SCALING, "joint_limits": {joint.name: _limits(joint) for joint in joints}}
+    tree: Tree = {ANY_NODE: {"ros__parameters": {"robot_description_planning": limits}}}
+    yield Artifact(JOINT_LIMITS, header.commented("#") + render(tree))
 
 
 def _limits(joint: DeviceJoint) -> Tree:

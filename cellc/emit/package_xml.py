@@ -15,11 +15,18 @@ from cellc.catalog.load import load_controller_kind
 from cellc.cell.cell import Cell
 from cellc.cell.control import Controller
 from cellc.formats.header import Header
+from cellc.formats.moveit_files import is_planner
 from cellc.formats.xml_text import element, render
 from cellc.graph.cell_graph import CellGraph
 
 _ALWAYS = ("ros2launch", "xacro")
 _SPAWNED_BY = "controller_manager"
+_PLANNING = (
+    "moveit_kinematics",
+    "moveit_planners_ompl",
+    "moveit_simple_controller_manager",
+    "pilz_industrial_motion_planner",
+)
 _EMAIL = "unset@example.com"  # the format demands an address, and the spec names owners, not mailboxes
 
 
@@ -51,6 +58,8 @@ def _dependencies(cell: Cell) -> tuple[str, ...]:
     hardware = (device.facts.packages.driver for device in cell.devices if device.hardware is not None)
     names = {*_ALWAYS, *(node.package for node in cell.nodes)}
     names |= {name for name in (*controllers, *hardware) if name is not None}
+    if cell.groups and any(is_planner(node) for node in cell.nodes):
+        names |= set(_PLANNING)
     if cell.managers:
         names |= {_SPAWNED_BY, "hardware_interface"}
     return tuple(sorted(names))

@@ -10,7 +10,6 @@ from cellc.diagnostics import YamlPath
 from cellc.formats.header import Header
 from cellc.formats.yaml_text import nested, render
 
-
 ANY_NODE = "/**"
 """Matches every node that reads the file."""
 

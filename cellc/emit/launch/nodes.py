@@ -9,6 +9,7 @@ from cellc.cell.cell import Cell
 from cellc.cell.control import ControllerManager
 from cellc.cell.interface import Node
 from cellc.emit.launch.substitutions import ON_REAL, description, share
+from cellc.formats.moveit_files import PARAMETER_FILES, is_planner, semantic_file
 from cellc.formats.package_files import controllers_file, node_file
 from cellc.formats.xml_text import element
 
@@ -80,6 +81,11 @@ def _identity(node: Node) -> dict[str, str]:
 
 
 def _parameters(cell: Cell, node: Node) -> Iterator[Element]:
+    if is_planner(node) and cell.groups:
+        yield _description_parameter(cell)
+        semantic = f"$(command 'cat {share(cell, semantic_file(cell))}')"
+        yield element("param", {"name": "robot_description_semantic", "value": semantic, "type": "str"})
+        yield from (element("param", {"from": share(cell, file)}) for file in PARAMETER_FILES)
     if node.parameters:
         yield element("param", {"from": share(cell, node_file(node))})
     if node.clock == "sim":

@@ -1,0 +1,1 @@
+"""The MoveIt configuration, file by file."""

@@ -1,0 +1,66 @@
+"""``config/moveit/<cell>.srdf``: groups, end effectors, named poses, and links that may touch.
+
+SRDF as srdfdom reads it; move_group takes it as ``robot_description_semantic``. Pairs without a check are those that
+meet in a joint or never move against each other. Left out: virtual joints, because the description is rooted in the world.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from xml.etree.ElementTree import Element
+
+from cellc.artifact import Artifact
+from cellc.cell.cell import Cell
+from cellc.cell.device import Device
+from cellc.cell.motion import NamedPose
+from cellc.formats.header import Header
+from cellc.formats.moveit_files import semantic_file
+from cellc.formats.numbers import shortest
+from cellc.formats.touching_links import touching_links
+from cellc.formats.xml_text import comment, element, render
+from cellc.graph.cell_graph import CellGraph
+
+
+def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
+    """Yield the semantic description of a cell with planning groups."""
+    cell = graph.cell
+    if cell.groups:
+        root = element("robot", {"name": cell.name}, _parts(cell))
+        yield Artifact(semantic_file(cell), render(root, header.text))
+
+
+def _parts(cell: Cell) -> Iterator[Element]:
+    for group in cell.groups:
+        yield comment(f"motion.groups.{group.name}")
+        chain = element("chain", {"base_link": group.base_link, "tip_link": group.tip_frame})
+        yield element("group", {"name": group.name}, [chain])
+    for pose in cell.poses:
+        yield _state(pose)
+    named = {group.name for group in cell.groups}
+    for device in cell.devices:
+        if device.facts.gripper is not None and device.name not in named:
+            yield comment(f"devices.{device.name}")
+            yield from _gripper(device)
+    yield comment("bodies that meet in a joint, and bodies that never move against each other")
+    for first, second, reason in touching_links(cell):
+        yield element("disable_collisions", {"link1": first, "link2": second, "reason": reason})
+
+
+def _state(pose: NamedPose) -> Element:
+    values = zip(pose.joints, pose.positions, strict=False)
+    return element(
+        "group_state",
+        {"name": pose.name, "group": pose.group},
+        [element("joint", {"name": joint, "value": shortest(value)}) for joint, value in values],
+    )
+
+
+def _gripper(device: Device) -> Iterator[Element]:
+    facts = device.facts.gripper
+    assert facts is not None
+    joint = device.prefix + facts.joint
+    yield element("group", {"name": device.name}, [element("joint", {"name": joint})])
+    for name, position in (("open", facts.open.si), ("closed", facts.closed.si)):
+        value = element("joint", {"name": joint, "value": shortest(position)})
+        yield element("group_state", {"name": name, "group": device.name}, [value])
+    yield element("end_effector", {"name": device.name, "group": device.name, "parent_link": device.parent_frame})
