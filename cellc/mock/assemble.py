@@ -11,8 +11,7 @@ from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.engine.simulation import Simulation
 from cellc.mock.folder import GeneratedFolder
 from cellc.mock.nodes.camera import Camera, Image
-from cellc.mock.nodes.motion_model import MotionModel
-from cellc.mock.nodes.motion_planner import MotionPlanner
+from cellc.mock.nodes.motion_planner import MotionPlanner, PlanMemory
 from cellc.mock.nodes.observations import ObservationInbox
 from cellc.mock.nodes.perception import ObjectPose, Perception
 from cellc.mock.nodes.robot_state_publisher import PUBLISH_FREQUENCY_HZ, RobotStatePublisher
@@ -27,7 +26,7 @@ _DEFAULT_RATE_HZ = 10.0
 """Of a dynamic frame whose rate is not stated."""
 
 
-def assemble(folder: GeneratedFolder, motion: MotionModel, seed: int) -> Plant:
+def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int) -> Plant:
     """Create every node of the cell at time zero; nothing runs yet.
 
     Raises:
@@ -42,10 +41,10 @@ def assemble(folder: GeneratedFolder, motion: MotionModel, seed: int) -> Plant:
         contract=contract,
         simulation=simulation,
         control=control,
-        world=World(motion.links, histories),
+        world=World(memory.model.links, histories),
         buffer=TransformBuffer(),
-        robot_state_publisher=RobotStatePublisher(motion.links, histories, PUBLISH_FREQUENCY_HZ, horizon_s),
-        planner=MotionPlanner(motion, seed),
+        robot_state_publisher=RobotStatePublisher(memory.model.links, histories, PUBLISH_FREQUENCY_HZ, horizon_s),
+        planner=MotionPlanner(memory, seed),
         cameras={},
         perceptions={},
         inboxes={},

@@ -7,7 +7,8 @@ from pathlib import Path
 from cellc.contract.contract import Contract
 from cellc.mock.errors import MockError
 from cellc.mock.folder import GeneratedFolder, read_folder
-from cellc.mock.nodes.motion_model import MotionModel, build_motion_model
+from cellc.mock.nodes.motion_model import build_motion_model
+from cellc.mock.nodes.motion_planner import PlanMemory
 from cellc.mock.rehearse import rehearse
 from cellc.mock.result import RehearsalResult
 from cellc.mock.world.links import read_links
@@ -16,10 +17,10 @@ from cellc.mock.world.links import read_links
 class MockCell:
     """A generated folder ready to be executed; every run starts from a cell that is off."""
 
-    def __init__(self, folder: GeneratedFolder, motion: MotionModel) -> None:
+    def __init__(self, folder: GeneratedFolder, memory: PlanMemory) -> None:
         """Bind what ``load`` has read."""
         self._folder = folder
-        self._motion = motion
+        self._memory = memory
 
     @property
     def contract(self) -> Contract:
@@ -44,7 +45,7 @@ class MockCell:
         """
         for entry in self._folder.rehearsals:
             if entry.name == rehearsal:
-                return rehearse(self._folder, self._motion, entry, seed)
+                return rehearse(self._folder, self._memory, entry, seed)
         known = ", ".join(f"`{name}`" for name in self.rehearsals) or "none"
         raise MockError(self.contract.files.rehearsals, f"has no rehearsal `{rehearsal}`; it has {known}")
 
@@ -57,7 +58,7 @@ def load(folder: Path) -> MockCell:
     """
     read = read_folder(folder)
     links = read_links(read.urdf, read.contract.files.urdf_mock)
-    return MockCell(read, build_motion_model(read.contract, read.urdf, links))
+    return MockCell(read, PlanMemory(build_motion_model(read.contract, read.urdf, links)))
 
 
 def run_all(cell: MockCell, *, seed: int = 0) -> tuple[RehearsalResult, ...]:

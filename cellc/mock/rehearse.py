@@ -13,7 +13,7 @@ from cellc.mock.control import ManagerAborted
 from cellc.mock.faults.build import build_fault
 from cellc.mock.faults.fault import Fault
 from cellc.mock.folder import GeneratedFolder
-from cellc.mock.nodes.motion_model import MotionModel
+from cellc.mock.nodes.motion_planner import PlanMemory
 from cellc.mock.plant import Plant
 from cellc.mock.record import AttemptRecord
 from cellc.mock.result import BRINGUP_FAILURE, RehearsalResult, StageEvidence
@@ -21,7 +21,7 @@ from cellc.mock.task.context import TaskContext
 from cellc.mock.task.task import Task
 
 
-def rehearse(folder: GeneratedFolder, motion: MotionModel, rehearsal: RehearsalEntry, seed: int) -> RehearsalResult:
+def rehearse(folder: GeneratedFolder, memory: PlanMemory, rehearsal: RehearsalEntry, seed: int) -> RehearsalResult:
     """Run a rehearsal from a cell that is off to its named end.
 
     Raises:
@@ -29,7 +29,7 @@ def rehearse(folder: GeneratedFolder, motion: MotionModel, rehearsal: RehearsalE
     """
     faults = [(entry, build_fault(entry, folder.contract)) for entry in rehearsal.faults]
     try:
-        plant = assemble(folder, motion, seed)
+        plant = assemble(folder, memory, seed)
     except ManagerAborted as aborted:
         evidence = StageEvidence("discover", (), (f"the controller manager ended: {aborted.reason}",))
         return _not_up(rehearsal, (evidence,), unmatched_pairs(folder.contract))

@@ -12,9 +12,14 @@ _Result = TypeVar("_Result")
 
 
 class Signal:
-    """Something that processes wait for; it carries no value, who wakes looks for itself."""
+    """Something that processes wait for; it carries no value, who wakes looks for itself.
 
-    def __init__(self) -> None:
+    Attributes:
+        from_background: it is fired by events of the background.
+    """
+
+    def __init__(self, *, from_background: bool = False) -> None:
+        self.from_background = from_background
         self._waiting: list[tuple[Process, int]] = []
 
     def add(self, process: Process, wait_number: int) -> None:
@@ -45,11 +50,17 @@ Waiting = Generator[Wait, None, _Result]
 
 
 class Process:
-    """Runs a generator of waits on an event queue; a wake that comes after another one already did is ignored."""
+    """Runs a generator of waits on an event queue; a wake that comes after another one already did is ignored.
+
+    Attributes:
+        finished: the body has ended.
+        awaits_background: it waits for something that the background brings.
+    """
 
     def __init__(self, queue: EventQueue, body: Waiting[None]) -> None:
         """Bind the process; it does not run before ``start``."""
         self.finished = False
+        self.awaits_background = False
         self._queue = queue
         self._body = body
         self._wait_number = 0
@@ -73,6 +84,7 @@ class Process:
         except StopIteration:
             self.finished = True
             return
+        self.awaits_background = any(signal.from_background for signal in wait.signals)
         for signal in wait.signals:
             signal.add(self, self._wait_number)
         self.wake(self._wait_number, wait.until_ns)

@@ -10,43 +10,66 @@ from cellc.mock.engine.queue import Action, EventQueue
 
 
 class Simulation:
-    """One simulated clock over the event queue and the control stack; no threads, no sleep, no wall clock."""
+    """One simulated clock over the control stack and two event queues; no threads, no sleep, no wall clock.
+
+    Events of the foreground touch the control stack, so it is advanced to their time first. Events of the background, a
+    camera's images for instance, never do: they run at their own times once the control stack has passed them, and
+    before anything in the foreground that comes later. So the control stack runs in long blocks. Only while a process
+    waits for what the background brings does it stop at every background event too.
+    """
 
     def __init__(self, control: ControlStack) -> None:
         """Bind the simulation at the time of the control stack."""
         self.control = control
         self.now_ns = 0
-        self._queue = EventQueue()
+        self._foreground = EventQueue()
+        self._background = EventQueue()
 
     def at(self, when_ns: int, action: Action) -> None:
-        """Schedule an action; a time in the past means the current instant."""
-        self._queue.at(max(when_ns, self.now_ns), action)
+        """Schedule an action of the foreground; a time in the past means the current instant."""
+        self._foreground.at(max(when_ns, self.now_ns), action)
+
+    def at_background(self, when_ns: int, action: Action) -> None:
+        """Schedule an action that neither reads nor commands the present state of the control stack."""
+        self._background.at(max(when_ns, self.now_ns), action)
 
     def every(self, first_ns: int, rate_hz: float, action: Callable[[int], None]) -> None:
-        """Call ``action`` with 0, 1, 2 … at ``first_ns + k / rate_hz``, without drift."""
+        """Call ``action`` in the background with 0, 1, 2 … at ``first_ns + k / rate_hz``, without drift."""
 
         def fire(index: int) -> None:
-            self.at(first_ns + round((index + 1) * 1e9 / rate_hz), lambda: fire(index + 1))
+            self.at_background(first_ns + round((index + 1) * 1e9 / rate_hz), lambda: fire(index + 1))
             action(index)
 
-        self.at(first_ns, lambda: fire(0))
+        self.at_background(first_ns, lambda: fire(0))
 
     def run_process(self, body: Waiting[None]) -> None:
         """Run a process to its end; everything else in the cell goes on meanwhile."""
-        process = Process(self._queue, body)
+        process = Process(self._foreground, body)
         process.start(self.now_ns)
         while not process.finished:
-            self._step()
+            self._step(process)
 
-    def _step(self) -> None:
-        target_ns = self._queue.next_ns()
+    def _step(self, process: Process) -> None:
+        target_ns = self._next_ns(process)
+        reached_ns = self.now_ns
+        if target_ns > self.now_ns:
+            reached_ns = self.control.advance(target_ns)
+        while (action := self._background.pop_due(reached_ns)) is not None:
+            self.now_ns = action.at_ns
+            action.run()
+        self.now_ns = reached_ns
+        self.control.dispatch(self.now_ns)
+        due = self._foreground.pop_due(self.now_ns)
+        if due is not None:
+            due.run()
+            self.control.dispatch(self.now_ns)
+
+    def _next_ns(self, process: Process) -> int:
+        """Return the time up to which nothing can concern the control stack."""
+        target_ns = self._foreground.next_ns()
         if target_ns is None:
             raise RuntimeError("a process waits and nothing is scheduled")
-        while self.now_ns < target_ns:
-            self.now_ns = self.control.advance(target_ns)
-            self.control.dispatch(self.now_ns)
-            target_ns = min(target_ns, self._queue.next_ns() or target_ns)
-        action = self._queue.pop_due(self.now_ns)
-        if action is not None:
-            action()
-            self.control.dispatch(self.now_ns)
+        background_ns = self._background.next_ns()
+        if process.awaits_background and background_ns is not None:
+            return min(target_ns, background_ns)
+        return target_ns

@@ -1,157 +1,82 @@
-"""Motion planning of one rehearsal: named poses and Cartesian goals in, timed trajectories or reasons out.
-
-A goal with an approach is reached on a straight line from the pose before it, and left on the same line.
-"""
+"""Motion planning of one rehearsal: named poses and Cartesian goals in, timed trajectories or reasons out."""
 
 from __future__ import annotations
 
+from collections import OrderedDict
 from collections.abc import Mapping
-from dataclasses import dataclass
 
-from cellc.mock.nodes.motion_model import GroupModel, MotionModel
-from cellc.mock.planning import (
-    CollisionScene,
-    IkFailure,
-    JointPath,
-    LimitsError,
-    PlanFailure,
-    Planner,
-    TimedTrajectory,
-    time_parameterize,
-)
-from cellc.mock.planning.failure import FailureReason
-from cellc.transforms import Pose, Vector3
+from cellc.mock.nodes.motion_model import MotionModel
+from cellc.mock.nodes.motion_request import GoalPose, MotionRequest, PlannedMotion, SceneState, build_scene, plan_motion
+from cellc.mock.planning import Box, PlanFailure
+from cellc.transforms import Pose
 
 PLANNING_LATENCY_S = 0.05
 """Simulated time charged for every plan, whatever the host needs, so that a run is the same on every machine."""
 OBJECT_EDGE_M = 0.02
 """Edge of the box that stands for a grasped object in collision checks: the contract states no size."""
-_IK_ATTEMPTS = 4
+_KEPT_PLANS = 256
 
 
-@dataclass(frozen=True, slots=True)
-class PlannedMotion:
-    """A trajectory of a group; ``retreat`` is the tip link's pose in the base from which the goal was approached."""
+class PlanMemory:
+    """Answers of the planner by their question, the last used ones: rehearsals of a cell ask the same again."""
 
-    trajectory: TimedTrajectory
-    retreat: Pose | None
+    def __init__(self, model: MotionModel) -> None:
+        self.model = model
+        self._answers: OrderedDict[MotionRequest, PlannedMotion | PlanFailure] = OrderedDict()
 
-
-@dataclass(frozen=True, slots=True)
-class GoalPose:
-    """A goal of the tip frame in the group's base link; the approach is in the tip's own axes, m."""
-
-    tip_in_base: Pose
-    approach: Vector3 | None
+    def plan(self, request: MotionRequest) -> PlannedMotion | PlanFailure:
+        """Return what ``plan_motion`` returns, the same value whether it was asked before or not."""
+        answer = self._answers.pop(request, None)
+        if answer is None:
+            answer = plan_motion(self.model, request)
+        self._answers[request] = answer
+        if len(self._answers) > _KEPT_PLANS:
+            self._answers.popitem(last=False)
+        return answer
 
 
 class MotionPlanner:
     """Plans in a scene that follows what the gripper carries."""
 
-    def __init__(self, model: MotionModel, rng_seed: int) -> None:
+    def __init__(self, memory: PlanMemory, rng_seed: int) -> None:
         """Bind the planner of one run; the same seed gives the same plans."""
-        self._model = model
-        self._scene = model.scene
+        self._memory = memory
+        self._model = memory.model
+        self._scene = SceneState()
         self._rng_seed = rng_seed
+
+    def plan(
+        self, group: str, positions: Mapping[str, float], goal: tuple[float, ...] | GoalPose, retreat: Pose | None
+    ) -> PlannedMotion | PlanFailure:
+        """Plan to joint positions or to a pose of the tip.
+
+        Args:
+            positions: of all joints, rad or m.
+            retreat: where the arm has to go back to on a straight line, because it stands at a goal.
+        """
+        joints = self._model.groups[group].planner.group.joints
+        others = tuple((name, value) for name, value in self._independent(positions) if name not in joints)
+        start = tuple(positions[joint] for joint in joints)
+        return self._memory.plan(MotionRequest(group, start, others, self._scene, goal, retreat, self._rng_seed))
 
     def attach(self, name: str, link: str, pose_in_link: Pose, positions: Mapping[str, float]) -> None:
         """Let a grasped object move with a link; it may touch the gripper and what carries it now."""
-        edge = (OBJECT_EDGE_M, OBJECT_EDGE_M, OBJECT_EDGE_M)
-        scene = self._scene.attach(name, link, edge, pose_in_link)
-        at = self._model.robot.configuration(self._independent(positions))
-        touching = {other for pair in scene.contacts(at) if name in pair for other in pair} - {name}
-        carried = {child for child in self._model.links.joints if self._hangs_from(child, link)}
-        known = set(self._model.robot.links)
-        self._scene = scene.allow_touch(name, sorted((touching | carried | {link}) & known))
+        box = Box(name, link, (OBJECT_EDGE_M, OBJECT_EDGE_M, OBJECT_EDGE_M), pose_in_link)
+        grasped = SceneState((*self._scene.boxes, box), self._scene.allowed)
+        scene = build_scene(self._model, grasped, ())
+        contacts = scene.contacts(self._model.robot.configuration(dict(self._independent(positions))))
+        touching = {other for pair in contacts if name in pair for other in pair} - {name}
+        carrying = {child for child in self._model.links.joints if self._hangs_from(child, link)}
+        may_touch = sorted((touching | carrying | {link}) & set(self._model.robot.links))
+        self._scene = SceneState(grasped.boxes, (*grasped.allowed, *((name, other) for other in may_touch)))
 
     def detach(self, name: str) -> None:
         """Forget a released object."""
-        self._scene = self._scene.detach(name)
+        boxes = tuple(box for box in self._scene.boxes if box.name != name)
+        self._scene = SceneState(boxes, tuple(pair for pair in self._scene.allowed if name not in pair))
 
-    def plan_pose(
-        self, group: str, positions: Mapping[str, float], target: tuple[float, ...], retreat: Pose | None
-    ) -> PlannedMotion | PlanFailure:
-        """Plan to joint positions of a group, first back along ``retreat`` where the arm stands at a goal."""
-        model, planner = self._model.groups[group], self._planner(group, positions)
-        begun = self._begin(planner, positions, retreat)
-        if isinstance(begun, PlanFailure):
-            return begun
-        start, path = begun
-        onward = planner.plan_to_configuration(start, target, rng_seed=self._rng_seed)
-        if isinstance(onward, PlanFailure):
-            return onward
-        return _timed(model, onward if path is None else path.then(onward), None)
-
-    def plan_goal(
-        self, group: str, positions: Mapping[str, float], goal: GoalPose, retreat: Pose | None
-    ) -> PlannedMotion | PlanFailure:
-        """Plan to a Cartesian goal over the pose before it."""
-        model, planner = self._model.groups[group], self._planner(group, positions)
-        begun = self._begin(planner, positions, retreat)
-        if isinstance(begun, PlanFailure):
-            return begun
-        start, path = begun
-        first_failure: PlanFailure | None = None
-        for attempt in range(_IK_ATTEMPTS):
-            onward = self._reach(model, planner, start, goal, self._rng_seed + attempt)
-            if isinstance(onward, JointPath):
-                before = None if goal.approach is None else _link_pose(model, _before(goal))
-                return _timed(model, onward if path is None else path.then(onward), before)
-            first_failure = first_failure or onward
-        assert first_failure is not None  # the loop ran at least once
-        return first_failure
-
-    def _reach(
-        self, model: GroupModel, planner: Planner, start: tuple[float, ...], goal: GoalPose, rng_seed: int
-    ) -> JointPath | PlanFailure:
-        solution = planner.inverse_kinematics(_link_pose(model, _before(goal)), start, rng_seed=rng_seed)
-        if isinstance(solution, IkFailure):
-            return PlanFailure(solution.reason, solution.detail)
-        transit = planner.plan_to_configuration(start, solution.configuration, rng_seed=rng_seed)
-        if isinstance(transit, PlanFailure) or goal.approach is None:
-            return transit
-        line = planner.plan_cartesian(transit.goal, _link_pose(model, goal.tip_in_base))
-        return line if isinstance(line, PlanFailure) else transit.then(line)
-
-    def _begin(
-        self, planner: Planner, positions: Mapping[str, float], retreat: Pose | None
-    ) -> tuple[tuple[float, ...], JointPath | None] | PlanFailure:
-        """Return where the transit starts and the path to there."""
-        start = tuple(positions[joint] for joint in planner.group.joints)
-        if retreat is None:
-            return start, None
-        path = planner.plan_cartesian(start, retreat)
-        return path if isinstance(path, PlanFailure) else (path.goal, path)
-
-    def _planner(self, group: str, positions: Mapping[str, float]) -> Planner:
-        planner = self._model.groups[group].planner
-        own = set(planner.group.joints)
-        others = {name: value for name, value in self._independent(positions).items() if name not in own}
-        return planner.in_scene(self._scene_at(others))
-
-    def _scene_at(self, others: Mapping[str, float]) -> CollisionScene:
-        return self._scene.with_other_positions(others)
-
-    def _independent(self, positions: Mapping[str, float]) -> dict[str, float]:
-        return {name: value for name, value in positions.items() if name in self._model.robot.joints}
+    def _independent(self, positions: Mapping[str, float]) -> list[tuple[str, float]]:
+        return [(name, positions[name]) for name in sorted(positions) if name in self._model.robot.joints]
 
     def _hangs_from(self, link: str, ancestor: str) -> bool:
         return any(joint.parent == ancestor for joint in self._model.links.chain(link))
-
-
-def _timed(model: GroupModel, path: JointPath, retreat: Pose | None) -> PlannedMotion | PlanFailure:
-    try:
-        return PlannedMotion(time_parameterize(path, model.planner.limits), retreat)
-    except LimitsError as error:
-        return PlanFailure(FailureReason.OUT_OF_LIMITS, str(error))
-
-
-def _before(goal: GoalPose) -> Pose:
-    """Return the pose of the tip before the approach; the goal itself where there is none."""
-    if goal.approach is None:
-        return goal.tip_in_base
-    return goal.tip_in_base @ Pose(goal.approach, (0.0, 0.0, 0.0, 1.0))
-
-
-def _link_pose(model: GroupModel, tip_in_base: Pose) -> Pose:
-    return tip_in_base @ model.transform_tip_to_link.inverse()

@@ -26,7 +26,7 @@ class ObservationInbox:
     def __init__(self, interface: ContractInterface | None, simulation: Simulation) -> None:
         """Bind the inbox to the contract of the topic; None where poses reach the task by /tf alone."""
         max_age_s = None if interface is None else interface.max_age_s
-        self.arrived = Signal()
+        self.arrived = Signal(from_background=True)
         self.newest: ObjectPose | None = None
         self.max_age_s = DEFAULT_MAX_AGE_S if max_age_s is None else max_age_s
         self.on_stale = "reject_goal" if interface is None or interface.on_stale is None else interface.on_stale

@@ -70,7 +70,7 @@ class Perception:
         if self._max_image_age_ns is not None and now_ns - image.stamp_ns > self._max_image_age_ns:
             self.rejected += 1
             return
-        self._simulation.at(now_ns + round(PROCESSING_S * 1e9), lambda: self._publish(image))
+        self._simulation.at_background(now_ns + round(PROCESSING_S * 1e9), lambda: self._publish(image))
 
     def _publish(self, image: Image) -> None:
         """Publish where the object was, seen from the camera, when the image was taken."""

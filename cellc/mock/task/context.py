@@ -12,8 +12,8 @@ from cellc.transforms import Pose
 
 NORMAL = "normal"
 PROTECTIVE_STOP = "protective_stop"
-_WATCH_NS = 100_000_000
-"""The task looks at the state of the cell at least ten times a second, whatever it waits for."""
+_WATCH_NS = 200_000_000
+"""The task looks at the state of the cell at least five times a second, whatever it waits for."""
 
 GoalEnded = TrajectoryEnded | GripperEnded
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from cellc.contract.contract import Contract, ContractGoal
 from cellc.mock.engine.process import Waiting
-from cellc.mock.nodes.motion_planner import GoalPose
+from cellc.mock.nodes.motion_request import GoalPose
 from cellc.mock.record import PacketStep
 from cellc.mock.task.attempt import Attempt
 from cellc.mock.task.context import TaskContext

@@ -5,7 +5,8 @@ from __future__ import annotations
 from cellc.contract.contract import ContractPoseTarget
 from cellc.mock.control import TrajectoryGoal, TrajectoryPoint
 from cellc.mock.engine.process import Waiting
-from cellc.mock.nodes.motion_planner import PLANNING_LATENCY_S, PlannedMotion
+from cellc.mock.nodes.motion_planner import PLANNING_LATENCY_S
+from cellc.mock.nodes.motion_request import PlannedMotion
 from cellc.mock.planning import PlanFailure, TimedTrajectory
 from cellc.mock.record import PacketStep
 from cellc.mock.task.attempt import Attempt
@@ -35,7 +36,7 @@ def _move_to_pose(context: TaskContext, attempt: Attempt, pose: ContractPoseTarg
     state = current_state(context.plant)
     attempt.joint_state_age = state.age_s
     retreat = context.retreats.get(pose.group)
-    planned = context.plant.planner.plan_pose(pose.group, state.positions, pose.positions, retreat)
+    planned = context.plant.planner.plan(pose.group, state.positions, pose.positions, retreat)
     motion = yield from _planning_time(context, attempt, planned)
     yield from _drive(context, attempt, pose.group, motion, None)
 
@@ -47,7 +48,7 @@ def _move_to_goal(context: TaskContext, attempt: Attempt, name: str) -> Waiting[
     state = current_state(context.plant)
     attempt.joint_state_age = state.age_s
     retreat = context.retreats.get(group)
-    planned = context.plant.planner.plan_goal(group, state.positions, located.goal, retreat)
+    planned = context.plant.planner.plan(group, state.positions, located.goal, retreat)
     motion = yield from _planning_time(context, attempt, planned)
     if located.observed_frame is not None:
         stamp_ns = context.observed[located.observed_frame]
