@@ -54,9 +54,10 @@ def cellc() -> None:
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command and leave with its exit code; a closed pipe or Ctrl-C ends without a traceback."""
     try:
-        cellc.main(args=None if arguments is None else list(arguments), prog_name="cellc", standalone_mode=False)
-    except click.exceptions.Exit as end:
-        sys.exit(end.exit_code)
+        given = None if arguments is None else list(arguments)
+        # Outside standalone mode click returns the code of an Exit, and what a finished command returned: None.
+        code = cellc.main(args=given, prog_name="cellc", standalone_mode=False)
+        sys.exit(code or 0)
     except click.ClickException as problem:
         problem.show()
         sys.exit(2)

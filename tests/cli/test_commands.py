@@ -1,0 +1,111 @@
+"""The commands as a user meets them: exit codes, output, and no traceback whatever is given."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.cli.run import MINIMAL, PICK, ROOT, run
+
+
+def test_check_of_a_cell_with_blockers_is_good_and_tells_them() -> None:
+    ran = run("check", PICK)
+    assert ran.code == 0
+    assert "blocker[unknown-version]: `revision` of `arm` is UNKNOWN" in ran.out
+    assert "cell.yaml:29:15" in ran.out
+
+
+def test_blockers_fail_a_check_that_asks_for_it() -> None:
+    assert run("check", PICK, "--fail-on", "blocker").code == 1
+
+
+def test_check_of_several_cells_reports_each() -> None:
+    ran = run("check", PICK, MINIMAL)
+    assert PICK in ran.out
+    assert MINIMAL in ran.out
+
+
+def test_check_as_json_is_one_object() -> None:
+    told = json.loads(run("check", PICK, "--format", "json").out)
+    assert told["format"] == 1
+    assert told["summary"]["error"] == 0
+    assert {finding["severity"] for finding in told["diagnostics"]} == {"blocker"}
+
+
+@pytest.mark.parametrize("command", ["check", "build", "mock", "show"])
+def test_command_without_its_argument_is_a_usage_error(command: str) -> None:
+    ran = run(command)
+    assert ran.code == 2
+    assert "Usage" in ran.err
+
+
+def test_unknown_command_is_a_usage_error() -> None:
+    assert run("bild").code == 2
+
+
+def test_missing_file_is_a_finding_not_a_traceback(tmp_path: Path) -> None:
+    ran = run("check", (tmp_path / "cell.yaml").as_posix())
+    assert ran.code == 1
+    assert "file-not-found" in ran.out
+
+
+def test_show_tells_the_value_and_the_line_it_is_written_on() -> None:
+    ran = run("show", PICK, "controllers.arm_trajectory.goal_time_s")
+    assert ran.code == 0
+    assert ran.out.split() == ["controllers.arm_trajectory.goal_time_s", "1", "#", f"{PICK}:{_line('goal_time: 1 s')}"]
+
+
+def test_show_tells_that_a_tightened_limit_comes_from_spec_and_catalogue() -> None:
+    out = run("show", PICK, "devices.arm.joints.arm_elbow_joint.velocity").out
+    # Half of pi rad/s (robots.md: UR5e, velocity limits).
+    assert "1.57079633" in out
+    assert "of catalogue devices/ur5e" in out
+
+
+def test_show_of_a_misspelt_path_names_the_nearest() -> None:
+    ran = run("show", PICK, "devices.arn")
+    assert ran.code == 2
+    assert "`arm`" in ran.err
+
+
+def test_explain_prints_the_page_of_a_code() -> None:
+    ran = run("explain", "reversed-limits")
+    assert ran.code == 0
+    assert ran.out.startswith("# reversed-limits (error)")
+
+
+def test_explain_of_an_unknown_code_names_the_nearest() -> None:
+    ran = run("explain", "reversed-limit")
+    assert ran.code == 2
+    assert "`reversed-limits`" in ran.err
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
+def test_completion_script_names_the_command(shell: str) -> None:
+    assert "_CELLC_COMPLETE" in run("completion", shell).out
+
+
+def test_init_writes_a_cell_that_passes_and_refuses_to_replace_it(tmp_path: Path) -> None:
+    file = (tmp_path / "cell.yaml").as_posix()
+    assert run("init", "bench", "ur5e", "robotiq_2f_85", "realsense_d435i", "-o", file).code == 0
+    assert run("check", file).code == 0
+    again = run("init", "bench", "ur5e", "-o", file)
+    assert again.code == 2
+    assert "exists" in again.err
+
+
+def test_init_of_an_unknown_model_names_the_nearest(tmp_path: Path) -> None:
+    ran = run("init", "bench", "ur5", "-o", (tmp_path / "cell.yaml").as_posix())
+    assert ran.code == 2
+    assert "`ur5e`" in ran.err
+
+
+def test_schema_prints_the_committed_schema() -> None:
+    assert run("schema").out == (ROOT / "schemas/cell.schema.json").read_text()
+
+
+def _line(text: str) -> int:
+    lines = Path(PICK).read_text().splitlines()
+    return next(number for number, line in enumerate(lines, 1) if text in line)
