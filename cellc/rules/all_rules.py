@@ -3,7 +3,21 @@
 from __future__ import annotations
 
 from cellc.rule import Rule
-from cellc.rules import clocks, frames, interfaces, model, ownership, qos, versions
+from cellc.rules import (
+    bringup,
+    clocks,
+    control,
+    evidence,
+    frames,
+    interfaces,
+    model,
+    motion,
+    network,
+    ownership,
+    qos,
+    safety,
+    versions,
+)
 
 ALL_RULES: tuple[Rule, ...] = (
     *model.RULES,
@@ -13,4 +27,10 @@ ALL_RULES: tuple[Rule, ...] = (
     *qos.RULES,
     *ownership.RULES,
     *versions.RULES,
+    *control.RULES,
+    *motion.RULES,
+    *network.RULES,
+    *bringup.RULES,
+    *safety.RULES,
+    *evidence.RULES,
 )

@@ -1,0 +1,59 @@
+"""The first motion takes longer than its timeout.
+
+The stop reason would always be the timeout, so a real failure looks like every other run.
+
+Example that is reported:
+
+```yaml
+bringup:
+  first_motion:
+    joint: arm/joint_6
+    direction: +
+    max_delta: 10 deg
+    velocity: 1 deg/s
+    timeout: 5 s
+    stop_if: [wrong direction]
+```
+
+Example that is accepted:
+
+```yaml
+bringup:
+  first_motion:
+    joint: arm/joint_6
+    direction: +
+    max_delta: 5 deg
+    velocity: 5 deg/s
+    timeout: 5 s
+    stop_if: [wrong direction]
+```
+
+Fix: raise the timeout, or shorten the move.
+
+Source: chapter 4, section 11, gate G6.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield a first motion whose delta needs more time at its velocity than allowed."""
+    motion = graph.cell.spec.bringup.first_motion
+    if motion is None or motion.velocity.si == 0.0:
+        return
+    needed = abs(motion.max_delta.si / motion.velocity.si)
+    if needed > motion.timeout.si:
+        move = f"{motion.max_delta.text} at {motion.velocity.text}"
+        message = f"{move} takes {needed:.3g} s, the timeout is {motion.timeout.text}"
+        yield found(graph, ("bringup", "first_motion", "timeout"), message, f"allow more than {needed:.3g} s")
+
+
+RULE = define("first-motion-cannot-end", Severity.ERROR, check, __doc__)

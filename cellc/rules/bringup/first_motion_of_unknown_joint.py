@@ -1,0 +1,58 @@
+"""The first motion names a joint that does not exist.
+
+The joint that is stated aloud has to be the one that moves.
+
+Example that is reported:
+
+```yaml
+bringup:
+  first_motion:
+    joint: arm/joint_7
+    direction: +
+    max_delta: 5 deg
+    velocity: 5 deg/s
+    timeout: 5 s
+    stop_if: [wrong direction]
+```
+
+Example that is accepted:
+
+```yaml
+bringup:
+  first_motion:
+    joint: arm/joint_6
+    direction: +
+    max_delta: 5 deg
+    velocity: 5 deg/s
+    timeout: 5 s
+    stop_if: [wrong direction]
+```
+
+Fix: name a driven joint as `device/joint`.
+
+Source: chapter 4, section 11, gate G6.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity, did_you_mean
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield a first motion whose joint no device drives."""
+    motion = graph.cell.spec.bringup.first_motion
+    driven = [f"{device.name}/{joint.local_name}" for device in graph.cell.devices for joint in device.actuated_joints]
+    if motion is not None and motion.joint not in driven:
+        message = f"no device drives a joint `{motion.joint}`"
+        yield found(
+            graph, ("bringup", "first_motion", "joint"), message, did_you_mean(motion.joint, driven, "driven joints")
+        )
+
+
+RULE = define("first-motion-of-unknown-joint", Severity.ERROR, check, __doc__)

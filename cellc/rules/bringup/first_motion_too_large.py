@@ -1,0 +1,65 @@
+"""The first motion is faster or farther than a first motion may be.
+
+Gate G6 is a small move at reduced speed, so that a wrong sign is seen before it matters.
+
+Example that is reported:
+
+```yaml
+bringup:
+  first_motion:
+    joint: arm/joint_6
+    direction: +
+    max_delta: 90 deg
+    velocity: 5 deg/s
+    timeout: 20 s
+    stop_if: [wrong direction]
+```
+
+Example that is accepted:
+
+```yaml
+bringup:
+  first_motion:
+    joint: arm/joint_6
+    direction: +
+    max_delta: 5 deg
+    velocity: 5 deg/s
+    timeout: 5 s
+    stop_if: [wrong direction]
+```
+
+Fix: stay below 15 deg (or 50 mm) and 15 deg/s (or 50 mm/s).
+
+Source: chapter 4, section 11, gate G6: reduced speed and range; 250 mm/s of reduced mode at 1 m reach is 14 deg/s.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+_LARGEST_RAD = math.radians(15.0)
+_LARGEST_M = 0.05
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield a delta or velocity above the bound of a first motion."""
+    motion = graph.cell.spec.bringup.first_motion
+    if motion is None:
+        return
+    for field, value in (("max_delta", motion.max_delta), ("velocity", motion.velocity)):
+        linear = value.unit.startswith(("m", "c"))
+        if abs(value.si) > (_LARGEST_M if linear else _LARGEST_RAD):
+            largest = "50 mm" if linear else "15 deg"
+            per = " per second" if field == "velocity" else ""
+            message = f"the first motion has {field.replace('_', ' ')} {value.text}, at most {largest}{per} are allowed"
+            yield found(graph, ("bringup", "first_motion", field), message, f"write at most {largest}{per}")
+
+
+RULE = define("first-motion-too-large", Severity.ERROR, check, __doc__)

@@ -1,0 +1,44 @@
+"""The first motion is not stated.
+
+At gate G6 one joint moves, and everybody knows which, to which side, how far, how fast, for how long, and what ends
+it.
+
+Example that is reported:
+
+```yaml
+bringup: {first_motion: null}
+```
+
+Example that is accepted:
+
+```yaml
+bringup:
+  first_motion: {joint: arm/joint_6, direction: +, max_delta: 5 deg, velocity: 5 deg/s, timeout: 5 s,
+                 stop_if: [wrong direction, overshoot]}
+```
+
+Fix: write `bringup.first_motion` with joint, direction, delta, velocity, timeout and stop reasons.
+
+Source: chapter 4, section 11: state the joint, sign, maximum delta, speed, timeout, and stop reason aloud.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield a cell that moves joints and does not state its first motion."""
+    moves = any(controller.command_interfaces for controller in graph.cell.controllers)
+    if moves and graph.cell.spec.bringup.first_motion is None:
+        message = "the single-joint move of gate G6 is not stated"
+        yield found(graph, ("bringup", "first_motion"), message, "add `bringup.first_motion`")
+
+
+RULE = define("missing-first-motion", Severity.BLOCKER, check, __doc__)

@@ -1,0 +1,52 @@
+"""A promotion gate is missing or out of order.
+
+The gates lead from power off to a short trajectory, each with its evidence. A gate that is skipped is the one whose
+mistake moves the arm.
+
+Example that is reported:
+
+```yaml
+bringup: {gates: [L1, L2, L3, L4, L5, L6, G0, G1, G2, G3, G4, G5, G7]}
+```
+
+Example that is accepted:
+
+```yaml
+bringup: {gates: [L1, L2, L3, L4, L5, L6, G0, G1, G2, G3, G4, G5, G6, G7]}
+```
+
+Fix: write `gates: standard`, or all of them in order with your own between.
+
+Source: chapter 4, sections 5 and 11: gates L1 to L6 and G0 to G7.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+_LADDERS = (tuple(f"G{number}" for number in range(8)), tuple(f"L{number}" for number in range(1, 7)))
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield each ladder of gates that is not complete and in order."""
+    gates = graph.cell.spec.bringup.gates
+    if gates == "standard":
+        return
+    for ladder in _LADDERS:
+        written = [gate for gate in gates if gate in ladder]
+        missing = [gate for gate in ladder if gate not in written]
+        if missing:
+            yield found(graph, ("bringup", "gates"), f"gate {', '.join(missing)} is missing", "write `gates: standard`")
+        elif written != list(ladder):
+            order = ", ".join(written)
+            message = f"gates are out of order: {order}"
+            yield found(graph, ("bringup", "gates"), message, "write them in order, or `gates: standard`")
+
+
+RULE = define("removed-gate", Severity.ERROR, check, __doc__)

@@ -1,0 +1,56 @@
+"""A node on the command path is restarted by itself.
+
+A restarted commander may send its last goal again, with nobody beside the arm. Restarting perception is not the same
+as restarting what moves.
+
+Example that is reported:
+
+```yaml
+nodes:
+  task: {respawn: true}
+```
+
+Example that is accepted:
+
+```yaml
+nodes:
+  perception: {respawn: true}
+```
+
+Fix: remove `respawn`, and let an operator start it again.
+
+Source: chapter 4, section 6: automatic process restart deserves caution.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.cell.interface import InterfaceKind
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield respawned nodes that send goals to a controller or to an action."""
+    for node in graph.cell.nodes:
+        if not node.respawn:
+            continue
+        commands = [
+            c.action or c.name for c in graph.cell.controllers if c.client == node.name and c.command_interfaces
+        ]
+        commands += [
+            interface.name
+            for interface in graph.cell.interfaces
+            if interface.kind is InterfaceKind.ACTION
+            and any(e.node == node.name for e in (*interface.sinks, *interface.sources))
+        ]
+        if commands:
+            message = f"`{node.name}` is restarted by itself and commands `{commands[0]}`"
+            yield found(graph, (*node.path, "respawn"), message, "remove `respawn`; an operator starts it again")
+
+
+RULE = define("respawned-commander", Severity.ERROR, check, __doc__)

@@ -1,0 +1,56 @@
+"""A secret stands in the spec.
+
+The spec is reviewed, copied and compiled into parameter files that everybody on the host can read.
+
+Example that is reported:
+
+```yaml
+nodes:
+  task: {parameters: {api_token: 9f2c1a77}}
+```
+
+Example that is accepted:
+
+```yaml
+nodes:
+  task: {parameters: {api_token_file: /run/secrets/task}}
+```
+
+Fix: give the node the name of a file or of an environment variable that holds it.
+
+Source: chapter 4, section 6: parameter files separate secrets and environment-specific values.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from cellc.cell.interface import NodeSource
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.graph.written_parameters import written_parameters
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+_SECRET = re.compile(r"(?i)(^|_|\.)(password|passwd|passphrase|secret|token|api_?key|private_?key|credential)s?$")
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield parameters of nodes and controllers whose name says that they are secret and that hold a text."""
+    for node in graph.cell.nodes:
+        if node.source is not NodeSource.SPEC:
+            continue
+        for name, value in node.parameters.items():
+            if value and isinstance(value, str) and _SECRET.search(name):
+                path = (*node.path, "parameters", name)
+                message = f"parameter `{name}` of `{node.name}` holds a secret"
+                yield found(graph, path, message, "name a file or an environment variable that holds it")
+    for written in written_parameters(graph.cell):
+        if written.value and isinstance(written.value, str) and _SECRET.search(written.name):
+            message = f"parameter `{written.name}` of `{written.controller.name}` holds a secret"
+            yield found(graph, written.path, message, "name a file or an environment variable that holds it")
+
+
+RULE = define("secret-in-spec", Severity.ERROR, check, __doc__)

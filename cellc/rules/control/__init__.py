@@ -1,0 +1,51 @@
+"""Rules on controllers and hardware."""
+
+from __future__ import annotations
+
+from cellc.rules.control import (
+    assumed_speed_scaling,
+    controller_faster_than_manager,
+    goal_looser_than_path,
+    limit_share_above_full,
+    limit_share_of_nothing,
+    missing_goal_time,
+    missing_goal_tolerance,
+    missing_joint_states,
+    missing_path_tolerance,
+    missing_payload,
+    missing_velocity_limit,
+    parameter_out_of_range,
+    payload_above_limit,
+    payload_lighter_than_tool,
+    refused_interface_combination,
+    refused_update_rate,
+    shared_manager_name,
+    uneven_update_rate,
+    unknown_controller_parameter,
+    unscaled_trajectory,
+    wrong_parameter_type,
+)
+
+RULES = (
+    assumed_speed_scaling.RULE,
+    controller_faster_than_manager.RULE,
+    goal_looser_than_path.RULE,
+    limit_share_above_full.RULE,
+    limit_share_of_nothing.RULE,
+    missing_goal_time.RULE,
+    missing_goal_tolerance.RULE,
+    missing_joint_states.RULE,
+    missing_path_tolerance.RULE,
+    missing_payload.RULE,
+    missing_velocity_limit.RULE,
+    parameter_out_of_range.RULE,
+    payload_above_limit.RULE,
+    payload_lighter_than_tool.RULE,
+    refused_interface_combination.RULE,
+    refused_update_rate.RULE,
+    shared_manager_name.RULE,
+    uneven_update_rate.RULE,
+    unknown_controller_parameter.RULE,
+    unscaled_trajectory.RULE,
+    wrong_parameter_type.RULE,
+)

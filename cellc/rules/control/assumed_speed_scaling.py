@@ -1,0 +1,55 @@
+"""A scaled controller drives a device that does not scale.
+
+Speed scaling is one vendor's contract. On another arm the factor does not exist, and the controller refuses to start
+or takes a constant for the truth.
+
+Example that is reported:
+
+```yaml
+control:
+  controllers:
+    gripper_action: null
+    gripper_trajectory: {type: joint_trajectory, device: gripper, client: task, goal_time: 1 s, path_tolerance: 0.2 rad,
+                         goal_tolerance: 0.1 rad,
+                         parameters: {speed_scaling.state_interface: arm_speed_scaling/speed_scaling_factor}}
+```
+
+Example that is accepted:
+
+```yaml
+control:
+  controllers:
+    gripper_action: null
+    gripper_trajectory: {type: joint_trajectory, device: gripper, client: task, goal_time: 1 s, path_tolerance: 0.2 rad,
+                         goal_tolerance: 0.1 rad}
+```
+
+Fix: use the plain trajectory controller.
+
+Source: chapter 4, section 7: such scaling semantics cannot be assumed on another arm.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield controllers that read a scaling factor though their device has none."""
+    scaling = {device.name for device in graph.cell.devices if device.facts.speed_scaling is not None}
+    for controller in graph.cell.controllers:
+        reads = controller.behaviour == "scaled_joint_trajectory" or bool(
+            controller.parameters.get("speed_scaling.state_interface")
+        )
+        if reads and controller.device is not None and controller.device not in scaling:
+            message = f"`{controller.name}` follows a speed scaling that `{controller.device}` does not have"
+            yield found(graph, controller.path, message, "use `type: joint_trajectory` without a scaling interface")
+
+
+RULE = define("assumed-speed-scaling", Severity.ERROR, check, __doc__)

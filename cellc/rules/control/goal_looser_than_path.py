@@ -1,0 +1,48 @@
+"""A controller allows more error at the end than on the way.
+
+A joint that ends inside the goal tolerance has left the path tolerance before, so the goal is aborted for a reason
+that the looser figure hides.
+
+Example that is reported:
+
+```yaml
+control:
+  controllers:
+    arm_trajectory: {path_tolerance: 0.05 rad, goal_tolerance: 0.1 rad}
+```
+
+Example that is accepted:
+
+```yaml
+control:
+  controllers:
+    arm_trajectory: {path_tolerance: 0.2 rad, goal_tolerance: 0.1 rad}
+```
+
+Fix: swap the two, or tighten the goal tolerance.
+
+Source: joint_trajectory_controller, constraints.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield controllers whose goal tolerance exceeds the path tolerance."""
+    for controller in graph.cell.controllers:
+        goal, way = controller.goal_tolerance, controller.path_tolerance
+        if goal and way and goal > way:
+            message = f"`{controller.name}` allows {goal:g} at the goal but {way:g} on the way"
+            path = (*controller.path, "goal_tolerance")
+            yield found(graph, path, message, "swap the two, or tighten the goal tolerance")
+
+
+RULE = define("goal-looser-than-path", Severity.WARNING, check, __doc__)

@@ -1,0 +1,45 @@
+"""A cell claims more than the limits of its device.
+
+The share of a cell may only tighten. Above 100 % the planner makes trajectories that the joint cannot follow, or that
+the vendor's controller ends with a protective stop.
+
+Example that is reported:
+
+```yaml
+devices: {arm: {limits: {velocity: 150 %}}}
+```
+
+Example that is accepted:
+
+```yaml
+devices: {arm: {limits: {velocity: 50 %}}}
+```
+
+Fix: write 100 % or less.
+
+Source: chapter 4, section 7: a plugin with wrong limits remains wrong.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield shares above 100 %."""
+    for device in graph.cell.devices:
+        limits = device.spec.limits
+        shares = () if limits is None else (("velocity", limits.velocity), ("acceleration", limits.acceleration))
+        for name, share in shares:
+            if share is not None and share.si > 1.0:
+                message = f"`{device.name}` asks for {share.text} of its own {name} limit, at most 100 % are allowed"
+                yield found(graph, (*device.path, "limits", name), message, "write 100 % or less")
+
+
+RULE = define("limit-share-above-full", Severity.ERROR, check, __doc__)

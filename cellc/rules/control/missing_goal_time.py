@@ -1,0 +1,50 @@
+"""A trajectory controller has no bound on reaching its goal.
+
+With a goal time of zero the controller waits for ever for a joint that does not arrive. The action neither succeeds
+nor fails, and the task behind it waits too.
+
+Example that is reported:
+
+```yaml
+control:
+  controllers:
+    arm_trajectory: {goal_time: null}
+```
+
+Example that is accepted:
+
+```yaml
+control:
+  controllers:
+    arm_trajectory: {goal_time: 1 s}
+```
+
+Fix: state `goal_time:`.
+
+Source: joint_trajectory_controller, parameter constraints.goal_time: 0 means no limit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield trajectory controllers without the value, and with zero, which switches the check off."""
+    for controller in graph.cell.controllers:
+        if controller.behaviour not in ("joint_trajectory", "scaled_joint_trajectory"):
+            continue
+        if not controller.goal_time_s:
+            stated = "does not state" if controller.goal_time_s is None else "switches off, with zero, its"
+            path = controller.path if controller.goal_time_s is None else (*controller.path, "goal_time")
+            message = f"`{controller.name}` {stated} `goal_time`"
+            yield found(graph, path, message, "add `goal_time:`, such as `1 s`")
+
+
+RULE = define("missing-goal-time", Severity.ERROR, check, __doc__)

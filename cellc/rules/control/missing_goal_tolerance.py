@@ -1,0 +1,49 @@
+"""A trajectory controller does not check where the joints end.
+
+Without a tolerance every trajectory succeeds, wherever the arm is when its time is over.
+
+Example that is reported:
+
+```yaml
+control:
+  controllers:
+    arm_trajectory: {goal_tolerance: null}
+```
+
+Example that is accepted:
+
+```yaml
+control:
+  controllers:
+    arm_trajectory: {goal_tolerance: 0.01 rad}
+```
+
+Fix: state `goal_tolerance:`.
+
+Source: joint_trajectory_controller, parameter constraints.<joint>.goal: 0 means not checked.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield trajectory controllers without the value, and with zero, which switches the check off."""
+    for controller in graph.cell.controllers:
+        if controller.behaviour not in ("joint_trajectory", "scaled_joint_trajectory"):
+            continue
+        if not controller.goal_tolerance:
+            stated = "does not state" if controller.goal_tolerance is None else "switches off, with zero, its"
+            path = controller.path if controller.goal_tolerance is None else (*controller.path, "goal_tolerance")
+            message = f"`{controller.name}` {stated} `goal_tolerance`"
+            yield found(graph, path, message, "add `goal_tolerance:`, such as `0.01 rad`")
+
+
+RULE = define("missing-goal-tolerance", Severity.ERROR, check, __doc__)

@@ -1,0 +1,47 @@
+"""No controller publishes the joint states.
+
+Without them there is no TF of the moving links and no start state for a plan. Every node looks healthy.
+
+Example that is reported:
+
+```yaml
+control:
+  controllers:
+    joint_states: null
+```
+
+Example that is accepted:
+
+```yaml
+control:
+  controllers:
+    joint_states: {type: joint_state_broadcaster}
+```
+
+Fix: add a joint state broadcaster.
+
+Source: chapter 4, section 10: move_group consumes joint states and TF.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield managers that drive joints without an active joint state broadcaster."""
+    for manager in graph.cell.managers:
+        publishing = any(c.behaviour == "joint_state_broadcaster" and c.active for c in manager.controllers)
+        if not publishing and any(c.command_interfaces for c in manager.controllers):
+            path = (*manager.path, "controllers")
+            message = f"no controller of `{manager.name}` publishes joint states"
+            yield found(graph, path, message, "add `joint_states: {type: joint_state_broadcaster}`")
+
+
+RULE = define("missing-joint-states", Severity.ERROR, check, __doc__)

@@ -1,0 +1,49 @@
+"""A trajectory controller does not watch the joints on their way.
+
+Without a tolerance the controller goes on while a joint is blocked, and the command runs away from the arm.
+
+Example that is reported:
+
+```yaml
+control:
+  controllers:
+    arm_trajectory: {path_tolerance: null}
+```
+
+Example that is accepted:
+
+```yaml
+control:
+  controllers:
+    arm_trajectory: {path_tolerance: 0.2 rad}
+```
+
+Fix: state `path_tolerance:`.
+
+Source: joint_trajectory_controller, parameter constraints.<joint>.trajectory: 0 means not checked.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield trajectory controllers without the value, and with zero, which switches the check off."""
+    for controller in graph.cell.controllers:
+        if controller.behaviour not in ("joint_trajectory", "scaled_joint_trajectory"):
+            continue
+        if not controller.path_tolerance:
+            stated = "does not state" if controller.path_tolerance is None else "switches off, with zero, its"
+            path = controller.path if controller.path_tolerance is None else (*controller.path, "path_tolerance")
+            message = f"`{controller.name}` {stated} `path_tolerance`"
+            yield found(graph, path, message, "add `path_tolerance:`, such as `0.2 rad`")
+
+
+RULE = define("missing-path-tolerance", Severity.ERROR, check, __doc__)

@@ -1,0 +1,43 @@
+"""An arm is not told what it carries.
+
+The vendor's controller computes torques with the payload. With a wrong one the arm sinks, its collision detection
+triggers for nothing or not at all, and the brakes are loaded.
+
+Example that is reported:
+
+```yaml
+devices: {arm: {payload: null}}
+```
+
+Example that is accepted:
+
+```yaml
+devices: {arm: {payload: {mass: 1.0 kg, center_of_mass: 0 0 58 mm}}}
+```
+
+Fix: weigh the tool, and write `payload:` with its mass and centre of mass.
+
+Source: chapter 4, section 11: repeated protective stop, wrong load; gate G5: tool load.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield arms that carry devices and state no payload."""
+    for device in graph.cell.devices:
+        if device.facts.kind == "arm" and device.carries and device.spec.payload is None:
+            names = ", ".join(f"`{name}`" for name in device.carries)
+            message = f"`{device.name}` carries {names}, but its payload is not stated"
+            yield found(graph, device.path, message, "add `payload:` with mass and centre of mass at the flange")
+
+
+RULE = define("missing-payload", Severity.BLOCKER, check, __doc__)

@@ -1,0 +1,51 @@
+"""A driven joint has no velocity limit.
+
+Neither the description nor the catalogue says how fast the joint may move, so nothing can be planned in time.
+
+Example that is reported:
+
+```yaml
+control:
+  controllers:
+    arm_trajectory: {device: bare_arm}
+devices:
+  bare_arm: {model: ./bare_arm, mount: {parent: world, xyz: 0 2 0 m}}
+```
+
+Example that is accepted:
+
+```yaml
+control:
+  controllers:
+    arm_trajectory: {device: arm}
+```
+
+Fix: write `velocity` in the `<limit>` of the joint.
+
+Source: URDF specification, element limit: velocity is required.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield joints with a command interface and without a velocity limit above zero."""
+    for device in graph.cell.devices:
+        for joint in device.actuated_joints:
+            if joint.velocity is None or joint.velocity <= 0.0:
+                stated = "no velocity limit" if joint.velocity is None else f"a velocity limit of {joint.velocity:g}"
+                message = f"joint `{joint.name}` has {stated}"
+                yield found(graph, (*device.path, "model"), message, "write `velocity` in the `<limit>` of the joint")
+
+
+RULE = define(
+    "missing-velocity-limit", Severity.ERROR, check, __doc__, assumes=("missing-joint-limits", "limit-share-of-nothing")
+)

@@ -1,0 +1,65 @@
+"""A controller parameter is outside its range.
+
+The controller refuses the value when it is configured, and stays unconfigured.
+
+Example that is reported:
+
+```yaml
+control:
+  controllers:
+    arm_trajectory: {parameters: {action_monitor_rate: 0.0}}
+```
+
+Example that is accepted:
+
+```yaml
+control:
+  controllers:
+    arm_trajectory: {parameters: {action_monitor_rate: 50.0}}
+```
+
+Fix: use a value inside the range.
+
+Source: parameter declarations of the controller, in the catalogue with their source.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.catalog.controller_kind import ParameterFacts
+from cellc.catalog.load import load_controller_kind
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.graph.written_parameters import written_parameters
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+from cellc.spec.base import ParameterValue
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield numbers of the spec below or above what the declaration allows, and texts that it does not list."""
+    for written in written_parameters(graph.cell):
+        kind = load_controller_kind(written.controller.behaviour).value
+        facts = None if kind is None else kind.parameters.get(written.name)
+        reason = "" if facts is None else _refusal(facts, written.value)
+        if reason:
+            message = f"`{written.name}` of `{written.controller.name}` is `{written.value}`, {reason}"
+            yield found(graph, written.path, message, "use a value inside the range")
+
+
+def _refusal(facts: ParameterFacts, value: ParameterValue) -> str:
+    if isinstance(value, (int, float)) and not isinstance(value, bool):
+        if facts.minimum is not None and value < facts.minimum:
+            return f"at least {facts.minimum:g} is due"
+        if facts.exclusive_minimum is not None and value <= facts.exclusive_minimum:
+            return f"more than {facts.exclusive_minimum:g} is due"
+        if facts.maximum is not None and value > facts.maximum:
+            return f"at most {facts.maximum:g} is allowed"
+    if isinstance(value, str) and facts.one_of and value not in facts.one_of:
+        return "one of " + ", ".join(facts.one_of) + " is due"
+    return ""
+
+
+RULE = define("parameter-out-of-range", Severity.ERROR, check, __doc__)

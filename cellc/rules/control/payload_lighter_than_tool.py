@@ -1,0 +1,50 @@
+"""An arm is told of less than what is mounted on it.
+
+The masses of the mounted devices alone exceed the payload that the controller is told.
+
+Example that is reported:
+
+```yaml
+devices: {arm: {payload: {mass: 0.1 kg, center_of_mass: 0 0 58 mm}}}
+```
+
+Example that is accepted:
+
+```yaml
+devices: {arm: {payload: {mass: 1.0 kg, center_of_mass: 0 0 58 mm}}}
+```
+
+Fix: weigh the tool with everything that is screwed to it, cables included.
+
+Source: chapter 4, section 11: repeated protective stop, wrong load.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+_ROUNDING_KG = 0.05  # masses of descriptions are rounded, and a mounting plate may be part of either
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield arms whose payload is below the sum of masses of what they carry."""
+    for device in graph.cell.devices:
+        payload = device.spec.payload
+        if payload is None or device.facts.kind != "arm":
+            continue
+        carried = [graph.cell.device(name) for name in device.carries]
+        mass = sum(
+            link.inertial.mass for tool in carried for link in tool.description.links if link.inertial is not None
+        )
+        if mass > payload.mass.si + _ROUNDING_KG:
+            message = f"`{device.name}` is told of {payload.mass.text}, but carries {mass:.3g} kg"
+            yield found(graph, (*device.path, "payload", "mass"), message, f"write at least {mass:.3g} kg")
+
+
+RULE = define("payload-lighter-than-tool", Severity.BLOCKER, check, __doc__)

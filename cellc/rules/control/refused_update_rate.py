@@ -1,0 +1,46 @@
+"""The update rate is none that a device accepts.
+
+The driver exchanges commands at a fixed rate. A manager with another one repeats or drops commands, and the arm hums
+or stops with a communication error.
+
+Example that is reported:
+
+```yaml
+control: {update_rate: 400 Hz}
+```
+
+Example that is accepted:
+
+```yaml
+control: {update_rate: 500 Hz}
+```
+
+Fix: use a rate of the device.
+
+Source: control facts of the device in the catalogue, with their source.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield managers whose rate a device that they drive does not list."""
+    for manager in graph.cell.managers:
+        for device in (graph.cell.device(name) for name in manager.devices):
+            rates = () if device.facts.control is None else device.facts.control.update_rates
+            if rates and all(abs(rate.si - manager.update_rate_hz) > 1e-9 for rate in rates):
+                accepted = " or ".join(rate.text for rate in rates)
+                message = f"`{device.name}` is driven at {accepted}, not at {manager.update_rate_hz:g} Hz"
+                path = (*manager.path, "update_rate")
+                yield found(graph, path, message, f"write {accepted}, or give the device a manager of its own")
+
+
+RULE = define("refused-update-rate", Severity.ERROR, check, __doc__)

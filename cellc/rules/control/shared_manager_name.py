@@ -1,0 +1,53 @@
+"""Two controller managers have one name.
+
+Both would be `/controller_manager`: a spawner reaches one of them, by chance.
+
+Example that is reported:
+
+```yaml
+managers:
+  second:
+    update_rate: 500 Hz
+    controllers: {second_states: {type: joint_state_broadcaster}}
+```
+
+Example that is accepted:
+
+```yaml
+managers:
+  second:
+    update_rate: 500 Hz
+    namespace: /second
+    controllers: {second_states: {type: joint_state_broadcaster}}
+```
+
+Fix: give each manager a namespace of its own.
+
+Source: controller_manager: the node is named controller_manager in its namespace.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.cell.control import ControllerManager
+from cellc.diagnostics import Related, Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield managers whose namespace is taken."""
+    first: dict[str, ControllerManager] = {}
+    for manager in graph.cell.managers:
+        earlier = first.setdefault(manager.namespace, manager)
+        if earlier is not manager:
+            name = manager.namespace or "/"
+            message = f"manager `{manager.name}` is in namespace `{name}`, as is `{earlier.name}`"
+            related = (Related("the first is here", earlier.span),)
+            yield found(graph, manager.path, message, "give it a namespace of its own", related)
+
+
+RULE = define("shared-manager-name", Severity.ERROR, check, __doc__)

@@ -1,0 +1,53 @@
+"""A controller does not run every so many cycles of its manager.
+
+The manager counts cycles. A rate that does not divide its own makes the controller run at another rate than written,
+or unevenly.
+
+Example that is reported:
+
+```yaml
+control:
+  controllers:
+    arm_trajectory: {update_rate: 300 Hz}
+```
+
+Example that is accepted:
+
+```yaml
+control:
+  controllers:
+    arm_trajectory: {update_rate: 250 Hz}
+```
+
+Fix: use the rate of the manager divided by a whole number.
+
+Source: controller_manager, parameter update_rate of a controller.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield controllers whose rate does not divide that of their manager."""
+    for manager in graph.cell.managers:
+        for controller in manager.controllers:
+            rate = controller.update_rate_hz
+            if not rate or rate > manager.update_rate_hz:
+                continue
+            cycles = manager.update_rate_hz / rate
+            if abs(cycles - round(cycles)) > 1e-6:
+                even = manager.update_rate_hz / math.ceil(cycles)
+                message = f"`{controller.name}` would run every {cycles:.4g} cycles of its manager"
+                yield found(graph, (*controller.path, "update_rate"), message, f"write {even:g} Hz")
+
+
+RULE = define("uneven-update-rate", Severity.WARNING, check, __doc__)

@@ -1,0 +1,58 @@
+"""A controller does not have such a parameter.
+
+Unknown parameters are ignored without a word. A misspelt tolerance is then a tolerance of zero, which means none.
+
+Example that is reported:
+
+```yaml
+control:
+  controllers:
+    arm_trajectory: {parameters: {action_monitor_rat: 50.0}}
+```
+
+Example that is accepted:
+
+```yaml
+control:
+  controllers:
+    arm_trajectory: {parameters: {action_monitor_rate: 50.0}}
+```
+
+Fix: use a parameter that the controller declares in this distribution.
+
+Source: parameter declarations of the controller, in the catalogue with their source.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from cellc.catalog.load import load_controller_kind
+from cellc.diagnostics import Severity, did_you_mean
+from cellc.graph.cell_graph import CellGraph
+from cellc.graph.written_parameters import written_parameters
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield parameters of the spec that the kind of the controller does not declare for the distribution."""
+    for written in written_parameters(graph.cell):
+        kind = load_controller_kind(written.controller.behaviour).value
+        if kind is None:
+            continue
+        here = {name for name, facts in kind.parameters.items() if not facts.only or graph.cell.distro in facts.only}
+        if not any(_matches(declared, written.name) for declared in here):
+            message = f"`{written.controller.kind}` has no parameter `{written.name}` in {graph.cell.distro}"
+            yield found(graph, written.path, message, did_you_mean(written.name, here, "parameters"))
+
+
+def _matches(declared: str, name: str) -> bool:
+    # `<joint>` stands for any name, which may itself hold dots.
+    parts = (re.escape(part) for part in re.split(r"<[a-z_]+>", declared))
+    return re.fullmatch(".+".join(parts), name) is not None
+
+
+RULE = define("unknown-controller-parameter", Severity.ERROR, check, __doc__)

@@ -1,0 +1,51 @@
+"""A device scales speed, and its trajectory controller does not know.
+
+The slider or the reduced mode slows the arm while the controller's clock runs on. The following error grows until the
+tolerance aborts the goal, or the arm jumps when the slider is opened.
+
+Example that is reported:
+
+```yaml
+control:
+  controllers:
+    arm_trajectory: {type: joint_trajectory}
+```
+
+Example that is accepted:
+
+```yaml
+control:
+  controllers:
+    arm_trajectory: {type: scaled_joint_trajectory}
+```
+
+Fix: use the scaled trajectory controller of the device.
+
+Source: chapter 4, section 7: platform speed scaling can alter execution progress.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield trajectory controllers on a scaling device that do not read its factor."""
+    scaling = {device.name: device for device in graph.cell.devices if device.facts.speed_scaling is not None}
+    for controller in graph.cell.controllers:
+        if controller.behaviour != "joint_trajectory" or controller.device not in scaling:
+            continue
+        if not controller.parameters.get("speed_scaling.state_interface"):
+            message = f"`{controller.device}` scales its speed, `{controller.name}` does not follow"
+            kinds = [kind for kind in scaling[controller.device].facts.controllers if "trajectory" in kind]
+            advice = f"use `type: {kinds[0]}`" if kinds else "use a controller that reads the scaling factor"
+            yield found(graph, (*controller.path, "type"), message, advice)
+
+
+RULE = define("unscaled-trajectory", Severity.WARNING, check, __doc__)

@@ -1,0 +1,54 @@
+"""A controller parameter has another type than it is declared with.
+
+ROS distinguishes 1 from 1.0. A parameter of the wrong type ends the controller when it is configured.
+
+Example that is reported:
+
+```yaml
+control:
+  controllers:
+    arm_trajectory: {parameters: {action_monitor_rate: 50}}
+```
+
+Example that is accepted:
+
+```yaml
+control:
+  controllers:
+    arm_trajectory: {parameters: {action_monitor_rate: 50.0}}
+```
+
+Fix: write a decimal point for a double, and none for an integer.
+
+Source: parameter declarations of the controller, in the catalogue with their source.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.catalog.load import load_controller_kind
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.graph.written_parameters import written_parameters
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+_TYPES: dict[str, tuple[type, ...]] = {"bool": (bool,), "int": (int,), "double": (float,), "string": (str,)}
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield scalar parameters of the spec whose value has another type."""
+    for written in written_parameters(graph.cell):
+        kind = load_controller_kind(written.controller.behaviour).value
+        facts = None if kind is None else kind.parameters.get(written.name)
+        due = None if facts is None else facts.type
+        value = written.value
+        if due in _TYPES and type(value) not in _TYPES[due]:
+            message = f"`{written.name}` of `{written.controller.name}` is `{value}`, a {due} is due"
+            advice = f"write `{float(value)}`" if due == "double" and isinstance(value, int) else f"write a {due}"
+            yield found(graph, written.path, message, advice)
+
+
+RULE = define("wrong-parameter-type", Severity.ERROR, check, __doc__)

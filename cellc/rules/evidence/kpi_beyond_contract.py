@@ -1,0 +1,46 @@
+"""An interface promises less than a key figure demands.
+
+The target can be missed while every part keeps its contract.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /move_action: {cancel_within: 800 ms}
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /move_action: {cancel_within: 150 ms}
+```
+
+Fix: tighten the contract, or loosen the target.
+
+Source: chapter 4, manufacturing cell checkpoint: cancel latency.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Related, Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield actions whose cancel may take longer than the target."""
+    target = graph.cell.spec.kpis.cancel
+    for interface in graph.cell.interfaces if target is not None else ():
+        bound = interface.cancel_within_s
+        if target is not None and bound is not None and bound > target.si and not interface.derived:
+            message = f"`{interface.name}` may take {bound * 1e3:g} ms to cancel, the target is {target.text}"
+            related = (Related("the target is here", graph.cell.locate("kpis", "cancel")),)
+            yield found(graph, (*interface.path, "cancel_within"), message, "tighten it, or loosen the target", related)
+
+
+RULE = define("kpi-beyond-contract", Severity.ERROR, check, __doc__)

@@ -1,0 +1,41 @@
+"""A key figure has no target.
+
+A figure without a target is looked at when it is good.
+
+Example that is reported:
+
+```yaml
+kpis: {recovery_time: null}
+```
+
+Example that is accepted:
+
+```yaml
+kpis: {recovery_time: 120 s}
+```
+
+Fix: write the target.
+
+Source: chapter 4, manufacturing cell checkpoint: KPIs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield the figures without a target in one finding."""
+    missing = [name for name, target in graph.cell.spec.kpis if target is None]
+    if missing:
+        names = ", ".join(f"`{name}`" for name in missing)
+        yield found(graph, ("kpis",), f"{names} {'have' if len(missing) > 1 else 'has'} no target", "write the target")
+
+
+RULE = define("kpi-without-target", Severity.WARNING, check, __doc__)

@@ -1,0 +1,62 @@
+"""An attempt does not record a field of the checkpoint.
+
+Each of the fifteen fields separates two causes. Without the goal stamp a stale image looks like a planning failure;
+without the controller's name nobody knows who moved.
+
+Example that is reported:
+
+```yaml
+recording: {attempt_fields: [attempt_id, goal_frame, goal_stamp]}
+```
+
+Example that is accepted:
+
+```yaml
+recording: {attempt_fields: standard}
+```
+
+Fix: write `attempt_fields: standard`, or list all of them with your own.
+
+Source: chapter 4, manufacturing cell checkpoint, list of what to log.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+_DUE = (
+    "attempt_id",
+    "version_tuple",
+    "calibration_id",
+    "goal_frame",
+    "goal_stamp",
+    "joint_state_age",
+    "tf_lookup_age",
+    "plan_result",
+    "controller_name",
+    "action_goal_id",
+    "speed_scaling",
+    "safety_state",
+    "fault_code",
+    "cancel_or_result",
+    "operator_intervention",
+)
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield the missing fields in one finding."""
+    fields = graph.cell.spec.recording.attempt_fields
+    missing = [] if fields == "standard" else [field for field in _DUE if field not in fields]
+    if missing:
+        names = ", ".join(f"`{field}`" for field in missing)
+        path = ("recording", "attempt_fields")
+        yield found(graph, path, f"an attempt does not record {names}", "write `attempt_fields: standard`")
+
+
+RULE = define("removed-attempt-field", Severity.ERROR, check, __doc__)

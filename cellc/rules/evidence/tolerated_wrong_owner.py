@@ -1,0 +1,44 @@
+"""The cell tolerates commands of a wrong owner or stale state.
+
+One command of a wrong owner is one too many, and a stale sample that is used is motion without sight.
+
+Example that is reported:
+
+```yaml
+kpis: {wrong_owner_events: 3}
+```
+
+Example that is accepted:
+
+```yaml
+kpis: {wrong_owner_events: 0}
+```
+
+Fix: write 0 for wrong owners, and 100 % for the rejection of stale state.
+
+Source: chapter 4, manufacturing cell checkpoint: wrong-owner events, stale-state rejection.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield a target above zero wrong owners, and below all stale samples rejected."""
+    kpis = graph.cell.spec.kpis
+    if kpis.wrong_owner_events:
+        message = f"{kpis.wrong_owner_events} commands of a wrong owner are tolerated"
+        yield found(graph, ("kpis", "wrong_owner_events"), message, "write 0")
+    if kpis.stale_state_rejection is not None and kpis.stale_state_rejection.si < 1.0:
+        message = f"only {kpis.stale_state_rejection.text} of stale samples have to be rejected"
+        yield found(graph, ("kpis", "stale_state_rejection"), message, "write 100 %")
+
+
+RULE = define("tolerated-wrong-owner", Severity.ERROR, check, __doc__)

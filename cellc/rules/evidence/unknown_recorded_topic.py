@@ -1,0 +1,49 @@
+"""A topic is to be recorded that nobody publishes.
+
+The bag has no such channel, and it is noticed when it is needed.
+
+Example that is reported:
+
+```yaml
+recording: {topics: [/object_posee]}
+```
+
+Example that is accepted:
+
+```yaml
+recording: {topics: [/object_pose]}
+```
+
+Fix: name a topic of the cell.
+
+Source: chapter 4, checkpoint: episode, logs, configuration hash.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity, did_you_mean
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+_ALWAYS = ("/diagnostics", "/rosout", "/parameter_events", "/tf", "/tf_static", "/clock", "/joint_states")
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield recorded topics that no interface declares and no device publishes."""
+    known = {*_ALWAYS, *(interface.name for interface in graph.cell.interfaces)}
+    for device in graph.cell.devices:
+        streams = () if device.facts.camera is None else device.facts.camera.streams.values()
+        names = [topic.name for topic in device.facts.topics]
+        names += [name for stream in streams for name in (stream.topic, stream.info_topic)]
+        known |= {name.format(device=device.name, prefix=device.prefix) for name in names}
+    for index, topic in enumerate(graph.cell.spec.recording.topics):
+        if topic not in known:
+            path = ("recording", "topics", index)
+            yield found(graph, path, f"nobody publishes `{topic}`", did_you_mean(topic, known, "topics"))
+
+
+RULE = define("unknown-recorded-topic", Severity.WARNING, check, __doc__)

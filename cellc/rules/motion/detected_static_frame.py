@@ -1,0 +1,48 @@
+"""A rehearsal detects a frame that never changes.
+
+A static frame is not observed, so the step would wait for a sample that nobody sends.
+
+Example that is reported:
+
+```yaml
+rehearsals:
+  look: {steps: [detect: fixture_A]}
+```
+
+Example that is accepted:
+
+```yaml
+rehearsals:
+  look: {steps: [detect: object]}
+```
+
+Fix: remove the step, or detect the dynamic frame that is meant.
+
+Source: chapter 4, section 3: a static transform does not move during operation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.cell.frame import FrameKind
+from cellc.diagnostics import Severity, YamlPath, did_you_mean
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield steps that detect a frame which is not dynamic, once where the steps are shared."""
+    reported: set[YamlPath] = set()
+    for step in (step for rehearsal in graph.cell.rehearsals for step in rehearsal.steps):
+        frame = graph.frames.get(step.name) if step.kind == "detect" else None
+        if frame is not None and frame.kind is not FrameKind.DYNAMIC and step.path not in reported:
+            reported.add(step.path)
+            dynamic = (f.name for f in graph.cell.frames if f.kind is FrameKind.DYNAMIC)
+            message = f"`{step.name}` is static and cannot be detected"
+            yield found(graph, step.path, message, did_you_mean(step.name, dynamic, "dynamic frames"))
+
+
+RULE = define("detected-static-frame", Severity.ERROR, check, __doc__)

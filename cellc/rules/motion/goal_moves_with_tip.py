@@ -1,0 +1,54 @@
+"""A goal is fixed to the arm that shall reach it.
+
+The frame of the goal moves with the joints of the group, so the distance between tip and goal never changes.
+
+Example that is reported:
+
+```yaml
+frames:
+  pocket: {parent: arm/tool0, xyz: 0 0 100 mm, designed: true}
+motion:
+  goals: {stow: {frame: pocket}}
+```
+
+Example that is accepted:
+
+```yaml
+frames:
+  pocket: {parent: world, xyz: 400 0 900 mm, designed: true}
+motion:
+  goals: {stow: {frame: pocket}}
+```
+
+Fix: give the goal in a frame that does not hang on the arm.
+
+Source: chapter 4, section 3: parent direction.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.cell.frame import FrameKind
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield goals in a fixed frame that hangs on a link moved by the goal's own group."""
+    groups = {group.name: group for group in graph.cell.groups}
+    children = {joint.child: joint.name for device in graph.cell.devices for joint in device.description.joints}
+    for goal in graph.cell.goals:
+        frame = graph.frames.get(goal.frame)
+        if frame is None or frame.kind is FrameKind.DYNAMIC or goal.group not in groups:
+            continue
+        moved = {children[edge.name] for edge in graph.frames.chain(goal.frame) if edge.name in children}
+        if not moved.isdisjoint(groups[goal.group].joints):
+            message = f"goal `{goal.name}` is in `{goal.frame}`, which group `{goal.group}` moves itself"
+            yield found(graph, (*goal.path, "frame"), message, "give it in a frame that does not hang on the arm")
+
+
+RULE = define("goal-moves-with-tip", Severity.ERROR, check, __doc__)

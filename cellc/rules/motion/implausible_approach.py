@@ -1,0 +1,49 @@
+"""An approach is of length zero or longer than any arm.
+
+An approach of zero is none, and one of metres is mm read as m.
+
+Example that is reported:
+
+```yaml
+motion:
+  goals: {pick: {frame: object, approach: 0 0 -100 m}}
+```
+
+Example that is accepted:
+
+```yaml
+motion:
+  goals: {pick: {frame: object, approach: 0 0 -100 mm}}
+```
+
+Fix: check the unit, or leave the approach out.
+
+Source: chapter 4, section 3, acceptance gate 3: validate direction and scale.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+_LONGEST_M = 1.0
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield approaches of no length, and above 1 m."""
+    for goal in graph.cell.goals:
+        length = None if goal.approach is None else math.hypot(*goal.approach)
+        if length is not None and not 0.0 < length <= _LONGEST_M:
+            message = (
+                f"the approach of goal `{goal.name}` is {length:g} m long, more than 0 and up to {_LONGEST_M:g} m fit"
+            )
+            yield found(graph, (*goal.path, "approach"), message, "check the unit, or leave it out")
+
+
+RULE = define("implausible-approach", Severity.ERROR, check, __doc__)

@@ -1,0 +1,52 @@
+"""A named pose lies outside the joint limits.
+
+The planner refuses the pose, or the controller clamps it and the arm stands elsewhere than its name says. Degrees
+read as radians are the usual reason.
+
+Example that is reported:
+
+```yaml
+motion:
+  poses: {home: {manipulator: 0 -400 90 -90 -90 0 deg}}
+```
+
+Example that is accepted:
+
+```yaml
+motion:
+  poses: {home: {manipulator: 0 -90 90 -90 -90 0 deg}}
+```
+
+Fix: correct the value, and check its unit.
+
+Source: limits of the description, tightened by the cell.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield each joint of a pose that is below its lower or above its upper limit."""
+    joints = {joint.name: joint for device in graph.cell.devices for joint in device.joints}
+    for pose in graph.cell.poses:
+        if len(pose.joints) != len(pose.positions):
+            continue
+        for name, position in zip(pose.joints, pose.positions, strict=True):
+            joint = joints.get(name)
+            if joint is None or joint.lower is None or joint.upper is None:
+                continue
+            if not joint.lower <= position <= joint.upper:
+                allowed = f"{joint.lower:.4g} to {joint.upper:.4g}"
+                message = f"`{name}` is at {position:.4g} in pose `{pose.name}`, allowed are {allowed}"
+                yield found(graph, pose.path, message, "correct the value, and check its unit")
+
+
+RULE = define("pose-outside-limits", Severity.ERROR, check, __doc__)

@@ -1,0 +1,54 @@
+"""A rehearsal moves to an object that it has not detected.
+
+A goal in a dynamic frame needs an observation and its stamp. Without one there is no time at which to look the frame
+up.
+
+Example that is reported:
+
+```yaml
+rehearsals:
+  blind: {steps: [move: home, move: pick]}
+```
+
+Example that is accepted:
+
+```yaml
+rehearsals:
+  seeing: {steps: [move: home, detect: object, move: pick]}
+```
+
+Fix: detect the frame before the move.
+
+Source: chapter 4, section 3: store the image stamp used to form every goal.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.cell.frame import FrameKind
+from cellc.diagnostics import Severity, YamlPath
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield moves to goals in a dynamic frame before a step that detects it."""
+    goals = {goal.name: goal.frame for goal in graph.cell.goals}
+    dynamic = {frame.name for frame in graph.cell.frames if frame.kind is FrameKind.DYNAMIC}
+    reported: set[YamlPath] = set()
+    for rehearsal in graph.cell.rehearsals:
+        seen: set[str] = set()
+        for step in rehearsal.steps:
+            frame = goals.get(step.name, "") if step.kind == "move" else ""
+            if step.kind == "detect":
+                seen.add(step.name)
+            elif frame in dynamic and frame not in seen and step.path not in reported:
+                reported.add(step.path)
+                message = f"`{rehearsal.name}` moves to `{step.name}` before it detects `{frame}`"
+                yield found(graph, step.path, message, f"add the step `detect: {frame}` before it")
+
+
+RULE = define("undetected-goal", Severity.ERROR, check, __doc__)

@@ -1,0 +1,43 @@
+"""A rehearsal expects a failure that nothing provokes.
+
+Without an injected fault the run succeeds, or it fails for a reason that nobody intended.
+
+Example that is reported:
+
+```yaml
+rehearsals:
+  odd: {steps: [move: home], expect: stale_state}
+```
+
+Example that is accepted:
+
+```yaml
+rehearsals:
+  odd: {steps: [move: home, detect: object, move: pick], inject: {freeze: camera, at: 1 s}, expect: stale_state}
+```
+
+Fix: inject the fault that leads to the expected outcome.
+
+Source: chapter 4, section 2: then inject a late sample, a missing responder, and a cancelled goal.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield rehearsals that expect a failure and inject nothing."""
+    for rehearsal in graph.cell.rehearsals:
+        if rehearsal.expect != "succeeded" and not rehearsal.faults:
+            message = f"`{rehearsal.name}` expects `{rehearsal.expect}`, but nothing provokes it"
+            yield found(graph, (*rehearsal.path, "expect"), message, "add `inject:`")
+
+
+RULE = define("unprovoked-failure", Severity.WARNING, check, __doc__)

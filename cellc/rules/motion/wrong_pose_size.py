@@ -1,0 +1,47 @@
+"""A named pose has too few or too many values.
+
+Positions are bound to joints in the order of the chain. With another number every value after the gap belongs to
+another joint.
+
+Example that is reported:
+
+```yaml
+motion:
+  poses: {home: {manipulator: 0 -90 90 -90 -90 deg}}
+```
+
+Example that is accepted:
+
+```yaml
+motion:
+  poses: {home: {manipulator: 0 -90 90 -90 -90 0 deg}}
+```
+
+Fix: write one value for each joint of the group, base first.
+
+Source: order of the chain from the group's base to its tip.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield poses whose number of values is not that of the group's joints."""
+    for pose in graph.cell.poses:
+        if len(pose.joints) != len(pose.positions):
+            message = (
+                f"pose `{pose.name}` has {len(pose.positions)} values, `{pose.group}` has {len(pose.joints)} joints"
+            )
+            names = ", ".join(pose.joints)
+            yield found(graph, pose.path, message, f"write one value for each of {names}")
+
+
+RULE = define("wrong-pose-size", Severity.ERROR, check, __doc__)

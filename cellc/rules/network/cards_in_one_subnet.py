@@ -1,0 +1,47 @@
+"""Two cards of a host are in one subnet.
+
+The kernel sends by one of them whatever the socket was bound to, so images leave on the control card after all.
+
+Example that is reported:
+
+```yaml
+hosts:
+  control_pc: {nics: {bulk: {address: 192.168.56.11/24}}}
+```
+
+Example that is accepted:
+
+```yaml
+hosts:
+  control_pc: {nics: {bulk: {address: 10.10.0.10/24}}}
+```
+
+Fix: give each card a subnet of its own.
+
+Source: chapter 4, section 5: with two NICs, verify routes and source addresses.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import combinations
+
+from cellc.diagnostics import Related, Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield the second card of a host whose subnet overlaps."""
+    for first, second in combinations(graph.network.nics, 2):
+        if first.host != second.host or first.interface is None or second.interface is None:
+            continue
+        if first.interface.network.overlaps(second.interface.network):
+            message = f"`{second.full_name}` and `{first.full_name}` are both in {first.interface.network}"
+            related = (Related("the other card is here", graph.cell.locate(*first.path, "address")),)
+            yield found(graph, (*second.path, "address"), message, "give each card a subnet of its own", related)
+
+
+RULE = define("cards-in-one-subnet", Severity.ERROR, check, __doc__)

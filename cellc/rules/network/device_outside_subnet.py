@@ -1,0 +1,45 @@
+"""A device is not in the subnet of the card that it is connected to.
+
+Packets to it leave by another card or by the default route, if at all.
+
+Example that is reported:
+
+```yaml
+devices: {arm: {connection: {address: 192.168.57.101}}}
+```
+
+Example that is accepted:
+
+```yaml
+devices: {arm: {connection: {address: 192.168.56.101}}}
+```
+
+Fix: use an address of the card's subnet, or name the card that it is plugged into.
+
+Source: chapter 4, section 5, gate L1: expected NIC and subnet.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Related, Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield devices with an address outside the subnet of their card."""
+    for device in graph.network.devices:
+        nic = graph.network.nic_of(device)
+        if nic is None or nic.interface is None or device.address is None:
+            continue
+        if device.address not in nic.interface.network:
+            message = f"{device.address} of `{device.device}` is not in {nic.interface.network} of `{nic.full_name}`"
+            related = (Related("the card is here", graph.cell.locate(*nic.path, "address")),)
+            yield found(graph, (*device.path, "address"), message, "use an address of the card's subnet", related)
+
+
+RULE = define("device-outside-subnet", Severity.ERROR, check, __doc__)

@@ -1,0 +1,40 @@
+"""Nobody discovers anybody.
+
+With discovery off, nodes in two processes never meet, on one host either.
+
+Example that is reported:
+
+```yaml
+network: {discovery: "off"}
+```
+
+Example that is accepted:
+
+```yaml
+network: {discovery: localhost}
+```
+
+Fix: use `localhost` for a cell on one host.
+
+Source: ROS_AUTOMATIC_DISCOVERY_RANGE, table of reachability: OFF with any peer is never discovered.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield discovery that is off in a cell of one host or none."""
+    if graph.cell.spec.network.discovery == "off" and len(graph.cell.spec.hosts) < 2:
+        message = "discovery is off, so no two processes of the cell find each other"
+        yield found(graph, ("network", "discovery"), message, "use `localhost`")
+
+
+RULE = define("discovery-off", Severity.ERROR, check, __doc__)

@@ -1,0 +1,45 @@
+"""The pinned middleware does not know this kind of discovery.
+
+Zenoh discovers through its router and ignores the variables of DDS: the cell is not confined as the spec says.
+
+Example that is reported:
+
+```yaml
+versions: {rmw: rmw_zenoh_cpp 0.2.10}
+network: {discovery: localhost}
+```
+
+Example that is accepted:
+
+```yaml
+versions: {rmw: rmw_zenoh_cpp 0.2.10}
+network: {discovery: multicast}
+```
+
+Fix: configure the router instead, and leave `discovery` at its default.
+
+Source: rmw_zenoh: ROS_AUTOMATIC_DISCOVERY_RANGE and ROS_STATIC_PEERS are not used.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield a discovery range or peers with a middleware that ignores them."""
+    network = graph.cell.spec.network
+    if not graph.cell.spec.versions.rmw.startswith("rmw_zenoh"):
+        return
+    if network.discovery != "multicast" or network.peers:
+        field = "discovery" if network.discovery != "multicast" else "peers"
+        yield found(graph, ("network", field), f"Zenoh ignores `{field}`", "configure its router and session instead")
+
+
+RULE = define("discovery-unknown-to-rmw", Severity.ERROR, check, __doc__)

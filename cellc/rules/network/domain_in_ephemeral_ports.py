@@ -1,0 +1,43 @@
+"""The ports of the domain are those that Linux gives to anybody.
+
+A browser or an update may take a port of the domain first, and one node then does not start, once a month.
+
+Example that is reported:
+
+```yaml
+network: {domain_id: 150}
+```
+
+Example that is accepted:
+
+```yaml
+network: {domain_id: 42}
+```
+
+Fix: use 0 to 101.
+
+Source: Linux ephemeral ports 32768 to 60999 collide with domains 102 to 214.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+_FIRST, _LAST = 102, 214
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield a domain whose ports are ephemeral ones."""
+    domain = graph.cell.spec.network.domain_id
+    if _FIRST <= domain <= _LAST:
+        message = f"the ports of domain {domain} are ephemeral ports of Linux"
+        yield found(graph, ("network", "domain_id"), message, "use 0 to 101")
+
+
+RULE = define("domain-in-ephemeral-ports", Severity.WARNING, check, __doc__)

@@ -1,0 +1,47 @@
+"""Two things have one address.
+
+Packets reach whichever answered last. The link looks unstable, and commands may go to the other device.
+
+Example that is reported:
+
+```yaml
+devices: {arm: {connection: {address: 192.168.56.10}}}
+```
+
+Example that is accepted:
+
+```yaml
+devices: {arm: {connection: {address: 192.168.56.101}}}
+```
+
+Fix: give each card and each device an address of its own.
+
+Source: chapter 4, section 5, gate L1: duplicate IP is a stop condition.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from ipaddress import IPv4Address
+
+from cellc.diagnostics import Related, Severity, YamlPath
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield the second and every later bearer of an address."""
+    bearers = [(nic.interface.ip, nic.full_name, nic.path) for nic in graph.network.nics if nic.interface is not None]
+    bearers += [(d.address, d.device, d.path) for d in graph.network.devices if d.address is not None]
+    first: dict[IPv4Address, tuple[str, YamlPath]] = {}
+    for address, name, path in bearers:
+        earlier_name, earlier_path = first.setdefault(address, (name, path))
+        if earlier_path != path:
+            message = f"`{name}` and `{earlier_name}` both have address {address}"
+            related = (Related("first used here", graph.cell.locate(*earlier_path, "address")),)
+            yield found(graph, (*path, "address"), message, "give it an address of its own", related)
+
+
+RULE = define("duplicate-address", Severity.ERROR, check, __doc__)

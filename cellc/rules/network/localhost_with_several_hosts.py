@@ -1,0 +1,46 @@
+"""Discovery ends at the host, but the cell has several.
+
+Nodes on two hosts never find each other, although each sees its own half.
+
+Example that is reported:
+
+```yaml
+hosts:
+  vision_pc: {scheduling: generic, clock: {domain: ros, synchronised_by: chrony, max_offset: 1 ms}}
+network: {discovery: localhost}
+```
+
+Example that is accepted:
+
+```yaml
+hosts:
+  vision_pc: {scheduling: generic, clock: {domain: ros, synchronised_by: chrony, max_offset: 1 ms}}
+network: {discovery: multicast}
+```
+
+Fix: use `multicast`, or `unicast` with peers.
+
+Source: ROS_AUTOMATIC_DISCOVERY_RANGE, table of reachability.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield discovery that is bound to the host in a cell of several hosts."""
+    discovery, hosts = graph.cell.spec.network.discovery, graph.cell.spec.hosts
+    if discovery in ("localhost", "off") and len(hosts) > 1:
+        names = " and ".join(f"`{name}`" for name in hosts)
+        message = f"discovery is `{discovery}`, but the cell runs on {names}"
+        yield found(graph, ("network", "discovery"), message, "use `multicast`, or `unicast` with peers")
+
+
+RULE = define("localhost-with-several-hosts", Severity.ERROR, check, __doc__)

@@ -1,0 +1,48 @@
+"""An address is no IPv4 address.
+
+A name, a missing prefix length or a typing error: the card gets no address, or the driver waits for a device that
+nobody has.
+
+Example that is reported:
+
+```yaml
+hosts:
+  control_pc: {nics: {robot: {address: 192.168.56.10}}}
+```
+
+Example that is accepted:
+
+```yaml
+hosts:
+  control_pc: {nics: {robot: {address: 192.168.56.10/24}}}
+```
+
+Fix: write four numbers from 0 to 255, for a card with the prefix length, such as `192.168.56.10/24`.
+
+Source: chapter 4, section 5, gate L1: fixed IP; RFC 4632 for the prefix length.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield cards and devices whose address cannot be read."""
+    for nic in graph.network.nics:
+        if nic.interface is None:
+            message = f"`{nic.text}` of `{nic.full_name}` is no IPv4 address with a prefix length"
+            yield found(graph, (*nic.path, "address"), message, "write it such as `192.168.56.10/24`")
+    for device in graph.network.devices:
+        if device.text is not None and device.address is None:
+            message = f"`{device.text}` of `{device.device}` is no IPv4 address"
+            yield found(graph, (*device.path, "address"), message, "write it such as `192.168.56.101`")
+
+
+RULE = define("malformed-address", Severity.ERROR, check, __doc__)

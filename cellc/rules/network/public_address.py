@@ -1,0 +1,42 @@
+"""A device has an address of the public internet.
+
+A robot controller has no business there: either the address is mistyped, or the device can be reached by anybody.
+
+Example that is reported:
+
+```yaml
+devices: {arm: {connection: {nic: null, address: 8.8.8.8}}}
+hosts: {control_pc: {nics: {robot: {address: 8.8.8.10/24}}}}
+```
+
+Example that is accepted:
+
+```yaml
+devices: {arm: {connection: {nic: null, address: 192.168.56.101}}}
+```
+
+Fix: use an address of a private network.
+
+Source: RFC 1918, private address space; chapter 4, section 5: dedicated wired link.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield devices with a global address."""
+    for device in graph.network.devices:
+        if device.address is not None and device.address.is_global:
+            message = f"{device.address} of `{device.device}` is a public address"
+            yield found(graph, (*device.path, "address"), message, "use one of 10/8, 172.16/12 or 192.168/16")
+
+
+RULE = define("public-address", Severity.ERROR, check, __doc__)

@@ -1,0 +1,45 @@
+"""A robot is connected to a card that is not for control.
+
+Whatever else that card carries delays the robot's packets, and nothing in the spec forbids it.
+
+Example that is reported:
+
+```yaml
+hosts:
+  control_pc: {nics: {robot: {address: 192.168.56.10/24, carries: [ros]}}}
+```
+
+Example that is accepted:
+
+```yaml
+hosts:
+  control_pc: {nics: {robot: {address: 192.168.56.10/24, carries: [control]}}}
+```
+
+Fix: write `carries: [control]` at the card, or connect the robot to the one that has it.
+
+Source: chapter 4, section 5: use a dedicated wired link when the vendor recommends one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield arms that want a dedicated link on a card without control."""
+    dedicated = {d.name for d in graph.cell.devices if d.facts.network is not None and d.facts.network.dedicated_link}
+    for device in graph.network.devices:
+        nic = graph.network.nic_of(device)
+        if device.device in dedicated and nic is not None and "control" not in nic.carries:
+            message = f"`{device.device}` is on `{nic.full_name}`, which is not for control"
+            yield found(graph, (*device.path, "nic"), message, "write `carries: [control]` at the card")
+
+
+RULE = define("robot-off-control-card", Severity.WARNING, check, __doc__)

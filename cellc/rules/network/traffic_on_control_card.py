@@ -1,0 +1,45 @@
+"""The card of the robot carries other traffic.
+
+An image or a bag upload fills the queue of the card for milliseconds. A robot that expects a packet every 2 ms stops.
+
+Example that is reported:
+
+```yaml
+hosts:
+  control_pc: {nics: {robot: {address: 192.168.56.10/24, carries: [control, camera]}}}
+```
+
+Example that is accepted:
+
+```yaml
+hosts:
+  control_pc: {nics: {robot: {address: 192.168.56.10/24, carries: [control]}}}
+```
+
+Fix: put cameras, bags and the internet on another card.
+
+Source: chapter 4, section 5: do not mix camera streams, bag uploads, and internet downloads onto the robot-control
+NIC.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield cards that carry control and something else."""
+    for nic in graph.network.nics:
+        others = [kind for kind in nic.carries if kind != "control"]
+        if "control" in nic.carries and others:
+            message = f"`{nic.full_name}` carries control together with {', '.join(others)}"
+            yield found(graph, (*nic.path, "carries"), message, "put the other traffic on another card")
+
+
+RULE = define("traffic-on-control-card", Severity.ERROR, check, __doc__)

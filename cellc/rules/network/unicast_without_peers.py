@@ -1,0 +1,41 @@
+"""Unicast discovery has nobody to ask.
+
+Without multicast a participant finds only those that it is told of.
+
+Example that is reported:
+
+```yaml
+network: {discovery: unicast}
+```
+
+Example that is accepted:
+
+```yaml
+network: {discovery: unicast, peers: [10.10.0.11]}
+```
+
+Fix: list the peers, or use `localhost` where there is one host.
+
+Source: ROS_STATIC_PEERS; chapter 4, section 5: multicast or configured unicast discovery.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield unicast discovery of a single host without peers."""
+    network = graph.cell.spec.network
+    if network.discovery == "unicast" and not network.peers and len(graph.cell.spec.hosts) < 2:
+        message = "discovery is unicast, but there is no second host and no peer"
+        yield found(graph, ("network", "discovery"), message, "list `peers:`, or use `localhost`")
+
+
+RULE = define("unicast-without-peers", Severity.ERROR, check, __doc__)

@@ -1,0 +1,49 @@
+"""A host without real-time scheduling runs a fast controller manager.
+
+An ordinary kernel lets other work delay the loop by many milliseconds. The vendor asks for a preemptible one.
+
+Example that is reported:
+
+```yaml
+hosts: {control_pc: {scheduling: generic}}
+```
+
+Example that is accepted:
+
+```yaml
+hosts: {control_pc: {scheduling: preempt_rt}}
+```
+
+Fix: install a PREEMPT_RT or low-latency kernel, and measure the missed cycles.
+
+Source: network facts of the device in the catalogue; chapter 4, section 5: guidance, not a guarantee.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.graph.responsibilities import UNKNOWN
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield hosts that run drivers for which real time is asked, with a generic or unknown kernel."""
+    reported: set[str] = set()
+    for device in graph.cell.devices:
+        facts, link = device.facts.network, device.spec.connection
+        if facts is None or link is None or facts.realtime == "not_needed" or link.host in reported:
+            continue
+        host = graph.cell.spec.hosts.get(link.host)
+        if host is not None and host.scheduling in ("generic", UNKNOWN):
+            reported.add(link.host)
+            message = f"`{device.name}` asks for real-time scheduling, `{link.host}` has `{host.scheduling}`"
+            path = ("hosts", link.host, "scheduling")
+            yield found(graph, path, message, "install a PREEMPT_RT or low-latency kernel, and measure")
+
+
+RULE = define("unsuited-kernel", Severity.WARNING, check, __doc__)

@@ -1,0 +1,57 @@
+"""An address names the subnet itself or everybody in it.
+
+The first and the last address of a subnet belong to no host.
+
+Example that is reported:
+
+```yaml
+hosts:
+  control_pc: {nics: {robot: {address: 192.168.56.0/24}}}
+```
+
+Example that is accepted:
+
+```yaml
+hosts:
+  control_pc: {nics: {robot: {address: 192.168.56.10/24}}}
+```
+
+Fix: use an address between the two.
+
+Source: RFC 919 and RFC 922, broadcast addresses.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from ipaddress import IPv4Address
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.graph.network import Nic
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield cards and devices with the network or broadcast address of their subnet."""
+    for nic in graph.network.nics:
+        if nic.interface is not None and _reserved(nic, nic.interface.ip):
+            message = f"{nic.interface.ip} of `{nic.full_name}` is no address of a host in {nic.interface.network}"
+            yield found(graph, (*nic.path, "address"), message, "use an address inside the subnet")
+    for device in graph.network.devices:
+        card = graph.network.nic_of(device)
+        if card is not None and device.address is not None and _reserved(card, device.address):
+            message = f"{device.address} of `{device.device}` is no address of a host"
+            yield found(graph, (*device.path, "address"), message, "use an address inside the subnet")
+
+
+def _reserved(nic: Nic, address: IPv4Address) -> bool:
+    # RFC 3021: a /31 has two hosts and neither of the two addresses; a /32 has one.
+    if nic.interface is None or nic.interface.network.prefixlen >= 31:
+        return False
+    return address in (nic.interface.network.network_address, nic.interface.network.broadcast_address)
+
+
+RULE = define("unusable-address", Severity.ERROR, check, __doc__)

@@ -1,0 +1,48 @@
+"""The stop is not said to be independent of a host.
+
+If the path of the stop needs a computer of the cell, it fails together with what it should stop.
+
+Example that is reported:
+
+```yaml
+safety: {stop: {independent_of: []}}
+```
+
+Example that is accepted:
+
+```yaml
+safety: {stop: {independent_of: [control_pc]}}
+```
+
+Fix: verify that the stop works with the host switched off, and list the host.
+
+Source: chapter 4, section 1: software goal path and cell stop remain separate.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.graph.responsibilities import UNKNOWN
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield hosts that a known stop path may need."""
+    stop = graph.cell.spec.safety.stop
+    if stop.path == UNKNOWN and stop.authority == UNKNOWN:
+        return  # nothing is known yet, which is reported as such
+    needed = [host for host in graph.cell.spec.hosts if host not in stop.independent_of]
+    if needed:
+        names = " and ".join(f"`{host}`" for host in needed)
+        path = ("safety", "stop", "independent_of")
+        yield found(
+            graph, path, f"the stop is not said to be independent of {names}", "test it with the host off, then list it"
+        )
+
+
+RULE = define("dependent-stop", Severity.ERROR, check, __doc__)

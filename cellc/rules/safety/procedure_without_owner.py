@@ -1,0 +1,44 @@
+"""The recovery or the observer's place has no owner.
+
+A procedure that nobody owns is not trained, and the place at the stop button stays empty.
+
+Example that is reported:
+
+```yaml
+safety: {recovery: {observer: UNKNOWN}}
+```
+
+Example that is accepted:
+
+```yaml
+safety: {recovery: {observer: operator}}
+```
+
+Fix: name who owns the procedure and who stands at the stop.
+
+Source: chapter 4, checkpoint: are stop, recovery, and observer independent?
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield the procedures that nobody owns, in one finding."""
+    if not any(controller.command_interfaces for controller in graph.cell.controllers):
+        return
+    missing = [item for item in graph.responsibilities.of_kind("procedure") if item.open]
+    if missing:
+        names = " and ".join(item.name for item in missing)
+        message = f"nobody is named for {names}"
+        yield found(graph, missing[0].path, message, "name who owns the procedure, and who stands at the stop")
+
+
+RULE = define("procedure-without-owner", Severity.BLOCKER, check, __doc__)

@@ -1,0 +1,50 @@
+"""An event of the software is taken as evidence of a safe state.
+
+An active lifecycle node, a QoS event, a domain id or a successful launch says that processes run. None says that a
+protective stop is cleared or that nobody stands in the cell.
+
+Example that is reported:
+
+```yaml
+safety: {stop: {evidence: [lifecycle active]}}
+```
+
+Example that is accepted:
+
+```yaml
+safety: {stop: {evidence: [injected-stop result]}}
+```
+
+Fix: name the result of a test at the machine.
+
+Source: chapter 4, section 6: an active node does not mean a protective stop is cleared; section 5: domain ids are no
+safety boundary.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+_SOFTWARE = re.compile(
+    r"(?i)\b(lifecycle|qos|deadline|liveliness|lease|domain|namespace|launch(ed)?|node active|topic|heartbeat|log)\b"
+)
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield pieces of evidence that name something of the software."""
+    for index, text in enumerate(graph.cell.spec.safety.stop.evidence):
+        match = _SOFTWARE.search(text)
+        if match is not None:
+            path = ("safety", "stop", "evidence", index)
+            message = f"`{text}` says nothing about a safe state"
+            yield found(graph, path, message, "name the result of a test at the machine")
+
+
+RULE = define("software-as-safety-evidence", Severity.ERROR, check, __doc__)

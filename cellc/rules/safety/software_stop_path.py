@@ -1,0 +1,40 @@
+"""The stop runs over software.
+
+A message may be late, lost or refused. A stop has to work when everything that sends messages is dead.
+
+Example that is reported:
+
+```yaml
+safety: {stop: {path: software}}
+```
+
+Example that is accepted:
+
+```yaml
+safety: {stop: {path: hardwired}}
+```
+
+Fix: wire it, or use a safety bus.
+
+Source: chapter 4, sections 1 and 2: QoS and lifecycle are not functional safety; physical stop path is independent.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield a stop path of software."""
+    if graph.cell.spec.safety.stop.path == "software":
+        message = "the stop reaches the drives by software"
+        yield found(graph, ("safety", "stop", "path"), message, "write `hardwired` or `safety_bus`, and build it")
+
+
+RULE = define("software-stop-path", Severity.ERROR, check, __doc__)

@@ -1,0 +1,44 @@
+"""Nothing proves that the stop works.
+
+A stop that was never pressed is an assumption.
+
+Example that is reported:
+
+```yaml
+safety: {stop: {evidence: []}}
+```
+
+Example that is accepted:
+
+```yaml
+safety: {stop: {evidence: [injected-stop result]}}
+```
+
+Fix: inject a stop, keep the result, and name it under `evidence`.
+
+Source: chapter 4, checkpoint: signed SOP and injected-stop result; gate G5: untested stop path.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.graph.responsibilities import UNKNOWN
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield a stated stop without evidence."""
+    stop = graph.cell.spec.safety.stop
+    if stop.authority != UNKNOWN and not stop.evidence:
+        path = ("safety", "stop", "evidence")
+        yield found(
+            graph, path, f"nothing proves the stop of `{stop.authority}`", "name the result of an injected stop"
+        )
+
+
+RULE = define("stop-without-evidence", Severity.BLOCKER, check, __doc__)

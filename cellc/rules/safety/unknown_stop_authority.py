@@ -1,0 +1,46 @@
+"""Nobody says what stops the machine.
+
+Before anything is enabled, everybody knows what stops it and by which path. UNKNOWN keeps the real cell closed.
+
+Example that is reported:
+
+```yaml
+safety: {stop: {authority: UNKNOWN}}
+```
+
+Example that is accepted:
+
+```yaml
+safety: {stop: {authority: safety_plc}}
+```
+
+Fix: name the safety controller or relay, and the path to the drives.
+
+Source: chapter 4, section 11: the workstation does not own E-stop authority; ISO 10218-2 for the cell.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.graph.responsibilities import UNKNOWN
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield an unknown stop authority or path."""
+    stop = graph.cell.spec.safety.stop
+    if not any(controller.command_interfaces for controller in graph.cell.controllers):
+        return
+    missing = [name for name, text in (("authority", stop.authority), ("path", stop.path)) if text == UNKNOWN]
+    if missing:
+        names = " and ".join(f"`{name}`" for name in missing)
+        message = f"the stop {names} {'are' if len(missing) > 1 else 'is'} UNKNOWN"
+        yield found(graph, ("safety", "stop", missing[0]), message, "name what stops the drives, and by which path")
+
+
+RULE = define("unknown-stop-authority", Severity.BLOCKER, check, __doc__)
