@@ -1,0 +1,71 @@
+"""The command behind ``cellc mock`` and ``python -m cellc.mock``: run, report, and say how it went."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from time import perf_counter
+
+from cellc.mock.cell import MockCell, load
+from cellc.mock.errors import MockError
+from cellc.mock.record import to_json_lines
+from cellc.mock.summary import TimedResult, to_lines, to_summary_json
+
+
+def run_command(
+    folder: str, *, names: Sequence[str] = (), as_json: bool = False, records: str | None = None, seed: int = 0
+) -> int:
+    """Run rehearsals of a folder and print the results.
+
+    Args:
+        names: rehearsals to run; all where there are none.
+        as_json: print a JSON summary in place of lines for people.
+        records: file that the attempt records are written to, as JSON lines.
+        seed: of everything that is drawn.
+
+    Returns:
+        0 where every rehearsal passed, 1 where one did not, 2 where the folder or a name is unusable.
+    """
+    try:
+        cell = load(Path(folder))
+        timed = _run(cell, tuple(names) or cell.rehearsals, seed)
+        if records is not None:
+            _write(Path(records), to_json_lines(record for each in timed for record in each.result.attempts))
+    except MockError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("error: interrupted; no records were written", file=sys.stderr)
+        return 2
+    if as_json:
+        print(to_summary_json(cell.contract.configuration_id, timed, cell.notes))
+    else:
+        print("\n".join(to_lines(timed, cell.notes)))
+    return 0 if all(each.result.passed for each in timed) else 1
+
+
+def _run(cell: MockCell, names: Sequence[str], seed: int) -> list[TimedResult]:
+    on_terminal = sys.stderr.isatty()
+    timed: list[TimedResult] = []
+    for number, name in enumerate(names, start=1):
+        if on_terminal:
+            print(f"\r\x1b[Krehearsal {number} of {len(names)}: {name}", end="", file=sys.stderr, flush=True)
+        begun = perf_counter()
+        result = cell.run(name, seed=seed)
+        timed.append(TimedResult(result, perf_counter() - begun))
+    if on_terminal:
+        print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+    return timed
+
+
+def _write(path: Path, text: str) -> None:
+    """Write a file whole or not at all."""
+    part = path.with_name(f".{path.name}.part")
+    try:
+        part.write_bytes(text.encode())
+        os.replace(part, path)
+    except OSError as error:
+        part.unlink(missing_ok=True)
+        raise MockError(path.as_posix(), f"cannot be written: {error.strerror}") from None
