@@ -1,0 +1,82 @@
+"""Hold a generated robot description against the cell: two parsers, and the cell's own frames and joints."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+
+from cellc.artifact import Artifact
+from cellc.transforms import Pose
+from cellc.verify.by_pinocchio import read_by_pinocchio
+from cellc.verify.by_yourdfpy import read_by_yourdfpy
+from cellc.verify.disagreement import Disagreement
+from cellc.verify.reading import JointReading, Reading, RefusedError
+
+_LIMITS = ("lower", "upper", "velocity", "effort")
+
+# Files write 12 significant digits; ten joints down a 10 m cell that is well below a nanometre and a nanoradian.
+_TOLERANCE = 1e-8
+
+
+def check_description(artifact: Artifact, frames: Mapping[str, Pose], joints: Sequence[str]) -> Iterator[Disagreement]:
+    """Yield what does not fit.
+
+    Args:
+        artifact: a URDF.
+        frames: pose of each fixed frame and link in the root, every joint at zero: m and unit quaternions.
+        joints: names of the movable joints, mimic joints included.
+    """
+    try:
+        yourdfpy, positions = read_by_yourdfpy(artifact.text)
+        pinocchio = read_by_pinocchio(artifact.text, positions)
+    except RefusedError as error:
+        yield Disagreement("verify-urdf", artifact.path, str(error))
+        return
+    for reason in _joint_reasons(pinocchio, yourdfpy, joints):
+        yield Disagreement("verify-joints", artifact.path, reason)
+    for reason in _frame_reasons(pinocchio, yourdfpy, frames):
+        yield Disagreement("verify-frames", artifact.path, reason)
+
+
+def _joint_reasons(pinocchio: Reading, yourdfpy: Reading, joints: Sequence[str]) -> Iterator[str]:
+    for reader, reading in (("pinocchio", pinocchio), ("yourdfpy", yourdfpy)):
+        for name in sorted(set(joints) - set(reading.joints)):
+            yield f"{reader} finds no joint `{name}`"
+        for name in sorted(set(reading.joints) - set(joints)):
+            yield f"{reader} finds a joint `{name}` that the cell does not have"
+    for name in sorted(set(pinocchio.joints) & set(yourdfpy.joints)):
+        yield from _limit_reasons(name, pinocchio.joints[name], yourdfpy.joints[name])
+
+
+def _limit_reasons(name: str, pinocchio: JointReading, yourdfpy: JointReading) -> Iterator[str]:
+    for limit in _LIMITS:
+        ours, theirs = getattr(pinocchio, limit), getattr(yourdfpy, limit)
+        if not math.isclose(ours, theirs, rel_tol=_TOLERANCE, abs_tol=_TOLERANCE):
+            yield f"the {limit} limit of joint `{name}` is {ours} for pinocchio and {theirs} for yourdfpy"
+
+
+def _frame_reasons(pinocchio: Reading, yourdfpy: Reading, frames: Mapping[str, Pose]) -> Iterator[str]:
+    yield from _pose_reasons("the cell", frames, "pinocchio", pinocchio.at_zero)
+    yield from _pose_reasons("pinocchio", pinocchio.displaced, "yourdfpy", yourdfpy.displaced)
+
+
+def _pose_reasons(
+    first: str, first_poses: Mapping[str, Pose], second: str, second_poses: Mapping[str, Pose]
+) -> Iterator[str]:
+    for name in sorted(set(first_poses) ^ set(second_poses)):
+        has, lacks = (first, second) if name in first_poses else (second, first)
+        yield f"frame `{name}` of {has} does not exist for {lacks}"
+    for name in sorted(set(first_poses) & set(second_poses)):
+        metres, radians = distance(first_poses[name], second_poses[name])
+        if max(metres, radians) > _TOLERANCE:
+            yield f"frame `{name}` lies {metres:.6g} m and {radians:.6g} rad apart for {first} and {second}"
+
+
+def distance(first: Pose, second: Pose) -> tuple[float, float]:
+    """Return how far two poses of one frame are apart, in m and rad."""
+    metres = math.dist(first.position, second.position)
+    cosine = abs(sum(a * b for a, b in zip(first.quaternion, second.quaternion, strict=True)))
+    # Near zero the arc cosine loses half of the digits: take the chord, on the side of the sphere that is nearer.
+    sign = math.copysign(1.0, sum(a * b for a, b in zip(first.quaternion, second.quaternion, strict=True)))
+    chord = math.dist(first.quaternion, tuple(sign * part for part in second.quaternion))
+    return metres, 2.0 * math.acos(min(1.0, cosine)) if chord > 0.1 else 2.0 * chord

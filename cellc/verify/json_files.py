@@ -1,0 +1,71 @@
+"""Hold the generated JSON files against their published schemas, and against each other."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from jsonschema import Draft202012Validator
+from jsonschema.exceptions import best_match
+from pydantic import BaseModel
+
+from cellc.artifact import Artifact
+from cellc.contract.contract import Contract
+from cellc.contract.manifest import Manifest
+from cellc.contract.rehearsals import Rehearsals
+from cellc.spec.schema import contract_schema
+from cellc.verify.disagreement import Disagreement
+
+_MODELS: Mapping[str, type[BaseModel]] = {
+    "contract.json": Contract,
+    "manifest.json": Manifest,
+    "rehearsals.json": Rehearsals,
+}
+
+
+def check_json(artifacts: Sequence[Artifact]) -> Iterator[Disagreement]:
+    """Yield the JSON files that do not fit their schema, or name another configuration than the contract."""
+    read: dict[str, Any] = {}
+    for artifact in artifacts:
+        if not artifact.path.endswith(".json"):
+            continue
+        try:
+            read[artifact.path] = json.loads(artifact.text, parse_constant=_refuse)
+        except ValueError as error:
+            yield Disagreement("verify-json", artifact.path, f"is not JSON: {error}")
+            continue
+        yield from _check_schema(artifact.path, read[artifact.path])
+    yield from _check_configuration(read)
+    yield from _check_files(read, {artifact.path for artifact in artifacts})
+
+
+def _refuse(constant: str) -> float:
+    raise ValueError(f"{constant} is not a number of JSON")
+
+
+def _check_schema(path: str, data: object) -> Iterator[Disagreement]:
+    if path not in _MODELS:
+        return
+    error = best_match(Draft202012Validator(contract_schema(_MODELS[path])).iter_errors(data))
+    if error is not None:
+        yield Disagreement("verify-json", path, f"{error.json_path} does not fit the schema: {error.message[:200]}")
+
+
+def _check_configuration(read: Mapping[str, Any]) -> Iterator[Disagreement]:
+    named = {path: data.get("configuration_id") for path, data in read.items() if isinstance(data, dict)}
+    for path in _MODELS:
+        if path in named and "contract.json" in named and named[path] != named["contract.json"]:
+            reason = f"names configuration {named[path]}, the contract {named['contract.json']}"
+            yield Disagreement("verify-json", path, reason)
+
+
+def _check_files(read: Mapping[str, Any], made: set[str]) -> Iterator[Disagreement]:
+    contract = read.get("contract.json")
+    files = contract.get("files") if isinstance(contract, dict) else None
+    if not isinstance(files, dict):
+        return
+    parameters = files.get("parameters")
+    named = [*files.values(), *(parameters.values() if isinstance(parameters, dict) else ())]
+    for path in sorted({name for name in named if isinstance(name, str)} - made):
+        yield Disagreement("verify-json", "contract.json", f"names the file `{path}`, which is not made")
