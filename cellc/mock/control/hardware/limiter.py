@@ -15,6 +15,7 @@ import numpy as np
 from cellc.mock.control.block import Block
 from cellc.mock.control.description import JointLimits
 from cellc.mock.control.errors import UpdateError
+from cellc.mock.control.hardware.joint_states import hold_last
 from cellc.mock.control.hardware.ramp import clamp, rate_limit, step_bounds
 from cellc.mock.control.interfaces import InterfaceTable
 from cellc.mock.control.log import Log
@@ -77,16 +78,18 @@ class CommandLimiter:
 
         Args:
             column: column of the command interface.
-            value: the wanted command; NaN passes.
+            value: the wanted command.
 
         Returns:
-            The limited command.
+            The limited command; for NaN the present one, so that it has no effect.
 
         Raises:
             UpdateError: the measured position is outside the limits by more than half a degree (0.0087 rad).
         """
         entry = self._by_column.get(column)
-        if entry is None or math.isnan(value):
+        if math.isnan(value):
+            return float(self._table.command[column])
+        if entry is None:
             return value
         joint, kind = entry
         self._check_measured(joint, self._measured(joint, "position"))
@@ -195,7 +198,10 @@ class CommandLimiter:
         limits, command = joint.limits, block.command
         values = np.ascontiguousarray(command[:, column])
         if math.isnan(values.min()):
-            return 0
+            values = hold_last(values[:, None], self._table.command[column : column + 1])[:, 0]
+            command[:, column] = values
+            if math.isnan(values[0]):
+                return 0
         step, previous = limits.velocity * self._period_s, joint.previous["position"]
         limited, first = rate_limit(values, previous, step, limits.lower, limits.upper)
         if first == len(values):

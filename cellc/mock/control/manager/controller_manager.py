@@ -238,7 +238,8 @@ class ControllerManager:
         return self.now_ns
 
     def _controllers(self) -> list[Controller]:
-        return [loaded.controller for loaded in self._registry.controllers.values()]
+        configured = ("inactive", "active")
+        return [loaded.controller for loaded in self._registry.controllers.values() if loaded.state in configured]
 
     def take_events(self) -> tuple[ControlEvent, ...]:
         """Hand over what happened since the last time, in order."""

@@ -18,6 +18,8 @@ from cellc.mock.control.messages import HardwareStateResponse
 
 _STATES = ("unconfigured", "inactive", "active", "finalized")
 _LOGGER = "resource_manager"
+# The line about disabled commands is written in every cycle in reality; once is enough to be seen.
+_THROTTLE_NS = 1_000_000_000_000_000
 
 
 @dataclass(slots=True)
@@ -124,6 +126,8 @@ class HardwareSet:
         if state not in _STATES:
             return HardwareStateResponse(False, component.state)
         if component.state != state:
+            if not component.available:
+                component.last_read_ns = None
             component.state = state
             self._events.append(HardwareChanged(self._log.now_ns, name, state))
         return HardwareStateResponse(True, state)
@@ -147,6 +151,8 @@ class HardwareSet:
                 continue
             since = period_ns if component.last_read_ns is None else time_ns - component.last_read_ns
             component.last_read_ns = time_ns
+            if component.system.commands_disabled and self._log.throttle(f"disabled {component.name}", _THROTTLE_NS):
+                self._log.warn(component.name, "Command propagation is disabled - no values will be returned!")
             state = self._table.state[None, :].copy()
             component.system.read(self._table.command[None, :], state, since)
             component.system.commit(1)

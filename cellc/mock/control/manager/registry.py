@@ -153,6 +153,12 @@ class ControllerRegistry:
             f"The requested update rate of '{wanted}' Hz is not achievable with the controller manager update rate of "
             f"'{self._rate}' Hz. Setting it to the closest achievable frequency '{achievable}' Hz.",
         )
+        self._log.warn(
+            NODE_NAME,
+            f"The controller : {loaded.name} update cycles won't be triggered at a constant period : "
+            f"{1.0 / achievable:.6f} sec, as the controller's update rate : {achievable} Hz is not a perfect divisor of "
+            f"the controller manager's update rate : {self._rate} Hz!.",
+        )
         return achievable
 
     def cleanup(self, name: str) -> ServiceResponse:

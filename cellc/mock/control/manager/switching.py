@@ -205,7 +205,7 @@ class Switcher:
             controller = self._registry.controllers[name].controller
             for interface in controller.command_interfaces():
                 prefix = f"Unable to activate controller '{name}' since the command interface '{interface}'"
-                if not self._usable(interface, switch):
+                if not self._usable(interface, switch) or not self._table.has_command(interface):
                     raise self._refuse(f"{prefix} is not available.")
                 owner = self._table.claims.get(interface)
                 if owner is not None and owner not in switch.deactivate:

@@ -241,8 +241,7 @@ class JointTrajectoryController(QuietController):
         elif ended and not outside and goals.running:
             goals.succeed(now_ns)
             log.info(name, "Goal reached, success!")
-            if self._pending is None:
-                self._hold_end(motion)
+            self._hold_end(motion)
         elif ended and late:
             text = f"Aborted due to goal_time_tolerance exceeding by {late:f} seconds"
             if goals.running:

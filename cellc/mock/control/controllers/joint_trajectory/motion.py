@@ -112,14 +112,15 @@ def regular_updates(
         has_goal: whether an action goal is being executed.
         timeout_s: command timeout, 0 for none.
     """
-    ended = samples.next_reached == motion.spline.count
+    count = len(state)
+    ended = samples.next_reached[:count] == motion.spline.count
     end = first_true(ended)
     if end:
         moving = np.logical_or.reduce(motion.violated(tolerances.path, samples, state[:end], slice(0, end)), axis=1)
         first = first_true(moving)
         if first < end or end == len(ended):
             return first
-    rows = slice(end, None)
+    rows = slice(end, count)
     outside = np.logical_or.reduce(motion.violated(tolerances.goal, samples, state[end:], rows), axis=1)
     overtime = motion.overtime_s(samples)[rows]
     decided: Flags = np.zeros(len(outside), dtype=np.bool_)

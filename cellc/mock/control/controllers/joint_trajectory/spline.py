@@ -188,11 +188,16 @@ class Spline:
         return table[indices[0]] if indices[0] == indices[-1] else table[indices]
 
     def _evaluate(self, indices: Indices, into: Array, factors: tuple[float, ...], shift: int) -> Array:
+        if not self._interpolate:
+            return self._table[shift][indices] * factors[shift]
         t = into[:, None]
         value = np.zeros((len(into), self._table[0].shape[1]))
         for power in range(self._degree, shift - 1, -1):
             value *= t
             value += self._rows(power, indices) * factors[power]
+        if indices[-1] == self.count:
+            # The last point itself, whatever its derivatives are: NaN * 0 would spread.
+            value[indices == self.count] = self._table[shift][-1] * factors[shift]
         return value
 
     def positions(self, indices: Indices, into: Array) -> Array:
