@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 
 from cellc.artifact import Artifact
+from cellc.cell.device import DeviceJoint
 from cellc.transforms import Pose
 from cellc.verify.by_pinocchio import read_by_pinocchio
 from cellc.verify.by_yourdfpy import read_by_yourdfpy
@@ -18,13 +19,15 @@ _LIMITS = ("lower", "upper", "velocity", "effort")
 _TOLERANCE = 1e-8
 
 
-def check_description(artifact: Artifact, frames: Mapping[str, Pose], joints: Sequence[str]) -> Iterator[Disagreement]:
+def check_description(
+    artifact: Artifact, frames: Mapping[str, Pose], joints: Sequence[DeviceJoint]
+) -> Iterator[Disagreement]:
     """Yield what does not fit.
 
     Args:
         artifact: a URDF.
         frames: pose of each fixed frame and link in the root, every joint at zero: m and unit quaternions.
-        joints: names of the movable joints, mimic joints included.
+        joints: the movable joints of the cell, mimic joints included.
     """
     try:
         yourdfpy, positions = read_by_yourdfpy(artifact.text)
@@ -38,21 +41,22 @@ def check_description(artifact: Artifact, frames: Mapping[str, Pose], joints: Se
         yield Disagreement("verify-frames", artifact.path, reason)
 
 
-def _joint_reasons(pinocchio: Reading, yourdfpy: Reading, joints: Sequence[str]) -> Iterator[str]:
+def _joint_reasons(pinocchio: Reading, yourdfpy: Reading, joints: Sequence[DeviceJoint]) -> Iterator[str]:
+    due = {joint.name: joint for joint in joints}
     for reader, reading in (("pinocchio", pinocchio), ("yourdfpy", yourdfpy)):
-        for name in sorted(set(joints) - set(reading.joints)):
+        for name in sorted(set(due) - set(reading.joints)):
             yield f"{reader} finds no joint `{name}`"
-        for name in sorted(set(reading.joints) - set(joints)):
+        for name in sorted(set(reading.joints) - set(due)):
             yield f"{reader} finds a joint `{name}` that the cell does not have"
-    for name in sorted(set(pinocchio.joints) & set(yourdfpy.joints)):
-        yield from _limit_reasons(name, pinocchio.joints[name], yourdfpy.joints[name])
+        for name in sorted(set(reading.joints) & set(due)):
+            yield from _limit_reasons(reader, reading.joints[name], due[name])
 
 
-def _limit_reasons(name: str, pinocchio: JointReading, yourdfpy: JointReading) -> Iterator[str]:
+def _limit_reasons(reader: str, read: JointReading, due: DeviceJoint) -> Iterator[str]:
     for limit in _LIMITS:
-        ours, theirs = getattr(pinocchio, limit), getattr(yourdfpy, limit)
-        if not math.isclose(ours, theirs, rel_tol=_TOLERANCE, abs_tol=_TOLERANCE):
-            yield f"the {limit} limit of joint `{name}` is {ours} for pinocchio and {theirs} for yourdfpy"
+        ours, theirs = getattr(due, limit), getattr(read, limit)
+        if ours is not None and not math.isclose(ours, theirs, rel_tol=_TOLERANCE, abs_tol=_TOLERANCE):
+            yield f"the {limit} limit of joint `{due.name}` is {ours} in the cell and {theirs} for {reader}"
 
 
 def _frame_reasons(pinocchio: Reading, yourdfpy: Reading, frames: Mapping[str, Pose]) -> Iterator[str]:

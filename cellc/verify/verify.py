@@ -30,7 +30,7 @@ def _disagreements(artifacts: Sequence[Artifact], graph: CellGraph) -> Iterator[
     yield from malformed
     yield from check_json(artifacts)
     frames = cell_poses(graph.frames)
-    joints = [joint.name for device in graph.cell.devices for joint in device.joints]
+    joints = [joint for device in graph.cell.devices for joint in device.joints]
     broken = {disagreement.path for disagreement in malformed}
     for artifact in artifacts:
         if artifact.path.endswith(".urdf") and artifact.path not in broken:

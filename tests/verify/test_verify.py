@@ -1,0 +1,147 @@
+"""What foreign parsers read from a build is what the cell means, and every fault put into a build is found."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+import subprocess
+import sys
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from cellc.artifact import Artifact
+from cellc.graph.cell_graph import CellGraph
+from cellc.pipeline import check, compile_cell
+from cellc.transforms import from_xyz_rpy, identity
+from cellc.verify.by_pinocchio import read_by_pinocchio
+from cellc.verify.by_yourdfpy import read_by_yourdfpy
+from cellc.verify.cell_poses import cell_poses
+from cellc.verify.codes import CODES
+from cellc.verify.description import distance
+from cellc.verify.verify import verify
+
+ROOT = Path(__file__).resolve().parents[2]
+CELLS = sorted(path.parent.name for path in ROOT.glob("cells/*/cell.yaml"))
+
+
+@cache
+def built(cell: str) -> tuple[tuple[Artifact, ...], CellGraph]:
+    """Return the artifacts of a cell with its graph."""
+    checked = check(ROOT / "cells" / cell / "cell.yaml")
+    artifacts = compile_cell(checked).value
+    assert artifacts is not None
+    assert checked.graph is not None
+    return artifacts, checked.graph
+
+
+def found_in(edits: dict[str, tuple[str, str]], cell: str = "ur5e_pick") -> set[tuple[str, str]]:
+    """Return code and artifact of what is found once a pattern was replaced in artifacts whose name ends so."""
+    artifacts, graph = built(cell)
+    edited = []
+    for artifact in artifacts:
+        pattern, new = next((edits[end] for end in edits if artifact.path.endswith(end)), ("", ""))
+        text = re.sub(pattern, new, artifact.text, count=1) if pattern else artifact.text
+        assert not pattern or text != artifact.text
+        edited.append(replace(artifact, text=text))
+    diagnostics = verify(edited, graph)
+    assert all(d.span == graph.cell.document.locate(("cell",)) for d in diagnostics)
+    assert all("bug of cellc" in d.message and "\n" not in d.message for d in diagnostics)
+    return {(d.code, d.message.split("`")[1]) for d in diagnostics}
+
+
+@pytest.mark.parametrize("cell", CELLS)
+def test_cells_of_the_repository_have_nothing_to_report(cell: str) -> None:
+    assert verify(*built(cell)) == ()
+
+
+MOCK = "urdf/ur5e_pick.mock.urdf"
+FAULTS = [
+    ({".mock.urdf": ('xyz="0 0 0.8"', 'xyz="0 0 0.801"')}, "verify-frames", MOCK),
+    ({".mock.urdf": ('rpy="[^"]*"/>\n    <parent link="arm_tool0"', 'rpy="0 0 0"/>\n    <parent link="arm_tool0"')},
+     "verify-frames", MOCK),
+    ({".mock.urdf": ('<link name="tcp"/>', '<link name="tpc"/>')}, "verify-urdf", MOCK),
+    ({".mock.urdf": ('<joint name="arm_elbow_joint" type="revolute">', '<joint name="arm_elbow_joint" type="fixed">')},
+     "verify-joints", MOCK),
+    ({".mock.urdf": ('velocity="', 'velocity="1')}, "verify-joints", MOCK),
+    ({".mock.urdf": (' lower="', ' lower="-1" was="')}, "verify-joints", MOCK),
+    ({".mock.urdf": ("</robot>", "")}, "verify-text", MOCK),
+    ({"config/controllers.yaml": ("update_rate: ", "update_rate: [")}, "verify-text", "config/controllers.yaml"),
+    ({"package.xml": ("<name>", "<nam>")}, "verify-text", "package.xml"),
+    ({"contract.json": ('"root_frame": "world"', '"root_frame": 5')}, "verify-json", "contract.json"),
+    ({"contract.json": ('"root_frame": "world",', '"root_frame": "world", "x": 1,')}, "verify-json", "contract.json"),
+    ({"contract.json": (r'"update_rate_hz": [\d.]+', '"update_rate_hz": NaN')}, "verify-json", "contract.json"),
+    ({"contract.json": (MOCK, "urdf/none.urdf")}, "verify-json", "contract.json"),
+    ({"rehearsals.json": ('"cfg-', '"cfg-0')}, "verify-json", "rehearsals.json"),
+    ({"manifest.json": ('"format": 1', '"format": 2')}, "verify-json", "manifest.json"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("edits", "code", "path"), FAULTS)
+def test_fault_in_an_artifact_is_found(edits: dict[str, tuple[str, str]], code: str, path: str) -> None:
+    assert found_in(edits) == {(code, path)}
+
+
+def test_turned_axis_is_found_though_poses_at_zero_agree() -> None:
+    # At zero an axis does not show; both parsers must be asked away from it, and the cell's joints say nothing of axes.
+    artifacts, _ = built("ur5e_pick")
+    urdf = next(artifact.text for artifact in artifacts if artifact.path == MOCK)
+    ours, positions = read_by_yourdfpy(urdf)
+    turned = re.sub(r'(<joint name="arm_elbow_joint".*?<axis xyz=")0 0 1"', r'\g<1>0 0 -1"', urdf, flags=re.DOTALL)
+    assert turned != urdf
+    theirs = read_by_pinocchio(turned, positions)
+    assert distance(ours.at_zero["tcp"], theirs.at_zero["tcp"])[0] < 1e-9
+    assert distance(ours.displaced["tcp"], theirs.displaced["tcp"])[0] > 0.01
+
+
+def test_pose_of_the_cell_is_the_one_calculated_by_hand() -> None:
+    # UR5e at zero, DH parameters of its maker in m: a2 -0.425, a3 -0.3922, d1 0.1625, d4 0.1333, d5 0.0997, d6 0.0996.
+    # The base_link of the description is turned half round z against the base of the table, hence the signs; the arm
+    # stands 0.8 m high.
+    _, graph = built("ur5e_pick")
+    x, y, z = cell_poses(graph.frames)["arm_tool0"].position
+    assert (x, y, z) == pytest.approx((0.425 + 0.3922, 0.1333 + 0.0996, 0.8 + 0.1625 - 0.0997), abs=1e-9)
+
+
+def test_frame_below_a_dynamic_edge_has_no_pose() -> None:
+    _, graph = built("ur5e_pick")
+    assert "object" not in cell_poses(graph.frames)
+
+
+@pytest.mark.parametrize("angle", [0.0, 1e-9, 1e-4, 0.3, 3.0])
+def test_distance_of_two_poses_is_exact_for_small_and_large_angles(angle: float) -> None:
+    turned = from_xyz_rpy((3.0, 4.0, 0.0), (0.0, angle, 0.0))
+    metres, radians = distance(identity(), turned)
+    assert metres == pytest.approx(5.0)
+    assert radians == pytest.approx(angle, rel=1e-6, abs=1e-15)
+
+
+def test_quaternion_and_its_negative_are_no_distance_apart() -> None:
+    turned = from_xyz_rpy((0.0, 0.0, 0.0), (0.1, 0.2, math.pi))
+    x, y, z, w = turned.quaternion
+    assert distance(turned, replace(turned, quaternion=(-x, -y, -z, -w)))[1] < 1e-12
+
+
+def test_every_code_is_found_by_a_fault_here() -> None:
+    assert {page.code for page in CODES} == {code for _, code, _ in FAULTS}
+
+
+def test_check_of_a_cell_does_not_import_foreign_parsers() -> None:
+    program = (
+        "import sys, json\nfrom cellc.pipeline import check\n"
+        f"check({str(ROOT / 'cells/minimal/cell.yaml')!r})\n"
+        "print(json.dumps([name for name in ('pinocchio', 'yourdfpy', 'scipy', 'jsonschema') if name in sys.modules]))"
+    )
+    run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True, cwd=ROOT)
+    assert json.loads(run.stdout) == []
+
+
+def test_scipy_can_be_imported_after_a_verification() -> None:
+    program = (
+        "import sys\nfrom cellc.verify.lean_import import import_yourdfpy\nimport_yourdfpy()\n"
+        "assert 'scipy' not in sys.modules\nimport scipy.spatial"
+    )
+    subprocess.run([sys.executable, "-c", program], check=True, cwd=ROOT)
