@@ -6,18 +6,21 @@ from collections.abc import Callable, Iterator
 
 from cellc.artifact import Artifact
 from cellc.emit import (
+    audit,
     cmake,
     controllers,
     frames,
     joint_limits,
     node_parameters,
     package_xml,
+    recording,
     rehearsals,
     responsibility_graph,
     srdf,
     urdf,
 )
 from cellc.emit.contract import contract
+from cellc.emit.gates import gates
 from cellc.emit.launch import launch
 from cellc.emit.moveit import moveit
 from cellc.emit.readme import readme
@@ -38,7 +41,10 @@ EMITTERS: tuple[Callable[[CellGraph, Header], Iterator[Artifact]], ...] = (
     launch.emit,
     contract.emit,
     rehearsals.emit,
+    recording.emit,
     responsibility_graph.emit,
+    gates.emit,
+    audit.emit,
     readme.emit,
 )
 """Every emitter; a new one is one file and one line here."""

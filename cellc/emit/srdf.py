@@ -1,7 +1,8 @@
 """``config/moveit/<cell>.srdf``: groups, end effectors, named poses, and links that may touch.
 
 SRDF as srdfdom reads it; move_group takes it as ``robot_description_semantic``. Pairs without a check are those that
-meet in a joint or never move against each other. Left out: virtual joints, because the description is rooted in the world.
+meet in a joint or never move against each other. Left out: virtual joints, because the description is rooted in the
+world.
 """
 
 from __future__ import annotations

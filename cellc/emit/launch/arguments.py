@@ -17,7 +17,7 @@ def target_argument() -> Element:
 
 def gate_argument() -> Element:
     """Return the argument that a person has to give before real hardware is reached; it has no default."""
-    text = "Stated by the person who releases the real target: gates G0 to G4 have their evidence, drives are disabled."
+    text = "Stated by the person who releases the real target: gates G0 to G2 have their evidence, drives are disabled."
     return _argument("confirm_real", None, text, CONFIRMATION)
 
 

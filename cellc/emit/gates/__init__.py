@@ -1,0 +1,1 @@
+"""The gates of bring-up as checklists, part by part."""
