@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel, ConfigDict, Field
 
 
 class ContractModel(BaseModel):
@@ -14,5 +14,5 @@ class ContractModel(BaseModel):
 class ContractPose(ContractModel):
     """A rigid transform: metres and a unit quaternion x, y, z, w."""
 
-    xyz: tuple[float, float, float]
-    quaternion: tuple[float, float, float, float]
+    xyz: tuple[float, float, float] = Field(description="Position, m.")
+    quaternion: tuple[float, float, float, float] = Field(description="Unit quaternion x, y, z, w.")

@@ -16,223 +16,225 @@ from cellc.contract.base import ContractModel, ContractPose
 class ContractFiles(ContractModel):
     """Paths inside the generated folder, with forward slashes."""
 
-    urdf_mock: str
-    urdf_real: str
+    urdf_mock: str = Field(description="Robot description for the mock.")
+    urdf_real: str = Field(description="Robot description for the real cell.")
     parameters: dict[str, str] = Field(description="Parameter file of each controller manager, by manager.")
-    rehearsals: str
+    rehearsals: str = Field(description="What the mock executes.")
 
 
 class ContractCalibration(ContractModel):
     """A measurement that transforms rest on."""
 
-    revision: int
-    owner: str
+    revision: int = Field(description="Counts up with every measurement.")
+    owner: str = Field(description="Who answers for it.")
 
 
 class ContractFrame(ContractModel):
     """One TF frame; the pose is in ``parent``, absent for dynamic frames and for links that move with a joint."""
 
-    parent: str
-    authority: str
-    kind: Literal["world", "link", "mount", "fixed", "scene", "dynamic"]
-    pose: ContractPose | None
-    calibration: str | None
-    rate_hz: float | None
-    buffer_s: float | None
-    simulated_parent: str | None = None
-    simulated_pose: ContractPose | None = None
+    parent: str = Field(description="Parent frame; empty for the root.")
+    authority: str = Field(description="Who publishes the edge.")
+    kind: Literal["world", "link", "mount", "fixed", "scene", "dynamic"] = Field(
+        description="Where the frame comes from."
+    )
+    pose: ContractPose | None = Field(description="Pose in the parent.")
+    calibration: str | None = Field(description="Calibration that measured it.")
+    rate_hz: float | None = Field(description="Rate of a dynamic frame.")
+    buffer_s: float | None = Field(description="History that consumers keep.")
+    simulated_parent: str | None = Field(None, description="Frame in which the mock puts what a dynamic frame follows.")
+    simulated_pose: ContractPose | None = Field(None, description="Pose there.")
 
 
 class ContractQos(ContractModel):
     """A resolved profile; null durations are infinite."""
 
-    reliability: Literal["reliable", "best_effort"]
-    durability: Literal["volatile", "transient_local"]
-    history: Literal["keep_last", "keep_all"]
-    depth: int
-    deadline_s: float | None
-    lifespan_s: float | None
-    liveliness: Literal["automatic", "manual_by_topic"]
-    lease_duration_s: float | None
+    reliability: Literal["reliable", "best_effort"] = Field(description="Every sample, or what arrives.")
+    durability: Literal["volatile", "transient_local"] = Field(description="Whether a late joiner gets history.")
+    history: Literal["keep_last", "keep_all"] = Field(description="What is queued.")
+    depth: int = Field(description="Queue length of keep_last.")
+    deadline_s: float | None = Field(description="Longest time between samples.")
+    lifespan_s: float | None = Field(description="Age at which a sample is dropped.")
+    liveliness: Literal["automatic", "manual_by_topic"] = Field(description="Who asserts that the publisher lives.")
+    lease_duration_s: float | None = Field(description="Bound of the assertion.")
 
 
 class ContractEndpoint(ContractModel):
     """One end of an interface."""
 
-    node: str
-    qos: ContractQos
+    node: str = Field(description="Full name of the node.")
+    qos: ContractQos = Field(description="Its profile.")
 
 
 class ContractInterface(ContractModel):
     """A topic, service or action with what its users may rely on."""
 
-    kind: Literal["topic", "service", "action"]
-    type: str
-    sources: tuple[ContractEndpoint, ...]
-    sinks: tuple[ContractEndpoint, ...]
-    frame: str | None
-    unit: str | None
-    time_source: str | None
-    owner: str | None
-    wants: str | None
-    rate_hz: float | None
-    max_age_s: float | None
-    transport_s: float | None
-    on_stale: str | None
-    timeout_s: float | None
-    on_timeout: str | None
-    on_error: str | None
-    cancel_within_s: float | None
+    kind: Literal["topic", "service", "action"] = Field(description="Kind of exchange.")
+    type: str = Field(description="ROS type.")
+    sources: tuple[ContractEndpoint, ...] = Field(description="Publishers, or the server.")
+    sinks: tuple[ContractEndpoint, ...] = Field(description="Subscribers, or the clients.")
+    frame: str | None = Field(description="Frame of the payload.")
+    unit: str | None = Field(description="Unit of the payload.")
+    time_source: str | None = Field(description="Clock of the stamps.")
+    owner: str | None = Field(description="Who answers for it.")
+    wants: str | None = Field(description="What the consumer needs: newest or every_sample.")
+    rate_hz: float | None = Field(description="Publishing rate.")
+    max_age_s: float | None = Field(description="Oldest sample that may be used.")
+    transport_s: float | None = Field(description="Budget from publishing to use.")
+    on_stale: str | None = Field(description="What happens on an older sample.")
+    timeout_s: float | None = Field(description="Bound of a response or a whole goal.")
+    on_timeout: str | None = Field(description="What the client does then.")
+    on_error: str | None = Field(description="How an error is told.")
+    cancel_within_s: float | None = Field(description="Bound from cancel to hold.")
 
 
 class ContractController(ContractModel):
     """A controller, what it claims, and who may command it."""
 
-    plugin: str
-    behaviour: str
-    device: str | None
-    joints: tuple[str, ...]
-    command_interfaces: tuple[str, ...]
-    state_interfaces: tuple[str, ...]
-    active: bool
-    client: str | None
-    action: str | None
-    action_type: str | None
-    on_violation: str
+    plugin: str = Field(description="Type as the controller manager loads it.")
+    behaviour: str = Field(description="What the type does, in the mock's terms.")
+    device: str | None = Field(description="Device whose joints it drives.")
+    joints: tuple[str, ...] = Field(description="Joints in the controller's order.")
+    command_interfaces: tuple[str, ...] = Field(description="Interfaces it claims, as `joint/interface`.")
+    state_interfaces: tuple[str, ...] = Field(description="Interfaces it reads, as `joint/interface`.")
+    active: bool = Field(description="Active after start-up.")
+    client: str | None = Field(description="Full name of the one node that may command it.")
+    action: str | None = Field(description="Full name of its action.")
+    action_type: str | None = Field(description="ROS type of its action.")
+    on_violation: str = Field(description="What happens on a tolerance violation.")
 
 
 class ContractSwitch(ContractModel):
     """A declared controller switch."""
 
-    activate: tuple[str, ...]
-    deactivate: tuple[str, ...]
+    activate: tuple[str, ...] = Field(description="Controllers to activate.")
+    deactivate: tuple[str, ...] = Field(description="Controllers to deactivate first.")
 
 
 class ContractManager(ContractModel):
     """A controller manager."""
 
-    namespace: str
-    update_rate_hz: float
-    controllers: dict[str, ContractController]
-    switches: dict[str, ContractSwitch]
+    namespace: str = Field(description="Namespace of the manager.")
+    update_rate_hz: float = Field(description="Rate of read, update, write.")
+    controllers: dict[str, ContractController] = Field(description="Controllers by name.")
+    switches: dict[str, ContractSwitch] = Field(description="Declared switches by name.")
 
 
 class ContractGripper(ContractModel):
     """A gripper in its joint's units: rad or m."""
 
-    joint: str
-    controller: str | None
-    open: float
-    closed: float
-    max_effort: float
+    joint: str = Field(description="Joint that is commanded.")
+    controller: str | None = Field(description="Controller that moves it.")
+    open: float = Field(description="Position when open.")
+    closed: float = Field(description="Position when closed on nothing.")
+    max_effort: float = Field(description="Largest effort, N or Nm.")
     held_object_position: float | None = Field(None, description="Joint position at which a grasped object stops it.")
 
 
 class ContractCamera(ContractModel):
     """The stream that perception uses."""
 
-    topic: str
-    frame: str
-    rate_hz: float
-    exposure_s: float
-    clock: str
+    topic: str = Field(description="Full name of the image topic.")
+    frame: str = Field(description="Optical frame of the images.")
+    rate_hz: float = Field(description="Frames a second.")
+    exposure_s: float = Field(description="Exposure time.")
+    clock: str = Field(description="Clock domain of the stamps.")
 
 
 class ContractDevice(ContractModel):
     """A device as the mock needs it."""
 
-    model: str
-    kind: str
-    prefix: str
-    root_link: str
-    architecture: str
-    hardware_component: str | None
-    speed_scaling_interface: str | None
-    gripper: ContractGripper | None
-    camera: ContractCamera | None
+    model: str = Field(description="Catalogue entry.")
+    kind: str = Field(description="Kind of device.")
+    prefix: str = Field(description="Put before its joint and link names.")
+    root_link: str = Field(description="Link that is mounted.")
+    architecture: str = Field(description="Who owns the command path.")
+    hardware_component: str | None = Field(description="Name of its ros2_control component.")
+    speed_scaling_interface: str | None = Field(description="State interface of its speed scaling.")
+    gripper: ContractGripper | None = Field(description="What a gripper adds.")
+    camera: ContractCamera | None = Field(description="What a camera adds.")
 
 
 class ContractJointLimits(ContractModel):
     """Limits of the cell for one joint; rad or m."""
 
-    lower: float | None
-    upper: float | None
-    velocity: float
-    acceleration: float
-    jerk: float
+    lower: float | None = Field(description="Lower position; null without bound.")
+    upper: float | None = Field(description="Upper position; null without bound.")
+    velocity: float = Field(description="Largest speed.")
+    acceleration: float = Field(description="Largest acceleration.")
+    jerk: float = Field(description="Largest jerk.")
 
 
 class ContractGroup(ContractModel):
     """A planning group."""
 
-    base_link: str
-    tip_frame: str
-    joints: tuple[str, ...]
-    controller: str | None
+    base_link: str = Field(description="First link of the chain.")
+    tip_frame: str = Field(description="Frame that goals place.")
+    joints: tuple[str, ...] = Field(description="Joints in chain order.")
+    controller: str | None = Field(description="Controller that executes its trajectories.")
 
 
 class ContractPoseTarget(ContractModel):
     """A named pose: joint positions of a group in the group's order."""
 
-    group: str
-    positions: tuple[float, ...]
+    group: str = Field(description="Group that moves.")
+    positions: tuple[float, ...] = Field(description="Joint positions, rad or m.")
 
 
 class ContractGoal(ContractModel):
     """A Cartesian goal of a group's tip in a frame; the approach is in the tip's own axes, m."""
 
-    group: str
-    frame: str
-    pose: ContractPose
-    approach: tuple[float, float, float] | None
-    transform_at: Literal["observation", "latest"]
+    group: str = Field(description="Group that moves.")
+    frame: str = Field(description="Frame that the goal is given in.")
+    pose: ContractPose = Field(description="Tip in that frame.")
+    approach: tuple[float, float, float] | None = Field(description="Offset of the pose before, in the tip's axes, m.")
+    transform_at: Literal["observation", "latest"] = Field(description="Stamp that transforms are looked up at.")
 
 
 class ContractSafety(ContractModel):
     """The boundary as declared."""
 
-    stop_authority: str
-    stop_path: str
-    recovery_states: tuple[str, ...]
-    acknowledge: str
-    on_reconnect: str
+    stop_authority: str = Field(description="What has the authority to stop.")
+    stop_path: str = Field(description="How the stop reaches the drives.")
+    recovery_states: tuple[str, ...] = Field(description="States that need recovery.")
+    acknowledge: str = Field(description="Who acknowledges before motion goes on.")
+    on_reconnect: str = Field(description="What becomes of an old goal.")
 
 
 class ContractKpis(ContractModel):
     """Targets; null where none was set."""
 
-    plan_to_execute_s: float | None
-    cancel_s: float | None
-    missed_cycles: int | None
-    stale_state_rejection: float | None
-    protective_stops: int | None
-    recovery_time_s: float | None
-    wrong_owner_events: int | None
+    plan_to_execute_s: float | None = Field(description="Longest time from plan to execution.")
+    cancel_s: float | None = Field(description="Longest time from cancel to hold.")
+    missed_cycles: int | None = Field(description="Missed cycles allowed in a run.")
+    stale_state_rejection: float | None = Field(description="Share of stale samples rejected, 0 to 1.")
+    protective_stops: int | None = Field(description="Protective stops allowed in a shift.")
+    recovery_time_s: float | None = Field(description="Longest time from stop to ready.")
+    wrong_owner_events: int | None = Field(description="Commands of a wrong owner allowed.")
 
 
 class Contract(ContractModel):
     """The whole contract of one cell."""
 
-    format: Literal[1]
-    cell: str
-    summary: str
-    configuration_id: str
-    distro: str
-    version_tuple: dict[str, str]
-    files: ContractFiles
-    root_frame: str
-    calibrations: dict[str, ContractCalibration]
-    frames: dict[str, ContractFrame]
-    interfaces: dict[str, ContractInterface]
-    managers: dict[str, ContractManager]
-    plugin_behaviours: dict[str, str]
-    devices: dict[str, ContractDevice]
-    joint_limits: dict[str, ContractJointLimits]
-    groups: dict[str, ContractGroup]
-    poses: dict[str, tuple[ContractPoseTarget, ...]]
-    goals: dict[str, ContractGoal]
-    responsibilities: dict[str, str]
-    approvals: dict[str, str]
-    safety: ContractSafety
-    kpis: ContractKpis
-    attempt_fields: tuple[str, ...]
+    format: Literal[1] = Field(description="Version of this format.")
+    cell: str = Field(description="Name of the cell and its package.")
+    summary: str = Field(description="What the cell does.")
+    configuration_id: str = Field(description="Id over calibrations, TF publishers and URDF.")
+    distro: str = Field(description="ROS 2 distribution.")
+    version_tuple: dict[str, str] = Field(description="Pinned versions by part.")
+    files: ContractFiles = Field(description="Files beside this one.")
+    root_frame: str = Field(description="Root of the frame tree.")
+    calibrations: dict[str, ContractCalibration] = Field(description="Calibrations by id.")
+    frames: dict[str, ContractFrame] = Field(description="Frames by name.")
+    interfaces: dict[str, ContractInterface] = Field(description="Interfaces by full ROS name.")
+    managers: dict[str, ContractManager] = Field(description="Controller managers by name.")
+    plugin_behaviours: dict[str, str] = Field(description="Behaviour of each controller plugin.")
+    devices: dict[str, ContractDevice] = Field(description="Devices by name.")
+    joint_limits: dict[str, ContractJointLimits] = Field(description="Limits by joint.")
+    groups: dict[str, ContractGroup] = Field(description="Planning groups by name.")
+    poses: dict[str, tuple[ContractPoseTarget, ...]] = Field(description="Named poses.")
+    goals: dict[str, ContractGoal] = Field(description="Cartesian goals by name.")
+    responsibilities: dict[str, str] = Field(description="Owner of each responsibility.")
+    approvals: dict[str, str] = Field(description="Owner of each approval area.")
+    safety: ContractSafety = Field(description="Safety boundary.")
+    kpis: ContractKpis = Field(description="Target figures.")
+    attempt_fields: tuple[str, ...] = Field(description="What every attempt records.")

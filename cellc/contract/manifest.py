@@ -20,10 +20,10 @@ class ConfigurationInputs(ContractModel):
 class Manifest(ContractModel):
     """Version tuple, hash of every generated file, and the configuration id."""
 
-    format: Literal[1]
-    cell: str
-    cellc_version: str
-    configuration_id: str
-    configuration_inputs: ConfigurationInputs
-    version_tuple: dict[str, str]
+    format: Literal[1] = Field(description="Version of this format.")
+    cell: str = Field(description="Name of the cell.")
+    cellc_version: str = Field(description="Release of cellc that made the folder.")
+    configuration_id: str = Field(description="Id over the configuration inputs.")
+    configuration_inputs: ConfigurationInputs = Field(description="What the id is taken over.")
+    version_tuple: dict[str, str] = Field(description="Pinned versions by part.")
     files: dict[str, str] = Field(description="SHA-256 of every generated file but this one, by path.")

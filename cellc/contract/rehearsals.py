@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Literal
 
+from pydantic import Field
+
 from cellc.contract.base import ContractModel
 
 OutcomeName = Literal[
@@ -23,10 +25,10 @@ OutcomeName = Literal[
 class StepEntry(ContractModel):
     """One step; ``target`` is a pose, goal, frame or gripper device."""
 
-    kind: Literal["move", "detect", "grip", "wait"]
-    target: str
-    command: Literal["open", "close"] | None = None
-    duration_s: float | None = None
+    kind: Literal["move", "detect", "grip", "wait"] = Field(description="What the step does.")
+    target: str = Field(description="Pose, goal, frame or gripper device.")
+    command: Literal["open", "close"] | None = Field(None, description="What the gripper does.")
+    duration_s: float | None = Field(None, description="How long a wait lasts.")
 
 
 class FaultEntry(ContractModel):
@@ -34,28 +36,28 @@ class FaultEntry(ContractModel):
 
     kind: Literal[
         "freeze", "drop_frame", "cancel", "reject", "stick", "skip_cycles", "protective_stop", "unreachable", "delay"
-    ]
-    target: str
-    at_s: float
-    lasting_s: float | None = None
-    cycles: int | None = None
-    delay_s: float | None = None
+    ] = Field(description="What fails.")
+    target: str = Field(description="What it hits.")
+    at_s: float = Field(description="Simulated time from the start.")
+    lasting_s: float | None = Field(None, description="How long; null to the end.")
+    cycles: int | None = Field(None, description="Update cycles missed in a row.")
+    delay_s: float | None = Field(None, description="How late joint states arrive.")
 
 
 class RehearsalEntry(ContractModel):
     """One rehearsal and the outcome that it must end in, within a bound from the fault's effect."""
 
-    name: str
-    steps: tuple[StepEntry, ...]
-    faults: tuple[FaultEntry, ...]
-    expect: OutcomeName
-    within_s: float | None
-    timeout_s: float
+    name: str = Field(description="Name in the spec.")
+    steps: tuple[StepEntry, ...] = Field(description="Steps in order.")
+    faults: tuple[FaultEntry, ...] = Field(description="Faults that are injected.")
+    expect: OutcomeName = Field(description="Outcome that it must end in.")
+    within_s: float | None = Field(description="Bound from the fault's effect to the outcome.")
+    timeout_s: float = Field(description="Bound of the whole run in simulated time.")
 
 
 class Rehearsals(ContractModel):
     """All rehearsals of a cell."""
 
-    format: Literal[1]
-    configuration_id: str
-    rehearsals: tuple[RehearsalEntry, ...]
+    format: Literal[1] = Field(description="Version of this format.")
+    configuration_id: str = Field(description="Configuration that the names belong to.")
+    rehearsals: tuple[RehearsalEntry, ...] = Field(description="Rehearsals in the order of the spec.")
