@@ -19,15 +19,17 @@ from cellc.mock.world.objects import World
 
 @dataclass(slots=True)
 class Requests:
-    """What the outside asks of the task while it runs.
+    """What the outside asks of the task while it runs, and may know of it.
 
     Attributes:
         cancel: kinds of step whose next executing goal is to be cancelled.
+        executing: controllers that have a goal of the task.
         displaced: goals that are not where they were, by goal: metres along the axes of their frame.
         changed: fires when something is asked.
     """
 
     cancel: set[str] = field(default_factory=set)
+    executing: set[str] = field(default_factory=set)
     displaced: dict[str, tuple[float, float, float]] = field(default_factory=dict)
     changed: Signal = field(default_factory=Signal)
 

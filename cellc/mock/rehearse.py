@@ -46,7 +46,7 @@ def rehearse(folder: GeneratedFolder, memory: PlanMemory, rehearsal: RehearsalEn
         name=rehearsal.name,
         outcome=task.outcome.value,
         expected=rehearsal.expect,
-        sim_time_s=(plant.now_ns - begun_ns) * 1e-9,
+        sim_time_s=(plant.now_ns - begun_ns) / 1e9,
         response_s=_response_s(rehearsal, task.records, begun_ns),
         within_s=rehearsal.within_s,
         attempts=tuple(task.records),
@@ -76,7 +76,7 @@ def _response_s(rehearsal: RehearsalEntry, records: Sequence[AttemptRecord], beg
     if ended.outcome == "cancelled" and ended.cancel is not None:
         return ended.cancel.latency_s
     fault_ns = begun_ns + round(max(entry.at_s for entry in rehearsal.faults) * 1e9)
-    return (ended.ended_ns - max(fault_ns, ended.started_ns)) * 1e-9
+    return (ended.ended_ns - max(fault_ns, ended.started_ns)) / 1e9
 
 
 def _not_up(

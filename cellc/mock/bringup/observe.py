@@ -10,6 +10,8 @@ from cellc.mock.tf.buffer import Transform
 
 _PATIENCE_NS = 1_000_000_000
 _LOOK_NS = 20_000_000
+_WATCH_NS = 500_000_000
+"""How long states are watched before anything may move; afterwards the buffers hold what an observation needs."""
 
 
 def observe(plant: Plant) -> Waiting[StageEvidence]:
@@ -29,6 +31,9 @@ def observe(plant: Plant) -> Waiting[StageEvidence]:
         yield Wait(plant.now_ns + _LOOK_NS)
     if missing:
         return StageEvidence("observe", (), tuple(f"no state of joint `{joint}` is published" for joint in missing))
+    watched_until_ns = plant.now_ns + _WATCH_NS
+    while plant.now_ns < watched_until_ns:
+        yield Wait(watched_until_ns)
     plant.robot_state_publisher.announce(plant.buffer)
     plant.robot_state_publisher.catch_up(plant.now_ns)
     facts = [_freshness(plant), *plant.buffer.conflicts]
@@ -46,7 +51,7 @@ def _freshness(plant: Plant) -> str:
     if not stamps:
         return "no joint states are published"
     joints = sum(len(history.names) for history in plant.control.histories.values())
-    return f"states of {joints} joints, the oldest {(plant.now_ns - min(stamps)) * 1e-9:.3f} s old"
+    return f"states of {joints} joints, the oldest {(plant.now_ns - min(stamps)) / 1e9:.3f} s old"
 
 
 def _missing_frames(plant: Plant) -> list[str]:

@@ -39,7 +39,7 @@ class ObservationInbox:
 
     def age_s(self, stamp_ns: int) -> float:
         """Return the age of a stamp in seconds."""
-        return (self._simulation.now_ns - stamp_ns) * 1e-9
+        return (self._simulation.now_ns - stamp_ns) / 1e9
 
     def is_stale(self, stamp_ns: int, allowance_s: float = 0.0) -> bool:
         """Tell whether a stamp is too old to act on, ``allowance_s`` beyond the bound of the contract."""

@@ -69,7 +69,7 @@ class TaskContext:
         """Raise AttemptError for what ends any attempt: a stop first, then missed cycles, stale observations, time."""
         for component, state in sorted(self.plant.control.unready_hardware.items()):
             raise AttemptError(Outcome.PROTECTIVE_STOP, f"hardware component {component} is {state}")
-        missed = sum(history.missed_cycles for history in self.plant.control.histories.values())
+        missed = sum(history.missed_until(self.now_ns) for history in self.plant.control.histories.values())
         allowed = self.plant.contract.kpis.missed_cycles
         if allowed is not None and missed > allowed:
             raise AttemptError(Outcome.MISSED_CYCLE, f"{missed} update cycles missed, {allowed} allowed")

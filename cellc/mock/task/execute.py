@@ -44,6 +44,7 @@ def execute(
     sent_ns = context.now_ns
     until_ns = sent_ns + round(timeout_s * 1e9)
     joints = _joints(context.plant, controller)
+    context.plant.requests.executing.add(controller)
     try:
         while (controller, goal_id) not in context.ended:
             if kind in context.plant.requests.cancel:
@@ -59,6 +60,7 @@ def execute(
         raise
     finally:
         context.plant.requests.cancel.discard(kind)
+        context.plant.requests.executing.discard(controller)
     _note_result(context, attempt, controller, goal_id, sent_ns, joints)
     return context.ended[(controller, goal_id)]
 

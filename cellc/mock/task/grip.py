@@ -14,6 +14,8 @@ from cellc.mock.task.outcome import AttemptError, Outcome
 
 GRIP_TIMEOUT_S = 10.0
 """Bound of one opening or closing."""
+ARRIVAL_SHARE = 0.05
+"""Share of its stroke by which a gripper may miss the position where it should come to rest."""
 GRASP_TOLERANCE_M = 0.03
 """Largest distance of the tip from an object's frame at which closing fingers take it."""
 
@@ -28,15 +30,32 @@ def grip(context: TaskContext, attempt: Attempt, device: str, command: str) -> W
         _block(context, facts)
     elif command == "open":
         _free(context, facts)
-    goal = _goal(context, facts, facts.closed if command == "close" else facts.open)
+    target = facts.closed if command == "close" else facts.open
+    goal = _goal(context, facts, target)
     ended = yield from execute(context, attempt, "grip", facts.controller, goal, GRIP_TIMEOUT_S)
     holds = between is not None and isinstance(ended, GripperEnded) and ended.stalled
     if not holds:  # fingers that stall on an object have done what they were told
         require_success(ended, context)
+    _require_arrival(context, facts, target if between is None else _stop(facts, target))
     if between is not None:
         _take(context, device, between)
     elif command == "open":
         _release(context, device)
+
+
+def _stop(facts: ContractGripper, target: float) -> float:
+    """Return where the fingers come to rest on an object."""
+    return target if facts.held_object_position is None else facts.held_object_position
+
+
+def _require_arrival(context: TaskContext, facts: ContractGripper, expected: float) -> None:
+    """Raise AttemptError where the fingers are elsewhere: a controller may call any stall a success."""
+    allowed = ARRIVAL_SHARE * abs(facts.closed - facts.open)
+    for manager in context.plant.control.manager_of_joint(facts.joint):
+        position = manager.joint_positions()[facts.joint]
+        if abs(position - expected) > allowed:
+            text = f"joint {facts.joint} stands at {position:.4g}, {expected:.4g} expected within {allowed:.2g}"
+            raise AttemptError(Outcome.TOLERANCE_VIOLATION, text)
 
 
 def _goal(context: TaskContext, facts: ContractGripper, position: float) -> GripperGoal:

@@ -38,7 +38,7 @@ def cancel_and_hold(
     while held_ns is None and plant.now_ns < until_ns:
         yield Wait(min(until_ns, plant.now_ns + _LOOK_NS), (plant.control.changed,))
         held_ns = held_since(plant, joints, requested_ns)
-    latency_s = None if held_ns is None else (held_ns - requested_ns) * 1e-9
+    latency_s = None if held_ns is None else (held_ns - requested_ns) / 1e9
     attempt.cancel = CancelRecord(requested_ns, held_ns, latency_s, response.return_code)
     while (controller, goal_id) not in context.ended and plant.now_ns < until_ns:
         yield Wait(min(until_ns, plant.now_ns + _LOOK_NS), (plant.control.changed,))
@@ -69,7 +69,7 @@ def _history_held_since(history: JointStateHistory, joints: list[str], since_ns:
     if len(stamps) < 3:
         return None
     columns = [history.names.index(joint) for joint in joints]
-    seconds = np.diff(stamps) * 1e-9
+    seconds = np.diff(stamps) / 1e9
     speeds = np.abs(np.diff(history.positions[first:, columns], axis=0)) / seconds[:, None]
     moving = np.flatnonzero(speeds.max(axis=1) > STANDSTILL)
     settled = int(moving[-1]) + 1 if moving.size else 0

@@ -37,7 +37,7 @@ def current_state(plant: Plant) -> CurrentState:
         positions |= dict(zip(history.names, history.positions[arrived - 1].tolist(), strict=True))
     if not stamps:
         raise AttemptError(Outcome.STALE_STATE, "no controller publishes joint states")
-    age_s = (plant.now_ns - min(stamps)) * 1e-9
+    age_s = (plant.now_ns - min(stamps)) / 1e9
     allowed_s = _max_age_s(plant)
     if age_s > allowed_s:
         raise AttemptError(Outcome.STALE_STATE, f"joint state is {age_s:.3f} s old, {allowed_s:g} s allowed")

@@ -16,6 +16,8 @@ from cellc.mock.task.goal_frame import check_observation, locate_goal
 from cellc.mock.task.joint_state import current_state
 from cellc.mock.task.outcome import AttemptError, Outcome
 
+ARRIVAL_TOLERANCE = 0.05
+"""rad or m by which a joint may miss the end of a trajectory that its controller calls a success."""
 MARGIN_S = 10.0
 """Beyond twice the planned duration: the bound of an execution where no action of the contract states one."""
 
@@ -85,8 +87,18 @@ def _drive(
     timeout_s = _timeout_s(context, motion.trajectory.duration_ns * 1e-9)
     ended = yield from execute(context, attempt, "move", controller, goal, timeout_s)
     require_success(ended, context)
+    _require_arrival(context, motion.trajectory)
     if motion.retreat is not None:
         context.retreats[group] = motion.retreat
+
+
+def _require_arrival(context: TaskContext, trajectory: TimedTrajectory) -> None:
+    """Raise AttemptError where a joint is elsewhere: a controller without tolerances reports success all the same."""
+    actual = context.plant.world.joint_positions(context.now_ns)
+    for joint, goal in zip(trajectory.joints, trajectory.points[-1].positions, strict=True):
+        if abs(actual[joint] - goal) > ARRIVAL_TOLERANCE:
+            text = f"joint {joint} stands at {actual[joint]:.4g} after a reported success, its goal is {goal:.4g}"
+            raise AttemptError(Outcome.TOLERANCE_VIOLATION, text)
 
 
 def _trajectory_goal(trajectory: TimedTrajectory) -> TrajectoryGoal:

@@ -29,16 +29,15 @@ class JointStateHistory:
         names: joints in the order of the columns; empty before the first message.
         late: samples that arrive later than they are stamped.
         subscribed: somebody collects the messages of the broadcaster.
-        missed_cycles: update cycles that left no message, counted from the gaps between stamps.
     """
 
     def __init__(self, horizon_s: float, period_ns: int) -> None:
         """Keep at least ``horizon_s`` seconds of messages that come every ``period_ns``."""
         self.names: tuple[str, ...] = ()
-        self.missed_cycles = 0
         self.late: list[LateArrival] = []
         self.subscribed = False
         self._keep = int(horizon_s * 1e9 / period_ns) + 2
+        self._missed = 0
         self._spacing_ns: int | None = None
         self._stamps: IntArray = np.empty(0, dtype=np.int64)
         self._positions: FloatArray = np.empty((0, 0))
@@ -79,6 +78,12 @@ class JointStateHistory:
         here = np.flatnonzero(arrivals <= now_ns)
         return int(here[-1]) + 1 if here.size else 0
 
+    def missed_until(self, now_ns: int) -> int:
+        """Return how many messages were due by ``now_ns`` and never published: update cycles that were missed."""
+        if self._spacing_ns is None:
+            return self._missed
+        return self._missed + max(0, (now_ns - int(self.stamps[-1])) // self._spacing_ns - 1)
+
     def at(self, stamp_ns: int) -> dict[str, float]:
         """Return the positions at a time, linear between messages and held beyond the first and last."""
         stamps, positions = self.stamps, self.positions
@@ -116,4 +121,4 @@ class JointStateHistory:
             return
         least = int(gaps.min())
         self._spacing_ns = least if self._spacing_ns is None else min(self._spacing_ns, least)
-        self.missed_cycles += int(np.sum(np.rint(gaps / self._spacing_ns).astype(np.int64) - 1))
+        self._missed += int(np.sum(np.rint(gaps / self._spacing_ns).astype(np.int64) - 1))

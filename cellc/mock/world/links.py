@@ -37,21 +37,24 @@ class LinkJoint:
 
     def pose(self, positions: Mapping[str, float]) -> Pose:
         """Return the pose of the child link in the parent link; joints that are not named stand at zero."""
-        if not self.moves:
-            return self.origin
+        return self.origin @ self.displacement(positions) if self.moves else self.origin
+
+    def displacement(self, positions: Mapping[str, float]) -> Pose:
+        """Return how far a moving joint has moved its child, in the frame of the joint."""
         position = self.multiplier * positions.get(self.follows or self.name, 0.0) + self.offset
         x, y, z = self.axis
         if self.kind == "prismatic":
-            return self.origin @ Pose((x * position, y * position, z * position), (0.0, 0.0, 0.0, 1.0))
+            return Pose((x * position, y * position, z * position), (0.0, 0.0, 0.0, 1.0))
         sine = math.sin(position / 2.0)
-        return self.origin @ Pose((0.0, 0.0, 0.0), (x * sine, y * sine, z * sine, math.cos(position / 2.0)))
+        return Pose((0.0, 0.0, 0.0), (x * sine, y * sine, z * sine, math.cos(position / 2.0)))
 
 
-@dataclass(frozen=True, slots=True)
 class LinkTree:
     """The joints of a URDF by their child link."""
 
-    joints: Mapping[str, LinkJoint]
+    def __init__(self, joints: Mapping[str, LinkJoint]) -> None:
+        self.joints = joints
+        self._runs: dict[str, tuple[Pose, tuple[tuple[LinkJoint, Pose], ...]]] = {}
 
     def chain(self, link: str) -> tuple[LinkJoint, ...]:
         """Return the joints from the root down to a link."""
@@ -63,10 +66,25 @@ class LinkTree:
 
     def pose(self, link: str, positions: Mapping[str, float]) -> Pose:
         """Return the pose of a link in the root link."""
-        pose = identity()
-        for joint in self.chain(link):
-            pose = pose @ joint.pose(positions)
+        if link not in self._runs:
+            self._runs[link] = self._merge(link)
+        pose, moving = self._runs[link]
+        for joint, fixed in moving:
+            pose = pose @ joint.displacement(positions) @ fixed
         return pose
+
+    def _merge(self, link: str) -> tuple[Pose, tuple[tuple[LinkJoint, Pose], ...]]:
+        """Return what is fixed before the first moving joint, and each moving joint with what is fixed after it."""
+        first = identity()
+        moving: list[tuple[LinkJoint, Pose]] = []
+        for joint in self.chain(link):
+            if moving:
+                moving[-1] = (moving[-1][0], moving[-1][1] @ joint.origin)
+            else:
+                first = first @ joint.origin
+            if joint.moves:
+                moving.append((joint, identity()))
+        return first, tuple(moving)
 
 
 def read_links(urdf: str, file: str) -> LinkTree:
