@@ -8,7 +8,7 @@ from graphlib import CycleError, TopologicalSorter
 from typing import TYPE_CHECKING
 
 from cellc.cell.cell import Cell
-from cellc.cell.frame import WORLD, Frame
+from cellc.cell.frame import Frame
 
 if TYPE_CHECKING:
     import networkx
@@ -52,20 +52,6 @@ class FrameTree:
         except CycleError:
             return self._find_cycles()
         return ()
-
-    def islands(self) -> tuple[tuple[str, ...], ...]:
-        """Return each set of frames that no lookup from the world reaches, though it is free of cycles."""
-        if self.roots() in ((), (WORLD,)):
-            return ()  # what hangs together without a root of its own holds a cycle, which is reported as such
-        import networkx
-
-        graph = self._digraph()
-        components = [
-            component
-            for component in networkx.weakly_connected_components(graph)
-            if WORLD not in component and networkx.is_directed_acyclic_graph(graph.subgraph(component))
-        ]
-        return tuple(sorted(tuple(name for name in graph if name in component) for component in components))
 
     def chain(self, name: str) -> tuple[Frame, ...]:
         """Return the edges from a frame up to its root; it ends where a frame is missing or would come twice."""

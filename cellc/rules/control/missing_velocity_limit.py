@@ -5,19 +5,15 @@ Neither the description nor the catalogue says how fast the joint may move, so n
 Example that is reported:
 
 ```yaml
-control:
-  controllers:
-    arm_trajectory: {device: bare_arm}
 devices:
-  bare_arm: {model: ./bare_arm, mount: {parent: world, xyz: 0 2 0 m}}
+  bare_arm: {model: ./bare_arm, mount: {parent: world, xyz: 0 2 0 m}, revision: A, firmware: bare 1.0.0}
 ```
 
 Example that is accepted:
 
 ```yaml
-control:
-  controllers:
-    arm_trajectory: {device: arm}
+devices:
+  stage: {model: ./stage, mount: {parent: world, xyz: 0 2 0 m}, revision: A, firmware: stage 1.0.0}
 ```
 
 Fix: write `velocity` in the `<limit>` of the joint.

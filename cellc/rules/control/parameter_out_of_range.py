@@ -28,9 +28,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cellc.catalog.controller_kind import ParameterFacts
-from cellc.catalog.load import load_controller_kind
 from cellc.diagnostics import Severity
 from cellc.graph.cell_graph import CellGraph
+from cellc.graph.controller_kinds import kind_of
 from cellc.graph.written_parameters import written_parameters
 from cellc.rule import Finding
 from cellc.rules.define import define
@@ -41,7 +41,7 @@ from cellc.spec.base import ParameterValue
 def check(graph: CellGraph) -> Iterator[Finding]:
     """Yield numbers of the spec below or above what the declaration allows, and texts that it does not list."""
     for written in written_parameters(graph.cell):
-        kind = load_controller_kind(written.controller.behaviour).value
+        kind = kind_of(graph.cell, written.controller)
         facts = None if kind is None else kind.parameters.get(written.name)
         reason = "" if facts is None else _refusal(facts, written.value)
         if reason:

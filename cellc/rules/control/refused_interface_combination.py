@@ -27,9 +27,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cellc.catalog.load import load_controller_kind
 from cellc.diagnostics import Severity
 from cellc.graph.cell_graph import CellGraph
+from cellc.graph.controller_kinds import kind_of
 from cellc.rule import Finding
 from cellc.rules.define import define
 from cellc.rules.finding import found
@@ -38,7 +38,7 @@ from cellc.rules.finding import found
 def check(graph: CellGraph) -> Iterator[Finding]:
     """Yield controllers with a combination that their kind does not list."""
     for controller in graph.cell.controllers:
-        kind = load_controller_kind(controller.behaviour).value
+        kind = kind_of(graph.cell, controller)
         if kind is None or not kind.command_combinations or not controller.joints:
             continue
         prefix = f"{controller.joints[0]}/"

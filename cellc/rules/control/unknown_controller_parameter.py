@@ -28,9 +28,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from cellc.catalog.load import load_controller_kind
 from cellc.diagnostics import Severity, did_you_mean
 from cellc.graph.cell_graph import CellGraph
+from cellc.graph.controller_kinds import kind_of, plugin_parameters
 from cellc.graph.written_parameters import written_parameters
 from cellc.rule import Finding
 from cellc.rules.define import define
@@ -40,10 +40,11 @@ from cellc.rules.finding import found
 def check(graph: CellGraph) -> Iterator[Finding]:
     """Yield parameters of the spec that the kind of the controller does not declare for the distribution."""
     for written in written_parameters(graph.cell):
-        kind = load_controller_kind(written.controller.behaviour).value
+        kind = kind_of(graph.cell, written.controller)
         if kind is None:
             continue
         here = {name for name, facts in kind.parameters.items() if not facts.only or graph.cell.distro in facts.only}
+        here |= plugin_parameters(graph.cell, written.controller)
         if not any(_matches(declared, written.name) for declared in here):
             message = f"`{written.controller.kind}` has no parameter `{written.name}` in {graph.cell.distro}"
             yield found(graph, written.path, message, did_you_mean(written.name, here, "parameters"))

@@ -27,9 +27,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cellc.catalog.load import load_controller_kind
 from cellc.diagnostics import Severity
 from cellc.graph.cell_graph import CellGraph
+from cellc.graph.controller_kinds import kind_of
 from cellc.graph.written_parameters import written_parameters
 from cellc.rule import Finding
 from cellc.rules.define import define
@@ -41,7 +41,7 @@ _TYPES: dict[str, tuple[type, ...]] = {"bool": (bool,), "int": (int,), "double":
 def check(graph: CellGraph) -> Iterator[Finding]:
     """Yield scalar parameters of the spec whose value has another type."""
     for written in written_parameters(graph.cell):
-        kind = load_controller_kind(written.controller.behaviour).value
+        kind = kind_of(graph.cell, written.controller)
         facts = None if kind is None else kind.parameters.get(written.name)
         due = None if facts is None else facts.type
         value = written.value

@@ -25,34 +25,17 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cellc.diagnostics import Severity
+from cellc.formats.attempt_fields import STANDARD
 from cellc.graph.cell_graph import CellGraph
 from cellc.rule import Finding
 from cellc.rules.define import define
 from cellc.rules.finding import found
 
-_DUE = (
-    "attempt_id",
-    "version_tuple",
-    "calibration_id",
-    "goal_frame",
-    "goal_stamp",
-    "joint_state_age",
-    "tf_lookup_age",
-    "plan_result",
-    "controller_name",
-    "action_goal_id",
-    "speed_scaling",
-    "safety_state",
-    "fault_code",
-    "cancel_or_result",
-    "operator_intervention",
-)
-
 
 def check(graph: CellGraph) -> Iterator[Finding]:
     """Yield the missing fields in one finding."""
     fields = graph.cell.spec.recording.attempt_fields
-    missing = [] if fields == "standard" else [field for field in _DUE if field not in fields]
+    missing = [] if fields == "standard" else [field for field in STANDARD if field not in fields]
     if missing:
         names = ", ".join(f"`{field}`" for field in missing)
         path = ("recording", "attempt_fields")

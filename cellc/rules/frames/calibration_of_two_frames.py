@@ -6,16 +6,20 @@ carries a value that nobody measured, and a new revision silently changes both.
 Example that is reported:
 
 ```yaml
+calibrations:
+  tray: {revision: 1, measured: 2026-07-02, method: touch probe, samples: 5, residual: 0.3 mm, owner: perception}
 frames:
-  tray: {parent: world, xyz: 0.4 0.1 0.8 m, calibration: fixture_a}
-  bin: {parent: world, xyz: 0.1 0.5 0.8 m, calibration: fixture_a}
+  tray: {parent: world, xyz: 0.4 0.1 0.8 m, calibration: tray}
+  bin: {parent: world, xyz: 0.1 0.5 0.8 m, calibration: tray}
 ```
 
 Example that is accepted:
 
 ```yaml
+calibrations:
+  tray: {revision: 1, measured: 2026-07-02, method: touch probe, samples: 5, residual: 0.3 mm, owner: perception}
 frames:
-  tray: {parent: world, xyz: 0.4 0.1 0.8 m, calibration: fixture_a}
+  tray: {parent: world, xyz: 0.4 0.1 0.8 m, calibration: tray}
   bin: {parent: tray, xyz: 0.3 0 0 m, designed: true}
 ```
 

@@ -6,15 +6,19 @@ reason that no message names.
 Example that is reported:
 
 ```yaml
+calibrations:
+  tray: {revision: 1, measured: 2026-07-02, method: touch probe, samples: 5, residual: 0.3 mm, owner: perception}
 frames:
-  tray: {parent: world, xyz: 400 100 850 m, calibration: fixture_a}
+  tray: {parent: world, xyz: 400 100 850 m, calibration: tray}
 ```
 
 Example that is accepted:
 
 ```yaml
+calibrations:
+  tray: {revision: 1, measured: 2026-07-02, method: touch probe, samples: 5, residual: 0.3 mm, owner: perception}
 frames:
-  tray: {parent: world, xyz: 400 100 850 mm, calibration: fixture_a}
+  tray: {parent: world, xyz: 400 100 850 mm, calibration: tray}
 ```
 
 Fix: write the unit that the drawing uses; most drawings of cells are in mm.

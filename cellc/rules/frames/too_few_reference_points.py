@@ -6,15 +6,19 @@ direction and scale before the robot goes there.
 Example that is reported:
 
 ```yaml
+calibrations:
+  tray: {revision: 1, measured: 2026-07-02, method: touch probe, samples: 5, residual: 0.3 mm, owner: perception}
 frames:
-  tray: {parent: world, calibration: fixture_a, reference_points: 2}
+  tray: {parent: world, calibration: tray, reference_points: 2}
 ```
 
 Example that is accepted:
 
 ```yaml
+calibrations:
+  tray: {revision: 1, measured: 2026-07-02, method: touch probe, samples: 5, residual: 0.3 mm, owner: perception}
 frames:
-  tray: {parent: world, calibration: fixture_a, reference_points: 3}
+  tray: {parent: world, calibration: tray, reference_points: 3}
 ```
 
 Fix: mark three points on the fixture, measure them, and write `reference_points: 3`.

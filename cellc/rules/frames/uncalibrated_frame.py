@@ -6,6 +6,8 @@ nobody can tell which measurement a goal rested on, nor notice that a bumped cam
 Example that is reported:
 
 ```yaml
+calibrations:
+  tray: {revision: 1, measured: 2026-07-02, method: touch probe, samples: 5, residual: 0.3 mm, owner: perception}
 frames:
   tray: {parent: world, xyz: 0.4 0.1 0.8 m}
 ```
@@ -13,8 +15,10 @@ frames:
 Example that is accepted:
 
 ```yaml
+calibrations:
+  tray: {revision: 1, measured: 2026-07-02, method: touch probe, samples: 5, residual: 0.3 mm, owner: perception}
 frames:
-  tray: {parent: world, xyz: 0.4 0.1 0.8 m, calibration: fixture_a}
+  tray: {parent: world, xyz: 0.4 0.1 0.8 m, calibration: tray}
 ```
 
 Fix: name the calibration that measured it, or write `designed: true` where the value comes from a drawing.

@@ -7,9 +7,10 @@ Example that is reported:
 
 ```yaml
 interfaces:
-  /squeeze: {action: control_msgs/action/ParallelGripperCommand, server: gripper_action, client: task, frame: world,
+  /squeeze: {action: control_msgs/action/ParallelGripperCommand, server: squeezer, client: task, frame: world,
              timeout: 5 s, on_timeout: cancel_and_hold, cancel_within: 200 ms}
 versions: {os: ubuntu 22.04, ros: humble, rmw: rmw_fastrtps_cpp 6.2.10, ros2_control: 2.54.0, moveit: 2.5.9}
+nodes: {squeezer: {run: cell_tasks/squeezer, host: control_pc, owner: integration}}
 control: {controllers: {gripper_action: null}}
 ```
 
@@ -17,8 +18,9 @@ Example that is accepted:
 
 ```yaml
 interfaces:
-  /squeeze: {action: control_msgs/action/ParallelGripperCommand, server: gripper_action, client: task, frame: world,
+  /squeeze: {action: control_msgs/action/ParallelGripperCommand, server: squeezer, client: task, frame: world,
              timeout: 5 s, on_timeout: cancel_and_hold, cancel_within: 200 ms}
+nodes: {squeezer: {run: cell_tasks/squeezer, host: control_pc, owner: integration}}
 ```
 
 Fix: use the type of the distribution that the cell pins.

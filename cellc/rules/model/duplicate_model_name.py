@@ -5,7 +5,7 @@ Whoever looks the name up gets the first or the last, depending on the library; 
 Example that is reported:
 
 ```xml
-<joint name="slide" type="fixed"><parent link="arm"/> <child link="tool"/></joint>
+<joint name="slide" type="fixed"><parent link="base"/> <child link="carriage"/></joint>
 <joint name="slide" type="fixed"><parent link="arm"/> <child link="probe"/></joint>
 <link name="probe"/>
 ```
@@ -13,7 +13,7 @@ Example that is reported:
 Example that is accepted:
 
 ```xml
-<joint name="slide" type="fixed"><parent link="arm"/> <child link="tool"/></joint>
+<joint name="slide" type="fixed"><parent link="base"/> <child link="carriage"/></joint>
 <joint name="probe_mount" type="fixed"><parent link="arm"/> <child link="probe"/></joint>
 <link name="probe"/>
 ```

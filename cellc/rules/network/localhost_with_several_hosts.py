@@ -8,6 +8,7 @@ Example that is reported:
 hosts:
   vision_pc: {scheduling: generic, clock: {domain: ros, synchronised_by: chrony, max_offset: 1 ms}}
 network: {discovery: localhost}
+safety: {stop: {independent_of: [control_pc, vision_pc]}}
 ```
 
 Example that is accepted:
@@ -16,6 +17,7 @@ Example that is accepted:
 hosts:
   vision_pc: {scheduling: generic, clock: {domain: ros, synchronised_by: chrony, max_offset: 1 ms}}
 network: {discovery: multicast}
+safety: {stop: {independent_of: [control_pc, vision_pc]}}
 ```
 
 Fix: use `multicast`, or `unicast` with peers.

@@ -19,7 +19,6 @@ from cellc.rules.ownership import (
     second_command_publisher,
     second_commander,
     unprovided_command_interface,
-    unprovided_state_interface,
 )
 
 RULES = (
@@ -39,5 +38,4 @@ RULES = (
     second_command_publisher.RULE,
     second_commander.RULE,
     unprovided_command_interface.RULE,
-    unprovided_state_interface.RULE,
 )

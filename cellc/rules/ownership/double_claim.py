@@ -19,6 +19,8 @@ control:
   controllers:
     arm_forward: {type: forward_command, device: arm, client: task, active: false,
                   parameters: {interface_name: position}}
+  switches:
+    to_forward: {activate: [arm_forward], deactivate: [arm_trajectory]}
 ```
 
 Fix: let one of them start inactive, and declare the switch between them.

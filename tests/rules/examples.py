@@ -1,0 +1,100 @@
+"""Runs the examples of a rule's page: a fragment merged into a complete cell, or into a description of it."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import xml.etree.ElementTree as ElementTree
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from cellc.diagnostics import Diagnostic
+from cellc.graph.cell_graph import build_graph
+from cellc.link.link import link
+from cellc.rule import Rule
+from cellc.rules.run import run_rules
+from cellc.source.read import read
+from cellc.spec.parse import parse
+
+BASE = Path(__file__).parent / "base"
+_FENCE = re.compile(r"```(yaml|xml)\n(.*?)```", re.DOTALL)
+
+
+@dataclass(frozen=True, slots=True)
+class Example:
+    """A fragment of a page; ``language`` is yaml for the spec and xml for a description."""
+
+    language: str
+    text: str
+
+
+def examples(rule: Rule) -> tuple[Example, Example]:
+    """Return the example that is reported and the one that is accepted."""
+    reported, accepted = (Example(language, text) for language, text in _FENCE.findall(rule.page))
+    return reported, accepted
+
+
+def diagnose(path: Path) -> tuple[Diagnostic, ...]:
+    """Return what every stage up to the rules says of a spec."""
+    document = read(path)
+    if document.value is None or not document.ok:
+        return document.diagnostics
+    spec = parse(document.value)
+    if spec.value is None or not spec.ok:
+        return spec.diagnostics
+    cell = link(spec.value, document.value)
+    if cell.value is None or not cell.ok:
+        return cell.diagnostics
+    return (*document.diagnostics, *spec.diagnostics, *cell.diagnostics, *run_rules(build_graph(cell.value)))
+
+
+def diagnose_example(example: Example, folder: Path) -> tuple[Diagnostic, ...]:
+    """Merge an example into the complete cell, written to ``folder``, and diagnose the result."""
+    shutil.copytree(BASE, folder, dirs_exist_ok=True)
+    cell = yaml.load((BASE / "cell.yaml").read_text(encoding="utf-8"), Loader=yaml.BaseLoader)
+    if example.language == "xml":
+        _merge_description(example.text, folder / "stage" / "stage.urdf")
+        fragment = {"devices": {"stage": {"model": "./stage", "revision": "A", "firmware": "stage 1.0.0"}}}
+    else:
+        fragment = yaml.load(example.text, Loader=yaml.BaseLoader)
+    merged = _typed(_merged(cell, fragment))
+    (folder / "cell.yaml").write_text(yaml.safe_dump(merged, sort_keys=False), encoding="utf-8")
+    return diagnose(folder / "cell.yaml")
+
+
+def _merged(base: Any, fragment: Any) -> Any:
+    """Merge mappings key by key; ``null`` takes a key out, anything else replaces."""
+    if not isinstance(base, dict) or not isinstance(fragment, dict):
+        return fragment
+    # A mapping that names an interface type is a whole interface, not a change of one.
+    result = {} if {"topic", "service", "action"} & fragment.keys() else dict(base)
+    for key, value in fragment.items():
+        if value == "null":
+            result.pop(key, None)
+        else:
+            result[key] = _merged(result.get(key, {} if isinstance(value, dict) else None), value)
+    return result
+
+
+def _typed(value: Any) -> Any:
+    """Turn the texts of BaseLoader back into the scalars that they are."""
+    if isinstance(value, dict):
+        return {key: _typed(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [_typed(item) for item in value]
+    return yaml.safe_load(value) if re.fullmatch(r"-?\d+(\.\d+)?|true|false|\[\]", value) else value
+
+
+def _merge_description(fragment: str, path: Path) -> None:
+    """Replace the links and joints that the fragment names, and add those that are new."""
+    robot = ElementTree.fromstring(path.read_text(encoding="utf-8"))
+    new = list(ElementTree.fromstring(f"<robot>{fragment}</robot>"))
+    named = {(element.tag, element.get("name")) for element in new}
+    for element in list(robot):
+        if (element.tag, element.get("name")) in named:
+            robot.remove(element)
+    robot.extend(new)
+    path.write_text(ElementTree.tostring(robot, encoding="unicode"), encoding="utf-8")

@@ -1,0 +1,63 @@
+"""Every rule is declared once, and its page says all it has to and proves itself."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from cellc.rule import Rule
+from cellc.rules.all_rules import ALL_RULES
+from tests.rules.examples import BASE, diagnose, diagnose_example, examples
+
+RULES = [pytest.param(rule, id=rule.code) for rule in ALL_RULES]
+FOLDER = Path(__file__).resolve().parents[2] / "cellc" / "rules"
+
+
+def test_the_complete_cell_is_clean() -> None:
+    assert diagnose(BASE / "cell.yaml") == ()
+
+
+def test_every_code_is_declared_once() -> None:
+    codes = [rule.code for rule in ALL_RULES]
+    assert len(codes) == len(set(codes))
+
+
+def test_every_rule_file_stands_in_the_tuple_of_its_family() -> None:
+    files = {path.stem.replace("_", "-") for path in FOLDER.glob("*/*.py") if path.stem != "__init__"}
+    assert files == {rule.code for rule in ALL_RULES}
+
+
+def test_assumed_codes_exist_and_assume_nothing_themselves_that_runs_later() -> None:
+    assumed = {code for rule in ALL_RULES for code in rule.assumes}
+    assert assumed <= {rule.code for rule in ALL_RULES}
+
+
+@pytest.mark.parametrize("rule", RULES)
+def test_page_has_title_reason_examples_fix_and_source(rule: Rule) -> None:
+    assert rule.title
+    assert not rule.title.endswith(".")
+    shape = (
+        r".+\.\n\n(?s:.+)\n\nExample that is reported:\n\n```(yaml|xml)\n(?s:.+?)```"
+        r"\n\nExample that is accepted:\n\n```\1\n(?s:.+?)```\n\nFix: (?s:.+?)\n\nSource: (?s:.+?)\n"
+    )
+    assert re.fullmatch(shape, rule.page)
+
+
+@pytest.mark.parametrize("rule", RULES)
+def test_reported_example_is_reported(rule: Rule, tmp_path: Path) -> None:
+    reported, _ = examples(rule)
+    diagnostics = diagnose_example(reported, tmp_path)
+    assert rule.code in {diagnostic.code for diagnostic in diagnostics}, diagnostics
+    for diagnostic in diagnostics:
+        if diagnostic.code == rule.code:
+            assert diagnostic.severity is rule.severity
+            assert diagnostic.help
+            assert "\n" not in diagnostic.message
+
+
+@pytest.mark.parametrize("rule", RULES)
+def test_accepted_example_is_accepted(rule: Rule, tmp_path: Path) -> None:
+    _, accepted = examples(rule)
+    assert diagnose_example(accepted, tmp_path) == ()
