@@ -43,8 +43,8 @@ CODES: tuple[CodePage, ...] = (
     _page(
         "controller-without-device",
         "a controller that drives joints names no device",
-        "Joints and claims follow from the device. Without one the controller would have an empty list of joints, which "
-        "the controller manager refuses.",
+        "Joints and claims follow from the device. Without one the controller would have an empty list of joints, "
+        "which the controller manager refuses.",
         "add `device:` to the controller",
     ),
     _page(
