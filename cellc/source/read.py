@@ -64,6 +64,8 @@ class _Reader:
         if text.value is None:
             return
         self.texts[name] = text.value
+        if text.diagnostics:
+            return
         node = self._compose(name, text.value)
         if node is None:
             return

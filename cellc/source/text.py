@@ -12,6 +12,8 @@ from cellc.source.finding import finding
 from cellc.source.limits import MAX_FILE_BYTES
 
 _UTF16_MARKS = (b"\xff\xfe", b"\xfe\xff")
+# `<<` is not meant: that is a merge key.
+_XML_START = re.compile(r"\s*<[?!a-zA-Z]")
 # YAML 1.2.2, production c-printable, less what only hides text: Unicode line separators (YAML 1.1 breaks lines there,
 # 1.2 does not), text direction overrides, and a byte order mark in the middle of the text.
 _ALLOWED = "\t\n\x20-\x7e\xa0-\u2027\u202f-\u2065\u206a-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff"
@@ -24,6 +26,9 @@ def read_text(path: Path, name: str, place: Span) -> Outcome[str]:
     Args:
         name: the file in messages and spans.
         place: what is marked when the file as a whole cannot be read, such as the include that names it.
+
+    Returns:
+        The text wherever there is one, so that a finding in it can be shown; it is no YAML where there is a finding.
     """
     content = _read_bytes(path, name, place)
     if isinstance(content, Diagnostic):
@@ -32,7 +37,7 @@ def read_text(path: Path, name: str, place: Span) -> Outcome[str]:
     if isinstance(text, Diagnostic):
         return Outcome(None, (text,))
     problem = _unlike_yaml(text, name)
-    return Outcome(text) if problem is None else Outcome(None, (problem,))
+    return Outcome(text, () if problem is None else (problem,))
 
 
 def _read_bytes(path: Path, name: str, place: Span) -> bytes | Diagnostic:
@@ -94,7 +99,7 @@ def _unlike_yaml(text: str, name: str) -> Diagnostic | None:
     if match := _FORBIDDEN.search(text):
         message = f"the text holds the character U+{ord(match[0]):04X}"
         return finding("control-character", message, _span_after(text[: match.start()], name, 1))
-    if text.lstrip().startswith("<"):
+    if _XML_START.match(text):
         before = text[: len(text) - len(text.lstrip())]
         advice = "name the cell spec; a URDF or xacro belongs under `description:` of a device"
         span = _span_after(before, name, 1)

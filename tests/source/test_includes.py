@@ -105,4 +105,4 @@ def test_mistakes_of_all_files_are_told_at_once(tmp_path: Path) -> None:
     outcome = read(_write(tmp_path, cell="include: [a.yaml, b.yaml]\n", a="x: 1\nx: 2\n", b="<robot/>\n"))
     assert codes(outcome) == ["duplicate-key", "not-yaml"]
     assert outcome.value is not None
-    assert len(outcome.value.texts) == 2
+    assert len(outcome.value.texts) == 3

@@ -37,6 +37,7 @@ REFUSED = [
     ("\n<?xml version='1.0'?><robot/>", [("not-yaml", 2, 1)]),
     ("a: 1\nb: x\x1b[2J\n", [("control-character", 2, 5)]),
     ("a: \u202ehidden\n", [("control-character", 1, 4)]),
+    ("<<: x\n", [("merge-key", 1, 1)]),
     (BOMB, [("alias-bomb", 6, 4)]),
 ]
 
