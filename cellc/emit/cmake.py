@@ -12,6 +12,7 @@ from cellc.formats.header import Header
 from cellc.graph.cell_graph import CellGraph
 
 _FOLDERS = ("config", "launch", "urdf")
+_ON_HOSTS = "middleware"
 _FILES = ("contract.json", "manifest.json", "rehearsals.json")
 
 
@@ -23,7 +24,7 @@ def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
         "",
         "find_package(ament_cmake REQUIRED)",
         "",
-        *_install("DIRECTORY", _FOLDERS),
+        *_install("DIRECTORY", (*_FOLDERS, *((_ON_HOSTS,) if graph.cell.spec.hosts else ()))),
         *_install("FILES", _FILES),
         "",
         "ament_package()",

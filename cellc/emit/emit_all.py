@@ -13,6 +13,7 @@ from cellc.emit import (
     joint_limits,
     node_parameters,
     package_xml,
+    qos_overrides,
     recording,
     rehearsals,
     responsibility_graph,
@@ -22,6 +23,7 @@ from cellc.emit import (
 from cellc.emit.contract import contract
 from cellc.emit.gates import gates
 from cellc.emit.launch import launch
+from cellc.emit.middleware import middleware
 from cellc.emit.moveit import moveit
 from cellc.emit.readme import readme
 from cellc.formats.configuration import configuration_id, configuration_inputs
@@ -41,6 +43,8 @@ EMITTERS: tuple[Callable[[CellGraph, Header], Iterator[Artifact]], ...] = (
     launch.emit,
     contract.emit,
     rehearsals.emit,
+    qos_overrides.emit,
+    middleware.emit,
     recording.emit,
     responsibility_graph.emit,
     gates.emit,

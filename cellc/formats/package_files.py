@@ -9,6 +9,9 @@ from cellc.cell.interface import Node
 REHEARSALS = "rehearsals.json"
 """What the mock executes."""
 
+QOS_OVERRIDES = "config/qos_overrides.yaml"
+"""QoS of the nodes that the spec names."""
+
 
 def description_file(cell: Cell, target: str) -> str:
     """Return the path of the URDF for ``mock`` or ``real``."""

@@ -7,10 +7,11 @@ from xml.etree.ElementTree import Element
 
 from cellc.cell.cell import Cell
 from cellc.cell.control import ControllerManager
-from cellc.cell.interface import Node
+from cellc.cell.interface import Node, NodeSource
 from cellc.emit.launch.substitutions import ON_REAL, description, share
 from cellc.formats.moveit_files import PARAMETER_FILES, is_planner, semantic_file
-from cellc.formats.package_files import controllers_file, node_file
+from cellc.formats.package_files import QOS_OVERRIDES, controllers_file, node_file
+from cellc.formats.qos_parameters import qos_parameters
 from cellc.formats.xml_text import element
 
 _DESCRIPTION_TOPIC = "/robot_description"
@@ -88,6 +89,8 @@ def _parameters(cell: Cell, node: Node) -> Iterator[Element]:
         yield from (element("param", {"from": share(cell, file)}) for file in PARAMETER_FILES)
     if node.parameters:
         yield element("param", {"from": share(cell, node_file(node))})
+    if node.source is NodeSource.SPEC and qos_parameters(cell, node):
+        yield element("param", {"from": share(cell, QOS_OVERRIDES)})
     if node.clock == "sim":
         yield element("param", {"name": "use_sim_time", "value": "true"})
 

@@ -1,0 +1,1 @@
+"""The middleware's configuration, one file a host and implementation."""

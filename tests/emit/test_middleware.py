@@ -1,0 +1,137 @@
+"""Middleware files against the schemas of their readers, and who may be reached over which card."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+import xmlschema
+import yaml
+
+from tests.emit.cells import DISTROS, ORACLES, artifacts_of, emitted, spec_text
+
+CONTROL_CARD = "192.168.56.10"
+SECOND_HOST = "\n  vision_pc:\n    nics: {bulk: {address: 10.10.0.11/24, carries: [camera]}}\nnetwork:"
+_SCHEMAS = pytest.mark.skipif(not ORACLES.is_dir(), reason="the oracles are not beside this checkout")
+
+
+def _text(rmw: str, discovery: str, distro: str = "jazzy") -> str:
+    text = (
+        spec_text("ur5e_pick").replace("ros: jazzy", f"ros: {distro}").replace("rmw_fastrtps_cpp 8.4.4", f"{rmw} 1.0.0")
+    )
+    text = re.sub(r"discovery: \w+", f"discovery: {discovery}", text)
+    return text.replace("\nnetwork:", SECOND_HOST, 1)
+
+
+def _of_middleware(artifacts: dict[str, str]) -> dict[str, str]:
+    return {path: text for path, text in artifacts.items() if path.startswith("middleware/")}
+
+
+@_SCHEMAS
+@pytest.mark.parametrize("distro", DISTROS)
+@pytest.mark.parametrize("discovery", ["multicast", "unicast", "localhost", "off"])
+def test_fast_dds_profile_is_what_fast_dds_declares(distro: str, discovery: str, tmp_path: Path) -> None:
+    files = emitted(tmp_path, _text("rmw_fastrtps_cpp", discovery, distro))
+    schema = xmlschema.XMLSchema11(ORACLES / "xsd" / "fastdds_profiles.xsd")
+    for host in ("control_pc", "vision_pc"):
+        # Version 2 has another namespace than the schema, which is that of version 3.
+        old = "http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles"
+        text = files[f"middleware/{host}.fastdds.xml"]
+        assert (old in text) is (distro in ("humble", "jazzy"))
+        schema.validate(text.replace(old, "http://www.eprosima.com"))
+
+
+@_SCHEMAS
+@pytest.mark.parametrize("discovery", ["multicast", "unicast", "localhost", "off"])
+def test_cyclone_profile_is_what_cyclone_declares(discovery: str, tmp_path: Path) -> None:
+    files = emitted(tmp_path, _text("rmw_cyclonedds_cpp", discovery))
+    schema = xmlschema.XMLSchema(ORACLES / "xsd" / "cyclonedds.xsd")
+    for host in ("control_pc", "vision_pc"):
+        schema.validate(files[f"middleware/{host}.cyclonedds.xml"])
+
+
+@pytest.mark.parametrize("rmw", ["rmw_fastrtps_cpp", "rmw_cyclonedds_cpp", "rmw_zenoh_cpp"])
+@pytest.mark.parametrize("discovery", ["multicast", "unicast", "localhost"])
+def test_no_ros_traffic_is_bound_to_the_control_card(rmw: str, discovery: str, tmp_path: Path) -> None:
+    files = _of_middleware(emitted(tmp_path, _text(rmw, discovery)))
+    assert not any(CONTROL_CARD in text for text in files.values())
+    profile = "".join(text for path, text in files.items() if "control_pc." in path and not path.endswith(".sh"))
+    assert ("10.10.0.10" in profile) is (discovery != "localhost")
+    assert "127.0.0.1" in profile
+
+
+@pytest.mark.parametrize(
+    ("distro", "discovery", "lines"),
+    [
+        ("jazzy", "multicast", ['export ROS_AUTOMATIC_DISCOVERY_RANGE="SUBNET"']),
+        (
+            "jazzy",
+            "unicast",
+            ['export ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST"', 'export ROS_STATIC_PEERS="10.10.0.11"'],
+        ),
+        ("kilted", "localhost", ['export ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST"']),
+        ("humble", "localhost", ['export ROS_LOCALHOST_ONLY="1"']),
+        ("humble", "unicast", ['export ROS_LOCALHOST_ONLY="0"']),
+    ],
+)
+def test_environment_speaks_the_words_of_the_distribution(
+    distro: str, discovery: str, lines: list[str], tmp_path: Path
+) -> None:
+    shell = emitted(tmp_path, _text("rmw_fastrtps_cpp", discovery, distro))["middleware/control_pc.sh"].splitlines()
+    about_discovery = [line for line in shell if "DISCOVERY" in line or "LOCALHOST_ONLY" in line or "PEERS" in line]
+    assert about_discovery == lines
+    assert 'export ROS_DOMAIN_ID="42"' in shell
+
+
+def test_profiles_that_the_environment_names_are_in_the_package(tmp_path: Path) -> None:
+    for rmw in ("rmw_fastrtps_cpp", "rmw_cyclonedds_cpp", "rmw_zenoh_cpp"):
+        files = emitted(tmp_path, _text(rmw, "unicast"))
+        named = re.findall(r"\$\{_cell_share\}/([^\"]+)", files["middleware/control_pc.sh"])
+        assert named
+        assert set(named) <= set(files)
+
+
+def test_zenoh_router_listens_and_sessions_connect_to_it_alone(tmp_path: Path) -> None:
+    files = emitted(tmp_path, _text("rmw_zenoh_cpp", "unicast"))
+    # JSON5 with bare keys and trailing commas, brought back to JSON by hand.
+    documents = {}
+    for kind in ("router", "session"):
+        text = re.sub(r"^//.*$", "", files[f"middleware/control_pc.zenoh_{kind}.json5"], flags=re.MULTILINE)
+        text = re.sub(r"(\w+):(?=\s)", r'"\1":', text)
+        documents[kind] = json.loads(re.sub(r",(\s*})", r"\1", text))
+    assert documents["router"]["mode"] == "router"
+    assert documents["router"]["listen"]["endpoints"] == ["tcp/127.0.0.1:7447", "tcp/10.10.0.10:7447"]
+    assert documents["router"]["connect"]["endpoints"] == ["tcp/10.10.0.11:7447"]
+    assert documents["session"]["connect"]["endpoints"] == ["tcp/localhost:7447"]
+    assert documents["session"]["scouting"]["multicast"]["enabled"] is False
+
+
+def test_qos_overrides_are_those_that_rclcpp_reads() -> None:
+    sections = yaml.safe_load(artifacts_of("ur5e_pick")["config/qos_overrides.yaml"])
+    overrides = sections["perception"]["ros__parameters"]["qos_overrides"]
+    assert overrides["/camera/color/image_raw"]["subscription"] == {
+        "reliability": "best_effort",
+        "durability": "volatile",
+        "history": "keep_last",
+        "depth": 1,
+        "liveliness": "automatic",
+    }
+    assert list(overrides["/object_pose"]) == ["publisher"]
+
+
+def test_durations_of_qos_are_whole_nanoseconds(tmp_path: Path) -> None:
+    before = "from: {perception: {reliability: reliable, depth: 1}}"
+    text = spec_text("ur5e_pick")
+    assert before in text
+    text = text.replace(before, "from: {perception: {deadline: 150 ms, lifespan: 0.5 s, lease_duration: 1 s}}")
+    overrides = yaml.safe_load(emitted(tmp_path, text)["config/qos_overrides.yaml"])
+    policies = overrides["perception"]["ros__parameters"]["qos_overrides"]["/object_pose"]["publisher"]
+    assert policies["deadline"] == 150_000_000
+    assert policies["lifespan"] == 500_000_000
+    assert policies["liveliness_lease_duration"] == 1_000_000_000
+
+
+def test_cell_without_hosts_needs_no_middleware_files() -> None:
+    assert not _of_middleware(artifacts_of("minimal"))
