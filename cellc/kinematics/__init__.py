@@ -1,0 +1,33 @@
+"""The deterministic planner: inverse kinematics, collision-free paths, and jerk-limited trajectories."""
+
+from cellc.kinematics.disabled import always_colliding_or_adjacent
+from cellc.kinematics.failure import FailureReason, IkFailure, LimitsError, ModelError, PlanFailure
+from cellc.kinematics.inverse import IkSolution
+from cellc.kinematics.limits import JointLimits, PlanningGroup
+from cellc.kinematics.model import RobotModel
+from cellc.kinematics.path import JointPath
+from cellc.kinematics.planner import Planner
+from cellc.kinematics.scene import Box, CollisionScene
+from cellc.kinematics.timing import time_parameterize
+from cellc.kinematics.trajectory import LimitUse, TimedTrajectory, TrajectoryPoint
+
+__all__ = [
+    "Box",
+    "CollisionScene",
+    "FailureReason",
+    "IkFailure",
+    "IkSolution",
+    "JointLimits",
+    "JointPath",
+    "LimitUse",
+    "LimitsError",
+    "ModelError",
+    "PlanFailure",
+    "Planner",
+    "PlanningGroup",
+    "RobotModel",
+    "TimedTrajectory",
+    "TrajectoryPoint",
+    "always_colliding_or_adjacent",
+    "time_parameterize",
+]

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from cellc.contract.contract import Contract, ContractGroup, ContractJointLimits
 from cellc.mock.errors import MockError
-from cellc.mock.planning import (
+from cellc.kinematics import (
     CollisionScene,
     JointLimits,
     LimitsError,

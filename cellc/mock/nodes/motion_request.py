@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from cellc.mock.nodes.motion_model import GroupModel, MotionModel
-from cellc.mock.planning import (
+from cellc.kinematics import (
     Box,
     CollisionScene,
     FailureReason,

@@ -1,0 +1,80 @@
+"""Levenberg-Marquardt on the pose error of the tip: one descent from one seed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import pinocchio
+
+from cellc.kinematics.chain import GroupChain
+from cellc.kinematics.limits import Array, JointLimits
+from cellc.kinematics.model import PinTransform
+
+POSITION_TOLERANCE_M = 1e-6
+ROTATION_TOLERANCE_RAD = 1e-6
+# Below this the error is rounding of the pose itself; the spline of a Cartesian path needs its waypoints that clean.
+_CONVERGED = 1e-12
+_MAX_ITERATIONS = 60
+_MAX_STEP_RAD = 0.6
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Descent:
+    """Where a descent ended.
+
+    Attributes:
+        position_error: distance of the tip from the target in metres.
+        rotation_error: angle between tip and target in radians.
+    """
+
+    configuration: Array
+    position_error: float
+    rotation_error: float
+
+    @property
+    def reached(self) -> bool:
+        """Tell whether the tip is at the target within the tolerances."""
+        return self.position_error <= POSITION_TOLERANCE_M and self.rotation_error <= ROTATION_TOLERANCE_RAD
+
+
+def descend(chain: GroupChain, target_to_world: PinTransform, seed: Array, limits: JointLimits | None) -> Descent:
+    """Follow the pose error from a seed to a configuration that puts the tip at the target.
+
+    The damping is half the squared error plus a small bias (Sugihara, IEEE Transactions on Robotics 27(5), 2011), so
+    the last steps are Gauss-Newton steps and converge quadratically.
+
+    Args:
+        target_to_world: transform of the wanted tip to the world.
+        limits: position limits held at every step; None lets the joints leave them.
+    """
+    configuration = seed.astype(np.float64)
+    best, least = configuration, np.full(6, np.inf)
+    for _ in range(_MAX_ITERATIONS):
+        tip, jacobian = chain.tip_and_jacobian(configuration)
+        error = np.asarray(pinocchio.log6(tip.actInv(target_to_world)).vector)
+        squared = float(error @ error)
+        if squared >= float(least @ least) and float(least @ least) < POSITION_TOLERANCE_M**2:
+            break  # rounding has stopped the descent
+        if squared < float(least @ least):
+            best, least = configuration, error
+        if squared < _CONVERGED**2:
+            break
+        configuration = configuration + _step(jacobian, error)
+        if limits is not None:
+            configuration = np.clip(configuration, limits.lower, limits.upper)
+    return Descent(best, float(np.linalg.norm(least[:3])), float(np.linalg.norm(least[3:])))
+
+
+def singular_values(chain: GroupChain, configuration: Array) -> Array:
+    """Return the singular values of the tip's Jacobian, largest first; rows in metres and radians."""
+    jacobian = chain.tip_and_jacobian(configuration)[1]
+    return np.asarray(np.linalg.svd(jacobian, compute_uv=False), dtype=np.float64)
+
+
+def _step(jacobian: Array, error: Array) -> Array:
+    # The bias keeps the system regular where the arm is redundant or singular.
+    damping = 0.5 * float(error @ error) + 1e-9
+    normal = jacobian.T @ jacobian + damping * np.eye(jacobian.shape[1])
+    step = np.asarray(np.linalg.solve(normal, jacobian.T @ error), dtype=np.float64)
+    return step * min(1.0, _MAX_STEP_RAD / max(_MAX_STEP_RAD, float(np.max(np.abs(step)))))

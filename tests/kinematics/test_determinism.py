@@ -1,0 +1,48 @@
+"""The same plan, to the last bit, in processes of different hash seeds."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+
+SCRIPT = """
+import sys
+sys.path.insert(0, {tests!r})
+from kinematics.arm import ADJACENT, GROUP, HOME, LIMITS, arm_urdf
+from cellc.kinematics import CollisionScene, Planner, RobotModel, always_colliding_or_adjacent, time_parameterize
+from cellc.transforms import Pose
+
+model = RobotModel.from_urdf(arm_urdf())
+disabled = always_colliding_or_adjacent(model, samples=20, rng_seed=1)
+wall = Pose((-0.5, 0.0, 0.25), (0.0, 0.0, 0.0, 1.0))
+scene = CollisionScene(model, disabled_collisions=disabled).attach("wall", "table", (0.5, 0.02, 0.5), wall)
+planner = Planner(model, GROUP, LIMITS, scene)
+down = (0.5**0.5, 0.5**0.5, 0.0, 0.0)
+start, goal = (
+    planner.inverse_kinematics(Pose((-0.45, y, 0.25), down), HOME, seeds=8, rng_seed=2).configuration
+    for y in (-0.35, 0.35)
+)
+path = planner.plan_to_configuration(start, goal, rng_seed=3)
+line = planner.plan_cartesian(goal, Pose((-0.45, 0.35, 0.15), down))
+assert len(path.sections) > 1
+print(disabled, repr(time_parameterize(path.then(line), LIMITS)))
+"""
+
+
+def _run(hash_seed: str) -> str:
+    script = SCRIPT.format(tests=str(REPOSITORY / "tests"))
+    environment = {**os.environ, "PYTHONHASHSEED": hash_seed}
+    result = subprocess.run(
+        [sys.executable, "-c", script], cwd=REPOSITORY, env=environment, capture_output=True, text=True, check=True
+    )
+    return result.stdout
+
+
+def test_two_processes_plan_bit_identically() -> None:
+    first = _run("1")
+    assert "TrajectoryPoint" in first
+    assert _run("2") == first
