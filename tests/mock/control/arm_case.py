@@ -23,7 +23,7 @@ from cellc.mock.control import (
     TrajectoryStateResponse,
 )
 
-from .recorded import MS, ORACLES, S, Case, read_yaml
+from .recorded import MS, ORACLES, Case, S, read_yaml
 
 Answer = (
     CancelResponse | HardwareStateResponse | ParameterResponse | ServiceResponse | TrajectoryStateResponse | str | None
@@ -92,8 +92,8 @@ def _points(sent: Case) -> tuple[TrajectoryPoint, ...]:
     kinds = ("positions", "velocities", "accelerations", "effort")
     return tuple(
         TrajectoryPoint(
-            *(tuple(float(value) for value in point.get(kind, [])) for kind in kinds),
-            round(point["time_from_start"] * S),
+            **{kind: tuple(float(value) for value in point.get(kind, [])) for kind in kinds},
+            time_from_start_ns=round(point["time_from_start"] * S),
         )
         for point in sent["points"]
     )

@@ -17,7 +17,7 @@ from cellc.mock.control import (
     TrajectoryPoint,
 )
 
-from .recorded import MS, S, Case, case_parameters, read_yaml
+from .recorded import MS, Case, S, case_parameters, read_yaml
 
 
 def _start(folder: Path, observed: Case) -> ControllerManager:

@@ -8,7 +8,7 @@ import pytest
 
 from cellc.mock.control import ControllerManager, GoalResponse, GripperEnded, GripperGoal
 
-from .recorded import MS, ORACLES, S, Case, case_parameters, read_yaml
+from .recorded import MS, ORACLES, Case, S, case_parameters, read_yaml
 
 _START_NS = 2 * S
 _NAME = "gripper_controller"

@@ -9,7 +9,7 @@ import pytest
 
 from cellc.mock.control import ControllerManager
 
-from .recorded import MS, S, Case, case_parameters, read_yaml
+from .recorded import MS, Case, S, case_parameters, read_yaml
 
 _START_NS = 2 * S
 

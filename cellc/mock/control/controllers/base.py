@@ -110,8 +110,8 @@ class Controller(Protocol):
     def regular(self, block: Block) -> int:
         """Tell, with the states known, how many leading cycles of the previewed block are regular."""
 
-    def commit(self, block: Block) -> None:
-        """Adopt the cycles of the block, all of them regular."""
+    def commit(self, block: Block, start: int) -> None:
+        """Adopt the cycles of the previewed block from `start` on, all of them regular; those before were adopted."""
 
     def next_monitor_ns(self) -> int | None:
         """The time at which it has to tell the outside something, None for never."""
@@ -174,7 +174,7 @@ class QuietController:
         """Nothing happens in any cycle."""
         return len(block)
 
-    def commit(self, block: Block) -> None:
+    def commit(self, block: Block, start: int) -> None:
         """Nothing to adopt."""
 
     def next_monitor_ns(self) -> int | None:

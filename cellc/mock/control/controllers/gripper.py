@@ -225,7 +225,7 @@ class GripperController(QuietController):
         moved = np.where(self._moving(block), block.times_ns, self._moved_ns)
         return np.maximum.accumulate(moved)
 
-    def commit(self, block: Block) -> None:
+    def commit(self, block: Block, start: int) -> None:
         """Remember the last movement."""
         if self._goal is not None:
             self._moved_ns = int(self._moved_before(block)[-1])

@@ -133,7 +133,7 @@ class JointStateBroadcaster(QuietController):
         if self._listened:
             self._collect(np.array([cycle.time_ns], dtype=np.int64), self.context.table.state[None, :])
 
-    def commit(self, block: Block) -> None:
+    def commit(self, block: Block, start: int) -> None:
         """Publish all cycles of the block."""
         if self._listened:
-            self._collect(block.times_ns.copy(), block.state)
+            self._collect(block.times_ns[start:].copy(), block.state[start:])

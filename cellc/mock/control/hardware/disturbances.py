@@ -66,11 +66,15 @@ class Disturbances:
     """Switches faults on and off.
 
     Args:
+        changed: called before each change.
         skip: called with the number of update cycles that the manager misses.
         set_state: called with component and lifecycle state.
     """
 
-    def __init__(self, skip: Callable[[int], None], set_state: Callable[[str, str], object]) -> None:
+    def __init__(
+        self, changed: Callable[[], None], skip: Callable[[int], None], set_state: Callable[[str, str], object]
+    ) -> None:
+        self._changed = changed
         self._skip = skip
         self._set_state = set_state
         self._joints: dict[str, JointFault] = {}
@@ -103,6 +107,7 @@ class Disturbances:
         return bool(self._failing_read or self._failing_write)
 
     def _change(self, joint: str, fault: JointFault) -> None:
+        self._changed()
         self._joints[joint] = fault
 
     def stick(self, joint: str) -> None:
@@ -127,34 +132,42 @@ class Disturbances:
 
     def clear(self, joint: str) -> None:
         """Let a joint be healthy again."""
+        self._changed()
         self._joints.pop(joint, None)
 
     def ignore_commands(self, component: str) -> None:
         """Let a component no longer follow its commands."""
+        self._changed()
         self._deaf.add(component)
 
     def heed_commands(self, component: str) -> None:
         """Let a component follow its commands again."""
+        self._changed()
         self._deaf.discard(component)
 
     def fail_read(self, component: str) -> None:
         """Let the next read of a component return an error."""
+        self._changed()
         self._failing_read.add(component)
 
     def fail_write(self, component: str) -> None:
         """Let the next write of a component return an error."""
+        self._changed()
         self._failing_write.add(component)
 
     def skip_cycles(self, cycles: int) -> None:
         """Let the manager miss its next update cycles; the one after them sees the longer period."""
+        self._changed()
         self._skip(cycles)
 
     def protective_stop(self, component: str) -> None:
         """Stop a component: it becomes inactive and ignores commands until it is released."""
+        self._changed()
         self._deaf.add(component)
         self._set_state(component, "inactive")
 
     def release(self, component: str) -> None:
         """End a protective stop: the component is active again and follows commands."""
+        self._changed()
         self._deaf.discard(component)
         self._set_state(component, "active")

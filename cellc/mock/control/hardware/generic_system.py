@@ -259,7 +259,8 @@ class GenericSystem:
             if self._dynamics:
                 velocity = differences(position, self._position[indices], period_s)
                 motion.velocity[:, indices] = velocity
-                motion.acceleration[:, indices] = differences(velocity, self._velocity[indices], period_s)
+                if len(self._state_columns["acceleration"][0]):
+                    motion.acceleration[:, indices] = differences(velocity, self._velocity[indices], period_s)
             return
         if not self._dynamics:
             (motion.velocity if kind == "velocity" else motion.acceleration)[:, indices] = values
@@ -301,4 +302,3 @@ class GenericSystem:
         self._position = motion.position[cycles - 1].copy()
         self._velocity = motion.velocity[cycles - 1].copy()
         self._acceleration = motion.acceleration[cycles - 1].copy()
-        self._motion = None

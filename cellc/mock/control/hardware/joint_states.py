@@ -21,9 +21,13 @@ class Motion:
     @staticmethod
     def standing(cycles: int, position: Array, velocity: Array, acceleration: Array) -> Motion:
         """Every joint keeps its values."""
-        return Motion(
-            np.tile(position, (cycles, 1)), np.tile(velocity, (cycles, 1)), np.tile(acceleration, (cycles, 1))
-        )
+        return Motion(_repeat(position, cycles), _repeat(velocity, cycles), _repeat(acceleration, cycles))
+
+
+def _repeat(row: Array, cycles: int) -> Array:
+    rows = np.empty((cycles, len(row)))
+    rows[:] = row
+    return rows
 
 
 def differences(values: Array, previous: Array, period_s: float) -> Array:

@@ -183,6 +183,8 @@ class CommandLimiter:
             How many leading cycles are limited exactly; the cycle after them has to be done alone.
         """
         cycles = len(block)
+        if self._none_limited(block, columns):
+            return cycles
         for column in columns:
             entry = self._by_column.get(column)
             if entry is None:
@@ -191,6 +193,25 @@ class CommandLimiter:
             if cycles == 0:
                 return 0
         return cycles
+
+    def _none_limited(self, block: Block, columns: Sequence[int]) -> bool:
+        """Whether all commands of the block are inside their limits; only position limits are looked at together."""
+        joints = [self._by_column[column] for column in columns if column in self._by_column]
+        for joint, kind in joints:
+            if kind != "position" or math.isfinite(joint.limits.acceleration) or "position" not in joint.previous:
+                return False
+        if not joints:
+            return True
+        limited = [column for column in columns if column in self._by_column]
+        wanted = np.empty((len(block) + 1, len(joints)))
+        wanted[0] = [joint.previous["position"] for joint, _ in joints]
+        wanted[1:] = block.command[:, limited]
+        step = np.array([joint.limits.velocity * self._period_s for joint, _ in joints])
+        lower = np.array([joint.limits.lower for joint, _ in joints])
+        upper = np.array([joint.limits.upper for joint, _ in joints])
+        low = np.maximum(np.minimum(wanted[:-1] - step, upper), lower)
+        high = np.minimum(np.maximum(wanted[:-1] + step, low), upper)
+        return bool(((wanted[1:] >= low) & (wanted[1:] <= high)).all())
 
     def _limit_column(self, block: Block, column: int, joint: _LimitedJoint, kind: str) -> int:
         if kind != "position" or math.isfinite(joint.limits.acceleration) or "position" not in joint.previous:
@@ -215,19 +236,16 @@ class CommandLimiter:
 
     def first_out_of_bounds(self, block: Block, columns: Sequence[int]) -> int:
         """Index of the first cycle in which a limited joint was measured too far outside its limits."""
-        first = len(block)
-        for column in columns:
-            entry = self._by_column.get(column)
-            if entry is None or "position" not in entry[0].states:
-                continue
-            joint = entry[0]
-            measured = block.state[:first, joint.states["position"]]
-            outside = (measured > joint.limits.upper + _OUT_OF_BOUNDS_TOLERANCE) | (
-                measured < joint.limits.lower - _OUT_OF_BOUNDS_TOLERANCE
-            )
-            if outside.any():
-                first = int(outside.argmax())
-        return first
+        joints = [self._by_column[column][0] for column in columns if column in self._by_column]
+        joints = [joint for joint in joints if "position" in joint.states]
+        if not joints:
+            return len(block)
+        measured = block.state[:, [joint.states["position"] for joint in joints]]
+        lower = np.array([joint.limits.lower - _OUT_OF_BOUNDS_TOLERANCE for joint in joints])
+        upper = np.array([joint.limits.upper + _OUT_OF_BOUNDS_TOLERANCE for joint in joints])
+        outside = np.logical_or.reduce((measured > upper) | (measured < lower), axis=1)
+        first = int(outside.argmax())
+        return first if outside[first] else len(block)
 
     def commit(self, block: Block, columns: Sequence[int]) -> None:
         """Adopt the last commands of a block as previous commands."""

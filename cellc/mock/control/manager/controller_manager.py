@@ -76,9 +76,10 @@ class ControllerManager:
         self.period_ns = 1_000_000_000 // settings.update_rate
         self._events: list[ControlEvent] = []
         self._table = InterfaceTable()
-        self.disturbances = Disturbances(self._skip, self._set_component_state)
+        self.disturbances = Disturbances(self._touch, self._skip, self._set_component_state)
         description, hardware = self._load_hardware(urdf)
         self._hardware = hardware
+        self._cycles: CycleRunner | None = None
         limiter = None
         if hardware is not None:
             hardware.set_initial(settings.initially_unconfigured, settings.initially_inactive)
@@ -89,7 +90,6 @@ class ControllerManager:
         self._switcher = Switcher(self._registry, hardware, self._table, limiter, self.log, self._events)
         self._listing = Listing(self._registry, hardware, self._table, settings.update_rate)
         self._goals = GoalDesk(self._registry, self.log)
-        self._cycles = None
         if hardware is not None:
             self._cycles = CycleRunner(
                 self._registry,
@@ -135,6 +135,7 @@ class ControllerManager:
             inactive: configure them only.
             parameters: text of the file given with --param-file.
         """
+        self._touch()
         if self._cycles is None:
             # Without a robot description the services are not offered and the spawner waits in vain.
             return SpawnResponse(False, "", self.description_error, tuple(names))
@@ -143,18 +144,22 @@ class ControllerManager:
 
     def load_controller(self, name: str) -> ServiceResponse:
         """Answer load_controller."""
+        self._touch()
         return self._registry.load(name, None)
 
     def configure_controller(self, name: str) -> ServiceResponse:
         """Answer configure_controller."""
+        self._touch()
         return self._registry.configure(name)
 
     def cleanup_controller(self, name: str) -> ServiceResponse:
         """Answer cleanup_controller."""
+        self._touch()
         return self._registry.cleanup(name)
 
     def unload_controller(self, name: str) -> ServiceResponse:
         """Answer unload_controller."""
+        self._touch()
         return self._registry.unload(name)
 
     def switch_controllers(
@@ -187,12 +192,14 @@ class ControllerManager:
 
     def set_hardware_component_state(self, name: str, state: str) -> HardwareStateResponse:
         """Answer set_hardware_component_state."""
+        self._touch()
         if self._hardware is None:
             return HardwareStateResponse(False)
         return self._hardware.set_state(name, state)
 
     def set_parameter(self, controller: str, name: str, value: ParameterValue) -> ParameterResponse:
         """Answer set_parameters of a controller's node for one parameter."""
+        self._touch()
         loaded = self._registry.controllers[controller]
         try:
             loaded.context.parameters.set(name, value)
@@ -200,6 +207,11 @@ class ControllerManager:
             return ParameterResponse(False, error.reason)
         loaded.controller.parameter_changed(name, value)
         return ParameterResponse(True)
+
+    def _touch(self) -> None:
+        """Void what was computed ahead: something is asked from outside."""
+        if self._cycles is not None:
+            self._cycles.discard()
 
     def _skip(self, cycles: int) -> None:
         if self._cycles is not None:
@@ -251,34 +263,41 @@ class ControllerManager:
 
     def send_goal(self, controller: str, goal: Goal, feedback: bool = False) -> GoalResponse:
         """Send a goal to a controller's action; `feedback` asks for feedback events."""
+        self._touch()
         return self._goals.send(controller, goal, self.now_ns, feedback)
 
     def cancel_goal(self, goal_id: int) -> CancelResponse:
         """Ask to cancel one goal."""
+        self._touch()
         return self._goals.cancel(goal_id, self.now_ns)
 
     def cancel_all(self, controller: str) -> CancelResponse:
         """Ask to cancel all goals of a controller."""
+        self._touch()
         return self._goals.cancel_all(controller, self.now_ns)
 
     def publish_trajectory(self, controller: str, trajectory: Trajectory) -> str:
         """Publish to `~/joint_trajectory`; returns why the controller ignored it, empty where it did not."""
+        self._touch()
         return self._goals.take_trajectory(controller, trajectory, self.now_ns)
 
     def publish_commands(self, controller: str, data: Sequence[float]) -> None:
         """Publish to `~/commands` of a forward command controller."""
+        self._touch()
         found = self._registry.controllers[controller].controller
         assert isinstance(found, ForwardCommandController), f"{controller} takes no lists of commands"
         found.receive(data)
 
     def publish_gpio_commands(self, controller: str, values: Mapping[str, float]) -> None:
         """Publish to `~/commands` of a gpio command controller, values by full interface name."""
+        self._touch()
         found = self._registry.controllers[controller].controller
         assert isinstance(found, GpioCommandController), f"{controller} takes no gpio commands"
         found.receive(values)
 
     def publish_speed_scaling(self, controller: str, factor: float) -> None:
         """Publish to `~/speed_scaling_input` of a trajectory controller."""
+        self._touch()
         self._trajectory_controller(controller).scaling.set(factor)
 
     def query_state(self, controller: str, time_ns: int) -> TrajectoryStateResponse:
@@ -307,10 +326,12 @@ class ControllerManager:
 
     def write_state(self, name: str, value: float) -> None:
         """Let the outside world set a state interface that no command moves: a sensor, a speed scaling factor."""
+        self._touch()
         self._table.state[self._table.state_column(name)] = value
 
     def subscribe_joint_states(self, controller: str) -> None:
         """Collect what a joint state broadcaster publishes, from the next cycle on."""
+        self._touch()
         self._broadcaster(controller).listen()
 
     def take_joint_states(self, controller: str) -> JointStateBlock:
@@ -324,6 +345,7 @@ class ControllerManager:
 
     def record(self, controller: str, rate_hz: float) -> None:
         """Record a trajectory controller from now on, thinned to a rate."""
+        self._touch()
         found = self._trajectory_controller(controller)
         found.recorder = Recorder(found.interfaces.joints, round(1e9 / rate_hz))
 

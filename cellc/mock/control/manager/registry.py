@@ -156,8 +156,8 @@ class ControllerRegistry:
         self._log.warn(
             NODE_NAME,
             f"The controller : {loaded.name} update cycles won't be triggered at a constant period : "
-            f"{1.0 / achievable:.6f} sec, as the controller's update rate : {achievable} Hz is not a perfect divisor of "
-            f"the controller manager's update rate : {self._rate} Hz!.",
+            f"{1.0 / achievable:.6f} sec, as the controller's update rate : {achievable} Hz is not a perfect divisor "
+            f"of the controller manager's update rate : {self._rate} Hz!.",
         )
         return achievable
 

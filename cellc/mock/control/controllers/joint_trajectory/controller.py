@@ -327,7 +327,7 @@ class JointTrajectoryController(QuietController):
             regular_updates(motion, samples, block.state, self.goals.tolerances, self.goals.running, self._timeout_s),
         )
 
-    def commit(self, block: Block) -> None:
+    def commit(self, block: Block, start: int) -> None:
         """Adopt the previewed updates of the block."""
         motion, samples = self._motion, self._preview
         assert motion is not None
@@ -350,7 +350,7 @@ class JointTrajectoryController(QuietController):
             self._commanded = StartState(motion.time_ns, samples.next[row], velocity, acceleration)
         if self.recorder is not None:
             columns = next(iter(self.interfaces.commands.values()))
-            self.recorder.add_block(block, samples, places["position"], columns)
+            self.recorder.add_block(block, start, samples, places["position"], columns)
 
     # -- outside -----------------------------------------------------------------------------------------------------
 

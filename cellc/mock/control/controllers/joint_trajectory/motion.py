@@ -22,17 +22,38 @@ class PendingTrajectory:
     held: bool
 
 
-@dataclass(slots=True)
 class Samples:
-    """Desired states now and one period ahead, for successive updates."""
+    """Desired states now and one period ahead, for successive updates.
 
-    times_ns: Times
-    reached: Indices
-    desired: Array
-    desired_velocity: Array
-    next_reached: Indices
-    next_into: Array
-    next: Array
+    Args:
+        spline: what is sampled.
+        times_ns: trajectory times of the updates.
+        reached: points that are reached at each, and the time into the segment.
+        desired: desired positions.
+        ahead: the same one period ahead: points that are reached, time into the segment, positions.
+    """
+
+    def __init__(
+        self,
+        spline: Spline,
+        times_ns: Times,
+        reached: tuple[Indices, Array],
+        desired: Array,
+        ahead: tuple[Indices, Array, Array],
+    ) -> None:
+        self.times_ns = times_ns
+        self.desired = desired
+        self.next_reached, self.next_into, self.next = ahead
+        self._spline = spline
+        self._reached = reached
+        self._velocity: Array | None = None
+
+    @property
+    def desired_velocity(self) -> Array:
+        """Desired velocities now, computed only where they are asked for."""
+        if self._velocity is None:
+            self._velocity = self._spline.velocities(*self._reached)
+        return self._velocity
 
 
 class Motion:
@@ -61,19 +82,12 @@ class Motion:
             longer = np.append(times_ns, times_ns[-1] + self._ahead_ns)
             reached, into = spline.locate(longer)
             positions = spline.positions(reached, into)
-            velocities = spline.velocities(reached[:-1], into[:-1])
-            return Samples(times_ns, reached[:-1], positions[:-1], velocities, reached[1:], into[1:], positions[1:])
+            now, ahead = (reached[:-1], into[:-1]), (reached[1:], into[1:], positions[1:])
+            return Samples(spline, times_ns, now, positions[:-1], ahead)
         reached, into = spline.locate(times_ns)
-        next_reached, next_into = spline.locate(times_ns + self._ahead_ns)
-        return Samples(
-            times_ns,
-            reached,
-            spline.positions(reached, into),
-            spline.velocities(reached, into),
-            next_reached,
-            next_into,
-            spline.positions(next_reached, next_into),
-        )
+        later, later_into = spline.locate(times_ns + self._ahead_ns)
+        ahead = (later, later_into, spline.positions(later, later_into))
+        return Samples(spline, times_ns, (reached, into), spline.positions(reached, into), ahead)
 
     def overtime_s(self, samples: Samples) -> Array:
         """Time since the point that the next sample's segment starts with was due; negative before it is (s)."""

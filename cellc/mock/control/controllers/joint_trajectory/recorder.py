@@ -67,9 +67,11 @@ class Recorder:
             rows = (samples.desired[:1], samples.desired_velocity[:1], actual[None, :], command[None, :])
             self._values.append(rows)
 
-    def add_block(self, block: Block, samples: Samples, actual: NDArray[np.intp], command: NDArray[np.intp]) -> None:
-        """Record the updates of a block; `actual` and `command` are columns of its states and commands."""
-        rows = self._due(block.times_ns)
+    def add_block(
+        self, block: Block, start: int, samples: Samples, actual: NDArray[np.intp], command: NDArray[np.intp]
+    ) -> None:
+        """Record a block from `start` on; `actual` and `command` are columns of its states and commands."""
+        rows = self._due(block.times_ns[start:]) + start
         if len(rows):
             self._stamps.append(block.times_ns[rows])
             values = (
