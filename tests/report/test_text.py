@@ -129,3 +129,14 @@ def test_summary_counts_by_severity() -> None:
     assert summary(found, [FILE]) == "2 errors, 1 blocker, 3 warnings in cells/a.yaml"
     assert summary([], [FILE]) == "no findings in cells/a.yaml"
     assert summary([finding(severity=Severity.AUDIT)], ["a", "b"]) == "1 audit item in 2 files"
+
+
+@pytest.mark.parametrize(
+    ("character", "shown"),
+    [("\x1b", "\\x1b"), ("\x9b", "\\x9b"), ("\u202e", "\\u202e"), ("\u2028", "\\u2028"), ("\ud800", "\\ud800")],
+)
+def test_steering_character_is_shown_as_its_escape(character: str, shown: str) -> None:
+    text = render_text([finding(message=f"a{character}b")], {FILE: f"c{character}d"}, colour=False)
+    assert f"a{shown}b" in text
+    assert f"c{shown}d" in text
+    assert character not in text
