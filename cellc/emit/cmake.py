@@ -11,7 +11,7 @@ from cellc.artifact import Artifact
 from cellc.formats.header import Header
 from cellc.graph.cell_graph import CellGraph
 
-_FOLDERS = ("config", "launch", "urdf")
+_FOLDERS = ("config", "launch", "security", "urdf")
 _ON_HOSTS = "middleware"
 _FILES = ("contract.json", "manifest.json", "rehearsals.json")
 

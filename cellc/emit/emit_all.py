@@ -26,6 +26,7 @@ from cellc.emit.launch import launch
 from cellc.emit.middleware import middleware
 from cellc.emit.moveit import moveit
 from cellc.emit.readme import readme
+from cellc.emit.security import policy
 from cellc.formats.configuration import configuration_id, configuration_inputs
 from cellc.formats.header import Header, header_of
 from cellc.graph.cell_graph import CellGraph
@@ -45,6 +46,7 @@ EMITTERS: tuple[Callable[[CellGraph, Header], Iterator[Artifact]], ...] = (
     rehearsals.emit,
     qos_overrides.emit,
     middleware.emit,
+    policy.emit,
     recording.emit,
     responsibility_graph.emit,
     gates.emit,

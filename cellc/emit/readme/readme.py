@@ -20,6 +20,7 @@ _FILES = (
     ("urdf/", "the description for the mock and for real hardware"),
     ("config/", "parameters of controller managers and nodes, joint limits, the frame tree with its calibrations"),
     ("middleware/", "environment and profile for each host, sourced before anything is started there"),
+    ("security/policy.xml", "who may publish, serve and call; everything else is denied"),
     ("launch/cell.launch.xml", "starts the cell; on real hardware it stops where a person takes over"),
     ("contract.json", "what the interfaces promise: type, QoS, rate, age, owner, failure behaviour"),
     ("rehearsals.json", "what the mock executes, and the outcome that each run must end in"),

@@ -1,0 +1,1 @@
+"""The SROS2 policy, part by part."""

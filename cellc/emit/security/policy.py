@@ -1,0 +1,52 @@
+"""``security/policy.xml``: who may publish, subscribe, serve and call; everything else is denied.
+
+SROS2 policy 0.2.0, read by ``ros2 security create_permission``. One enclave a node, one for the controller manager's
+process with its controllers and hardware nodes, one for the spawners. Only the clients that the spec declares may call
+an action and only its sources may publish a topic. Left out: keys and certificates, which belong into no repository,
+and what people type at a shell, which needs an enclave of their own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from xml.etree.ElementTree import Element
+
+from cellc.artifact import Artifact
+from cellc.cell.cell import Cell
+from cellc.cell.control import ControllerManager
+from cellc.cell.interface import NodeSource
+from cellc.emit.security.profile import Profile, profile_element
+from cellc.emit.security.rights import manager_client, manager_process, node_profile
+from cellc.formats.enclaves import enclave_of, manager_enclave, spawner_enclave
+from cellc.formats.header import Header
+from cellc.formats.xml_text import element, render
+from cellc.graph.cell_graph import CellGraph
+
+_VERSION = {"version": "0.2.0"}
+
+
+def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
+    """Yield the policy."""
+    enclaves = element("enclaves", children=_enclaves(graph.cell))
+    yield Artifact("security/policy.xml", render(element("policy", _VERSION, [enclaves]), header.text))
+
+
+def _enclaves(cell: Cell) -> Iterator[Element]:
+    for node in cell.nodes:
+        if node.source is not NodeSource.STANDARD or node.name != "controller_manager":
+            yield _enclave(enclave_of(cell, node), [node_profile(cell, node)])
+    for manager in cell.managers:
+        yield _enclave(manager_enclave(cell, manager), manager_process(cell, manager))
+        yield _enclave(spawner_enclave(cell, manager), _spawners(manager))
+
+
+def _spawners(manager: ControllerManager) -> Iterator[Profile]:
+    # The spawner names itself after its first controller.
+    for active in (True, False):
+        first = next((controller.name for controller in manager.controllers if controller.active is active), None)
+        if first is not None:
+            yield manager_client(manager, f"spawner_{first}")
+
+
+def _enclave(path: str, profiles: Iterator[Profile] | list[Profile]) -> Element:
+    return element("enclave", {"path": path}, [element("profiles", children=map(profile_element, profiles))])

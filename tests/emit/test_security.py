@@ -1,0 +1,85 @@
+"""The security policy against its schema, and who may command what."""
+
+from __future__ import annotations
+
+from xml.etree import ElementTree
+
+import pytest
+import xmlschema
+
+from tests.emit.cells import CELLS, DISTROS, ORACLES, artifacts_of
+
+
+def _policy(cell: str, distro: str = "jazzy") -> ElementTree.Element:
+    return ElementTree.fromstring(artifacts_of(cell, distro)["security/policy.xml"])
+
+
+def _holders(policy: ElementTree.Element, plural: str, right: str, name: str) -> set[str]:
+    """Return the nodes that hold a right on an absolute name."""
+    return {
+        profile.attrib["node"]
+        for profile in policy.iter("profile")
+        for entries in profile.findall(f"{plural}[@{right}='ALLOW']")
+        for entry in entries
+        if entry.text == name
+    }
+
+
+@pytest.mark.skipif(not ORACLES.is_dir(), reason="the oracles are not beside this checkout")
+@pytest.mark.parametrize("distro", DISTROS)
+@pytest.mark.parametrize("cell", CELLS)
+def test_policy_is_what_sros2_declares(cell: str, distro: str) -> None:
+    folder = ORACLES / "xsd"
+    schema = xmlschema.XMLSchema(
+        folder / "sros2_policy.xsd", locations={"http://www.w3.org/XML/1998/namespace": str(folder / "xml.xsd")}
+    )
+    schema.validate(artifacts_of(cell, distro)["security/policy.xml"])
+
+
+def test_only_declared_clients_may_call_an_action() -> None:
+    policy = _policy("ur5e_pick")
+    action = "/arm_trajectory/follow_joint_trajectory"
+    assert _holders(policy, "actions", "call", action) == {"move_group"}
+    assert _holders(policy, "actions", "execute", action) == {"arm_trajectory"}
+    assert _holders(policy, "actions", "call", "/gripper_action/gripper_cmd") == {"task"}
+
+
+def test_only_declared_sources_may_publish() -> None:
+    policy = _policy("ur5e_pick")
+    assert _holders(policy, "topics", "publish", "/object_pose") == {"perception"}
+    assert _holders(policy, "topics", "publish", "/joint_states") == {"joint_states"}
+    assert _holders(policy, "topics", "publish", "/tf_static") == {"robot_state_publisher"}
+    # Nobody holds the bare topic past the action: a trajectory without accept, cancel and result.
+    assert _holders(policy, "topics", "publish", "/arm_trajectory/joint_trajectory") == set()
+
+
+def test_only_spawners_may_switch_controllers() -> None:
+    policy = _policy("ur5e_pick")
+    assert _holders(policy, "services", "request", "/controller_manager/switch_controller") == {"spawner_joint_states"}
+    assert _holders(policy, "services", "reply", "/controller_manager/switch_controller") == {"controller_manager"}
+
+
+def test_nothing_is_allowed_by_wildcard_and_enclaves_are_unique() -> None:
+    policy = _policy("ur5e_pick")
+    assert not [entry.text for entry in policy.iter() if entry.text and "*" in entry.text]
+    paths = [enclave.attrib["path"] for enclave in policy.iter("enclave")]
+    assert len(paths) == len(set(paths))
+    assert all(path.startswith("/ur5e_pick/") for path in paths)
+
+
+def test_controllers_live_in_the_enclave_of_their_process() -> None:
+    (process,) = [e for e in _policy("ur5e_pick").iter("enclave") if e.get("path") == "/ur5e_pick/controller_manager"]
+    assert [profile.get("node") for profile in process.iter("profile")] == [
+        "controller_manager",
+        "joint_states",
+        "arm_trajectory",
+        "gripper_action",
+        "arm_hardware",
+        "gripper_hardware",
+    ]
+
+
+def test_hardware_has_no_node_on_humble() -> None:
+    nodes = {profile.get("node") for profile in _policy("ur5e_pick", "humble").iter("profile")}
+    assert "arm_hardware" not in nodes
+    assert "controller_manager" in nodes
