@@ -79,6 +79,14 @@ def test_controllers_live_in_the_enclave_of_their_process() -> None:
     ]
 
 
+@pytest.mark.parametrize("cell", CELLS)
+def test_every_launched_process_has_an_enclave_of_the_policy(cell: str) -> None:
+    declared = {enclave.get("path") for enclave in _policy(cell).iter("enclave")}
+    launch = ElementTree.fromstring(artifacts_of(cell)["launch/cell.launch.xml"])
+    used = [node.attrib["ros_args"].removeprefix("--enclave ") for node in launch.iter("node")]
+    assert set(used) <= declared
+
+
 def test_hardware_has_no_node_on_humble() -> None:
     nodes = {profile.get("node") for profile in _policy("ur5e_pick", "humble").iter("profile")}
     assert "arm_hardware" not in nodes

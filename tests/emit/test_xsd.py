@@ -43,4 +43,5 @@ def test_launch_files_follow_the_grammar(cell: str, file: str) -> None:
         parameter.attrib.pop("type", None)
     for node in launch.iter("node"):  # and output to screen and log file
         assert node.attrib.pop("output") == "both"
+        assert node.attrib.pop("ros_args").startswith("--enclave /")
     xmlschema.XMLSchema11(_schema("launch.0.1.1.xsd")).validate(launch)

@@ -49,7 +49,7 @@ def _actions(cell: Cell) -> Iterator[Element]:
     for manager in cell.managers:
         yield comment(f"{spec_path(manager.path)}: claims follow the order of the spec, alternates stay inactive")
         yield controller_manager(cell, manager)
-        yield from spawners(manager)
+        yield from spawners(cell, manager)
     for node in cell.nodes:
         if node.source is NodeSource.SPEC:
             yield comment(spec_path(node.path) + (": managed, left unconfigured" if node.lifecycle else ""))

@@ -9,6 +9,7 @@ from cellc.cell.cell import Cell
 from cellc.cell.control import ControllerManager
 from cellc.cell.interface import Node, NodeSource
 from cellc.emit.launch.substitutions import ON_REAL, description, share
+from cellc.formats.enclaves import enclave_of, manager_enclave, spawner_enclave
 from cellc.formats.moveit_files import PARAMETER_FILES, is_planner, semantic_file
 from cellc.formats.package_files import QOS_OVERRIDES, controllers_file, node_file
 from cellc.formats.qos_parameters import qos_parameters
@@ -29,6 +30,7 @@ def robot_state_publisher(cell: Cell) -> Element:
             "exec": "robot_state_publisher",
             "name": "robot_state_publisher",
             "output": "both",
+            **_enclave(f"/{cell.name}/robot_state_publisher"),
         },
         [_description_parameter(cell), *(remaps if len(namespaces) == 1 else [])],
     )
@@ -42,7 +44,13 @@ def controller_manager(cell: Cell, manager: ControllerManager) -> Element:
         parameters.append(_description_parameter(cell))
     return element(
         "node",
-        {"pkg": "controller_manager", "exec": "ros2_control_node", **place, "output": "both"},
+        {
+            "pkg": "controller_manager",
+            "exec": "ros2_control_node",
+            **place,
+            "output": "both",
+            **_enclave(manager_enclave(cell, manager)),
+        },
         [
             *parameters,
             _remap("~/robot_description", _DESCRIPTION_TOPIC),
@@ -51,7 +59,7 @@ def controller_manager(cell: Cell, manager: ControllerManager) -> Element:
     )
 
 
-def spawners(manager: ControllerManager) -> Iterator[Element]:
+def spawners(cell: Cell, manager: ControllerManager) -> Iterator[Element]:
     """Yield one spawner for the active controllers, in order, and one for their alternates, which stay inactive."""
     active = [controller.name for controller in manager.controllers if controller.active]
     inactive = [controller.name for controller in manager.controllers if not controller.active]
@@ -60,25 +68,44 @@ def spawners(manager: ControllerManager) -> Iterator[Element]:
             arguments = [*names, "-c", f"{manager.namespace}/controller_manager", *flags]
             yield element(
                 "node",
-                {"pkg": "controller_manager", "exec": "spawner", "args": " ".join(arguments), "output": "both"},
+                {
+                    "pkg": "controller_manager",
+                    "exec": "spawner",
+                    "args": " ".join(arguments),
+                    "output": "both",
+                    **_enclave(spawner_enclave(cell, manager)),
+                },
             )
 
 
 def cell_node(cell: Cell, node: Node) -> Element:
     """Return a node that the spec names."""
-    return element("node", _identity(node), _parameters(cell, node))
+    return element("node", _identity(cell, node), _parameters(cell, node))
 
 
 def driver_node(cell: Cell, node: Node) -> Element:
     """Return a node of a device's driver; one for real hardware alone stays away from the mock."""
     condition = {"if": ON_REAL} if node.real_only else {}
-    return element("node", _identity(node) | condition, _parameters(cell, node))
+    return element("node", _identity(cell, node) | condition, _parameters(cell, node))
 
 
-def _identity(node: Node) -> dict[str, str]:
+def _identity(cell: Cell, node: Node) -> dict[str, str]:
     place = {"namespace": node.namespace} if node.namespace else {}
     again = {"respawn": "true"} if node.respawn else {}
-    return {"pkg": node.package, "exec": node.executable, "name": node.name, **place, "output": "both", **again}
+    return {
+        "pkg": node.package,
+        "exec": node.executable,
+        "name": node.name,
+        **place,
+        "output": "both",
+        **again,
+        **_enclave(enclave_of(cell, node)),
+    }
+
+
+def _enclave(path: str) -> dict[str, str]:
+    # Without security it has no effect; with it, a process outside of its enclave is denied everything.
+    return {"ros_args": f"--enclave {path}"}
 
 
 def _parameters(cell: Cell, node: Node) -> Iterator[Element]:
