@@ -1,0 +1,76 @@
+"""The generated folder of the real cell, built once, and copies of it with other rehearsals."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from cellc.mock import MockCell, load
+from cellc.output.write import write
+from cellc.pipeline import check, compile_cell
+
+ROOT = Path(__file__).resolve().parents[3]
+
+Fault = dict[str, Any]
+LoadWith = Callable[..., MockCell]
+
+
+def fault(kind: str, target: str, at_s: float, **more: float) -> Fault:
+    """Return an entry of rehearsals.json."""
+    return {"kind": kind, "target": target, "at_s": at_s, **more}
+
+
+@pytest.fixture(scope="session")
+def built_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of cells/ur5e_pick; never changed."""
+    artifacts = compile_cell(check(ROOT / "cells" / "ur5e_pick" / "cell.yaml")).value
+    assert artifacts is not None
+    folder = tmp_path_factory.mktemp("generated") / "ur5e_pick"
+    assert write(artifacts, folder).ok
+    return folder
+
+
+@pytest.fixture
+def folder(built_folder: Path, tmp_path: Path) -> Path:
+    """A copy of the folder that a test may spoil."""
+    return Path(shutil.copytree(built_folder, tmp_path / "ur5e_pick"))
+
+
+@pytest.fixture(scope="session")
+def cell(built_folder: Path) -> MockCell:
+    """The loaded cell as it was built."""
+    return load(built_folder)
+
+
+@pytest.fixture
+def load_with(folder: Path) -> LoadWith:
+    """Load the cell with one rehearsal: the steps of pick_and_place, and the faults given."""
+
+    def build(*faults: Fault, **changes: Any) -> MockCell:
+        file = folder / "rehearsals.json"
+        rehearsals = json.loads(file.read_text())
+        plain = next(entry for entry in rehearsals["rehearsals"] if entry["name"] == "pick_and_place")
+        rehearsals["rehearsals"] = [plain | {"name": "faulty", "faults": list(faults)} | changes]
+        file.write_text(json.dumps(rehearsals))
+        return load(folder)
+
+    return build
+
+
+@pytest.fixture
+def edit_contract(folder: Path) -> Callable[[Callable[[Any], None]], MockCell]:
+    """Change contract.json by a function on its JSON, and load."""
+
+    def edit(change: Callable[[Any], None]) -> MockCell:
+        file = folder / "contract.json"
+        contract = json.loads(file.read_text())
+        change(contract)
+        file.write_text(json.dumps(contract))
+        return load(folder)
+
+    return edit

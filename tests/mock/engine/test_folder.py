@@ -1,0 +1,130 @@
+"""A folder that cannot be executed is refused with its file and reason, never with a traceback."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from cellc.mock import MockCell, MockError, load
+from tests.mock.engine.conftest import ROOT, LoadWith, fault
+
+Edit = Callable[[Callable[[Any], None]], MockCell]
+
+
+def refusal(folder: Path) -> MockError:
+    with pytest.raises(MockError) as caught:
+        load(folder)
+    assert "\n" not in caught.value.reason
+    return caught.value
+
+
+def test_folder_that_does_not_exist(tmp_path: Path) -> None:
+    assert refusal(tmp_path / "absent").reason == "no such folder"
+
+
+def test_file_in_place_of_a_folder(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    assert refusal(tmp_path / "file").reason == "is not a folder"
+
+
+@pytest.mark.parametrize("name", ["contract.json", "rehearsals.json", "manifest.json", "config/controllers.yaml"])
+def test_missing_file_is_named(folder: Path, name: str) -> None:
+    (folder / name).unlink()
+    error = refusal(folder)
+    assert (error.file, error.reason) == (name, "is missing from the generated folder")
+
+
+@pytest.mark.parametrize("content", [b"", b"{", b"[]", b"\xff\xfe", b"null", b'{"format": 2}', b"\x00" * 100])
+@pytest.mark.parametrize("name", ["contract.json", "rehearsals.json", "manifest.json"])
+def test_spoilt_json_is_refused(folder: Path, name: str, content: bytes) -> None:
+    (folder / name).write_bytes(content)
+    assert refusal(folder).file == name
+
+
+@pytest.mark.parametrize("content", ["", "<robot", "<sdf/>", "<robot name='empty'/>"])
+def test_spoilt_urdf_is_refused(folder: Path, content: str) -> None:
+    (folder / "urdf" / "ur5e_pick.mock.urdf").write_text(content)
+    assert refusal(folder).file == "urdf/ur5e_pick.mock.urdf"
+
+
+def test_wrong_type_is_named_with_its_place(edit_contract: Edit) -> None:
+    with pytest.raises(MockError, match=r"contract\.json: `groups\.manipulator\.joints`"):
+        edit_contract(lambda contract: contract["groups"]["manipulator"].update(joints=5))
+
+
+def test_path_out_of_the_folder_is_refused(edit_contract: Edit) -> None:
+    with pytest.raises(MockError, match="not a path inside the folder"):
+        edit_contract(lambda contract: contract["files"].update(urdf_mock="../../etc/passwd"))
+
+
+def test_group_with_a_joint_that_the_urdf_lacks_is_refused(edit_contract: Edit) -> None:
+    def rename(contract: Any) -> None:
+        contract["groups"]["manipulator"]["joints"][0] = "missing"
+        contract["joint_limits"]["missing"] = contract["joint_limits"]["arm_elbow_joint"]
+
+    with pytest.raises(MockError, match=r"group `manipulator`.*`missing`"):
+        edit_contract(rename)
+
+
+def test_fault_on_something_unknown_is_refused(load_with: LoadWith) -> None:
+    with pytest.raises(MockError, match="fault `protective_stop` names `robot`"):
+        load_with(fault("protective_stop", "robot", 1.0)).run("faulty")
+
+
+def test_unknown_rehearsal_lists_those_that_exist(cell: MockCell) -> None:
+    with pytest.raises(MockError, match="it has `pick_and_place`, `stale_camera`, `cancelled`"):
+        cell.run("pick")
+
+
+def test_folder_as_generated_has_no_notes(cell: MockCell) -> None:
+    assert cell.notes == ()
+
+
+def test_edit_by_hand_is_a_note(folder: Path) -> None:
+    path = folder / "config" / "controllers.yaml"
+    path.write_text(path.read_text() + "# by hand\n")
+    assert load(folder).notes == (
+        "`config/controllers.yaml` differs from the manifest: it was edited after it was generated",
+    )
+
+
+def test_rehearsals_of_another_configuration_are_a_note(folder: Path) -> None:
+    path = folder / "rehearsals.json"
+    path.write_text(json.dumps(json.loads(path.read_text()) | {"configuration_id": "cfg-other"}))
+    assert any("is of configuration `cfg-other`" in note for note in load(folder).notes)
+
+
+def test_command_says_what_is_wrong_and_ends_with_two(tmp_path: Path) -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", "cellc.mock", str(tmp_path)], cwd=ROOT, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 2
+    assert done.stderr == "error: contract.json: is missing from the generated folder\n"
+
+
+def test_mock_runs_without_the_rest_of_the_compiler(built_folder: Path, tmp_path: Path) -> None:
+    package = tmp_path / "cellc"
+    for part in ("mock", "kinematics", "contract", "transforms"):
+        shutil.copytree(ROOT / "cellc" / part, package / part, ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copy(ROOT / "cellc" / "__init__.py", package)
+    done = subprocess.run(
+        [sys.executable, "-P", "-m", "cellc.mock", str(built_folder), "--json"]
+        if sys.version_info >= (3, 11)
+        else [sys.executable, "-m", "cellc.mock", str(built_folder), "--json"],
+        cwd=tmp_path,
+        env={"PYTHONPATH": str(tmp_path), "PATH": ""},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    summary = json.loads(done.stdout)
+    assert [entry["outcome"] for entry in summary["rehearsals"]] == ["succeeded", "stale_state", "cancelled"]
+    assert all(entry["passed"] for entry in summary["rehearsals"])

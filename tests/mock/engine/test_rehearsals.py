@@ -1,0 +1,105 @@
+"""The rehearsals of the real cell, and every fault, end in their named outcome."""
+
+from __future__ import annotations
+
+import pytest
+
+from cellc.mock import MockCell
+from cellc.mock.record import AttemptRecord
+from tests.mock.engine.conftest import Fault, LoadWith, fault
+
+
+def last_attempt(cell: MockCell) -> AttemptRecord:
+    """Return the attempt that ended the rehearsal, before the record that sums up."""
+    return cell.run("faulty").attempts[-2]
+
+
+def test_pick_and_place_succeeds_step_by_step(cell: MockCell) -> None:
+    result = cell.run("pick_and_place")
+    assert result.passed
+    assert [attempt.step for attempt in result.attempts] == [
+        "move home",
+        "detect object",
+        "move pick",
+        "grip close gripper",
+        "move place",
+        "grip open gripper",
+        "move home",
+        "end",
+    ]
+
+
+def test_frozen_camera_ends_in_stale_state_when_the_last_observation_is_as_old_as_the_contract_allows(
+    cell: MockCell,
+) -> None:
+    result = cell.run("stale_camera")
+    assert result.passed
+    failed = result.attempts[-2]
+    assert failed.fault_code.startswith("newest observation of object is 0.200 s old")
+    assert failed.cancel is not None
+    assert failed.cancel.held_ns is not None
+
+
+def test_cancel_holds_within_its_bound(cell: MockCell) -> None:
+    result = cell.run("cancelled")
+    assert result.passed
+    cancel = result.attempts[-2].cancel
+    assert cancel is not None
+    assert cancel.latency_s is not None
+    assert cancel.latency_s <= 0.2
+
+
+def test_a_bound_that_is_not_held_fails_the_rehearsal(load_with: LoadWith) -> None:
+    cell = load_with(fault("cancel", "move", 3.0), expect="cancelled", within_s=0.001)
+    result = cell.run("faulty")
+    assert result.outcome == "cancelled"
+    assert not result.passed
+
+
+CASES: list[tuple[str, Fault, str, str]] = [
+    ("observed frame no longer published", fault("drop_frame", "object", 0.0), "tf_failure", "into the future"),
+    ("link no longer published", fault("drop_frame", "arm_forearm_link", 0.02), "tf_failure", "into the future"),
+    ("camera frozen from the start", fault("freeze", "camera", 0.0), "stale_state", "observation of object"),
+    ("joint states late", fault("delay", "arm", 1.0, delay_s=0.3), "stale_state", "joint state is 0.300 s old"),
+    ("goal out of reach", fault("unreachable", "pick", 0.0), "planning_failure", "no_ik_solution"),
+    ("controller inactive", fault("reject", "arm_trajectory", 1.0), "goal_rejection", "not running"),
+    ("stuck joint", fault("stick", "arm_elbow_joint", 0.5), "tolerance_violation", "path tolerance violation"),
+    ("missed cycles", fault("skip_cycles", "", 1.0, cycles=5), "missed_cycle", "update cycles missed, 0 allowed"),
+    ("update loop stops", fault("skip_cycles", "", 1.0, cycles=100_000), "missed_cycle", "cycles missed"),
+    ("protective stop", fault("protective_stop", "arm", 1.0), "protective_stop", "arm_hardware is inactive"),
+    ("cancelled grip", fault("cancel", "grip", 1.0), "cancelled", ""),
+]
+
+
+@pytest.mark.parametrize(("entry", "outcome", "reason"), [case[1:] for case in CASES], ids=[case[0] for case in CASES])
+def test_fault_ends_in_its_own_outcome(load_with: LoadWith, entry: Fault, outcome: str, reason: str) -> None:
+    failed = last_attempt(load_with(entry))
+    assert failed.outcome == outcome
+    assert reason in failed.fault_code
+
+
+def test_gripper_that_sticks_is_noticed_although_its_controller_calls_the_stall_a_success(load_with: LoadWith) -> None:
+    failed = last_attempt(load_with(fault("stick", "gripper_robotiq_85_left_knuckle_joint", 0.5)))
+    assert failed.result is not None
+    assert failed.result.status == "succeeded"
+    assert failed.outcome == "tolerance_violation"
+
+
+def test_protective_stop_outranks_a_stale_observation(load_with: LoadWith) -> None:
+    failed = last_attempt(load_with(fault("freeze", "camera", 1.0), fault("protective_stop", "arm", 1.1)))
+    assert failed.outcome == "protective_stop"
+    assert failed.safety_state == "protective_stop"
+    assert failed.operator_intervention == "required: acknowledge by operator"
+
+
+def test_rehearsal_that_takes_too_long_is_cancelled_and_held(load_with: LoadWith) -> None:
+    failed = last_attempt(load_with(timeout_s=1.0))
+    assert failed.outcome == "timeout"
+    assert failed.cancel is not None
+    assert failed.cancel.held_ns is not None
+
+
+def test_fault_that_ends_before_it_is_met_changes_nothing(load_with: LoadWith) -> None:
+    # Frozen from 0 to 20 ms: the next image comes before the newest observation is 200 ms old.
+    cell = load_with(fault("freeze", "camera", 0.0, lasting_s=0.02))
+    assert cell.run("faulty").outcome == "succeeded"

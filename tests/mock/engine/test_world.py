@@ -1,0 +1,126 @@
+"""Ground truth: links against pinocchio, joint states against what was put in, objects against their carriers."""
+
+from __future__ import annotations
+
+import random
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from cellc.kinematics import RobotModel
+from cellc.mock.control import JointStateBlock
+from cellc.mock.nodes.robot_state_publisher import RobotStatePublisher
+from cellc.mock.tf.buffer import Transform, TransformBuffer
+from cellc.mock.world.joint_states import JointStateHistory, LateArrival
+from cellc.mock.world.links import LinkTree, read_links
+from cellc.mock.world.objects import World
+from cellc.transforms import from_xyz_rpy, identity
+
+MS = 1_000_000
+
+SLIDER = """
+<robot name="slider">
+  <link name="world"/> <link name="base"/> <link name="cart"/> <link name="flap"/>
+  <joint name="mount" type="fixed"><parent link="world"/><child link="base"/><origin xyz="0 0 1"/></joint>
+  <joint name="slide" type="prismatic"><parent link="base"/><child link="cart"/><axis xyz="2 0 0"/>
+    <limit lower="0" upper="5" velocity="1" effort="1"/></joint>
+  <joint name="turn" type="revolute"><parent link="cart"/><child link="flap"/><axis xyz="0 0 1"/>
+    <mimic joint="slide" multiplier="2" offset="0.5"/><limit lower="0" upper="9" velocity="1" effort="1"/></joint>
+</robot>"""
+
+
+def history_of(positions: list[float], period_ms: int = 2, skip: frozenset[int] = frozenset()) -> JointStateHistory:
+    """Return the history of joint `slide`, one message each period but for those that are skipped."""
+    history = JointStateHistory(horizon_s=10.0, period_ns=period_ms * MS)
+    kept = [index for index in range(len(positions)) if index not in skip]
+    values = np.array([[positions[index]] for index in kept])
+    stamps = np.array([index * period_ms * MS for index in kept], dtype=np.int64)
+    history.append(JointStateBlock(stamps, ("slide",), values, np.zeros_like(values), np.zeros_like(values)))
+    return history
+
+
+@pytest.fixture
+def links() -> LinkTree:
+    return read_links(SLIDER, "slider.urdf")
+
+
+def test_links_of_the_real_cell_are_where_pinocchio_has_them(built_folder: Path) -> None:
+    urdf = (built_folder / "urdf" / "ur5e_pick.mock.urdf").read_text()
+    model, links = RobotModel.from_urdf(urdf), read_links(urdf, "urdf")
+    generator = random.Random(0)
+    for _ in range(20):
+        positions = {joint: generator.uniform(0.0, 0.8) for joint in model.joints}
+        for link in model.links:
+            ours, theirs = links.pose(link, positions), model.link_pose(link, positions, base_link="world")
+            assert ours.position == pytest.approx(theirs.position, abs=1e-12)
+            difference = (ours.inverse() @ theirs).quaternion
+            assert abs(difference[3]) == pytest.approx(1.0, abs=1e-12)
+
+
+def test_axis_is_normalised_and_mimic_joint_follows(links: LinkTree) -> None:
+    pose = links.pose("flap", {"slide": 0.25})
+    assert pose.position == pytest.approx((0.25, 0.0, 1.0))
+    assert pose.rpy() == pytest.approx((0.0, 0.0, 2 * 0.25 + 0.5))
+
+
+def test_positions_between_messages_are_linear() -> None:
+    assert history_of([0.0, 1.0]).at(MS // 2) == {"slide": pytest.approx(0.25)}
+
+
+def test_missed_cycles_are_counted_from_gaps() -> None:
+    history = history_of([0.0] * 20, skip=frozenset({5, 6, 11}))
+    assert history.missed_until(38 * MS) == 3
+
+
+def test_cycles_that_are_being_missed_are_counted_too() -> None:
+    history = history_of([0.0] * 20)  # the last one at 38 ms
+    assert history.missed_until(40 * MS) == 0
+    assert history.missed_until(48 * MS) == 4
+
+
+def test_late_joint_states_are_not_known_before_they_arrive() -> None:
+    history = history_of([float(index) for index in range(20)])
+    history.late.append(LateArrival(10 * MS, None, 20 * MS))
+    assert history.arrived(8 * MS) == 5
+    assert history.arrived(29 * MS) == 5
+    assert history.arrived(30 * MS) == 6
+
+
+def test_history_stays_bounded_and_keeps_its_horizon() -> None:
+    history = JointStateHistory(horizon_s=1.0, period_ns=2 * MS)
+    for start in range(0, 10_000, 100):
+        stamps = np.arange(start, start + 100, dtype=np.int64) * 2 * MS
+        values = np.zeros((100, 1))
+        history.append(JointStateBlock(stamps, ("slide",), values, values, values))
+    assert 500 <= len(history.stamps) <= 1100
+    assert history.stamps[-1] == 9_999 * 2 * MS
+    assert history.missed_until(9_999 * 2 * MS) == 0
+
+
+def test_robot_state_publisher_thins_joint_states_to_its_frequency(links: LinkTree) -> None:
+    # The cart moves with the square of time, so linear interpolation over 50 ms differs from the truth as expected.
+    history = history_of([(index * 0.002) ** 2 for index in range(200)])
+    publisher = RobotStatePublisher(links, (history,), rate_hz=20.0, buffer_s=10.0)
+    buffer = TransformBuffer()
+    publisher.announce(buffer)
+    publisher.catch_up(398 * MS)
+    answer = buffer.lookup("world", "cart", 125 * MS)
+    assert isinstance(answer, Transform)
+    assert answer.pose.position[0] == pytest.approx((0.1**2 + 0.15**2) / 2)
+
+
+def test_object_moves_with_the_link_that_took_it(links: LinkTree) -> None:
+    history = history_of([0.002 * index for index in range(501)])  # 1 m/s
+    world = World(links, (history,))
+    world.place("part", "base", from_xyz_rpy((0.5, 0.0, 0.0), (0.0, 0.0, 0.0)), 0)
+    world.move("part", "cart", 500 * MS)
+    assert world.object_pose("part", 400 * MS).position == pytest.approx((0.5, 0.0, 1.0))
+    assert world.object_pose("part", 900 * MS).position[0] == pytest.approx(0.5 + 0.4 * 1.0)
+    world.move("part", "base", 900 * MS)
+    assert world.object_pose("part", 1000 * MS).position[0] == pytest.approx(0.9)
+
+
+def test_empty_world_places_links_at_zero(links: LinkTree) -> None:
+    assert World(links, ()).link_pose("base", 0).position == (0.0, 0.0, 1.0)
+    assert links.pose("world", {}) == identity()
