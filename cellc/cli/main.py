@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import sys
 from collections.abc import Sequence
@@ -53,6 +54,10 @@ def cellc() -> None:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command and leave with its exit code; a closed pipe or Ctrl-C ends without a traceback."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            # A spec may quote what the terminal's encoding cannot: show it escaped instead of failing.
+            stream.reconfigure(errors="backslashreplace")
     try:
         given = None if arguments is None else list(arguments)
         # Outside standalone mode click returns the code of an Exit, and what a finished command returned: None.
@@ -63,7 +68,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         sys.exit(2)
     except (click.Abort, KeyboardInterrupt):
         print("cellc: interrupted, nothing was left half-written", file=sys.stderr)
-        sys.exit(130)
+        sys.exit(1)
     except BrokenPipeError:
         # The reader of our output went away (`cellc show … | head`): keep Python from complaining at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
