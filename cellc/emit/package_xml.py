@@ -20,6 +20,7 @@ from cellc.formats.xml_text import element, render
 from cellc.graph.cell_graph import CellGraph
 
 _ALWAYS = ("ros2launch", "xacro")
+_MERGED_BY = "joint_state_publisher"
 _SPAWNED_BY = "controller_manager"
 _PLANNING = (
     "moveit_kinematics",
@@ -60,6 +61,8 @@ def _dependencies(cell: Cell) -> tuple[str, ...]:
     names |= {name for name in (*controllers, *hardware) if name is not None}
     if cell.groups and any(is_planner(node) for node in cell.nodes):
         names |= set(_PLANNING)
+    if len(cell.managers) > 1:
+        names.add(_MERGED_BY)
     if cell.managers:
         names |= {_SPAWNED_BY, "hardware_interface"}
     return tuple(sorted(names))

@@ -18,6 +18,11 @@ def description_file(cell: Cell, target: str) -> str:
     return f"urdf/{cell.name}.{target}.urdf"
 
 
+def manager_description_file(cell: Cell, manager: ControllerManager, target: str) -> str:
+    """Return the path of the URDF that a controller manager reads: the cell's, or one with its own hardware alone."""
+    return f"urdf/{cell.name}{'' if len(cell.managers) == 1 else f'.{manager.name}'}.{target}.urdf"
+
+
 def controllers_file(cell: Cell, manager: ControllerManager) -> str:
     """Return the path of a controller manager's parameter file."""
     return "config/controllers.yaml" if len(cell.managers) == 1 else f"config/{manager.name}.controllers.yaml"

@@ -15,13 +15,8 @@ from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
 from cellc.cell.interface import NodeSource
 from cellc.emit.launch.arguments import address_arguments, gate_argument, target_argument
-from cellc.emit.launch.nodes import (
-    cell_node,
-    controller_manager,
-    driver_node,
-    robot_state_publisher,
-    spawners,
-)
+from cellc.emit.launch.control import control, joint_state_merger
+from cellc.emit.launch.nodes import cell_node, driver_node, robot_state_publisher
 from cellc.emit.launch.substitutions import ON_REAL, share
 from cellc.formats.header import Header
 from cellc.formats.parameter_file import spec_path
@@ -48,8 +43,9 @@ def _actions(cell: Cell) -> Iterator[Element]:
     yield robot_state_publisher(cell)
     for manager in cell.managers:
         yield comment(f"{spec_path(manager.path)}: claims follow the order of the spec, alternates stay inactive")
-        yield controller_manager(cell, manager)
-        yield from spawners(cell, manager)
+        yield from control(cell, manager)
+    if len(cell.managers) > 1:
+        yield joint_state_merger(cell)
     for node in cell.nodes:
         if node.source is NodeSource.SPEC:
             yield comment(spec_path(node.path) + (": managed, left unconfigured" if node.lifecycle else ""))

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from cellc.cell.cell import Cell
 
-ON_REAL = "$(eval \"'$(var target)' == 'real'\")"
+TARGET = "$(var target)"
+
+ON_REAL = f"$(eval \"'{TARGET}' == 'real'\")"
 """True on the real target; `eval` because Humble has no `equals`, harmless because the argument has choices."""
 
 
@@ -13,6 +15,6 @@ def share(cell: Cell, path: str) -> str:
     return f"$(find-pkg-share {cell.name})/{path}"
 
 
-def description(cell: Cell) -> str:
-    """Return the URDF of the target, share folders of other packages put in by xacro."""
-    return f"$(command 'xacro {share(cell, f'urdf/{cell.name}.$(var target).urdf')}')"
+def expanded(file: str) -> str:
+    """Return the text of an installed description, share folders of other packages put in by xacro."""
+    return f"$(command 'xacro {file}')"

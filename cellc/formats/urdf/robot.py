@@ -22,11 +22,16 @@ from cellc.link.frames import ROBOT_STATE_PUBLISHER
 
 
 def robot_description(cell: Cell, target: str) -> Element:
-    """Return the description of a cell for the target ``mock`` or ``real``."""
-    return element("robot", {"name": cell.name}, _parts(cell, target))
+    """Return the description of a cell for the target ``mock`` or ``real``, with the hardware of all devices."""
+    return manager_description(cell, target, tuple(device.name for device in cell.devices))
 
 
-def _parts(cell: Cell, target: str) -> Iterator[Element]:
+def manager_description(cell: Cell, target: str, devices: tuple[str, ...]) -> Element:
+    """Return the same description with the hardware of some devices alone, for the manager that drives them."""
+    return element("robot", {"name": cell.name}, _parts(cell, target, devices))
+
+
+def _parts(cell: Cell, target: str, devices: tuple[str, ...]) -> Iterator[Element]:
     apart = _off_the_tree(cell)
     yield frame_link(WORLD)
     for device in cell.devices:
@@ -44,7 +49,7 @@ def _parts(cell: Cell, target: str) -> Iterator[Element]:
         yield _held(box.name, box)
     start = start_positions(cell) if target == "mock" else {}
     for device in cell.devices:
-        if device.hardware is not None:
+        if device.hardware is not None and device.name in devices:
             yield comment(f"hardware of devices.{device.name}, {target}")
             yield ros2_control(device, device.hardware, target, start)
 

@@ -1,0 +1,84 @@
+"""Two arms, each with a controller manager in a namespace of its own."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from xml.etree import ElementTree
+
+import yaml
+
+from tests.emit.cells import emitted
+
+SPEC = """
+format: 1
+cell: two_arms
+versions: {ros: jazzy}
+devices:
+  left: {model: ur5e, mount: {parent: world, xyz: 0 500 0 mm}}
+  right: {model: ur5e, mount: {parent: world, xyz: 0 -500 0 mm}}
+managers:
+  left_loop:
+    update_rate: 500 Hz
+    namespace: /left
+    controllers:
+      joint_states: {type: joint_state_broadcaster, device: left}
+      trajectory: {type: scaled_joint_trajectory, device: left, goal_time: 1 s}
+  right_loop:
+    update_rate: 500 Hz
+    namespace: /right
+    controllers:
+      joint_states: {type: joint_state_broadcaster, device: right}
+      trajectory: {type: scaled_joint_trajectory, device: right, goal_time: 1 s}
+"""
+
+
+@lru_cache(maxsize=1)
+def _artifacts() -> dict[str, str]:
+    with TemporaryDirectory() as folder:
+        return emitted(Path(folder), SPEC)
+
+
+def _nodes(executable: str) -> list[ElementTree.Element]:
+    launch = ElementTree.fromstring(_artifacts()["launch/cell.launch.xml"])
+    return [node for node in launch.findall("node") if node.get("exec") == executable]
+
+
+def test_each_manager_reads_of_its_own_hardware_alone() -> None:
+    for manager, hardware in (("left_loop", "left_hardware"), ("right_loop", "right_hardware")):
+        robot = ElementTree.fromstring(_artifacts()[f"urdf/two_arms.{manager}.real.urdf"])
+        assert [tag.get("name") for tag in robot.findall("ros2_control")] == [hardware]
+        whole = ElementTree.fromstring(_artifacts()["urdf/two_arms.real.urdf"])
+        assert len(robot.findall("link")) == len(whole.findall("link"))
+
+
+def test_each_manager_takes_its_description_from_its_own_topic() -> None:
+    for manager, namespace in zip(_nodes("ros2_control_node"), ("/left", "/right"), strict=True):
+        remaps = {remap.get("from"): remap.get("to") for remap in manager.findall("remap")}
+        topic = f"{namespace}/robot_description"
+        assert remaps == {"~/robot_description": topic, "robot_description": topic}
+
+
+def test_static_frames_keep_one_authority() -> None:
+    publishers = {node.get("name"): node for node in _nodes("robot_state_publisher")}
+    said = [remap.get("from") for remap in publishers["robot_state_publisher"].findall("remap")]
+    assert "/tf" not in said
+    others = [node for node in _nodes("robot_state_publisher") if node.get("name") == "description_publisher"]
+    assert [node.get("namespace") for node in others] == ["/left", "/right"]
+    for node in others:
+        assert {"/tf", "/tf_static"} <= {remap.get("from") for remap in node.findall("remap")}
+
+
+def test_joint_states_of_both_are_merged() -> None:
+    (merger,) = _nodes("joint_state_publisher")
+    parameters = {entry.attrib["name"]: entry.attrib["value"] for entry in merger.findall("param")}
+    assert yaml.safe_load(parameters["source_list"]) == ["/left/joint_states", "/right/joint_states"]
+
+
+def test_every_parameter_key_carries_its_namespace() -> None:
+    sections = yaml.safe_load(_artifacts()["config/left_loop.controllers.yaml"])
+    assert all(key.startswith("/left/") for key in sections)
+    joints = sections["/left/trajectory"]["ros__parameters"]["joints"]
+    assert len(joints) == 6
+    assert all(joint.startswith("left_") for joint in joints)
