@@ -20,7 +20,7 @@ from cellc.mock.control.hardware import Disturbances
 from cellc.mock.control.log import LogLevel, LogLine
 from cellc.mock.control.manager import ControllerManager
 from cellc.mock.control.manager.spawner import SpawnResponse
-from cellc.mock.control.manager.switching import Strictness
+from cellc.mock.control.manager.switch_checks import Strictness
 from cellc.mock.control.messages import (
     CancelResponse,
     GoalResponse,

@@ -10,25 +10,17 @@ from cellc.mock.control.controllers.gpio import GpioCommandController
 from cellc.mock.control.controllers.joint_state_broadcaster import JointStateBlock, JointStateBroadcaster
 from cellc.mock.control.controllers.joint_trajectory import JointTrajectoryController
 from cellc.mock.control.controllers.joint_trajectory.recorder import Recorder, Recording
-from cellc.mock.control.description import RobotDescription, read_description
-from cellc.mock.control.errors import DescriptionError
 from cellc.mock.control.events import ControlEvent
-from cellc.mock.control.hardware import CommandLimiter, Disturbances
-from cellc.mock.control.interfaces import InterfaceTable
-from cellc.mock.control.log import Log
 from cellc.mock.control.manager.actions import GoalDesk
-from cellc.mock.control.manager.cycles import CycleRunner
-from cellc.mock.control.manager.hardware_set import HardwareSet, all_limits
+from cellc.mock.control.manager.assembly import NodeOptions, assemble
 from cellc.mock.control.manager.listing import (
     ControllerState,
     HardwareComponentState,
     HardwareInterfaces,
     Listing,
 )
-from cellc.mock.control.manager.registry import ControllerRegistry
-from cellc.mock.control.manager.settings import NODE_NAME, read_file, read_settings
-from cellc.mock.control.manager.spawner import SpawnResponse, spawn
-from cellc.mock.control.manager.switching import Strictness, Switch, Switcher
+from cellc.mock.control.manager.spawner import Spawner, SpawnResponse
+from cellc.mock.control.manager.switch_checks import Strictness, Switch
 from cellc.mock.control.messages import (
     CancelResponse,
     Goal,
@@ -39,7 +31,7 @@ from cellc.mock.control.messages import (
     Trajectory,
     TrajectoryStateResponse,
 )
-from cellc.mock.control.parameters import ParameterError, ParameterFile, ParameterSet, ParameterValue
+from cellc.mock.control.parameters import ParameterError, ParameterFile, ParameterValue
 
 
 class ControllerManager:
@@ -67,63 +59,20 @@ class ControllerManager:
         plugin_behaviours: Mapping[str, str] | None = None,
         start_ns: int = 0,
     ) -> None:
-        self.log = Log()
-        self.log.now_ns = start_ns
+        stack = assemble(
+            urdf, parameters, NodeOptions(namespace, distro, plugin_behaviours or {}, start_ns), self._touch
+        )
+        self.log = stack.log
+        self.disturbances = stack.disturbances
+        self.description_error = stack.description_error
+        self.period_ns = stack.period_ns
         self.now_ns = start_ns
-        self.description_error = ""
-        file = read_file(parameters)
-        settings = read_settings(ParameterSet(file.of_node(NODE_NAME, namespace)), distro)
-        self.period_ns = 1_000_000_000 // settings.update_rate
-        self._events: list[ControlEvent] = []
-        self._table = InterfaceTable()
-        self.disturbances = Disturbances(self._touch, self._skip, self._set_component_state)
-        description, hardware = self._load_hardware(urdf)
-        self._hardware = hardware
-        self._cycles: CycleRunner | None = None
-        limiter = None
-        if hardware is not None:
-            hardware.set_initial(settings.initially_unconfigured, settings.initially_inactive)
-            if settings.enforce_command_limits:
-                limiter = CommandLimiter(all_limits(description), self._table, self.period_ns, self.log)
-        self._registry = ControllerRegistry(file, namespace, distro, plugin_behaviours or {}, self.log, self._events)
-        self._registry.attach(description, self._table, limiter, self.period_ns, settings.update_rate)
-        self._switcher = Switcher(self._registry, hardware, self._table, limiter, self.log, self._events)
-        self._listing = Listing(self._registry, hardware, self._table, settings.update_rate)
-        self._goals = GoalDesk(self._registry, self.log)
-        if hardware is not None:
-            self._cycles = CycleRunner(
-                self._registry,
-                hardware,
-                self._switcher,
-                self._table,
-                limiter,
-                self.disturbances,
-                self.log,
-                self.period_ns,
-                settings.update_rate,
-            )
-            self._cycles.next_ns = start_ns
-        self._events.clear()
-
-    def _load_hardware(self, urdf: str) -> tuple[RobotDescription, HardwareSet | None]:
-        try:
-            description = read_description(urdf)
-        except DescriptionError as error:
-            self.description_error = f"Error importing joint limiters: {error.reason}"
-            self.log.error(NODE_NAME, self.description_error)
-            return RobotDescription({}, ()), None
-        try:
-            return description, HardwareSet(description, self._table, self.disturbances, self.log, self._events)
-        except DescriptionError as error:
-            self.description_error = error.reason
-            self.log.error("resource_manager", error.reason)
-            self.log.warn(
-                NODE_NAME,
-                "Could not load and initialize hardware. Please check previous output for more details. After you have "
-                "corrected your URDF, try to publish robot description again.",
-            )
-            self._table = InterfaceTable()
-            return RobotDescription({}, ()), None
+        self._table, self._events = stack.table, stack.events
+        self._registry, self._hardware, self._checker = stack.registry, stack.hardware, stack.checker
+        self._cycles = stack.cycles
+        self._listing = Listing(stack.registry, stack.hardware, stack.table, stack.rate)
+        self._goals = GoalDesk(stack.registry, stack.log)
+        self._spawner = Spawner(stack.registry, stack.checker, self._apply, stack.log)
 
     # -- services ----------------------------------------------------------------------------------------------------
 
@@ -140,7 +89,7 @@ class ControllerManager:
             # Without a robot description the services are not offered and the spawner waits in vain.
             return SpawnResponse(False, "", self.description_error, tuple(names))
         file = None if parameters is None else ParameterFile(parameters)
-        return spawn(names, inactive, file, self._registry, self._switcher, self._apply, self.log)
+        return self._spawner.spawn(names, inactive, file)
 
     def load_controller(self, name: str) -> ServiceResponse:
         """Answer load_controller."""
@@ -168,7 +117,7 @@ class ControllerManager:
         """Answer switch_controller; what it says is carried out at the end of the next update cycle."""
         if self._cycles is not None:
             self._cycles.apply_pending(self.now_ns)
-        answer, switch = self._switcher.check(activate, deactivate, strictness)
+        answer, switch = self._checker.check(activate, deactivate, strictness)
         if switch is not None and self._cycles is not None:
             self._cycles.request(switch)
         return answer
@@ -212,13 +161,6 @@ class ControllerManager:
         """Void what was computed ahead: something is asked from outside."""
         if self._cycles is not None:
             self._cycles.discard()
-
-    def _skip(self, cycles: int) -> None:
-        if self._cycles is not None:
-            self._cycles.skip(cycles)
-
-    def _set_component_state(self, name: str, state: str) -> None:
-        self.set_hardware_component_state(name, state)
 
     # -- time --------------------------------------------------------------------------------------------------------
 

@@ -12,7 +12,8 @@ from cellc.mock.control.manager.loaded import LoadedController
 from cellc.mock.control.manager.lookahead import Lookahead
 from cellc.mock.control.manager.registry import ControllerRegistry
 from cellc.mock.control.manager.settings import NODE_NAME
-from cellc.mock.control.manager.switching import Switch, Switcher
+from cellc.mock.control.manager.switch_checks import Switch
+from cellc.mock.control.manager.switching import Switcher
 
 _SHORTEST_BLOCK = 64
 _LONGEST_BLOCK = 2048

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from cellc.mock.control.controllers.base import ConfigureError, Context
 from cellc.mock.control.description import RobotDescription
@@ -193,6 +193,22 @@ class ControllerRegistry:
                 return loaded
         return None
 
+    def following(self, loaded: LoadedController) -> list[LoadedController]:
+        """Controllers whose references a controller writes."""
+        exporters = [self.exporter(name) for name in loaded.controller.command_interfaces()]
+        return [exporter for exporter in exporters if exporter is not None]
+
+    def preceding(self, loaded: LoadedController) -> list[LoadedController]:
+        """Controllers that write a controller's references."""
+        own = set(loaded.controller.reference_interfaces())
+        configured = [c for c in self.controllers.values() if c.state in ("inactive", "active")]
+        return [other for other in configured if own & set(other.controller.command_interfaces())]
+
+    def interfaces_of(self, names: Sequence[str]) -> list[str]:
+        """Command interfaces of several controllers."""
+        controllers = [self.controllers[name].controller for name in names]
+        return [interface for controller in controllers for interface in controller.command_interfaces()]
+
     def in_update_order(self) -> list[LoadedController]:
         """The controllers, each before those whose references it writes."""
         ordered: list[LoadedController] = []
@@ -201,11 +217,8 @@ class ControllerRegistry:
             if loaded in ordered:
                 return
             if loaded.state in ("inactive", "active"):
-                own = set(loaded.controller.reference_interfaces())
-                for other in self.controllers.values():
-                    configured = other.state in ("inactive", "active")
-                    if own and configured and own & set(other.controller.command_interfaces()):
-                        place(other)
+                for other in self.preceding(loaded):
+                    place(other)
             ordered.append(loaded)
 
         for loaded in self.controllers.values():

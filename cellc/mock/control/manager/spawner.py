@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from cellc.mock.control.log import Log
 from cellc.mock.control.manager.registry import ControllerRegistry
-from cellc.mock.control.manager.switching import Strictness, Switch, Switcher
+from cellc.mock.control.manager.switch_checks import Strictness, Switch, SwitchChecker
 from cellc.mock.control.messages import ServiceResponse
 from cellc.mock.control.parameters import ParameterFile
 
@@ -29,53 +29,57 @@ class SpawnResponse:
     not_tried: tuple[str, ...] = ()
 
 
-def spawn(
-    names: Sequence[str],
-    inactive: bool,
-    file: ParameterFile | None,
-    registry: ControllerRegistry,
-    switcher: Switcher,
-    apply: Callable[[Switch], None],
-    log: Log,
-) -> SpawnResponse:
-    """Bring controllers up.
+class Spawner:
+    """Brings controllers up.
 
     Args:
-        names: controllers in order.
-        inactive: whether they are only configured (--inactive).
-        file: parameters of --param-file.
         registry: the controllers.
-        switcher: checks the activations.
+        checker: checks the activations.
         apply: carries a switch out.
         log: the log.
-
-    Returns:
-        How it ended.
     """
-    logger = f"spawner_{names[0]}" if names else "spawner"
-    for index, name in enumerate(names):
-        rest = tuple(names[index + 1 :])
-        if name not in registry.controllers:
-            loaded = registry.load(name, file)
+
+    def __init__(
+        self, registry: ControllerRegistry, checker: SwitchChecker, apply: Callable[[Switch], None], log: Log
+    ) -> None:
+        self._registry = registry
+        self._checker = checker
+        self._apply = apply
+        self._log = log
+
+    def spawn(self, names: Sequence[str], inactive: bool, file: ParameterFile | None) -> SpawnResponse:
+        """Do one call.
+
+        Args:
+            names: controllers in order.
+            inactive: whether they are only configured (--inactive).
+            file: parameters of --param-file.
+
+        Returns:
+            How it ended.
+        """
+        for index, name in enumerate(names):
+            answer = self._bring_up(name, inactive, file, f"spawner_{names[0]}")
+            if not answer.ok:
+                return SpawnResponse(False, name, answer.message, tuple(names[index + 1 :]))
+        return SpawnResponse(True)
+
+    def _bring_up(self, name: str, inactive: bool, file: ParameterFile | None, logger: str) -> ServiceResponse:
+        if name not in self._registry.controllers:
+            loaded = self._registry.load(name, file)
             if not loaded.ok:
-                log.fatal(logger, f"Failed loading controller {name}")
-                return SpawnResponse(False, name, loaded.message, rest)
-        if registry.controllers[name].state == "unconfigured":
-            configured = registry.configure(name)
+                self._log.fatal(logger, f"Failed loading controller {name}")
+                return loaded
+        if self._registry.controllers[name].state == "unconfigured":
+            configured = self._registry.configure(name)
             if not configured.ok:
-                log.error(logger, f"Failed to configure controller : {name}")
-                return SpawnResponse(False, name, configured.message, rest)
+                self._log.error(logger, f"Failed to configure controller : {name}")
+                return configured
         if inactive:
-            continue
-        answer = _activate(name, switcher, apply)
+            return ServiceResponse(True)
+        answer, switch = self._checker.check([name], [], Strictness.STRICT)
+        if switch is not None:
+            self._apply(switch)
         if not answer.ok:
-            log.error(logger, f"Failed to activate controller : {name}")
-            return SpawnResponse(False, name, answer.message, rest)
-    return SpawnResponse(True)
-
-
-def _activate(name: str, switcher: Switcher, apply: Callable[[Switch], None]) -> ServiceResponse:
-    answer, switch = switcher.check([name], [], Strictness.STRICT)
-    if switch is not None:
-        apply(switch)
-    return answer
+            self._log.error(logger, f"Failed to activate controller : {name}")
+        return answer

@@ -6,13 +6,13 @@ tolerances, command, decide the goal. Blocks repeat the same arithmetic for many
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from cellc.mock.control.block import Block
 from cellc.mock.control.controllers.base import Context, Cycle, QuietController
+from cellc.mock.control.controllers.joint_trajectory.commands import JointCommands
 from cellc.mock.control.controllers.joint_trajectory.declaration import declare
 from cellc.mock.control.controllers.joint_trajectory.goals import GoalBook
 from cellc.mock.control.controllers.joint_trajectory.interfaces import JointInterfaces
@@ -25,13 +25,13 @@ from cellc.mock.control.controllers.joint_trajectory.motion import (
     regular_updates,
     start_of,
 )
-from cellc.mock.control.controllers.joint_trajectory.pid import Pid
 from cellc.mock.control.controllers.joint_trajectory.recorder import Recorder
 from cellc.mock.control.controllers.joint_trajectory.scaling import SpeedScaling
 from cellc.mock.control.controllers.joint_trajectory.spline import Spline, StartState
 from cellc.mock.control.controllers.joint_trajectory.stopping import stop_points
 from cellc.mock.control.controllers.joint_trajectory.tolerances import default_tolerances
 from cellc.mock.control.controllers.joint_trajectory.validation import AcceptanceRules
+from cellc.mock.control.controllers.joint_trajectory.verdict import decide_failure, judge, tell_violation
 from cellc.mock.control.messages import Trajectory, TrajectoryStateResponse
 from cellc.mock.control.parameters import ParameterValue
 
@@ -77,7 +77,7 @@ class JointTrajectoryController(QuietController):
         self.defaults = default_tolerances(parameters, self.interfaces.joints)
         self.goals = GoalBook(context, self.interfaces.joints, self.defaults)
         names = self.interfaces.joints
-        self._pids = [Pid.of(parameters, f"gains.{name}.") for name in names] if self.interfaces.uses_pid else []
+        self._commands = JointCommands(context, self.interfaces)
         self._interpolate = parameters.text("interpolation_method") != "none"
         self._from_desired = parameters.flag("interpolate_from_desired_state")
         self._stop = np.array([parameters.number(f"constraints.{j}.max_deceleration_on_cancel") for j in names])
@@ -199,119 +199,55 @@ class JointTrajectoryController(QuietController):
         samples = motion.sample(np.array([motion.time_ns], dtype=np.int64))
         self.last = LastUpdate(cycle.time_ns, measured, samples)
         if motion.held:
-            self._command(samples, cycle)
+            self._command(motion, samples, cycle)
         else:
             self._supervise(motion, samples, cycle, first)
         if self.recorder is not None:
-            self.recorder.add_update(cycle.time_ns, samples, measured.position, self._present_commands())
+            self.recorder.add_update(cycle.time_ns, samples, measured.position, self._commands.present())
 
     def _supervise(self, motion: Motion, samples: Samples, cycle: Cycle, first: bool) -> None:
         """Check tolerances, command unless they are violated, decide the goal."""
-        state, tolerances = self.context.table.state[None, :], self.goals.tolerances
-        ended = samples.next_reached[0] == motion.spline.count
-        overtime = float(motion.overtime_s(samples)[0])
-        rows = slice(0, 1)
-        if ended and 0.0 < self._timeout_s < overtime:
-            self.context.log.warn(self.context.name, "Aborted due to command timeout")
+        context, goals = self.context, self.goals
+        verdict = judge(motion, samples, context.table.state, goals.tolerances, first, self._timeout_s)
+        if verdict.timed_out:
+            context.log.warn(context.name, "Aborted due to command timeout")
             self.hold()
-            # From here on nothing is checked any more, so that the goal counts as reached.
-            self._command(samples, cycle)
-            self._end(motion, cycle.time_ns, violated=False, ended=True, outside=False, late=0.0)
-            return
-        path = motion.violated(tolerances.path, samples, state, rows)[0]
-        violated = bool((not ended or first) and path.any())
-        outside = bool(ended and motion.violated(tolerances.goal, samples, state, rows).any())
-        late = overtime if outside and tolerances.goal_time_s != 0.0 and overtime > tolerances.goal_time_s else 0.0
-        if violated or late:
-            self._tell_violation(samples, violated)
+        if verdict.commands:
+            self._command(motion, samples, cycle)
         else:
-            self._command(samples, cycle)
-        self._end(motion, cycle.time_ns, violated, bool(ended), outside, late)
-
-    def _end(self, motion: Motion, now_ns: int, violated: bool, ended: bool, outside: bool, late: float) -> None:
-        """Decide the goal, or hold where a trajectory of the topic failed."""
-        log, name, goals = self.context.log, self.context.name, self.goals
-        if violated:
-            if goals.running:
-                goals.abort(now_ns, -4, "Aborted due to path tolerance violation")
-                log.warn(name, "Aborted due to state tolerance violation")
-            else:
-                log.error(name, "Holding position due to state tolerance violation")
+            error = self.interfaces.difference(samples.desired[0], self.last.measured.position)
+            tell_violation(context, error, goals, verdict)
+            decide_failure(context, goals, verdict, cycle.time_ns)
             self.stop()
-        elif ended and not outside and goals.running:
-            goals.succeed(now_ns)
-            log.info(name, "Goal reached, success!")
+        if verdict.reached and goals.running:
+            goals.succeed(cycle.time_ns)
+            context.log.info(context.name, "Goal reached, success!")
             self._hold_end(motion)
-        elif ended and late:
-            text = f"Aborted due to goal_time_tolerance exceeding by {late:f} seconds"
-            if goals.running:
-                goals.abort(now_ns, -5, text)
-                log.warn(name, text)
-            else:
-                log.error(name, "Exceeded goal_time_tolerance: holding position...")
-            self.stop()
 
-    def _tell_violation(self, samples: Samples, path: bool) -> None:
-        tolerance = self.goals.tolerances.path if path else self.goals.tolerances.goal
-        error = self.interfaces.difference(samples.desired[0], self.last.measured.position)
-        for index, value in enumerate(error.tolist()):
-            if abs(value) > tolerance.position[index]:
-                self.context.log.error("tolerances", f"State tolerances failed for joint {index}:")
-                self.context.log.error(
-                    "tolerances",
-                    f"Position Error: {value:f}, Position Tolerance: {tolerance.position[index]:f}",
-                )
+    def _command(self, motion: Motion, samples: Samples, cycle: Cycle) -> None:
+        self._commands.write(motion, samples, self.last.measured, cycle)
+        self._remember_command(motion, samples, 0)
 
-    def _command(self, samples: Samples, cycle: Cycle) -> None:
-        motion, places = self._motion, self.interfaces.commands
-        assert motion is not None
-        velocity = motion.spline.velocities(samples.next_reached, samples.next_into)[0]
-        acceleration = motion.spline.accelerations(samples.next_reached, samples.next_into)[0]
-        if self._pids:
-            self._command_pid(samples, velocity, cycle)
-        else:
-            values = {"position": samples.next[0], "velocity": velocity, "acceleration": acceleration}
-            for kind, columns in places.items():
-                wanted = values.get(kind, np.zeros(len(columns)))
-                for column, value in zip(columns.tolist(), wanted.tolist(), strict=False):
-                    self.context.command(column, value)
-        self._commanded = StartState(motion.time_ns, samples.next[0], velocity, acceleration)
-
-    def _command_pid(self, samples: Samples, velocity: Sequence[float], cycle: Cycle) -> None:
-        measured = self.last.measured
-        error = self.interfaces.difference(samples.desired[0], measured.position)
-        rate = samples.desired_velocity[0] - (0.0 if measured.velocity is None else measured.velocity)
-        ((_, columns),) = self.interfaces.commands.items()
-        for index, column in enumerate(columns.tolist()):
-            pid = self._pids[index]
-            correction = pid.command(float(error[index]), float(rate[index]), cycle.period_ns / 1e9)
-            self.context.command(column, float(velocity[index]) * pid.feed_forward + correction)
-
-    def _present_commands(self) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
-        columns = next(iter(self.interfaces.commands.values()))
-        return self.context.table.command[columns]
+    def _remember_command(self, motion: Motion, samples: Samples, row: int) -> None:
+        """Keep the commanded state where a next trajectory starts from it."""
+        if self._from_desired:
+            ahead = samples.next_reached[row : row + 1], samples.next_into[row : row + 1]
+            velocity, acceleration = motion.spline.velocities(*ahead)[0], motion.spline.accelerations(*ahead)[0]
+            self._commanded = StartState(motion.time_ns, samples.next[row], velocity, acceleration)
 
     # -- blocks ------------------------------------------------------------------------------------------------------
 
     def preview(self, block: Block) -> int:
         """Sample the trajectory for all cycles of the block."""
         motion = self._motion
-        if motion is None or self._pending is not None or self._pids:
+        if motion is None or self._pending is not None or self._commands.depend_on_state:
             return 0
         self._factor = self.scaling.factor
         step = int(block.period_ns * self._factor)
         times = motion.time_ns + step * np.arange(1, len(block) + 1, dtype=np.int64)
         samples = motion.sample(times)
         self._preview = samples
-        for kind, columns in self.interfaces.commands.items():
-            if kind == "position":
-                block.command[:, columns] = samples.next[:, : len(columns)]
-            elif kind == "velocity":
-                block.command[:, columns] = motion.spline.velocities(samples.next_reached, samples.next_into)
-            elif kind == "acceleration":
-                block.command[:, columns] = motion.spline.accelerations(samples.next_reached, samples.next_into)
-            else:
-                block.command[:, columns] = 0.0
+        self._commands.preview(motion, samples, block)
         return len(block)
 
     def regular(self, block: Block) -> int:
@@ -343,14 +279,9 @@ class JointTrajectoryController(QuietController):
             state[places["acceleration"]] if "acceleration" in places else None,
         )
         self.last = LastUpdate(time_ns, measured, samples, row)
-        if self._from_desired:
-            reached, into = samples.next_reached[row : row + 1], samples.next_into[row : row + 1]
-            velocity = motion.spline.velocities(reached, into)[0]
-            acceleration = motion.spline.accelerations(reached, into)[0]
-            self._commanded = StartState(motion.time_ns, samples.next[row], velocity, acceleration)
+        self._remember_command(motion, samples, row)
         if self.recorder is not None:
-            columns = next(iter(self.interfaces.commands.values()))
-            self.recorder.add_block(block, start, samples, places["position"], columns)
+            self.recorder.add_block(block, start, samples, places["position"], self._commands.columns())
 
     # -- outside -----------------------------------------------------------------------------------------------------
 
@@ -364,18 +295,8 @@ class JointTrajectoryController(QuietController):
 
     def query_state(self, time_ns: int) -> TrajectoryStateResponse:
         """Sample the running trajectory at a time; unsuccessful where none runs or the time lies outside it."""
-        motion = self._motion
-        if not self.active or motion is None or motion.held or time_ns < motion.spline.before_ns:
-            if not self.active:
-                self.context.log.error(self.context.name, "Can't sample trajectory. Controller is not active.")
+        if not self.active:
+            self.context.log.error(self.context.name, "Can't sample trajectory. Controller is not active.")
+        if not self.active or self._motion is None:
             return TrajectoryStateResponse(False)
-        reached, into = motion.spline.locate(np.array([time_ns], dtype=np.int64))
-        if reached[0] == motion.spline.count:
-            return TrajectoryStateResponse(False)
-        return TrajectoryStateResponse(
-            True,
-            self.interfaces.joints,
-            tuple(motion.spline.positions(reached, into)[0].tolist()),
-            tuple(motion.spline.velocities(reached, into)[0].tolist()),
-            tuple(motion.spline.accelerations(reached, into)[0].tolist()),
-        )
+        return self._motion.query(time_ns)

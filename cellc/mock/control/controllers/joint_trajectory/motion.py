@@ -10,7 +10,7 @@ from cellc.mock.control.controllers.joint_trajectory.interfaces import JointInte
 from cellc.mock.control.controllers.joint_trajectory.spline import Indices, Spline, StartState
 from cellc.mock.control.controllers.joint_trajectory.tolerances import StateTolerance, Tolerances
 from cellc.mock.control.interfaces import Array, Flags, Times
-from cellc.mock.control.messages import TrajectoryPoint
+from cellc.mock.control.messages import TrajectoryPoint, TrajectoryStateResponse
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,6 +103,16 @@ class Motion:
             rates = samples.desired_velocity[rows] - state[:, interfaces.states["velocity"]]
             outside |= np.abs(rates) > tolerance.velocity
         return outside
+
+    def query(self, time_ns: int) -> TrajectoryStateResponse:
+        """Sample at a time; unsuccessful while only holding, and for a time outside the trajectory."""
+        spline = self.spline
+        reached, into = spline.locate(np.array([time_ns], dtype=np.int64))
+        if self.held or time_ns < spline.before_ns or reached[0] == spline.count:
+            return TrajectoryStateResponse(False)
+        values = (spline.positions, spline.velocities, spline.accelerations)
+        found = [tuple(value(reached, into)[0].tolist()) for value in values]
+        return TrajectoryStateResponse(True, self._interfaces.joints, *found)
 
 
 def first_true(flags: Flags) -> int:

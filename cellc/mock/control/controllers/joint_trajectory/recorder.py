@@ -5,11 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cellc.mock.control.block import Block
 from cellc.mock.control.controllers.joint_trajectory.motion import Samples
-from cellc.mock.control.interfaces import Array, Times
+from cellc.mock.control.interfaces import Array, Columns, Times
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +47,7 @@ class Recorder:
         self._stamps: list[Times] = []
         self._values: list[tuple[Array, Array, Array, Array]] = []
 
-    def _due(self, times_ns: Times) -> NDArray[np.intp]:
+    def _due(self, times_ns: Times) -> Columns:
         """Rows that are recorded: in each record period the first update."""
         if times_ns[-1] < self._next_ns:
             return np.empty(0, dtype=np.intp)
@@ -67,9 +66,7 @@ class Recorder:
             rows = (samples.desired[:1], samples.desired_velocity[:1], actual[None, :], command[None, :])
             self._values.append(rows)
 
-    def add_block(
-        self, block: Block, start: int, samples: Samples, actual: NDArray[np.intp], command: NDArray[np.intp]
-    ) -> None:
+    def add_block(self, block: Block, start: int, samples: Samples, actual: Columns, command: Columns) -> None:
         """Record a block from `start` on; `actual` and `command` are columns of its states and commands."""
         rows = self._due(block.times_ns[start:]) + start
         if len(rows):
