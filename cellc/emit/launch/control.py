@@ -1,7 +1,8 @@
 """Controller managers and their spawners in the launch file.
 
-A manager takes all hardware of the description that it is given. The one manager of a cell takes the cell's. Of several,
-each has a description with its own hardware alone, on a topic of its own; their joint states are merged for the rest.
+A manager takes all hardware of the description that it is given. The one manager of a cell takes the cell's. Of
+several, each has a description with its own hardware alone, on a topic of its own; their joint states are merged for
+the rest.
 """
 
 from __future__ import annotations
