@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from graphlib import TopologicalSorter
 
 from cellc.diagnostics import Diagnostic
 from cellc.graph.cell_graph import CellGraph
@@ -13,17 +14,23 @@ from cellc.rules.all_rules import ALL_RULES
 def run_rules(graph: CellGraph, rules: tuple[Rule, ...] = ALL_RULES) -> tuple[Diagnostic, ...]:
     """Return what every rule finds, sorted by place.
 
-    A rule is skipped where a code that it assumes absent was reported, so that one cause gives one finding. Rules
-    are run in the order given, except that those with assumptions come after those without.
+    A rule is skipped where a code that it assumes absent was reported, so that one cause gives one finding.
     """
     diagnostics: list[Diagnostic] = []
     reported: set[str] = set()
-    for rule in sorted(rules, key=lambda rule: bool(rule.assumes)):
+    for rule in _assumed_first(rules):
         if reported.isdisjoint(rule.assumes):
             found = list(_diagnostics(rule, graph))
             diagnostics += found
             reported.update(diagnostic.code for diagnostic in found)
     return tuple(sorted(diagnostics, key=Diagnostic.sort_key))
+
+
+def _assumed_first(rules: tuple[Rule, ...]) -> Iterator[Rule]:
+    """Yield every rule after those whose codes it assumes absent."""
+    by_code = {rule.code: rule for rule in rules}
+    order = TopologicalSorter({rule.code: rule.assumes for rule in rules}).static_order()
+    yield from (by_code[code] for code in order if code in by_code)
 
 
 def _diagnostics(rule: Rule, graph: CellGraph) -> Iterator[Diagnostic]:

@@ -19,7 +19,9 @@ from cellc.rules.run import run_rules
 from cellc.source.read import read
 from cellc.spec.parse import parse
 
-BASE = Path(__file__).parent / "base"
+BASE = Path(__file__).resolve().parents[1] / "corpus" / "invalid" / "base"
+"""The parts of a complete cell of made-up devices; nothing in it is to be reported."""
+HEAD = {"format": "1", "cell": "demo"}
 _FENCE = re.compile(r"```(yaml|xml)\n(.*?)```", re.DOTALL)
 
 
@@ -51,16 +53,25 @@ def diagnose(path: Path) -> tuple[Diagnostic, ...]:
     return (*document.diagnostics, *spec.diagnostics, *cell.diagnostics, *run_rules(build_graph(cell.value)))
 
 
+def complete_cell() -> dict[str, Any]:
+    """Return the complete cell as nested texts."""
+    cell: dict[str, Any] = dict(HEAD)
+    for part in sorted(BASE.glob("*.yaml")):
+        sections = yaml.load(part.read_text(encoding="utf-8"), Loader=yaml.BaseLoader)
+        sections.pop("include", None)
+        cell = _merged(cell, sections)
+    return cell
+
+
 def diagnose_example(example: Example, folder: Path) -> tuple[Diagnostic, ...]:
     """Merge an example into the complete cell, written to ``folder``, and diagnose the result."""
     shutil.copytree(BASE, folder, dirs_exist_ok=True)
-    cell = yaml.load((BASE / "cell.yaml").read_text(encoding="utf-8"), Loader=yaml.BaseLoader)
     if example.language == "xml":
         _merge_description(example.text, folder / "stage" / "stage.urdf")
         fragment = {"devices": {"stage": {"model": "./stage", "revision": "A", "firmware": "stage 1.0.0"}}}
     else:
         fragment = yaml.load(example.text, Loader=yaml.BaseLoader)
-    merged = _typed(_merged(cell, fragment))
+    merged = _typed(_merged(complete_cell(), fragment))
     (folder / "cell.yaml").write_text(yaml.safe_dump(merged, sort_keys=False), encoding="utf-8")
     return diagnose(folder / "cell.yaml")
 
@@ -69,8 +80,7 @@ def _merged(base: Any, fragment: Any) -> Any:
     """Merge mappings key by key; ``null`` takes a key out, anything else replaces."""
     if not isinstance(base, dict) or not isinstance(fragment, dict):
         return fragment
-    # A mapping that names an interface type is a whole interface, not a change of one.
-    result = {} if {"topic", "service", "action"} & fragment.keys() else dict(base)
+    result = dict(base)
     for key, value in fragment.items():
         if value == "null":
             result.pop(key, None)

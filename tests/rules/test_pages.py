@@ -9,14 +9,14 @@ import pytest
 
 from cellc.rule import Rule
 from cellc.rules.all_rules import ALL_RULES
-from tests.rules.examples import BASE, diagnose, diagnose_example, examples
+from tests.rules.examples import Example, diagnose_example, examples
 
 RULES = [pytest.param(rule, id=rule.code) for rule in ALL_RULES]
 FOLDER = Path(__file__).resolve().parents[2] / "cellc" / "rules"
 
 
-def test_the_complete_cell_is_clean() -> None:
-    assert diagnose(BASE / "cell.yaml") == ()
+def test_the_complete_cell_is_clean(tmp_path: Path) -> None:
+    assert diagnose_example(Example("yaml", "{}"), tmp_path) == ()
 
 
 def test_every_code_is_declared_once() -> None:

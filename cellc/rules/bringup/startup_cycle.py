@@ -58,4 +58,4 @@ def check(graph: CellGraph) -> Iterator[Finding]:
     yield found(graph, path, message, "turn one of the calls into a topic", related[1:])
 
 
-RULE = define("startup-cycle", Severity.ERROR, check, __doc__)
+RULE = define("startup-cycle", Severity.ERROR, check, __doc__, assumes=("second-action-server",))

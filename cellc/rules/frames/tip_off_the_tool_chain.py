@@ -8,7 +8,7 @@ Example that is reported:
 ```yaml
 motion:
   groups:
-    elbow: {base: arm/base_link, tip: arm/base}
+    elbow: {base: arm/base_link, tip: arm/link_4}
 ```
 
 Example that is accepted:

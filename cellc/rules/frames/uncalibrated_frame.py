@@ -6,8 +6,6 @@ nobody can tell which measurement a goal rested on, nor notice that a bumped cam
 Example that is reported:
 
 ```yaml
-calibrations:
-  tray: {revision: 1, measured: 2026-07-02, method: touch probe, samples: 5, residual: 0.3 mm, owner: perception}
 frames:
   tray: {parent: world, xyz: 0.4 0.1 0.8 m}
 ```

@@ -47,4 +47,4 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             yield found(graph, path, message, "rename one of the two", related)
 
 
-RULE = define("duplicate-node-name", Severity.ERROR, check, __doc__)
+RULE = define("duplicate-node-name", Severity.ERROR, check, __doc__, assumes=("shared-manager-name",))

@@ -38,7 +38,8 @@ def check(graph: CellGraph) -> Iterator[Finding]:
     for first, second in combinations(graph.network.nics, 2):
         if first.host != second.host or first.interface is None or second.interface is None:
             continue
-        if first.interface.network.overlaps(second.interface.network):
+        same = first.interface.ip == second.interface.ip  # a duplicate address, which is reported as such
+        if first.interface.network.overlaps(second.interface.network) and not same:
             message = f"`{second.full_name}` and `{first.full_name}` are both in {first.interface.network}"
             related = (Related("the other card is here", graph.cell.locate(*first.path, "address")),)
             yield found(graph, (*second.path, "address"), message, "give each card a subnet of its own", related)

@@ -49,5 +49,9 @@ def check(graph: CellGraph) -> Iterator[Finding]:
 
 
 RULE = define(
-    "idle-controller", Severity.WARNING, check, __doc__, assumes=("double-claim", "double-claim-after-switch")
+    "idle-controller",
+    Severity.WARNING,
+    check,
+    __doc__,
+    assumes=("double-claim", "double-claim-after-switch", "impossible-switch"),
 )
