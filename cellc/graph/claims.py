@@ -73,7 +73,7 @@ class ClaimGraph:
 
 def build_claims(cell: Cell) -> ClaimGraph:
     """Explore the states of each manager, nearest to the start first."""
-    return ClaimGraph(tuple(state for manager in cell.managers for state in _explore(manager)))
+    return ClaimGraph(tuple(state for manager in cell.managers for state in explore(manager)))
 
 
 def can_switch(active: frozenset[str], switch: ControllerSwitch) -> bool:
@@ -85,7 +85,8 @@ def can_switch(active: frozenset[str], switch: ControllerSwitch) -> bool:
     return active.issuperset(switch.deactivate) and active.isdisjoint(starts)
 
 
-def _explore(manager: ControllerManager) -> Iterator[ControlState]:
+def explore(manager: ControllerManager) -> Iterator[ControlState]:
+    """Yield the states that the declared switches of a manager reach, by fewest switches first."""
     start = frozenset(controller.name for controller in manager.controllers if controller.active)
     queue: deque[tuple[frozenset[str], tuple[str, ...]]] = deque([(start, ())])
     seen = {start}
