@@ -13,18 +13,15 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from cellc.mock.control.description import ComponentInfo, InterfaceInfo
+from cellc.mock.control.description import ComponentInfo
 from cellc.mock.control.description.component import parse_bool
 from cellc.mock.control.description.urdf import UrdfJoint, UrdfMimic
 from cellc.mock.control.hardware.disturbances import Disturbances
+from cellc.mock.control.hardware.export import Exporter
 from cellc.mock.control.hardware.joint_states import Motion, differences, hold_last, integral
 from cellc.mock.control.interfaces import Array, InterfaceTable
 
 _MODES = ("position", "velocity", "acceleration")
-
-
-def _number(text: str, default: float) -> float:
-    return float(text) if text else default
 
 
 class GenericSystem:
@@ -49,62 +46,21 @@ class GenericSystem:
         parameters = info.parameters
         self._dynamics = parse_bool(parameters.get("calculate_dynamics", "false"))
         self.commands_disabled = parse_bool(parameters.get("disable_commands", "false"))
-        self._mock_sensors = parse_bool(parameters.get("mock_sensor_commands", "false"))
-        self._mock_gpios = parse_bool(parameters.get("mock_gpio_commands", "false"))
-        self._offset = _number(parameters.get("position_state_following_offset", ""), 0.0)
+        self._offset = float(parameters.get("position_state_following_offset") or 0.0)
         self._custom_offset = parameters.get("custom_interface_with_following_offset", "")
-        self.command_names: list[str] = []
-        self.state_names: list[str] = []
+        mock_sensors = parse_bool(parameters.get("mock_sensor_commands", "false"))
+        mock_gpios = parse_bool(parameters.get("mock_gpio_commands", "false"))
+        exported = Exporter(info, table).export(0.0 if self._custom_offset else self._offset, mock_sensors, mock_gpios)
+        self.command_names, self.state_names = exported.commands, exported.states
+        self._position, self._velocity, self._acceleration = exported.position, exported.velocity, exported.acceleration
         self._motion: Motion | None = None
         self._names = [part.name for part in info.joints]
         self._modes = ["position"] * len(self._names)
-        self._export_joints()
-        self._export_others()
         self._mimics = self._find_mimics(joints)
         self._command_columns = {kind: self._columns(kind, True) for kind in _MODES}
         self._state_columns = {kind: self._columns(kind, False) for kind in _MODES}
         self._pairs = self._mirrored()
         self._offset_pairs = self._offset_mirrored()
-
-    # -- export ------------------------------------------------------------------------------------------------------
-
-    def _export_joints(self) -> None:
-        values: dict[str, list[float]] = {kind: [] for kind in _MODES}
-        for part in self.info.joints:
-            initial = {state.name: _number(state.initial_value, 0.0) for state in part.state_interfaces}
-            for kind in _MODES:
-                values[kind].append(initial.get(kind, 0.0))
-            if not self._custom_offset:
-                values["position"][-1] += self._offset
-                initial["position"] = values["position"][-1]
-            for command in part.command_interfaces:
-                self._export_command(part.name, command, _number(command.initial_value, math.nan))
-            for state in part.state_interfaces:
-                self._export_state(part.name, state, initial[state.name])
-        self._position = np.array(values["position"])
-        self._velocity = np.array(values["velocity"])
-        self._acceleration = np.array(values["acceleration"])
-
-    def _export_others(self) -> None:
-        for parts, mock in ((self.info.sensors, self._mock_sensors), (self.info.gpios, self._mock_gpios)):
-            for part in parts:
-                for command in part.state_interfaces if mock else part.command_interfaces:
-                    self._export_command(part.name, command, math.nan)
-                for state in part.state_interfaces:
-                    unset = math.nan if state.data_type in ("double", "float32") else 0.0
-                    self._export_state(part.name, state, _number(state.initial_value, unset))
-
-    def _export_command(self, part: str, interface: InterfaceInfo, value: float) -> None:
-        name = f"{part}/{interface.name}"
-        if not self._table.has_command(name):
-            self._table.add_command(name, value, interface.data_type)
-            self.command_names.append(name)
-
-    def _export_state(self, part: str, interface: InterfaceInfo, value: float) -> None:
-        name = f"{part}/{interface.name}"
-        if not self._table.has_state(name):
-            self._table.add_state(name, value, interface.data_type)
-            self.state_names.append(name)
 
     # -- what follows what -------------------------------------------------------------------------------------------
 

@@ -6,8 +6,6 @@ tolerances, command, decide the goal. Blocks repeat the same arithmetic for many
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from cellc.mock.control.block import Block
@@ -18,6 +16,7 @@ from cellc.mock.control.controllers.joint_trajectory.goals import GoalBook
 from cellc.mock.control.controllers.joint_trajectory.interfaces import JointInterfaces
 from cellc.mock.control.controllers.joint_trajectory.local_order import in_local_order
 from cellc.mock.control.controllers.joint_trajectory.motion import (
+    LastUpdate,
     Motion,
     PendingTrajectory,
     Samples,
@@ -34,16 +33,6 @@ from cellc.mock.control.controllers.joint_trajectory.validation import Acceptanc
 from cellc.mock.control.controllers.joint_trajectory.verdict import decide_failure, judge, tell_violation
 from cellc.mock.control.messages import Trajectory, TrajectoryStateResponse
 from cellc.mock.control.parameters import ParameterValue
-
-
-@dataclass(slots=True)
-class LastUpdate:
-    """What the last update saw, for feedback and for a hold."""
-
-    time_ns: int
-    measured: StartState
-    samples: Samples | None = None
-    row: int = 0
 
 
 class JointTrajectoryController(QuietController):

@@ -3,25 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Protocol
 
 from cellc.mock.control.controllers.base import Context
 from cellc.mock.control.controllers.joint_trajectory.interfaces import JointInterfaces
-from cellc.mock.control.controllers.joint_trajectory.motion import Motion, Samples
-from cellc.mock.control.controllers.joint_trajectory.spline import StartState
+from cellc.mock.control.controllers.joint_trajectory.motion import LastUpdate, Motion, Samples
 from cellc.mock.control.controllers.joint_trajectory.tolerances import Tolerances, goal_tolerances
 from cellc.mock.control.controllers.monitor import GoalMonitor
 from cellc.mock.control.events import ControlEvent, GoalStatus, TrajectoryEnded, TrajectoryFeedback
 from cellc.mock.control.messages import TrajectoryGoal
-
-
-class Seen(Protocol):
-    """What feedback needs of the last update."""
-
-    time_ns: int
-    measured: StartState
-    samples: Samples | None
-    row: int
 
 
 class GoalBook:
@@ -103,7 +92,7 @@ class GoalBook:
         due = [time for monitor in monitors if (time := monitor.next_ns()) is not None]
         return min(due, default=None)
 
-    def deliver(self, now_ns: int, last: Seen, motion: Motion | None, interfaces: JointInterfaces) -> None:
+    def deliver(self, now_ns: int, last: LastUpdate, motion: Motion | None, interfaces: JointInterfaces) -> None:
         """Deliver what is due now."""
         for monitor in [m for m in self._waiting if m.next_ns() == now_ns]:
             event = monitor.tick(now_ns)
@@ -120,7 +109,7 @@ class GoalBook:
         self,
         monitor: GoalMonitor,
         now_ns: int,
-        last: Seen,
+        last: LastUpdate,
         samples: Samples,
         motion: Motion,
         interfaces: JointInterfaces,

@@ -56,6 +56,16 @@ class Samples:
         return self._velocity
 
 
+@dataclass(slots=True)
+class LastUpdate:
+    """What the last update saw, for feedback and for a hold."""
+
+    time_ns: int
+    measured: StartState
+    samples: Samples | None = None
+    row: int = 0
+
+
 class Motion:
     """Samples one trajectory.
 
