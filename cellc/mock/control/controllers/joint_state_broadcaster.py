@@ -58,6 +58,7 @@ class JointStateBroadcaster(QuietController):
             )
         )
         self._listened = False
+        self._names: tuple[str, ...] = ()
         self._stamps: list[Times] = []
         self._rows: list[Array] = []
 

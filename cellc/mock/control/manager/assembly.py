@@ -119,8 +119,8 @@ def assemble(urdf: str, parameters: str, options: NodeOptions, changed: Callable
             limiter = CommandLimiter(all_limits(description), table, period_ns, log)
     registry = ControllerRegistry(file, options.namespace, options.distro, options.behaviours, log, events)
     registry.attach(description, table, limiter, period_ns, rate)
-    switcher = Switcher(registry, hardware, table, limiter, events)
     checker = SwitchChecker(registry, hardware, table, log)
+    switcher = Switcher(registry, hardware, table, limiter, checker, log, events)
     cycles = None
     if hardware is not None:
         cycles = CycleRunner(registry, hardware, switcher, table, limiter, disturbances, log, period_ns, rate)

@@ -136,6 +136,7 @@ class CycleRunner:
             self._log.error(NODE_NAME, text)
             for loaded in failed:
                 self._switcher.deactivate_failed(loaded, time_ns, text)
+                self._switcher.activate_fallbacks(loaded.name, time_ns)
         self.apply_pending(time_ns)
         self._stop_failed(self._hardware.write(), "write", time_ns)
         return time_ns

@@ -44,9 +44,7 @@ class ControllerRegistry:
         self._behaviours = behaviours
         self._log = log
         self._events = events
-        self._types = {
-            name: value for name, value in file.of_node(NODE_NAME, namespace).items() if name.endswith(".type")
-        }
+        self._own = file.of_node(NODE_NAME, namespace)
         self.controllers: dict[str, LoadedController] = {}
 
     def attach(
@@ -72,7 +70,7 @@ class ControllerRegistry:
     def load(self, name: str, spawner_file: ParameterFile | None) -> ServiceResponse:
         """Answer load_controller; `spawner_file` is the file of the spawner's --param-file."""
         own = self._file.of_node(name, self._namespace)
-        given = self._types.get(f"{name}.type")
+        given = self._own.get(f"{name}.type")
         if spawner_file is not None:
             from_spawner = spawner_file.of_node(name, self._namespace)
             own.update(from_spawner)
@@ -109,6 +107,11 @@ class ControllerRegistry:
         self.controllers[name] = LoadedController(name, given, controller, context)
         self._change(self.controllers[name], "unconfigured")
         return ServiceResponse(True)
+
+    def fallbacks(self, name: str) -> list[str]:
+        """Controllers that are activated where a controller fails (`<controller>.fallback_controllers`)."""
+        names = self._own.get(f"{name}.fallback_controllers")
+        return [str(entry) for entry in names] if isinstance(names, list) else []
 
     def configure(self, name: str) -> ServiceResponse:
         """Answer configure_controller."""

@@ -5,10 +5,12 @@ from __future__ import annotations
 from cellc.mock.control.events import ControlEvent, ControllerChanged
 from cellc.mock.control.hardware import CommandLimiter
 from cellc.mock.control.interfaces import InterfaceTable
+from cellc.mock.control.log import Log
 from cellc.mock.control.manager.hardware_set import HardwareSet
 from cellc.mock.control.manager.loaded import LoadedController
 from cellc.mock.control.manager.registry import ControllerRegistry
-from cellc.mock.control.manager.switch_checks import Switch
+from cellc.mock.control.manager.settings import NODE_NAME
+from cellc.mock.control.manager.switch_checks import Strictness, Switch, SwitchChecker
 
 
 class Switcher:
@@ -19,6 +21,8 @@ class Switcher:
         hardware: the components, None where the description was refused.
         table: the interfaces.
         limiter: the limiter, None where limits are not enforced.
+        checker: checks the activation of fallback controllers.
+        log: the log.
         events: where changes are told.
     """
 
@@ -28,8 +32,12 @@ class Switcher:
         hardware: HardwareSet | None,
         table: InterfaceTable,
         limiter: CommandLimiter | None,
+        checker: SwitchChecker,
+        log: Log,
         events: list[ControlEvent],
     ) -> None:
+        self._checker = checker
+        self._log = log
         self._registry = registry
         self._hardware = hardware
         self._table = table
@@ -68,6 +76,18 @@ class Switcher:
         if not loaded.controller.releases_itself:
             loaded.claims = claims
             self._table.claims.update(dict.fromkeys(claims, loaded.name))
+
+    def activate_fallbacks(self, failed: str, now_ns: int) -> None:
+        """Activate the fallback controllers of a failed one, those that can be."""
+        names = self._registry.fallbacks(failed)
+        if not names:
+            return
+        answer, switch = self._checker.check(names, [], Strictness.STRICT)
+        if switch is not None:
+            self._log.warn(NODE_NAME, f"Activating fallback controllers of '{failed}' : [ {' '.join(names)} ]")
+            self.apply(switch, now_ns)
+        else:
+            self._log.error(NODE_NAME, f"Fallback controllers of '{failed}' cannot be activated: {answer.message}")
 
     def _activate(self, loaded: LoadedController, switch: Switch, now_ns: int) -> None:
         loaded.claims = loaded.controller.command_interfaces()

@@ -1,0 +1,165 @@
+"""Faults that are switched on from outside have the effect that they are named after."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from cellc.mock.control import (
+    ControllerChanged,
+    ControllerManager,
+    GripperEnded,
+    GripperGoal,
+    HardwareChanged,
+    ManagerAborted,
+    TrajectoryEnded,
+    TrajectoryGoal,
+    TrajectoryPoint,
+)
+
+from .arm_of_two import MS, S, parameters, run, started, urdf
+
+_GOAL = TrajectoryGoal(("a", "b"), (TrajectoryPoint((0.5, -0.4), time_from_start_ns=S),))
+
+
+def _arm() -> ControllerManager:
+    return started(ControllerManager(urdf(), parameters()))
+
+
+def _results(manager: ControllerManager, duration_ns: int = 3 * S) -> list[tuple[int, int]]:
+    events = run(manager, duration_ns)
+    return [(int(event.status), event.error_code) for event in events if isinstance(event, TrajectoryEnded)]
+
+
+def test_healthy_arm_reaches_its_goal() -> None:
+    manager = _arm()
+    manager.send_goal("arm", _GOAL)
+    assert _results(manager) == [(4, 0)]
+    assert manager.joint_positions() == pytest.approx({"a": 0.5, "b": -0.4, "f": 0.0})
+
+
+def test_stuck_joint_violates_the_path_tolerance() -> None:
+    manager = _arm()
+    manager.disturbances.stick("b")
+    manager.send_goal("arm", _GOAL)
+    assert _results(manager) == [(6, -4)]
+    assert manager.state("b/position") == 0.0
+
+
+def test_slow_joint_never_exceeds_its_velocity() -> None:
+    manager = _arm()
+    manager.subscribe_joint_states("joints")
+    manager.disturbances.slow("a", 0.45)
+    manager.send_goal("arm", _GOAL)
+    assert _results(manager) == [(4, 0)]
+    block = manager.take_joint_states("joints")
+    assert np.abs(block.velocities[:, block.names.index("a")]).max() == pytest.approx(0.45)
+
+
+def test_lagging_joint_follows_with_its_time_constant() -> None:
+    manager = _arm()
+    manager.disturbances.lag("a", 0.1)
+    manager.send_goal("arm", _GOAL)
+    run(manager, S - 10 * MS)
+    # A first-order lag follows a ramp of 0.5 rad/s with a delay of one time constant: 0.05 rad behind.
+    assert 0.5 * 0.99 - manager.state("a/position") == pytest.approx(0.05, abs=0.002)
+
+
+def test_object_between_the_fingers_stalls_the_gripper() -> None:
+    manager = _arm()
+    manager.disturbances.block("f", upper=0.021)
+    manager.send_goal("hand", GripperGoal((0.04,)))
+    (ended,) = [event for event in run(manager, S) if isinstance(event, GripperEnded)]
+    assert (int(ended.status), ended.stalled, ended.reached_goal) == (4, True, False)
+    assert ended.position == (0.021,)
+
+
+@pytest.mark.parametrize("kind", ["read", "write"])
+def test_hardware_error_finalizes_the_component_and_stops_its_controllers(kind: str) -> None:
+    manager = _arm()
+    manager.send_goal("arm", _GOAL)
+    run(manager, 300 * MS)
+    getattr(manager.disturbances, f"fail_{kind}")("arm_hw")
+    events = run(manager, S)
+    assert [event.state for event in events if isinstance(event, HardwareChanged)] == ["finalized"]
+    stopped = {event.controller for event in events if isinstance(event, ControllerChanged)}
+    assert "arm" in stopped
+    assert "hand" not in stopped
+    assert [(int(e.status), e.error_code) for e in events if isinstance(e, TrajectoryEnded)] == [(6, -1)]
+    assert not manager.set_hardware_component_state("arm_hw", "active").ok
+
+
+def test_missed_cycles_let_the_trajectory_jump_on_in_time() -> None:
+    manager = _arm()
+    manager.record("arm", 500.0)
+    manager.send_goal("arm", _GOAL)
+    run(manager, 300 * MS)
+    manager.disturbances.skip_cycles(20)
+    run(manager, 300 * MS)
+    stamps = manager.recording("arm").stamps_ns
+    assert int(np.diff(stamps).max()) == 21 * manager.period_ns
+    assert manager.state("a/position") == pytest.approx(0.3, abs=0.003)
+
+
+def test_protective_stop_freezes_the_joints_until_it_is_released() -> None:
+    manager = _arm()
+    manager.send_goal("arm", _GOAL)
+    run(manager, 300 * MS)
+    manager.disturbances.protective_stop("arm_hw")
+    stopped_at = manager.state("a/position")
+    assert _results(manager) == [(6, -4)]
+    assert manager.state("a/position") == stopped_at
+    assert not manager.switch_controllers(["forward"], []).ok
+    manager.disturbances.release("arm_hw")
+    manager.send_goal("arm", _GOAL)
+    assert _results(manager) == [(4, 0)]
+
+
+def test_fallback_controller_takes_over_when_an_update_fails() -> None:
+    text = parameters(extra=", fallback_controllers: [forward]")
+    bad = urdf().replace(
+        '<state_interface name="position"/>', '<state_interface name="position">INIT</state_interface>', 1
+    )
+    manager = ControllerManager(bad.replace("INIT", '<param name="initial_value">9.0</param>'), text)
+    assert manager.spawn(["forward"], inactive=True).ok
+    assert manager.spawn(["arm"]).ok
+    run(manager, 100 * MS)
+    assert {c.name: c.state for c in manager.list_controllers()} == {"forward": "active", "arm": "inactive"}
+
+
+def test_older_gripper_controller_exists_only_where_its_package_does() -> None:
+    text = parameters("position_controllers/GripperActionController")
+    old = ControllerManager(urdf(), text, distro="jazzy")
+    assert old.spawn(["hand"]).ok
+    assert ControllerManager(urdf(), text, distro="kilted").spawn(["hand"]).reason.endswith("not found.")
+
+
+def test_type_that_the_caller_names_behaves_as_told() -> None:
+    text = parameters().replace("joint_trajectory_controller/JointTrajectoryController", "vendor/Scaled")
+    assert not ControllerManager(urdf(), text).spawn(["arm"]).ok
+    named = {"vendor/Scaled": "scaled_joint_trajectory"}
+    manager = ControllerManager(urdf(), text, plugin_behaviours=named)
+    answer = manager.spawn(["arm"])
+    # The interface that the scaled controller wants does not exist in this cell.
+    assert "speed_scaling/speed_scaling_factor" in answer.reason
+
+
+def test_limits_are_not_enforced_by_default_before_kilted() -> None:
+    manager = started(ControllerManager(urdf(), parameters(), distro="jazzy"))
+    manager.spawn(["forward"], inactive=True)
+    manager.switch_controllers(["forward"], ["arm"])
+    run(manager, 10 * MS)
+    manager.publish_commands("forward", [2.5, 0.0])
+    run(manager, 6 * MS)
+    assert manager.state("a/position") == 2.5
+
+
+def test_document_type_in_the_description_is_refused() -> None:
+    manager = ControllerManager('<!DOCTYPE r [<!ENTITY x "y">]>' + urdf(), parameters())
+    assert not manager.list_hardware_components()
+    assert "document type" in manager.description_error
+
+
+def test_tab_in_the_parameter_file_ends_the_process() -> None:
+    with pytest.raises(ManagerAborted):
+        ControllerManager(urdf(), "controller_manager:\n\tros__parameters: {}")
