@@ -117,10 +117,8 @@ def test_protective_stop_freezes_the_joints_until_it_is_released() -> None:
 
 def test_fallback_controller_takes_over_when_an_update_fails() -> None:
     text = parameters(extra=", fallback_controllers: [forward]")
-    bad = urdf().replace(
-        '<state_interface name="position"/>', '<state_interface name="position">INIT</state_interface>', 1
-    )
-    manager = ControllerManager(bad.replace("INIT", '<param name="initial_value">9.0</param>'), text)
+    outside = '<state_interface name="position"><param name="initial_value">9.0</param></state_interface>'
+    manager = ControllerManager(urdf().replace('<state_interface name="position"/>', outside, 1), text)
     assert manager.spawn(["forward"], inactive=True).ok
     assert manager.spawn(["arm"]).ok
     run(manager, 100 * MS)

@@ -39,16 +39,18 @@ def _points(chance: random.Random, kinds: int) -> list[tuple[float, Array]]:
     return points
 
 
+def _point(time_s: float, values: Array) -> TrajectoryPoint:
+    columns = [tuple(column) for column in values.T.tolist()] + [(), ()]
+    return TrajectoryPoint(columns[0], columns[1], columns[2], time_from_start_ns=round(time_s * S))
+
+
 @pytest.mark.parametrize("kinds", [1, 2, 3])
 @pytest.mark.parametrize("seed", range(5))
 def test_reference_is_the_polynomial_through_the_points(kinds: int, seed: int) -> None:
     points = _points(random.Random(f"{kinds}/{seed}"), kinds)
     manager = started(ControllerManager(urdf(), parameters().replace("trajectory: 0.2", "trajectory: 0.0")))
     manager.record("arm", 500.0)
-    sent = tuple(
-        TrajectoryPoint(*(tuple(column) for column in values.T.tolist()), time_from_start_ns=round(time_s * S))
-        for time_s, values in points
-    )
+    sent = tuple(_point(time_s, values) for time_s, values in points)
     begin_ns = manager.now_ns + manager.period_ns
     assert manager.send_goal("arm", TrajectoryGoal(("a", "b"), sent)).accepted
     run(manager, 3 * S)
