@@ -16,7 +16,7 @@ def element(
     """Build an element with its attributes, children and text."""
     built = Element(tag, dict(attributes or {}))
     built.text = text or None
-    built.extend(children)
+    built.extend(tuple(children))
     return built
 
 
