@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from cellc.cell.cell import Cell
@@ -24,7 +25,8 @@ class TopicPair:
     sink: Endpoint
 
 
-@dataclass(frozen=True, slots=True)
+# Without slots, so that the graph over all nodes is built once and kept.
+@dataclass(frozen=True)
 class DataFlow:
     """Interfaces by name, and the edges along which their data goes from node to node.
 
@@ -75,7 +77,7 @@ class DataFlow:
         """Return the shortest way from a node to a controller, both included; empty where there is none."""
         import networkx
 
-        graph = self._digraph()
+        graph = self._digraph
         if node not in graph:
             return ()
         reached = networkx.single_source_shortest_path(graph, node)
@@ -85,12 +87,13 @@ class DataFlow:
     def _movers(self) -> frozenset[str]:
         import networkx
 
-        graph = self._digraph()
+        graph = self._digraph
         movers: set[str] = set(self.commanders)
         for name in self.commanders:
             movers |= networkx.ancestors(graph, name)
         return frozenset(movers)
 
+    @cached_property
     def _digraph(self) -> networkx.DiGraph[str]:
         import networkx
 

@@ -28,10 +28,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cellc.catalog.load import load_message_types
 from cellc.cell.interface import InterfaceKind
 from cellc.diagnostics import Severity
 from cellc.graph.cell_graph import CellGraph
+from cellc.graph.interface_types import interface_types
 from cellc.rule import Finding
 from cellc.rules.define import define
 from cellc.rules.finding import found
@@ -39,8 +39,7 @@ from cellc.rules.finding import found
 
 def check(graph: CellGraph) -> Iterator[Finding]:
     """Yield topics of the spec that carry positions and can move something, without a frame."""
-    table = load_message_types().value
-    known = table.types if table is not None else {}
+    known = interface_types()
     for interface in graph.cell.interfaces:
         facts = known.get(interface.type)
         if interface.kind is not InterfaceKind.TOPIC or interface.derived or interface.frame is not None:

@@ -29,9 +29,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from difflib import SequenceMatcher
 
-from cellc.catalog.load import load_message_types
 from cellc.diagnostics import Severity
 from cellc.graph.cell_graph import CellGraph
+from cellc.graph.interface_types import interface_types
 from cellc.rule import Finding
 from cellc.rules.define import define
 from cellc.rules.finding import found
@@ -41,8 +41,7 @@ _ALIKE = 0.85  # ratio of difflib: one or two letters in a name of ten
 
 def check(graph: CellGraph) -> Iterator[Finding]:
     """Yield types that are not known and nearly are."""
-    table = load_message_types().value
-    known = table.types if table is not None else {}
+    known = interface_types()
     for interface in graph.cell.interfaces:
         if interface.type not in known and interface.type.count("/") == 2:
             close = [name for name in known if _alike(name, interface.type)]

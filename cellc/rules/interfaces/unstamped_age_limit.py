@@ -28,9 +28,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cellc.catalog.load import load_message_types
 from cellc.diagnostics import Severity
 from cellc.graph.cell_graph import CellGraph
+from cellc.graph.interface_types import interface_types
 from cellc.rule import Finding
 from cellc.rules.define import define
 from cellc.rules.finding import found
@@ -38,8 +38,7 @@ from cellc.rules.finding import found
 
 def check(graph: CellGraph) -> Iterator[Finding]:
     """Yield topics that feed motion with an age limit and a type without header."""
-    table = load_message_types().value
-    known = table.types if table is not None else {}
+    known = interface_types()
     for interface in graph.cell.interfaces:
         facts = known.get(interface.type)
         if interface.derived or interface.max_age_s is None or facts is None:

@@ -24,9 +24,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cellc.catalog.load import load_distros
 from cellc.diagnostics import Severity
 from cellc.graph.cell_graph import CellGraph
+from cellc.graph.distribution import distribution
 from cellc.graph.responsibilities import UNKNOWN
 from cellc.rule import Finding
 from cellc.rules.define import define
@@ -35,8 +35,7 @@ from cellc.rules.finding import found
 
 def check(graph: CellGraph) -> Iterator[Finding]:
     """Yield an operating system that the distribution is not built for."""
-    table = load_distros().value
-    facts = None if table is None else table.distros.get(graph.cell.spec.versions.ros)  # type: ignore[call-overload]  # any text
+    facts = distribution(graph.cell)
     system = graph.cell.spec.versions.os
     if facts is None or system == UNKNOWN:
         return

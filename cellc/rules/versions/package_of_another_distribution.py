@@ -24,9 +24,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cellc.catalog.load import load_distros
 from cellc.diagnostics import Severity
 from cellc.graph.cell_graph import CellGraph
+from cellc.graph.distribution import distribution
 from cellc.graph.pins import cell_pins, version_numbers
 from cellc.rule import Finding
 from cellc.rules.define import define
@@ -35,8 +35,7 @@ from cellc.rules.finding import found
 
 def check(graph: CellGraph) -> Iterator[Finding]:
     """Yield ros2_control, MoveIt and middleware pins of another major version than the distribution releases."""
-    table = load_distros().value
-    facts = None if table is None else next((f for name, f in table.distros.items() if name == graph.cell.distro), None)
+    facts = distribution(graph.cell)
     for pin in cell_pins(graph.cell) if facts is not None else ():
         package = pin.text.split()[0] if pin.part == "rmw" else pin.part
         released = facts.packages.get(package, "") if facts is not None else ""

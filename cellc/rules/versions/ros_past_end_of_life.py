@@ -28,9 +28,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cellc.catalog.load import load_distros
 from cellc.diagnostics import Severity
 from cellc.graph.cell_graph import CellGraph
+from cellc.graph.distribution import distribution
 from cellc.rule import Finding
 from cellc.rules.define import define
 from cellc.rules.finding import found
@@ -38,8 +38,7 @@ from cellc.rules.finding import found
 
 def check(graph: CellGraph) -> Iterator[Finding]:
     """Yield a distribution whose end of life lies before the latest calibration."""
-    table = load_distros().value
-    facts = None if table is None else next((f for name, f in table.distros.items() if name == graph.cell.distro), None)
+    facts = distribution(graph.cell)
     measured = [day for c in graph.cell.spec.calibrations.values() if (day := c.measured_on()) is not None]
     if facts is None or not measured:
         return

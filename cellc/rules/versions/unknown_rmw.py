@@ -24,9 +24,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cellc.catalog.load import load_distros
 from cellc.diagnostics import Severity, did_you_mean
 from cellc.graph.cell_graph import CellGraph
+from cellc.graph.distribution import distribution
 from cellc.graph.responsibilities import UNKNOWN
 from cellc.rule import Finding
 from cellc.rules.define import define
@@ -35,8 +35,7 @@ from cellc.rules.finding import found
 
 def check(graph: CellGraph) -> Iterator[Finding]:
     """Yield a middleware that the distribution does not have."""
-    table = load_distros().value
-    facts = None if table is None else next((f for name, f in table.distros.items() if name == graph.cell.distro), None)
+    facts = distribution(graph.cell)
     written = graph.cell.spec.versions.rmw
     if facts is None or written == UNKNOWN:
         return
