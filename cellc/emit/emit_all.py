@@ -25,6 +25,7 @@ from cellc.emit.gates import gates
 from cellc.emit.launch import launch
 from cellc.emit.middleware import middleware
 from cellc.emit.moveit import moveit
+from cellc.emit.picture import picture
 from cellc.emit.readme import readme
 from cellc.emit.security import policy
 from cellc.formats.configuration import configuration_id, configuration_inputs
@@ -49,6 +50,7 @@ EMITTERS: tuple[Callable[[CellGraph, Header], Iterator[Artifact]], ...] = (
     policy.emit,
     recording.emit,
     responsibility_graph.emit,
+    picture.emit,
     gates.emit,
     audit.emit,
     readme.emit,

@@ -4,18 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cellc.cell.interface import Interface
+from cellc.cell.interface import Interface, InterfaceKind
 from cellc.formats.numbers import shortest
 
 
 def interface_facts(interface: Interface) -> Iterator[str]:
     """Yield type, frame, unit, rate, time source, owner and failure behaviour; what is not stated says so."""
-    yield f"{interface.kind.value} {interface.type}"
-    yield f"frame {interface.frame or 'none'}, unit {interface.unit or 'as the type'}"
-    rate = "on request" if interface.rate_hz is None else f"{shortest(interface.rate_hz)} Hz"
-    yield f"{rate}, time {interface.time_source or 'not stated'}"
-    yield f"owner {interface.owner or 'not stated'}"
-    yield ", ".join(_failures(interface)) or "failure not stated"
+    yield f"{interface.kind.value} {interface.type}, {_rate(interface)}"
+    frame, unit = interface.frame or "none", interface.unit or "as the type"
+    yield f"frame {frame}, unit {unit}, time {interface.time_source or 'not stated'}"
+    yield f"owner {interface.owner or 'not stated'}; {', '.join(_failures(interface)) or 'failure not stated'}"
+
+
+def _rate(interface: Interface) -> str:
+    if interface.rate_hz is not None:
+        return f"{shortest(interface.rate_hz)} Hz"
+    return "rate not stated" if interface.kind is InterfaceKind.TOPIC else "on request"
 
 
 def _failures(interface: Interface) -> Iterator[str]:

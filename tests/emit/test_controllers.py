@@ -76,6 +76,12 @@ def test_manager_learns_rate_and_plugins() -> None:
     }
 
 
+def test_update_rate_is_an_integer() -> None:
+    # Observed: `update_rate: 100.0` makes the manager abort.
+    manager = _controllers(artifacts_of("ur5e_pick")["config/controllers.yaml"])["controller_manager"]
+    assert type(manager["ros__parameters"]["update_rate"]) is int
+
+
 def test_tolerances_are_doubles_for_every_joint() -> None:
     # Written as `goal_time: 1` the real controller is not loaded: observed, real_controller_manager.md.
     sections = _controllers(artifacts_of("ur5e_pick")["config/controllers.yaml"])

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import re
+from xml.etree import ElementTree
 
 import pytest
 import yaml
@@ -91,6 +93,29 @@ def test_sentence_names_everyone_on_the_way_to_the_drives() -> None:
     steps += ["vendor controller of arm", "safety_plc stops the cell"]
     places = [sentence.index(step) for step in steps]
     assert places == sorted(places)
+
+
+@pytest.mark.parametrize("cell", CELLS)
+def test_picture_labels_every_arrow_and_keeps_its_text_inside(cell: str) -> None:
+    text = artifacts_of(cell)["graph/responsibility.svg"]
+    picture = ElementTree.fromstring(text)
+    space = "{http://www.w3.org/2000/svg}"
+    said = [entry.text or "" for entry in picture.iter(f"{space}text")]
+    arrows = len(list(picture.iter(f"{space}line")))
+    contract = json.loads(artifacts_of(cell)["contract.json"])
+    assert set(contract["interfaces"]) <= set(said)
+    claiming = [c for m in contract["managers"].values() for c in m["controllers"].values() if c["command_interfaces"]]
+    assert arrows == len(contract["interfaces"]) + len(claiming) + 1  # and the physical stop
+    assert sum(entry.startswith("owner ") for entry in said) == len(contract["interfaces"])
+    width, height = (float(value) for value in picture.attrib["viewBox"].split()[2:])
+    for entry in picture.iter(f"{space}text"):
+        # 8 units a character of 13 is wider than any sans-serif sets on average.
+        assert float(entry.attrib["x"]) + 8.0 * len(entry.text or "") <= width
+        assert float(entry.attrib["y"]) <= height
+    bold = [rect for rect in picture.iter(f"{space}rect") if rect.get("stroke-width") == "5"]
+    assert len(bold) == 2
+    assert "<script" not in text
+    assert "href" not in text
 
 
 @pytest.mark.parametrize("cell", CELLS)

@@ -42,6 +42,7 @@ def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
         "the spec is its only source, so that a change is made there.",
         "## The cell in one sentence",
         bringup_sentence(graph.cell),
+        f"![Every arrow of {graph.cell.name} with its owner](graph/responsibility.svg)",
         *_use(graph.cell, header),
         *_real(graph),
         *_limits_of_the_mock(graph.cell),

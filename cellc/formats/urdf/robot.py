@@ -49,7 +49,7 @@ def _parts(cell: Cell, target: str, devices: tuple[str, ...]) -> Iterator[Elemen
         yield _held(box.name, box)
     start = start_positions(cell) if target == "mock" else {}
     for device in cell.devices:
-        if device.hardware is not None and device.name in devices:
+        if device.hardware is not None and target in device.hardware.targets and device.name in devices:
             yield comment(f"hardware of devices.{device.name}, {target}")
             yield ros2_control(device, device.hardware, target, start)
 

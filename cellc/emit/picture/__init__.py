@@ -1,0 +1,1 @@
+"""The responsibility graph as a picture, part by part."""
