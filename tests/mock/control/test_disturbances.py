@@ -161,3 +161,24 @@ def test_document_type_in_the_description_is_refused() -> None:
 def test_tab_in_the_parameter_file_ends_the_process() -> None:
     with pytest.raises(ManagerAborted):
         ControllerManager(urdf(), "controller_manager:\n\tros__parameters: {}")
+
+
+def test_reference_keeps_the_velocity_of_a_last_point_that_has_one() -> None:
+    text = parameters().replace(
+        "command_interfaces", "allow_nonzero_velocity_at_trajectory_end: true\n    command_interfaces"
+    )
+    manager = started(ControllerManager(urdf(), text))
+    manager.record("arm", 500.0)
+    point = TrajectoryPoint((0.3, 0.2), (0.5, 0.0), time_from_start_ns=S)
+    manager.send_goal("arm", TrajectoryGoal(("a", "b"), (point,)))
+    assert _results(manager) == [(4, 0)]
+    assert manager.recording("arm").desired_velocity[-1] == pytest.approx([0.5, 0.0])
+    assert manager.joint_positions() == pytest.approx({"a": 0.3, "b": 0.2, "f": 0.0})
+
+
+def test_infinite_position_is_accepted_moves_one_step_and_is_aborted() -> None:
+    manager = _arm()
+    goal = TrajectoryGoal(("a", "b"), (TrajectoryPoint((float("inf"), 0.2), time_from_start_ns=S),))
+    assert manager.send_goal("arm", goal).accepted
+    assert _results(manager) == [(6, -4)]
+    assert manager.state("a/position") == pytest.approx(2.0 * 0.002)

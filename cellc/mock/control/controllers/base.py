@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -191,6 +191,3 @@ class QuietController:
 def claimed_names(joints: Sequence[str], kinds: Sequence[str]) -> tuple[str, ...]:
     """Full interface names of several kinds, joint by joint."""
     return tuple(f"{joint}/{kind}" for joint in joints for kind in kinds)
-
-
-Behaviours = Mapping[str, str]

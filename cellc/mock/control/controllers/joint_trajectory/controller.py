@@ -161,9 +161,7 @@ class JointTrajectoryController(QuietController):
 
     def _hold_end(self, motion: Motion) -> None:
         """Queue holding the last point of a trajectory, even if it has a velocity."""
-        reached = np.array([motion.spline.count], dtype=np.intp)
-        position = motion.spline.positions(reached, np.zeros(1))[0]
-        self._pending = PendingTrajectory(held_point(position), 0, held=True)
+        self._pending = PendingTrajectory((motion.spline.last_point(),), 0, held=True)
 
     def _start(self, pending: PendingTrajectory, measured: StartState) -> Motion:
         now_ns = measured.time_ns

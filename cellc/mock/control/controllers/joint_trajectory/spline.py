@@ -192,13 +192,20 @@ class Spline:
             return self._table[shift][indices] * factors[shift]
         t = into[:, None]
         value = np.zeros((len(into), self._table[0].shape[1]))
-        for power in range(self._degree, shift - 1, -1):
-            value *= t
-            value += self._rows(power, indices) * factors[power]
+        # Trajectories with NaN or infinity are accepted by the real controller too.
+        with np.errstate(invalid="ignore", over="ignore"):
+            for power in range(self._degree, shift - 1, -1):
+                value *= t
+                value += self._rows(power, indices) * factors[power]
         if indices[-1] == self.count:
             # The last point itself, whatever its derivatives are: NaN * 0 would spread.
             value[indices == self.count] = self._table[shift][-1] * factors[shift]
         return value
+
+    def last_point(self) -> TrajectoryPoint:
+        """The last point, due at once, with its velocity and acceleration."""
+        position, velocity, half = (self._table[power][-1].tolist() for power in range(3))
+        return TrajectoryPoint(tuple(position), tuple(velocity), tuple(2.0 * value for value in half))
 
     def positions(self, indices: Indices, into: Array) -> Array:
         """Positions at located times, shape (times, joints)."""
