@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from cellc.contract.contract import Contract, ContractFrame, ContractInterface
+from cellc.mock.bus.matching import hears, task_node
 from cellc.mock.bus.topic import Topic
 from cellc.mock.control import ControllerManager
 from cellc.mock.engine.control_stack import ControlStack
@@ -14,10 +15,12 @@ from cellc.mock.nodes.camera import Camera, Image
 from cellc.mock.nodes.motion_planner import MotionPlanner, PlanMemory
 from cellc.mock.nodes.observations import ObservationInbox
 from cellc.mock.nodes.perception import ObjectPose, Perception
+from cellc.mock.nodes.robot_state_publisher import NODE as ROBOT_STATE_PUBLISHER
 from cellc.mock.nodes.robot_state_publisher import PUBLISH_FREQUENCY_HZ, RobotStatePublisher
 from cellc.mock.plant import Plant, Requests
 from cellc.mock.tf.buffer import DEFAULT_BUFFER_S, TransformBuffer
 from cellc.mock.tf.sources import SampledSource
+from cellc.mock.world.joint_states import JOINT_STATE_TYPE, JointStateHistory
 from cellc.mock.world.objects import World
 from cellc.transforms import Pose
 
@@ -36,15 +39,19 @@ def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int) -> Plant:
     horizon_s = max([DEFAULT_BUFFER_S, *(frame.buffer_s or 0.0 for frame in contract.frames.values())])
     control = ControlStack(_managers(folder), contract.managers, horizon_s)
     simulation = Simulation(control)
-    histories = tuple(control.histories.values())
+    task = task_node(contract)
+    published = RobotStatePublisher(
+        memory.model.links, _heard(contract, control, ROBOT_STATE_PUBLISHER), PUBLISH_FREQUENCY_HZ, horizon_s
+    )
     plant = Plant(
         contract=contract,
         simulation=simulation,
         control=control,
-        world=World(memory.model.links, histories),
+        world=World(memory.model.links, control.histories.values()),
         buffer=TransformBuffer(),
-        robot_state_publisher=RobotStatePublisher(memory.model.links, histories, PUBLISH_FREQUENCY_HZ, horizon_s),
+        robot_state_publisher=published,
         planner=MotionPlanner(memory, seed),
+        heard_histories=_heard(contract, control, task),
         cameras={},
         perceptions={},
         inboxes={},
@@ -55,6 +62,21 @@ def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int) -> Plant:
         if frame.kind == "dynamic" and frame.simulated_parent is not None:
             _add_object(plant, name, frame, images)
     return plant
+
+
+def _heard(contract: Contract, control: ControlStack, node: str) -> tuple[JointStateHistory, ...]:
+    """Return the joint states whose broadcaster is connected to a node."""
+    topics = {
+        source.node: name
+        for name, interface in contract.interfaces.items()
+        if interface.type == JOINT_STATE_TYPE
+        for source in interface.sources
+    }
+    return tuple(
+        history
+        for (_, controller), history in control.histories.items()
+        if hears(contract, topics.get(controller, ""), controller, node)
+    )
 
 
 def _managers(folder: GeneratedFolder) -> Mapping[str, ControllerManager]:
@@ -90,7 +112,8 @@ def _add_object(plant: Plant, name: str, frame: ContractFrame, images: Mapping[s
     position = Pose((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)) if pose is None else Pose(pose.xyz, pose.quaternion)
     plant.world.place(name, frame.simulated_parent, position, 0)
     transform = SampledSource(frame.parent, frame.authority, frame.buffer_s or DEFAULT_BUFFER_S)
-    plant.buffer.add(name, transform)
+    if hears(plant.contract, "/tf", frame.authority, task_node(plant.contract)):
+        plant.buffer.add(name, transform)
     topic, interface = _pose_topic(plant.contract, frame)
     inbox = ObservationInbox(interface, plant.simulation)
     plant.inboxes[name] = inbox

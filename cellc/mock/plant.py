@@ -14,6 +14,7 @@ from cellc.mock.nodes.observations import ObservationInbox
 from cellc.mock.nodes.perception import Perception
 from cellc.mock.nodes.robot_state_publisher import RobotStatePublisher
 from cellc.mock.tf.buffer import TransformBuffer
+from cellc.mock.world.joint_states import JointStateHistory
 from cellc.mock.world.objects import World
 
 
@@ -39,6 +40,7 @@ class Plant:
     """The parts of a running cell.
 
     Attributes:
+        heard_histories: joint states that reach the task.
         cameras: by device.
         perceptions: by the dynamic frame that they publish.
         inboxes: the task's observations, by dynamic frame.
@@ -51,6 +53,7 @@ class Plant:
     buffer: TransformBuffer
     robot_state_publisher: RobotStatePublisher
     planner: MotionPlanner
+    heard_histories: tuple[JointStateHistory, ...]
     cameras: dict[str, Camera]
     perceptions: dict[str, Perception]
     inboxes: dict[str, ObservationInbox]

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from cellc.mock.bringup.activation import activate
+from cellc.mock.bus.matching import hears, task_node
 from cellc.mock.engine.process import Wait, Waiting
+from cellc.mock.nodes.robot_state_publisher import NODE
 from cellc.mock.plant import Plant
 from cellc.mock.result import StageEvidence
 from cellc.mock.tf.buffer import Transform
@@ -34,7 +36,12 @@ def observe(plant: Plant) -> Waiting[StageEvidence]:
     watched_until_ns = plant.now_ns + _WATCH_NS
     while plant.now_ns < watched_until_ns:
         yield Wait(watched_until_ns)
-    plant.robot_state_publisher.announce(plant.buffer)
+    task = task_node(plant.contract)
+    plant.robot_state_publisher.announce(
+        plant.buffer,
+        hears_static=hears(plant.contract, "/tf_static", NODE, task),
+        hears_moving=hears(plant.contract, "/tf", NODE, task),
+    )
     plant.robot_state_publisher.catch_up(plant.now_ns)
     facts = [_freshness(plant), *plant.buffer.conflicts]
     return StageEvidence("observe", tuple(facts), tuple(_missing_frames(plant)))

@@ -16,11 +16,26 @@ def unmatched_pairs(contract: Contract) -> tuple[str, ...]:
     return tuple(_unmatched(contract))
 
 
-def connected(contract: Contract, interface: str, source: str, sink: str) -> bool:
-    """Tell whether a declared pair of endpoints is compatible; a pair that is not declared does not exist."""
-    declared = contract.interfaces[interface]
-    pairs = ((a, b) for a in declared.sources for b in declared.sinks if (a.node, b.node) == (source, sink))
-    return any(not incompatibilities(a.qos, b.qos) for a, b in pairs)
+def hears(contract: Contract, topic: str, source: str, sink: str) -> bool:
+    """Tell whether what ``source`` publishes reaches ``sink``; a pair that the contract does not describe connects."""
+    declared = contract.interfaces.get(topic)
+    if declared is None:
+        return True
+    pairs = [(a, b) for a in declared.sources for b in declared.sinks if (a.node, b.node) == (source, sink)]
+    return not pairs or any(not incompatibilities(a.qos, b.qos) for a, b in pairs)
+
+
+def task_node(contract: Contract) -> str:
+    """Return the node that the mock's task stands for: the client of the action that plans and executes.
+
+    Where there is no such action it is the client of a controller.
+    """
+    controllers = [entry for manager in contract.managers.values() for entry in manager.controllers.values()]
+    own_actions = {entry.action for entry in controllers}
+    for name, interface in sorted(contract.interfaces.items()):
+        if interface.kind == "action" and name not in own_actions and interface.sinks:
+            return interface.sinks[0].node
+    return next((entry.client for entry in controllers if entry.client is not None), "task")
 
 
 def _unmatched(contract: Contract) -> Iterator[str]:

@@ -62,24 +62,23 @@ class ControlStack:
             history.subscribed = True
 
     def advance(self, until_ns: int) -> int:
-        """Advance to ``until_ns`` or to the first event before it; return the time reached."""
-        managers = tuple(self.managers.values())
-        if len(managers) > 1:
-            until_ns = min(until_ns, managers[0].now_ns + _LOCKSTEP_NS)
-        reached = until_ns
-        for manager in managers:
-            while manager.now_ns < reached and not self._advance_one(manager, reached, len(managers) == 1):
-                pass
-            reached = min(reached, manager.now_ns) if len(managers) == 1 else reached
-        self._collect()
-        return reached
+        """Advance to ``until_ns`` or to the first event before it; return the time reached.
 
-    def _advance_one(self, manager: ControllerManager, until_ns: int, alone: bool) -> bool:
-        """Advance one manager once; tell whether what it has to say must be heard before it goes on."""
-        manager.advance(until_ns)
-        events = manager.take_events()
-        self.events += events
-        return alone and bool(events)
+        A single manager stops at its events. Several go on together in short steps, and are heard after each step.
+        """
+        managers = tuple(self.managers.values())
+        if len(managers) == 1:
+            managers[0].advance(until_ns)
+            until_ns = managers[0].now_ns
+        elif managers:
+            until_ns = min(until_ns, min(manager.now_ns for manager in managers) + _LOCKSTEP_NS)
+            for manager in managers:
+                while manager.now_ns < until_ns:
+                    manager.advance(until_ns)
+        for manager in managers:
+            self.events += manager.take_events()
+        self._collect()
+        return until_ns
 
     def dispatch(self, now_ns: int) -> None:
         """Hand what happened to the listeners, then wake who waits for the control stack."""

@@ -8,6 +8,8 @@ from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.engine.process import Process, Waiting
 from cellc.mock.engine.queue import Action, EventQueue
 
+_MAX_STEPS_AT_ONCE = 100_000
+
 
 class Simulation:
     """One simulated clock over the control stack and two event queues; no threads, no sleep, no wall clock.
@@ -22,6 +24,8 @@ class Simulation:
         """Bind the simulation at the time of the control stack."""
         self.control = control
         self.now_ns = 0
+        self._last_ns = 0
+        self._steps_at_once = 0
         self._foreground = EventQueue()
         self._background = EventQueue()
 
@@ -57,12 +61,20 @@ class Simulation:
         while (action := self._background.pop_due(reached_ns)) is not None:
             self.now_ns = action.at_ns
             action.run()
+        self._check_progress(reached_ns)
         self.now_ns = reached_ns
         self.control.dispatch(self.now_ns)
         due = self._foreground.pop_due(self.now_ns)
         if due is not None:
             due.run()
             self.control.dispatch(self.now_ns)
+
+    def _check_progress(self, reached_ns: int) -> None:
+        """Raise RuntimeError where the clock stands still: a loop without a wait is a bug, and must not hang."""
+        self._steps_at_once = 0 if reached_ns > self._last_ns else self._steps_at_once + 1
+        self._last_ns = reached_ns
+        if self._steps_at_once > _MAX_STEPS_AT_ONCE:
+            raise RuntimeError(f"the clock stands still at {reached_ns} ns")
 
     def _next_ns(self, process: Process) -> int:
         """Return the time up to which nothing can concern the control stack."""

@@ -7,7 +7,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from cellc.contract.contract import Contract, ContractGroup, ContractJointLimits
-from cellc.mock.errors import MockError
 from cellc.kinematics import (
     CollisionScene,
     JointLimits,
@@ -18,6 +17,7 @@ from cellc.kinematics import (
     RobotModel,
     always_colliding_or_adjacent,
 )
+from cellc.mock.errors import MockError
 from cellc.mock.world.links import LinkTree
 from cellc.transforms import Pose, identity
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from cellc.mock.nodes.motion_model import GroupModel, MotionModel
 from cellc.kinematics import (
     Box,
     CollisionScene,
@@ -17,6 +16,7 @@ from cellc.kinematics import (
     TimedTrajectory,
     time_parameterize,
 )
+from cellc.mock.nodes.motion_model import GroupModel, MotionModel
 from cellc.transforms import Pose, Vector3
 
 _IK_ATTEMPTS = 4

@@ -99,11 +99,16 @@ class RobotStatePublisher:
         self._published = tuple(PublishedStates(history, rate_hz, buffer_s) for history in histories)
         self._moving: dict[str, JointSource] = {}
 
-    def announce(self, buffer: TransformBuffer) -> None:
-        """Start publishing; the names of the joints must be known from a first joint state."""
+    def announce(self, buffer: TransformBuffer, *, hears_static: bool, hears_moving: bool) -> None:
+        """Start publishing to a listener; the names of the joints must be known from a first joint state.
+
+        Args:
+            hears_static: the listener is connected on /tf_static.
+            hears_moving: the listener is connected on /tf.
+        """
         for child, joint in self._links.joints.items():
             source = self._source_of(joint)
-            if source is not None:
+            if source is not None and (hears_moving if joint.moves else hears_static):
                 buffer.add(child, source)
 
     def catch_up(self, now_ns: int) -> None:

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 from cellc.mock.plant import Plant
 from cellc.mock.task.outcome import AttemptError, Outcome
+from cellc.mock.world.joint_states import JOINT_STATE_TYPE
 
-JOINT_STATE_TYPE = "sensor_msgs/msg/JointState"
 DEFAULT_MAX_AGE_S = 0.1
 """Where no interface states how old a joint state may be."""
 
@@ -29,14 +29,14 @@ def current_state(plant: Plant) -> CurrentState:
     """
     stamps: list[int] = []
     positions: dict[str, float] = {}
-    for history in plant.control.histories.values():
+    for history in plant.heard_histories:
         arrived = history.arrived(plant.now_ns)
         if arrived == 0:
             raise AttemptError(Outcome.STALE_STATE, "no joint state has arrived")
         stamps.append(int(history.stamps[arrived - 1]))
         positions |= dict(zip(history.names, history.positions[arrived - 1].tolist(), strict=True))
     if not stamps:
-        raise AttemptError(Outcome.STALE_STATE, "no controller publishes joint states")
+        raise AttemptError(Outcome.STALE_STATE, "no joint states reach the task")
     age_s = (plant.now_ns - min(stamps)) / 1e9
     allowed_s = _max_age_s(plant)
     if age_s > allowed_s:

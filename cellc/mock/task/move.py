@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from cellc.contract.contract import ContractPoseTarget
+from cellc.kinematics import PlanFailure, TimedTrajectory
 from cellc.mock.control import TrajectoryGoal, TrajectoryPoint
 from cellc.mock.engine.process import Waiting
 from cellc.mock.nodes.motion_planner import PLANNING_LATENCY_S
 from cellc.mock.nodes.motion_request import PlannedMotion
-from cellc.kinematics import PlanFailure, TimedTrajectory
 from cellc.mock.record import PacketStep
 from cellc.mock.task.attempt import Attempt
 from cellc.mock.task.context import TaskContext

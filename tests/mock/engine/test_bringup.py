@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import pytest
-
 from cellc.mock import MockCell, load
 from cellc.mock.result import RehearsalResult
 
@@ -51,8 +49,7 @@ def test_claims_stand_in_the_evidence(cell: MockCell) -> None:
     assert len(stages["claim"].facts) == 7  # six joints of the arm and one of the gripper
 
 
-@pytest.mark.parametrize("owner", ["joint_states"])
-def test_claim_that_differs_from_the_contract_is_a_problem(folder: Path, owner: str) -> None:
+def test_claim_that_differs_from_the_contract_is_a_problem(folder: Path) -> None:
     contract = folder / "contract.json"
     text = contract.read_text()
     wanted = '"arm_wrist_3_joint/position"'

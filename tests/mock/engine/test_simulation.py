@@ -51,6 +51,15 @@ def test_signal_wakes_before_the_bound_and_the_bound_does_not_wake_again(simulat
     assert woken == [100, 900]
 
 
+def test_loop_that_lets_no_time_pass_is_an_error_and_no_hang(simulation: Simulation) -> None:
+    def body() -> Waiting[None]:
+        while True:
+            yield Wait(simulation.now_ns)
+
+    with pytest.raises(RuntimeError, match="the clock stands still at 0 ns"):
+        simulation.run_process(body())
+
+
 def test_background_event_is_seen_at_its_own_time_by_who_waits_for_it(simulation: Simulation) -> None:
     arrived, woken = Signal(from_background=True), []
     simulation.every(50, 1e9 / 100, lambda _: arrived.fire(simulation.now_ns))  # at 50, 150, 250 …

@@ -103,7 +103,7 @@ def test_robot_state_publisher_thins_joint_states_to_its_frequency(links: LinkTr
     history = history_of([(index * 0.002) ** 2 for index in range(200)])
     publisher = RobotStatePublisher(links, (history,), rate_hz=20.0, buffer_s=10.0)
     buffer = TransformBuffer()
-    publisher.announce(buffer)
+    publisher.announce(buffer, hears_static=True, hears_moving=True)
     publisher.catch_up(398 * MS)
     answer = buffer.lookup("world", "cart", 125 * MS)
     assert isinstance(answer, Transform)
