@@ -1,0 +1,76 @@
+"""Every cell of the repository, and one of two arms, compiled for every distribution, once a session."""
+
+from __future__ import annotations
+
+import re
+import tempfile
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+
+import pytest
+import yaml
+
+from cellc.artifact import Artifact
+from cellc.graph.cell_graph import CellGraph
+from cellc.pipeline import check, compile_cell
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+ORACLES = ROOT.parent / "shared" / "oracles"
+SPECS = {path.parent.name: path for path in sorted(ROOT.glob("cells/*/cell.yaml"))} | {
+    "two_arms": HERE / "two_arms.yaml"
+}
+DISTROS = ("humble", "jazzy", "kilted", "lyrical")
+
+needs_oracles = pytest.mark.skipif(not ORACLES.is_dir(), reason="the oracles are not beside this checkout")
+every_build = pytest.mark.parametrize(("cell", "distro"), [(cell, distro) for cell in SPECS for distro in DISTROS])
+every_cell = pytest.mark.parametrize("cell", list(SPECS))
+
+
+@dataclass(frozen=True, slots=True)
+class Build:
+    """One cell compiled for one distribution."""
+
+    cell: str
+    distro: str
+    graph: CellGraph
+    artifacts: tuple[Artifact, ...]
+
+    @property
+    def texts(self) -> dict[str, str]:
+        """The text of every file by its path in the package."""
+        return {artifact.path: artifact.text for artifact in self.artifacts}
+
+    def urdf(self, target: str) -> str:
+        """Return the description that robot_state_publisher gets."""
+        return self.texts[f"urdf/{self.cell}.{target}.urdf"]
+
+
+@lru_cache(maxsize=64)
+def build(cell: str, distro: str) -> Build:
+    """Compile a cell for a distribution; errors and findings of foreign parsers fail the test."""
+    with tempfile.TemporaryDirectory() as folder:
+        spec = Path(folder) / "cell.yaml"
+        spec.write_text(spec_for(cell, distro), encoding="utf-8")
+        checked = check(spec)
+        assert checked.ok, [f"{found.code}: {found.message}" for found in checked.diagnostics]
+        compiled = compile_cell(checked)
+    assert not compiled.diagnostics, [found.message for found in compiled.diagnostics]
+    assert compiled.value is not None
+    assert checked.graph is not None
+    return Build(cell, distro, checked.graph, compiled.value)
+
+
+def spec_for(cell: str, distro: str) -> str:
+    """Return the spec of a cell with the version tuple of a distribution in place of its own."""
+    text = SPECS[cell].read_text(encoding="utf-8")
+    tuple_ = yaml.safe_load((HERE / "version_tuples.yaml").read_text(encoding="utf-8"))[distro]
+    text = re.sub(r"\bros: \w+", f"ros: {distro}", text, count=1)
+    for name, version in tuple_.items():
+        own = r"[^,}\s#][^,}\n#]*?(?=\s*(?:[,}#]|$))"
+        if re.search(rf"^  {name}: ", text, re.MULTILINE):
+            text = re.sub(rf"^(  {name}: ){own}", rf"\g<1>{version}", text, flags=re.MULTILINE)
+        pinned = "UNKNOWN" if version == "UNKNOWN" else f"{name} {version}"
+        text = re.sub(rf": {name} \d{own}", f": {pinned}", text, flags=re.MULTILINE)
+    return text
