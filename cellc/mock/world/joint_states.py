@@ -42,9 +42,7 @@ class JointStateHistory:
         self._missed = 0
         self._spacing_ns: int | None = None
         self._stamps: IntArray = np.empty(0, dtype=np.int64)
-        self._positions: JOINT_STATE_TYPE = "sensor_msgs/msg/JointState"
-
-FloatArray = np.empty((0, 0))
+        self._positions: FloatArray = np.empty((0, 0))
         self._count = 0
 
     def append(self, block: JointStateBlock) -> None:
@@ -114,9 +112,7 @@ FloatArray = np.empty((0, 0))
         kept = min(self._count, self._keep)
         capacity = max(2 * self._keep, kept + size)
         stamps: IntArray = np.empty(capacity, dtype=np.int64)
-        positions: JOINT_STATE_TYPE = "sensor_msgs/msg/JointState"
-
-FloatArray = np.empty((capacity, len(self.names)))
+        positions: FloatArray = np.empty((capacity, len(self.names)))
         stamps[:kept] = self._stamps[self._count - kept : self._count]
         positions[:kept] = self._positions[self._count - kept : self._count]
         self._stamps, self._positions, self._count = stamps, positions, kept
