@@ -54,7 +54,7 @@ def check(graph: CellGraph) -> Iterator[Finding]:
     if motion is None:
         return
     for field, value in (("max_delta", motion.max_delta), ("velocity", motion.velocity)):
-        linear = value.unit.startswith(("m", "c"))
+        linear = value.unit.startswith(("m", "c", "u"))  # m, mm, cm, um; not deg, rad
         if abs(value.si) > (_LARGEST_M if linear else _LARGEST_RAD):
             largest = "50 mm" if linear else "15 deg"
             per = " per second" if field == "velocity" else ""

@@ -25,6 +25,7 @@ from collections.abc import Iterator
 
 from cellc.diagnostics import Severity, did_you_mean
 from cellc.graph.cell_graph import CellGraph
+from cellc.graph.device_topics import device_topics
 from cellc.rule import Finding
 from cellc.rules.define import define
 from cellc.rules.finding import found
@@ -36,10 +37,7 @@ def check(graph: CellGraph) -> Iterator[Finding]:
     """Yield recorded topics that no interface declares and no device publishes."""
     known = {*_ALWAYS, *(interface.name for interface in graph.cell.interfaces)}
     for device in graph.cell.devices:
-        streams = () if device.facts.camera is None else device.facts.camera.streams.values()
-        names = [topic.name for topic in device.facts.topics]
-        names += [name for stream in streams for name in (stream.topic, stream.info_topic)]
-        known |= {name.format(device=device.name, prefix=device.prefix) for name in names}
+        known |= set(device_topics(graph.cell, device))
     for index, topic in enumerate(graph.cell.spec.recording.topics):
         if topic not in known:
             path = ("recording", "topics", index)

@@ -31,6 +31,7 @@ from collections.abc import Iterator
 
 from cellc.diagnostics import Severity
 from cellc.graph.cell_graph import CellGraph
+from cellc.graph.device_topics import device_topics
 from cellc.rule import Finding
 from cellc.rules.define import define
 from cellc.rules.finding import found
@@ -47,15 +48,9 @@ def check(graph: CellGraph) -> Iterator[Finding]:
 
 
 def _type_of(graph: CellGraph, node: str, name: str) -> str | None:
-    for device in graph.cell.devices:
-        if device.name == node:
-            facts = [(topic.name, topic.type) for topic in device.facts.topics]
-            if device.facts.camera is not None:
-                for stream in device.facts.camera.streams.values():
-                    facts.append((stream.topic, stream.type))
-                    facts.append((stream.info_topic, "sensor_msgs/msg/CameraInfo"))
-            filled = {text.format(device=device.name, prefix=device.prefix): type_ for text, type_ in facts}
-            return filled.get(name)
+    device = next((device for device in graph.cell.devices if device.name == node), None)
+    if device is not None:
+        return device_topics(graph.cell, device).get(name)
     return next((c.action_type for c in graph.cell.controllers if c.name == node and c.action == name), None)
 
 

@@ -6,7 +6,7 @@ against other libraries than they were tested with.
 Example that is reported:
 
 ```yaml
-versions: {os: ubuntu 22.04}
+versions: {os: ubuntu 26.04}
 ```
 
 Example that is accepted:
@@ -40,7 +40,7 @@ def check(graph: CellGraph) -> Iterator[Finding]:
     if facts is None or system == UNKNOWN:
         return
     written = system.lower()
-    if not any(written == due or written.startswith(f"{due}.") for due in facts.os):
+    if not any(written == due or written.startswith(f"{due}.") for due in (*facts.os, *facts.os_tier3)):
         due = ", ".join(f"`{name}`" for name in facts.os)
         message = f"`{graph.cell.distro}` is built for {due}, not for `{system}`"
         yield found(graph, ("versions", "os"), message, f"install {due}, or choose another distribution")

@@ -1,0 +1,46 @@
+"""The distribution has no tested packages for the operating system.
+
+On a platform of the third tier everything is built from source, and nobody runs the tests there. What works for the
+planner's author says nothing about the vendor's driver.
+
+Example that is reported:
+
+```yaml
+versions: {os: ubuntu 22.04}
+```
+
+Example that is accepted:
+
+```yaml
+versions: {os: ubuntu 24.04}
+```
+
+Fix: install the release that packages are made for, or keep the evidence of your own build and test.
+
+Source: REP-2000, support tiers; table of distributions in the catalogue, with its date.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.graph.distribution import distribution
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield an operating system of the third tier of the distribution."""
+    facts = distribution(graph.cell)
+    system = graph.cell.spec.versions.os
+    written = system.lower()
+    if facts is not None and any(written == tier or written.startswith(f"{tier}.") for tier in facts.os_tier3):
+        tested = ", ".join(f"`{name}`" for name in facts.os)
+        message = f"`{graph.cell.distro}` has no tested packages for `{system}`, only for {tested}"
+        yield found(graph, ("versions", "os"), message, f"install {tested}, or keep the evidence of your own build")
+
+
+RULE = define("os-of-third-tier", Severity.BLOCKER, check, __doc__)
