@@ -1,0 +1,65 @@
+"""Rules run in an order that lets one cause give one finding, and their order never shows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from cellc.diagnostics import Severity, Span
+from cellc.graph.cell_graph import CellGraph, build_graph
+from cellc.link.link import link
+from cellc.rule import Finding, Rule
+from cellc.rules.all_rules import ALL_RULES
+from cellc.rules.run import run_rules
+from cellc.source.read import read
+from cellc.spec.parse import parse
+
+CORPUS = Path(__file__).resolve().parents[1] / "corpus"
+
+
+def graph_of(path: Path) -> CellGraph:
+    document = read(path).value
+    assert document is not None
+    spec = parse(document).value
+    assert spec is not None
+    cell = link(spec, document).value
+    assert cell is not None
+    return build_graph(cell)
+
+
+def rule(code: str, line: int | None, assumes: tuple[str, ...] = ()) -> Rule:
+    def check(graph: CellGraph) -> Iterator[Finding]:
+        if line is not None:
+            yield Finding("found", Span("cell.yaml", line, 1, line, 2))
+
+    return Rule(code, "FRM", code, Severity.ERROR, "", check, assumes)
+
+
+def codes(*rules: Rule) -> list[str]:
+    graph = graph_of(CORPUS / "valid" / "complete.yaml")
+    return [diagnostic.code for diagnostic in run_rules(graph, rules)]
+
+
+def test_findings_are_sorted_by_place_whatever_the_order_of_rules() -> None:
+    first, second = rule("b", 1), rule("a", 2)
+    assert codes(second, first) == codes(first, second) == ["b", "a"]
+
+
+def test_rule_is_skipped_where_what_it_assumes_absent_was_reported() -> None:
+    assert codes(rule("effect", 1, ("cause",)), rule("cause", 2)) == ["cause"]
+
+
+def test_rule_runs_where_what_it_assumes_absent_is_absent() -> None:
+    assert codes(rule("effect", 1, ("cause",)), rule("cause", None)) == ["effect"]
+
+
+def test_assumptions_are_followed_through_chains() -> None:
+    # `middle` is skipped, so `last` has nothing to hide it.
+    chain = (rule("last", 3, ("middle",)), rule("middle", 2, ("cause",)), rule("cause", 1))
+    assert codes(*chain) == ["cause", "last"]
+
+
+def test_reversed_rules_say_the_same_of_a_broken_cell() -> None:
+    graph = graph_of(CORPUS / "invalid" / "scripted-servo-loop-page.yaml")
+    assert run_rules(graph, ALL_RULES) == run_rules(graph, tuple(reversed(ALL_RULES)))
+    assert run_rules(graph)
