@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 
 from cellc.contract.contract import ContractManager
 from cellc.mock.control import ControlEvent, ControllerManager, HardwareChanged
@@ -38,7 +38,8 @@ class ControlStack:
         for name, manager in contracts.items():
             for controller, facts in manager.controllers.items():
                 if facts.behaviour == "joint_state_broadcaster":
-                    history = JointStateHistory(horizon_s, managers[name].period_ns)
+                    foreign = _joints(entry for other, entry in contracts.items() if other != name)
+                    history = JointStateHistory(horizon_s, managers[name].period_ns, foreign)
                     self.histories[(name, controller)] = history
 
     def manager_of(self, controller: str) -> ControllerManager:
@@ -102,3 +103,9 @@ class ControlStack:
         for (manager, controller), history in self.histories.items():
             if history.subscribed:
                 history.append(self.managers[manager].take_joint_states(controller))
+
+
+def _joints(managers: Iterable[ContractManager]) -> frozenset[str]:
+    """Return the joints that the controllers of some managers drive."""
+    controllers = (controller for manager in managers for controller in manager.controllers.values())
+    return frozenset(joint for controller in controllers for joint in controller.joints)

@@ -33,12 +33,18 @@ class JointStateHistory:
         subscribed: somebody collects the messages of the broadcaster.
     """
 
-    def __init__(self, horizon_s: float, period_ns: int) -> None:
-        """Keep at least ``horizon_s`` seconds of messages that come every ``period_ns``."""
+    def __init__(self, horizon_s: float, period_ns: int, foreign: frozenset[str] = frozenset()) -> None:
+        """Keep at least ``horizon_s`` seconds of messages that come every ``period_ns``.
+
+        Args:
+            foreign: joints that another controller manager drives. The one description names all hardware, so that
+                this manager simulates them too, and only the other one knows where they are.
+        """
         self.names: tuple[str, ...] = ()
         self.late: list[LateArrival] = []
         self.subscribed = False
         self._keep = int(horizon_s * 1e9 / period_ns) + 2
+        self._foreign = foreign
         self._missed = 0
         self._spacing_ns: int | None = None
         self._stamps: IntArray = np.empty(0, dtype=np.int64)
@@ -50,11 +56,13 @@ class JointStateHistory:
         size = len(block.stamps_ns)
         if size == 0:
             return
-        if block.names != self.names:
-            self._restart(block.names)
+        columns = [index for index, name in enumerate(block.names) if name not in self._foreign]
+        names = tuple(block.names[index] for index in columns)
+        if names != self.names:
+            self._restart(names)
         self._make_room(size)
         self._stamps[self._count : self._count + size] = block.stamps_ns
-        self._positions[self._count : self._count + size] = block.positions
+        self._positions[self._count : self._count + size] = block.positions[:, columns]
         self._count_missed(max(0, self._count - 1), self._count + size)
         self._count += size
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import yaml
 
 from cellc.mock import MockCell, load
 from cellc.output.write import write
@@ -74,3 +75,30 @@ def edit_contract(folder: Path) -> Callable[[Callable[[Any], None]], MockCell]:
         return load(folder)
 
     return edit
+
+
+@pytest.fixture
+def two_managers(folder: Path) -> MockCell:
+    """The cell with its gripper under a manager of its own, at half the rate."""
+    contract = json.loads((folder / "contract.json").read_text())
+    arm = contract["managers"]["control"]
+    gripper = {"gripper_action": arm["controllers"].pop("gripper_action")}
+    states = {"gripper_states": arm["controllers"]["joint_states"]}
+    contract["managers"]["grip"] = arm | {"namespace": "/grip", "controllers": states | gripper}
+    path = contract["files"]["parameters"]["control"]
+    parameters = yaml.safe_load((folder / path).read_text())
+    plugins = parameters["controller_manager"]["ros__parameters"]
+    own = {
+        "update_rate": 250,
+        "gripper_states": plugins["joint_states"],
+        "gripper_action": plugins.pop("gripper_action"),
+    }
+    sections = {
+        "/grip/controller_manager": {"ros__parameters": own},
+        "/grip/gripper_action": parameters.pop("gripper_action"),
+    }
+    contract["files"]["parameters"]["grip"] = "grip.yaml"
+    (folder / path).write_text(yaml.safe_dump(parameters))
+    (folder / "grip.yaml").write_text(yaml.safe_dump(sections))
+    (folder / "contract.json").write_text(json.dumps(contract))
+    return load(folder)

@@ -103,3 +103,8 @@ def test_fault_that_ends_before_it_is_met_changes_nothing(load_with: LoadWith) -
     # Frozen from 0 to 20 ms: the next image comes before the newest observation is 200 ms old.
     cell = load_with(fault("freeze", "camera", 0.0, lasting_s=0.02))
     assert cell.run("faulty").outcome == "succeeded"
+
+
+def test_two_controller_managers_share_one_clock(two_managers: MockCell) -> None:
+    outcomes = [two_managers.run(name).outcome for name in two_managers.rehearsals]
+    assert outcomes == ["succeeded", "stale_state", "cancelled"]
