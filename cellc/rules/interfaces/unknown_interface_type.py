@@ -26,6 +26,7 @@ Source: catalogue of interface types, with its sources and date.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from difflib import SequenceMatcher
 
@@ -36,7 +37,7 @@ from cellc.rule import Finding
 from cellc.rules.define import define
 from cellc.rules.finding import found
 
-_ALIKE = 0.85  # ratio of difflib: one or two letters in a name of ten
+_ALIKE = 0.8  # ratio of difflib: one letter in a word of four, two in a word of ten
 
 
 def check(graph: CellGraph) -> Iterator[Finding]:
@@ -53,11 +54,13 @@ def check(graph: CellGraph) -> Iterator[Finding]:
 
 
 def _alike(known: str, written: str) -> bool:
-    package, _, name = known.split("/")
-    other_package, _, other_name = written.split("/")
-    if package == other_package:
-        return SequenceMatcher(None, name, other_name).ratio() >= _ALIKE
-    return name == other_name and SequenceMatcher(None, package, other_package).ratio() >= _ALIKE
+    """Tell whether one word of the type differs by a typing error; `UInt32` and `Int16` are no misspelt `Int32`."""
+    words, others = (re.findall(r"[A-Z][a-z]*|[a-z]+|[0-9]+|[/_]", name) for name in (known, written))
+    differing = [(word, other) for word, other in zip(words, others, strict=False) if word != other]
+    if len(words) != len(others) or len(differing) != 1:
+        return False
+    word, other = differing[0]
+    return word.isalpha() and SequenceMatcher(None, word, other).ratio() >= _ALIKE
 
 
 RULE = define("unknown-interface-type", Severity.ERROR, check, __doc__, assumes=("interface-kind-mismatch",))
