@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 
 from cellc.contract.contract import ContractManager
-from cellc.mock.control import ControlEvent, ControllerManager, HardwareChanged
+from cellc.mock.control import ControlEvent, ControllerChanged, ControllerManager, HardwareChanged
 from cellc.mock.engine.process import Signal
 from cellc.mock.world.joint_states import JointStateHistory
 
@@ -89,6 +89,8 @@ class ControlStack:
         for event in events:
             if isinstance(event, HardwareChanged):
                 self._note_hardware(event)
+            elif isinstance(event, ControllerChanged):
+                self._note_controller(event)
             for listener in self._listeners:
                 listener(event)
         self.changed.fire(now_ns)
@@ -98,6 +100,11 @@ class ControlStack:
             self.unready_hardware.pop(event.component, None)
         else:
             self.unready_hardware[event.component] = event.state
+
+    def _note_controller(self, event: ControllerChanged) -> None:
+        for (_, controller), history in self.histories.items():
+            if controller == event.controller:
+                history.note_active(event.state == "active")
 
     def _collect(self) -> None:
         for (manager, controller), history in self.histories.items():

@@ -7,9 +7,11 @@ import math
 from cellc.contract.contract import ContractGripper
 from cellc.mock.control import GripperEnded, GripperGoal
 from cellc.mock.engine.process import Waiting
+from cellc.mock.task.arrival import state_since
 from cellc.mock.task.attempt import Attempt
 from cellc.mock.task.context import TaskContext
 from cellc.mock.task.execute import execute, require_success
+from cellc.mock.task.joint_state import CurrentState
 from cellc.mock.task.outcome import AttemptError, Outcome
 
 GRIP_TIMEOUT_S = 10.0
@@ -36,7 +38,8 @@ def grip(context: TaskContext, attempt: Attempt, device: str, command: str) -> W
     holds = between is not None and isinstance(ended, GripperEnded) and ended.stalled
     if not holds:  # fingers that stall on an object have done what they were told
         require_success(ended, context)
-    _require_arrival(context, facts, target if between is None else _stop(facts, target))
+    state = yield from state_since(context, ended.decided_ns)
+    _require_arrival(state, facts, target if between is None else _stop(facts, target))
     if between is not None:
         _take(context, device, between)
     elif command == "open":
@@ -48,10 +51,10 @@ def _stop(facts: ContractGripper, target: float) -> float:
     return target if facts.held_object_position is None else facts.held_object_position
 
 
-def _require_arrival(context: TaskContext, facts: ContractGripper, expected: float) -> None:
+def _require_arrival(state: CurrentState, facts: ContractGripper, expected: float) -> None:
     """Raise AttemptError where the fingers are elsewhere: a controller may call any stall a success."""
     allowed = ARRIVAL_SHARE * abs(facts.closed - facts.open)
-    position = context.plant.world.joint_positions(context.now_ns).get(facts.joint, math.nan)
+    position = state.positions.get(facts.joint, math.nan)
     if not abs(position - expected) <= allowed:  # a position that nobody reports is no arrival either
         text = f"joint {facts.joint} stands at {position:.4g}, {expected:.4g} expected within {allowed:.2g}"
         raise AttemptError(Outcome.TOLERANCE_VIOLATION, text)

@@ -9,11 +9,12 @@ from cellc.mock.engine.process import Waiting
 from cellc.mock.nodes.motion_planner import PLANNING_LATENCY_S
 from cellc.mock.nodes.motion_request import PlannedMotion
 from cellc.mock.record import PacketStep
+from cellc.mock.task.arrival import state_since
 from cellc.mock.task.attempt import Attempt
 from cellc.mock.task.context import TaskContext
 from cellc.mock.task.execute import execute, require_success
 from cellc.mock.task.goal_frame import check_observation, locate_goal
-from cellc.mock.task.joint_state import current_state
+from cellc.mock.task.joint_state import CurrentState, current_state
 from cellc.mock.task.outcome import AttemptError, Outcome
 
 ARRIVAL_TOLERANCE = 0.05
@@ -87,14 +88,15 @@ def _drive(
     timeout_s = _timeout_s(context, motion.trajectory.duration_ns * 1e-9)
     ended = yield from execute(context, attempt, "move", controller, goal, timeout_s)
     require_success(ended, context)
-    _require_arrival(context, motion.trajectory)
+    state = yield from state_since(context, ended.decided_ns)
+    _require_arrival(state, motion.trajectory)
     if motion.retreat is not None:
         context.retreats[group] = motion.retreat
 
 
-def _require_arrival(context: TaskContext, trajectory: TimedTrajectory) -> None:
+def _require_arrival(state: CurrentState, trajectory: TimedTrajectory) -> None:
     """Raise AttemptError where a joint is elsewhere: a controller without tolerances reports success all the same."""
-    actual = context.plant.world.joint_positions(context.now_ns)
+    actual = state.positions
     for joint, goal in zip(trajectory.joints, trajectory.points[-1].positions, strict=True):
         if abs(actual[joint] - goal) > ARRIVAL_TOLERANCE:
             text = f"joint {joint} stands at {actual[joint]:.4g} after a reported success, its goal is {goal:.4g}"

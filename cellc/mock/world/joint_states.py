@@ -31,6 +31,7 @@ class JointStateHistory:
         names: joints in the order of the columns; empty before the first message.
         late: samples that arrive later than they are stamped.
         subscribed: somebody collects the messages of the broadcaster.
+        silent: the broadcaster is not active, so that messages which stay away are no missed cycles.
     """
 
     def __init__(self, horizon_s: float, period_ns: int, foreign: frozenset[str] = frozenset()) -> None:
@@ -43,9 +44,11 @@ class JointStateHistory:
         self.names: tuple[str, ...] = ()
         self.late: list[LateArrival] = []
         self.subscribed = False
+        self.silent = False
         self._keep = int(horizon_s * 1e9 / period_ns) + 2
         self._foreign = foreign
         self._missed = 0
+        self._resumed = False
         self._spacing_ns: int | None = None
         self._stamps: IntArray = np.empty(0, dtype=np.int64)
         self._positions: FloatArray = np.empty((0, 0))
@@ -64,6 +67,7 @@ class JointStateHistory:
         self._stamps[self._count : self._count + size] = block.stamps_ns
         self._positions[self._count : self._count + size] = block.positions[:, columns]
         self._count_missed(max(0, self._count - 1), self._count + size)
+        self._resumed = False
         self._count += size
 
     @property
@@ -90,9 +94,14 @@ class JointStateHistory:
 
     def missed_until(self, now_ns: int) -> int:
         """Return how many messages were due by ``now_ns`` and never published: update cycles that were missed."""
-        if self._spacing_ns is None:
+        if self._spacing_ns is None or self.silent or self._resumed:
             return self._missed
         return self._missed + max(0, (now_ns - int(self.stamps[-1])) // self._spacing_ns - 1)
+
+    def note_active(self, active: bool) -> None:
+        """Take note that the broadcaster was activated or deactivated."""
+        self._resumed = self._resumed or (self.silent and active)
+        self.silent = not active
 
     def at(self, stamp_ns: int) -> dict[str, float]:
         """Return the positions at a time, linear between messages and held beyond the first and last."""
@@ -126,7 +135,7 @@ class JointStateHistory:
         self._stamps, self._positions, self._count = stamps, positions, kept
 
     def _count_missed(self, first: int, last: int) -> None:
-        gaps = np.diff(self._stamps[first:last])
+        gaps = np.diff(self._stamps[first + 1 if self._resumed else first : last])
         if not gaps.size:
             return
         least = int(gaps.min())
