@@ -42,16 +42,10 @@ def execute(
     context.check_cell()
     goal_id = _send(context, attempt, controller, goal)
     sent_ns = context.now_ns
-    until_ns = sent_ns + round(timeout_s * 1e9)
     joints = _joints(context.plant, controller)
     context.plant.requests.executing.add(controller)
     try:
-        while (controller, goal_id) not in context.ended:
-            if kind in context.plant.requests.cancel:
-                raise AttemptError(Outcome.CANCELLED, "")
-            if context.now_ns >= until_ns:
-                raise AttemptError(Outcome.TIMEOUT, f"no result of {controller} within {timeout_s:g} s")
-            yield from context.pause(until_ns, context.plant.requests.changed)
+        yield from _result(context, kind, controller, goal_id, timeout_s)
     except AttemptError as failure:
         held = yield from cancel_and_hold(context, attempt, controller, goal_id, joints)
         _note_result(context, attempt, controller, goal_id, sent_ns, joints)
@@ -92,6 +86,17 @@ def _send(context: TaskContext, attempt: Attempt, controller: str, goal: Traject
     next_cycle_ns = (context.now_ns // manager.period_ns + 1) * manager.period_ns
     attempt.mark(PacketStep.WRITTEN, next_cycle_ns)
     return response.goal_id
+
+
+def _result(context: TaskContext, kind: str, controller: str, goal_id: int, timeout_s: float) -> Waiting[None]:
+    """Wait for the result of an accepted goal; raise AttemptError where it has to be cancelled instead."""
+    until_ns = context.now_ns + round(timeout_s * 1e9)
+    while (controller, goal_id) not in context.ended:
+        if kind in context.plant.requests.cancel:
+            raise AttemptError(Outcome.CANCELLED, "")
+        if context.now_ns >= until_ns:
+            raise AttemptError(Outcome.TIMEOUT, f"no result of {controller} within {timeout_s:g} s")
+        yield from context.pause(until_ns, context.plant.requests.changed)
 
 
 def _note_result(
