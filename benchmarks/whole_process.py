@@ -44,15 +44,15 @@ def measured(arguments: list[str], runs: int) -> tuple[float, float, float, floa
 
 
 def cell_of_arms(count: int) -> str:
-    """Write a spec with ``count`` arms in a row, each with its trajectory controller and its home pose."""
+    """Write a spec with ``count`` arms in rows of five, each with its trajectory controller and its home pose."""
     names = [f"arm_{number}" for number in range(count)]
     spec = {
         "format": 1,
         "cell": f"arms_{count}",
         "versions": {"ros": "jazzy"},
         "devices": {
-            name: {"model": "ur5e", "mount": {"parent": "world", "xyz": f"0 {2 * row} 0 m"}}
-            for row, name in enumerate(names)
+            name: {"model": "ur5e", "mount": {"parent": "world", "xyz": f"{2 * (place // 5)} {2 * (place % 5)} 0 m"}}
+            for place, name in enumerate(names)
         },
         "control": {
             "update_rate": "500 Hz",
