@@ -14,6 +14,8 @@ from cellc.artifact import Artifact
 from cellc.diagnostics import Diagnostic, Outcome, Severity
 from cellc.graph.cell_graph import CellGraph, build_graph
 from cellc.link.link import link
+from cellc.rules.ignore_comment import ignore_comments
+from cellc.rules.ignores import apply_ignores
 from cellc.rules.run import run_rules
 from cellc.source import read
 from cellc.spec.parse import parse
@@ -35,7 +37,7 @@ class Checked:
 
 
 def check(path: str | Path) -> Checked:
-    """Read, parse and link a spec, and run every rule on its graph."""
+    """Read, parse and link a spec, run every rule on its graph, and take out what comments in the spec excuse."""
     file = Path(path).as_posix()
     source = read(path)
     if source.value is None or not source.ok:
@@ -52,6 +54,11 @@ def check(path: str | Path) -> Checked:
         return Checked(file, source.value.texts, None, _sorted(found))
     graph = build_graph(cell.value)
     found += run_rules(graph)
+    if ignores := ignore_comments(source.value.texts):
+        # Few cells excuse anything, and only then the pages of all stages are read.
+        from cellc.report.pages import all_pages
+
+        found = list(apply_ignores(found, ignores, all_pages()))
     return Checked(file, source.value.texts, graph, _sorted(found))
 
 

@@ -7,6 +7,7 @@ from cellc.diagnostics.page import CodePage
 from cellc.link.codes import CODES as LINK_CODES
 from cellc.output.codes import CODES as OUTPUT_CODES
 from cellc.rules.all_rules import ALL_RULES
+from cellc.rules.ignore_codes import CODES as IGNORE_CODES
 from cellc.source.codes import CODES as SOURCE_CODES
 from cellc.spec.codes import CODES as SPEC_CODES
 from cellc.verify.codes import CODES as VERIFY_CODES
@@ -16,6 +17,7 @@ STAGES: tuple[tuple[CodePage, ...], ...] = (
     SPEC_CODES,
     CATALOG_CODES,
     LINK_CODES,
+    IGNORE_CODES,
     VERIFY_CODES,
     OUTPUT_CODES,
 )
