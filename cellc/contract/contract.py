@@ -190,6 +190,16 @@ class ContractGoal(ContractModel):
     transform_at: Literal["observation", "latest"] = Field(description="Stamp that transforms are looked up at.")
 
 
+class ContractDisabledCollision(ContractModel):
+    """Two links whose collision is not checked, as in the SRDF."""
+
+    first: str = Field(description="Link, the lesser name.")
+    second: str = Field(description="Link, the greater name.")
+    reason: Literal["adjacent", "never", "always"] = Field(
+        description="Neighbours, or in contact at none or all of the sampled configurations."
+    )
+
+
 class ContractSafety(ContractModel):
     """The boundary as declared."""
 
@@ -233,6 +243,9 @@ class Contract(ContractModel):
     groups: dict[str, ContractGroup] = Field(description="Planning groups by name.")
     poses: dict[str, tuple[ContractPoseTarget, ...]] = Field(description="Named poses.")
     goals: dict[str, ContractGoal] = Field(description="Cartesian goals by name.")
+    disabled_collisions: tuple[ContractDisabledCollision, ...] = Field(
+        description="Pairs of links whose collision is not checked, sorted by name."
+    )
     responsibilities: dict[str, str] = Field(description="Owner of each responsibility.")
     approvals: dict[str, str] = Field(description="Owner of each approval area.")
     safety: ContractSafety = Field(description="Safety boundary.")

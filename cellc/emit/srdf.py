@@ -1,8 +1,8 @@
 """``config/moveit/<cell>.srdf``: groups, end effectors, named poses, and links that may touch.
 
-SRDF as srdfdom reads it; move_group takes it as ``robot_description_semantic``. Pairs without a check are those that
-meet in a joint or never move against each other. Left out: virtual joints, because the description is rooted in the
-world.
+SRDF as srdfdom reads it; move_group takes it as ``robot_description_semantic``. Pairs without a check are found by
+sampling, as MoveIt's Setup Assistant does, with its reasons. Left out: virtual joints, because the description is
+rooted in the world.
 """
 
 from __future__ import annotations
@@ -11,14 +11,13 @@ from collections.abc import Iterator
 from xml.etree.ElementTree import Element
 
 from cellc.artifact import Artifact
-from cellc.cell.cell import Cell
 from cellc.cell.device import Device
 from cellc.cell.motion import NamedPose
 from cellc.formats.header import Header
 from cellc.formats.moveit_files import semantic_file
 from cellc.formats.numbers import shortest
-from cellc.formats.touching_links import touching_links
 from cellc.formats.xml_text import comment, element, render
+from cellc.geometry import MARGIN_M, RNG_SEED, SAMPLES, disabled_links
 from cellc.graph.cell_graph import CellGraph
 
 
@@ -26,11 +25,12 @@ def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
     """Yield the semantic description of a cell with planning groups."""
     cell = graph.cell
     if cell.groups:
-        root = element("robot", {"name": cell.name}, _parts(cell))
+        root = element("robot", {"name": cell.name}, _parts(graph))
         yield Artifact(semantic_file(cell), render(root, header.text))
 
 
-def _parts(cell: Cell) -> Iterator[Element]:
+def _parts(graph: CellGraph) -> Iterator[Element]:
+    cell = graph.cell
     for group in cell.groups:
         yield comment(f"motion.groups.{group.name}")
         chain = element("chain", {"base_link": group.base_link, "tip_link": group.tip_frame})
@@ -42,9 +42,13 @@ def _parts(cell: Cell) -> Iterator[Element]:
         if device.facts.gripper is not None and device.name not in named:
             yield comment(f"devices.{device.name}")
             yield from _gripper(device)
-    yield comment("bodies that meet in a joint, and bodies that never move against each other")
-    for first, second, reason in touching_links(cell):
-        yield element("disable_collisions", {"link1": first, "link2": second, "reason": reason})
+    yield comment(
+        f"neighbours, and pairs that touch at all or none of {SAMPLES} configurations within the joint limits, drawn "
+        f"with seed {RNG_SEED}; none means farther apart than {shortest(MARGIN_M)} m"
+    )
+    for pair in disabled_links(graph):
+        names = {"link1": pair.first, "link2": pair.second}
+        yield element("disable_collisions", names | {"reason": pair.reason.capitalize()})
 
 
 def _state(pose: NamedPose) -> Element:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TypeVar, cast
 
 from cellc.cell.cell import Cell
 from cellc.graph.claims import ClaimGraph, build_claims
@@ -13,6 +15,8 @@ from cellc.graph.model_parts import ModelParts
 from cellc.graph.network import NetworkGraph, build_network
 from cellc.graph.responsibilities import Responsibilities, build_responsibilities
 from cellc.graph.startup import StartupGraph, build_startup
+
+_Answer = TypeVar("_Answer")
 
 
 # Without slots, so that each graph is built when it is first asked for and kept.
@@ -59,6 +63,16 @@ class CellGraph:
     def responsibilities(self) -> Responsibilities:
         """Who answers for what."""
         return build_responsibilities(self.cell)
+
+    def once(self, question: Callable[[CellGraph], _Answer]) -> _Answer:
+        """Answer a question of a stage above, once however many rules and emitters ask it."""
+        if question not in self._answers:
+            self._answers[question] = question(self)
+        return cast(_Answer, self._answers[question])
+
+    @cached_property
+    def _answers(self) -> dict[Callable[[CellGraph], object], object]:
+        return {}
 
 
 def build_graph(cell: Cell) -> CellGraph:

@@ -1,6 +1,6 @@
 """The deterministic planner: inverse kinematics, collision-free paths, and jerk-limited trajectories."""
 
-from cellc.kinematics.disabled import always_colliding_or_adjacent
+from cellc.kinematics.disabled import DisabledPair, DisabledReason, disabled_collisions
 from cellc.kinematics.failure import FailureReason, IkFailure, LimitsError, ModelError, PlanFailure
 from cellc.kinematics.inverse import IkSolution
 from cellc.kinematics.limits import JointLimits, PlanningGroup
@@ -14,6 +14,8 @@ from cellc.kinematics.trajectory import LimitUse, TimedTrajectory, TrajectoryPoi
 __all__ = [
     "Box",
     "CollisionScene",
+    "DisabledPair",
+    "DisabledReason",
     "FailureReason",
     "IkFailure",
     "IkSolution",
@@ -28,6 +30,6 @@ __all__ = [
     "RobotModel",
     "TimedTrajectory",
     "TrajectoryPoint",
-    "always_colliding_or_adjacent",
+    "disabled_collisions",
     "time_parameterize",
 ]

@@ -1,51 +1,118 @@
-"""Pairs of links whose collision is not worth checking, as a MoveIt setup would write them to an SRDF."""
+"""Pairs of links whose collision is not worth checking, with the reasons that an SRDF gives.
+
+The reasons are those of MoveIt's Setup Assistant: adjacent, never, always. Like there, the last two rest on sampling:
+they are no proof for the configurations between the samples.
+"""
 
 from __future__ import annotations
 
-import math
-
-import numpy as np
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import Enum
+from itertools import combinations
 
 from cellc.kinematics.limits import Array
 from cellc.kinematics.model import RobotModel
-from cellc.kinematics.scene import CollisionScene, LinkPair
+from cellc.kinematics.pair_check import PairCheck, shape_links
+from cellc.kinematics.sampling import draw_configurations
+from cellc.kinematics.scene import LinkPair
 
 
-def always_colliding_or_adjacent(model: RobotModel, *, samples: int, rng_seed: int) -> tuple[LinkPair, ...]:
-    """Return the pairs of neighbours, and the pairs in contact at every one of the sampled configurations, sorted.
+class DisabledReason(str, Enum):
+    """Why a pair is not checked; the value is the word of the contract."""
 
-    Two links are neighbours where at most one movable joint joins them and no other link with a collision shape lies
-    between them: the joint itself makes their shapes overlap.
+    ADJACENT = "adjacent"
+    NEVER = "never"
+    ALWAYS = "always"
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class DisabledPair:
+    """Two links, the lesser name first."""
+
+    first: str
+    second: str
+    reason: DisabledReason
+
+    @property
+    def links(self) -> LinkPair:
+        """The names alone, as a collision scene takes them."""
+        return self.first, self.second
+
+
+def disabled_collisions(model: RobotModel, *, samples: int, rng_seed: int, margin_m: float) -> tuple[DisabledPair, ...]:
+    """Return the pairs of links that need no collision check, sorted by name.
+
+    - adjacent: neighbours in the tree, with at most one movable joint and no other shape between them;
+    - always: in contact at every sample;
+    - never: farther apart than the margin at every sample.
+
+    Two links on one rigid body do not move against each other: they are "always" within the margin and "never" beyond.
 
     Args:
-        samples: number of configurations, drawn uniformly within the URDF's position limits.
+        samples: number of configurations, drawn uniformly within the URDF's position limits; 1 or more.
         rng_seed: seed of the draw.
+        margin_m: metres.
     """
-    adjacent = _adjacent(model)
-    scene = CollisionScene(model, disabled_collisions=adjacent)
-    generator = np.random.default_rng(rng_seed)
-    always = set(scene.checked_pairs()) if samples > 0 else set()
-    for _ in range(samples):
-        if not always:
+    configurations = draw_configurations(model, samples=samples, rng_seed=rng_seed)
+    adjacent = set(_adjacent(model))
+    rigid = set(_rigid(model)) - adjacent
+    moving = set(_pairs(shape_links(model))) - adjacent - rigid
+    at_rest = PairCheck(model, rigid, margin_m=margin_m).all_touching(configurations[0])
+    always = at_rest | _touching_in_all(PairCheck(model, moving), moving, configurations)
+    apart = moving - always
+    never = (rigid - at_rest) | _touching_in_none(PairCheck(model, apart, margin_m=margin_m), apart, configurations)
+    found = {DisabledReason.ADJACENT: adjacent, DisabledReason.ALWAYS: always, DisabledReason.NEVER: never}
+    return tuple(sorted(DisabledPair(*pair, reason) for reason, pairs in found.items() for pair in pairs))
+
+
+def _touching_in_all(check: PairCheck, pairs: set[LinkPair], configurations: Array) -> set[LinkPair]:
+    left = set(pairs)
+    for configuration in configurations:
+        if not left:
             break
-        always.intersection_update(scene.contacts(_draw(model, generator)))
-    return tuple(sorted(always.union(adjacent)))
+        free = left - check.all_touching(configuration)
+        check.drop(free)
+        left -= free
+    return left
 
 
-def _adjacent(model: RobotModel) -> tuple[LinkPair, ...]:
+def _touching_in_none(check: PairCheck, pairs: set[LinkPair], configurations: Array) -> set[LinkPair]:
+    left = set(pairs)
+    for configuration in configurations:
+        if not left:
+            break
+        while touching := check.some_touching(configuration):
+            check.drop(touching)
+            left -= touching
+    return left
+
+
+def _pairs(names: list[str]) -> Iterator[LinkPair]:
+    return combinations(sorted(set(names)), 2)
+
+
+def _rigid(model: RobotModel) -> Iterator[LinkPair]:
+    """Yield the pairs of links between which no joint moves."""
+    bodies: dict[int, list[str]] = {}
+    for shape, name in zip(model.geometry.geometryObjects, shape_links(model), strict=True):
+        bodies.setdefault(int(shape.parentJoint), []).append(name)
+    for names in bodies.values():
+        yield from _pairs(names)
+
+
+def _adjacent(model: RobotModel) -> Iterator[LinkPair]:
+    """Yield each link that has a shape with the nearest such link above it, if at most one joint moves between them."""
     frames = model.kinematics.frames
-    shaped = {shape.parentFrame for shape in model.geometry.geometryObjects}
-    found: set[LinkPair] = set()
+    shaped = {int(shape.parentFrame) for shape in model.geometry.geometryObjects}
     for frame in shaped:
-        joint = frames[frame].parentJoint
         ancestor = _shaped_ancestor(model, frame, shaped)
         if ancestor is None:
             continue
-        other = frames[ancestor].parentJoint
-        if other != joint and model.kinematics.parents[joint] == other:
+        joint, other = frames[frame].parentJoint, frames[ancestor].parentJoint
+        if other in (joint, model.kinematics.parents[joint]):
             first, second = sorted((str(frames[frame].name), str(frames[ancestor].name)))
-            found.add((first, second))
-    return tuple(sorted(found))
+            yield first, second
 
 
 def _shaped_ancestor(model: RobotModel, frame: int, shaped: set[int]) -> int | None:
@@ -56,16 +123,3 @@ def _shaped_ancestor(model: RobotModel, frame: int, shaped: set[int]) -> int | N
             return int(at)
         at = frames[at].parentFrame
     return None
-
-
-def _draw(model: RobotModel, generator: np.random.Generator) -> Array:
-    positions: dict[str, float] = {}
-    for joint in model.joints:
-        index = model.joint_of(joint)
-        at = model.kinematics.idx_qs[index]
-        lower, upper = -math.pi, math.pi
-        if model.kinematics.nqs[index] == 1:
-            lower = float(model.kinematics.lowerPositionLimit[at])
-            upper = float(model.kinematics.upperPositionLimit[at])
-        positions[joint] = float(generator.uniform(lower, upper))
-    return model.configuration(positions)

@@ -18,6 +18,7 @@ from cellc.kinematics.model import RobotModel, from_pose, to_pose
 from cellc.kinematics.path import JointPath
 from cellc.kinematics.scene import CollisionScene
 from cellc.kinematics.shorten import shorten
+from cellc.kinematics.solve import singular_values
 from cellc.transforms import Pose
 
 # Below this a finite tip speed asks for joint speeds hundreds of times larger: the arm has lost a direction.
@@ -58,6 +59,10 @@ class Planner:
         """Return the pose of the tip link in the frame of the group's base link."""
         tip = self._chain.tip(_array(configuration))
         return to_pose(self._chain.transform_base_to_world.actInv(tip))
+
+    def min_singular_value(self, configuration: Sequence[float]) -> float:
+        """Return the least singular value of the tip's Jacobian (rows in m and rad); 0 at a singularity."""
+        return float(singular_values(self._chain, _array(configuration))[-1])
 
     def inverse_kinematics(
         self, target_in_base: Pose, current: Sequence[float], *, seeds: int = 8, rng_seed: int = 0

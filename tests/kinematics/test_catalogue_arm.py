@@ -16,7 +16,7 @@ from cellc.kinematics import (
     Planner,
     PlanningGroup,
     RobotModel,
-    always_colliding_or_adjacent,
+    disabled_collisions,
     time_parameterize,
 )
 from cellc.transforms import Pose, from_xyz_rpy
@@ -46,7 +46,7 @@ def planner_fixture() -> Planner:
         (5.0,) * 6,
         (50.0,) * 6,
     )
-    disabled = always_colliding_or_adjacent(model, samples=100, rng_seed=1)
+    disabled = [pair.links for pair in disabled_collisions(model, samples=100, rng_seed=1, margin_m=0.005)]
     group = PlanningGroup("manipulator", model.joints, "base", "tool0")
     return Planner(model, group, limits, CollisionScene(model, disabled_collisions=disabled))
 

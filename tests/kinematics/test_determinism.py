@@ -13,11 +13,11 @@ SCRIPT = """
 import sys
 sys.path.insert(0, {tests!r})
 from kinematics.arm import ADJACENT, GROUP, HOME, LIMITS, arm_urdf
-from cellc.kinematics import CollisionScene, Planner, RobotModel, always_colliding_or_adjacent, time_parameterize
+from cellc.kinematics import CollisionScene, Planner, RobotModel, disabled_collisions, time_parameterize
 from cellc.transforms import Pose
 
 model = RobotModel.from_urdf(arm_urdf())
-disabled = always_colliding_or_adjacent(model, samples=20, rng_seed=1)
+disabled = [pair.links for pair in disabled_collisions(model, samples=20, rng_seed=1, margin_m=0.005)]
 wall = Pose((-0.5, 0.0, 0.25), (0.0, 0.0, 0.0, 1.0))
 scene = CollisionScene(model, disabled_collisions=disabled).attach("wall", "table", (0.5, 0.02, 0.5), wall)
 planner = Planner(model, GROUP, LIMITS, scene)

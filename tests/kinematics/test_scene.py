@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from cellc.kinematics import CollisionScene, ModelError, RobotModel, always_colliding_or_adjacent
+from cellc.kinematics import CollisionScene, ModelError, RobotModel
 from cellc.transforms import Pose, Vector3
-
-from .arm import ADJACENT, arm_urdf
 
 # A ball of 0.1 m radius slides along x over a floor whose top is at z = -0.2; a post stands at x = 1.
 SLIDER = """
@@ -86,28 +84,3 @@ def test_unknown_names_are_refused(scene: CollisionScene) -> None:
         scene.attach("part", "claw", (0.1, 0.1, 0.1), _at((0.0, 0.0, 0.0)))
     with pytest.raises(ModelError, match="`post` has the name of a link"):
         scene.attach("post", "hand", (0.1, 0.1, 0.1), _at((0.0, 0.0, 0.0)))
-
-
-def test_neighbours_of_the_arm_are_the_links_of_each_joint() -> None:
-    model = RobotModel.from_urdf(arm_urdf())
-    # The base lies between the table and the first link, so that these two stay checked.
-    assert always_colliding_or_adjacent(model, samples=0, rng_seed=0) == ADJACENT
-
-
-def test_pair_in_contact_at_every_sample_is_found() -> None:
-    fused = SLIDER.replace('<box size="4 4 0.1"/>', '<box size="9 4 0.5"/>')
-    model = RobotModel.from_urdf(fused)
-    assert always_colliding_or_adjacent(model, samples=20, rng_seed=5) == (("ball", "floor"),)
-    assert always_colliding_or_adjacent(RobotModel.from_urdf(SLIDER), samples=20, rng_seed=5) == ()
-
-
-def test_neighbours_are_found_through_fixed_joints_and_shapeless_links() -> None:
-    flange = (
-        '<link name="flange"/><link name="camera">'
-        '<collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision></link>'
-        '<joint name="f1" type="fixed"><parent link="tool"/><child link="flange"/></joint>'
-        '<joint name="turn" type="revolute"><parent link="flange"/><child link="camera"/><axis xyz="0 0 1"/>'
-        '<limit lower="-1" upper="1" velocity="1" effort="1"/></joint>'
-    )
-    pairs = always_colliding_or_adjacent(RobotModel.from_urdf(arm_urdf(flange)), samples=0, rng_seed=0)
-    assert set(pairs) - set(ADJACENT) == {("camera", "link_6")}

@@ -17,7 +17,7 @@ from cellc.emit.contract.control import joint_limits, managers
 from cellc.emit.contract.devices import devices
 from cellc.emit.contract.frames import calibrations, frames
 from cellc.emit.contract.interfaces import interfaces
-from cellc.emit.contract.motion import goals, groups, poses
+from cellc.emit.contract.motion import disabled_collisions, goals, groups, poses
 from cellc.formats.attempt_fields import attempt_fields
 from cellc.formats.header import Header
 from cellc.formats.json_text import render
@@ -29,10 +29,11 @@ from cellc.spec.quantity import Quantity
 
 def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
     """Yield the contract."""
-    yield Artifact("contract.json", render(_contract(graph.cell, header.configuration_id)))
+    yield Artifact("contract.json", render(_contract(graph, header.configuration_id)))
 
 
-def _contract(cell: Cell, configuration_id: str) -> Contract:
+def _contract(graph: CellGraph, configuration_id: str) -> Contract:
+    cell = graph.cell
     return Contract(
         format=1,
         cell=cell.name,
@@ -52,6 +53,7 @@ def _contract(cell: Cell, configuration_id: str) -> Contract:
         groups=groups(cell),
         poses=poses(cell),
         goals=goals(cell),
+        disabled_collisions=disabled_collisions(graph),
         responsibilities={name: str(owner) for name, owner in cell.spec.owners.responsibilities},
         approvals={name: str(owner) for name, owner in cell.spec.owners.approvals},
         safety=_safety(cell),

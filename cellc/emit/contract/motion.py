@@ -1,11 +1,13 @@
-"""Planning groups, poses and goals of the contract."""
+"""Planning groups, poses, goals and unchecked pairs of links of the contract."""
 
 from __future__ import annotations
 
 from cellc.cell.cell import Cell
 from cellc.cell.motion import CartesianGoal, PlanningGroup
-from cellc.contract.contract import ContractGoal, ContractGroup, ContractPoseTarget
+from cellc.contract.contract import ContractDisabledCollision, ContractGoal, ContractGroup, ContractPoseTarget
 from cellc.formats.contract_pose import contract_pose
+from cellc.geometry import disabled_links
+from cellc.graph.cell_graph import CellGraph
 
 
 def groups(cell: Cell) -> dict[str, ContractGroup]:
@@ -27,6 +29,15 @@ def poses(cell: Cell) -> dict[str, tuple[ContractPoseTarget, ...]]:
 def goals(cell: Cell) -> dict[str, ContractGoal]:
     """Return every Cartesian goal."""
     return {goal.name: _goal(goal) for goal in cell.goals}
+
+
+def disabled_collisions(graph: CellGraph) -> tuple[ContractDisabledCollision, ...]:
+    """Return the pairs that the SRDF lists too; none where there is no group to plan for."""
+    pairs = disabled_links(graph) if graph.cell.groups else ()
+    return tuple(
+        ContractDisabledCollision.model_validate({"first": pair.first, "second": pair.second, "reason": pair.reason})
+        for pair in pairs
+    )
 
 
 def _group(cell: Cell, group: PlanningGroup) -> ContractGroup:

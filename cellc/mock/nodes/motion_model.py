@@ -15,14 +15,10 @@ from cellc.kinematics import (
     Planner,
     PlanningGroup,
     RobotModel,
-    always_colliding_or_adjacent,
 )
 from cellc.mock.errors import MockError
 from cellc.mock.world.links import LinkTree
 from cellc.transforms import Pose, identity
-
-_DISABLED_SAMPLES = 200
-_DISABLED_SEED = 0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -47,7 +43,7 @@ def build_motion_model(contract: Contract, urdf: str, links: LinkTree) -> Motion
     """Build the planners of all groups; raise MockError where the URDF and the contract do not fit together."""
     try:
         robot = RobotModel.from_urdf(urdf)
-        disabled = always_colliding_or_adjacent(robot, samples=_DISABLED_SAMPLES, rng_seed=_DISABLED_SEED)
+        disabled = [(pair.first, pair.second) for pair in contract.disabled_collisions]
         scene = CollisionScene(robot, disabled_collisions=disabled)
     except ModelError as error:
         raise MockError(contract.files.urdf_mock, str(error)) from None

@@ -1,0 +1,21 @@
+"""What a cell's shapes and joints allow, computed with the kinematics and kept in the cache.
+
+The robot library is imported where an answer has to be computed and not before: a warm check does without.
+"""
+
+from cellc.geometry.answers import BodyContact, DisabledLinks, GoalAnswer, MotionAnswer, PoseAnswer
+from cellc.geometry.disabled import MARGIN_M, RNG_SEED, SAMPLES, disabled_links
+from cellc.geometry.motion import motion_answer
+
+__all__ = [
+    "MARGIN_M",
+    "RNG_SEED",
+    "SAMPLES",
+    "BodyContact",
+    "DisabledLinks",
+    "GoalAnswer",
+    "MotionAnswer",
+    "PoseAnswer",
+    "disabled_links",
+    "motion_answer",
+]

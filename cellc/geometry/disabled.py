@@ -1,0 +1,51 @@
+"""The pairs of links of a cell that need no collision check, for the SRDF, the contract and the rules."""
+
+from __future__ import annotations
+
+from cellc.cache import recall
+from cellc.formats.touching_links import touching_links
+from cellc.geometry.answers import DisabledAnswer, DisabledLinks
+from cellc.geometry.question import shapes_and_joints
+from cellc.graph.cell_graph import CellGraph
+
+SAMPLES = 10_000
+"""As many as MoveIt's Setup Assistant draws by default."""
+RNG_SEED = 0
+MARGIN_M = 0.005
+"""Two links that come nearer than this in any sample stay checked, so that no near miss passes for "never"."""
+
+
+def disabled_links(graph: CellGraph) -> tuple[DisabledLinks, ...]:
+    """Return the pairs with their reasons, sorted by name.
+
+    Where the kinematics refuses the description, because it names a mesh that is not here for instance, these are the
+    pairs that follow from the tree alone.
+    """
+    return graph.once(_of_cell).pairs
+
+
+def disabled_in(urdf: str) -> DisabledAnswer:
+    """Return the pairs of a robot description, kept from an earlier run or sampled now."""
+    return recall("disabled", urdf, DisabledAnswer, lambda: _sampled(urdf))
+
+
+def _of_cell(graph: CellGraph) -> DisabledAnswer:
+    answer = disabled_in(shapes_and_joints(graph.cell))
+    if not answer.refused:
+        return answer
+    found = (
+        DisabledLinks(min(first, second), max(first, second), reason.lower())
+        for first, second, reason in touching_links(graph.cell)
+    )
+    return DisabledAnswer(tuple(sorted(found)), answer.refused)
+
+
+def _sampled(urdf: str) -> DisabledAnswer:
+    from cellc.kinematics import ModelError, RobotModel, disabled_collisions
+
+    try:
+        robot = RobotModel.from_urdf(urdf)
+    except ModelError as error:
+        return DisabledAnswer((), str(error))
+    pairs = disabled_collisions(robot, samples=SAMPLES, rng_seed=RNG_SEED, margin_m=MARGIN_M)
+    return DisabledAnswer(tuple(DisabledLinks(pair.first, pair.second, pair.reason.value) for pair in pairs))
