@@ -16,6 +16,7 @@ from cellc.cell.cell import Cell
 from cellc.cell.control import Controller
 from cellc.formats.header import Header
 from cellc.formats.moveit_files import is_planner
+from cellc.formats.urdf.hardware import share_folders
 from cellc.formats.xml_text import element, render
 from cellc.graph.cell_graph import CellGraph
 
@@ -59,6 +60,7 @@ def _dependencies(cell: Cell) -> tuple[str, ...]:
     hardware = (device.facts.packages.driver for device in cell.devices if device.hardware is not None)
     names = {*_ALWAYS, *(node.package for node in cell.nodes)}
     names |= {name for name in (*controllers, *hardware) if name is not None}
+    names |= {package for device in cell.devices for package in share_folders(device)}
     if cell.groups and any(is_planner(node) for node in cell.nodes):
         names |= set(_PLANNING)
     if len(cell.managers) > 1:

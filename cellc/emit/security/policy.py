@@ -16,7 +16,8 @@ from cellc.cell.cell import Cell
 from cellc.cell.control import ControllerManager
 from cellc.cell.interface import NodeSource
 from cellc.emit.security.profile import Profile, profile_element
-from cellc.emit.security.rights import manager_client, manager_process, node_profile
+from cellc.emit.security.rights import common_profile, manager_client, manager_process, node_profile
+from cellc.emit.security.several_managers import description_publisher, joint_state_merger
 from cellc.formats.enclaves import enclave_of, manager_enclave, spawner_enclave
 from cellc.formats.header import Header
 from cellc.formats.xml_text import element, render
@@ -38,6 +39,11 @@ def _enclaves(cell: Cell) -> Iterator[Element]:
     for manager in cell.managers:
         yield _enclave(manager_enclave(cell, manager), manager_process(cell, manager))
         yield _enclave(spawner_enclave(cell, manager), _spawners(manager))
+    if len(cell.managers) > 1:
+        common = common_profile(cell)
+        publishers = (description_publisher(manager, common) for manager in cell.managers)
+        for profile in (*publishers, joint_state_merger(cell, common)):
+            yield _enclave(f"/{cell.name}{profile.namespace}/{profile.node}", [profile])
 
 
 def _spawners(manager: ControllerManager) -> Iterator[Profile]:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from cellc.cell.cell import Cell
 from cellc.cell.control import ControllerManager
 from cellc.cell.interface import InterfaceKind, Node
 from cellc.emit.security.profile import Profile
+from cellc.emit.security.several_managers import description_topic, merged, of_namesake
 
 _PUBLISH = ("/parameter_events", "/rosout")
 _SUBSCRIBE = ("/clock", "/parameter_events")
@@ -49,11 +51,17 @@ def node_profile(cell: Cell, node: Node) -> Profile:
     return _granted(cell, node.namespace, node.name, _LIFECYCLE if node.lifecycle else ())
 
 
+def common_profile(cell: Cell) -> Profile:
+    """Return the rights that every node has, for one that stands at no interface of the cell."""
+    return _granted(cell, "", "", ())
+
+
 def manager_process(cell: Cell, manager: ControllerManager) -> Iterator[Profile]:
     """Yield the rights of the manager, its controllers and, from Jazzy on, the nodes of its hardware."""
     name = f"{manager.namespace}/controller_manager"
     services = (*_MANAGER, *(() if cell.distro == "humble" else (_CLEANUP,)))
-    yield _granted(cell, manager.namespace, "controller_manager", tuple(f"{name}/{service}" for service in services))
+    granted = _granted(cell, manager.namespace, "controller_manager", tuple(f"{name}/{one}" for one in services))
+    yield replace(granted, subscribe=(*_SUBSCRIBE, description_topic(cell, manager)))
     for controller in manager.controllers:
         yield _granted(cell, manager.namespace, controller.name, () if cell.distro == "humble" else _LOGGERS)
     if cell.distro != "humble":
@@ -77,22 +85,25 @@ def manager_client(manager: ControllerManager, node: str) -> Profile:
 
 
 def _granted(cell: Cell, namespace: str, name: str, services: tuple[str, ...]) -> Profile:
+    def names(kind: InterfaceKind, side: str) -> tuple[str, ...]:
+        return tuple(found for found in _names(cell, name, kind, side) if not of_namesake(cell, namespace, name, found))
+
     managed = {controller.name for controller in cell.controllers}
     publish = (*_PUBLISH, *((_CONTROLLER_STATE,) if name in managed else ()))
     return Profile(
         namespace=namespace,
         node=name,
-        publish=(*publish, *_names(cell, name, InterfaceKind.TOPIC, "sources"), *_transitions(services)),
-        subscribe=(*_SUBSCRIBE, *_names(cell, name, InterfaceKind.TOPIC, "sinks")),
+        publish=(*publish, *names(InterfaceKind.TOPIC, "sources"), *_transitions(services)),
+        subscribe=(*_SUBSCRIBE, *merged(cell, names(InterfaceKind.TOPIC, "sinks"))),
         reply=(
             *_PARAMETERS,
             *(() if cell.distro == "humble" else (_TYPE_DESCRIPTION,)),
             *services,
-            *_names(cell, name, InterfaceKind.SERVICE, "sources"),
+            *names(InterfaceKind.SERVICE, "sources"),
         ),
-        request=tuple(_names(cell, name, InterfaceKind.SERVICE, "sinks")),
-        execute=tuple(_names(cell, name, InterfaceKind.ACTION, "sources")),
-        call=tuple(_names(cell, name, InterfaceKind.ACTION, "sinks")),
+        request=names(InterfaceKind.SERVICE, "sinks"),
+        execute=names(InterfaceKind.ACTION, "sources"),
+        call=names(InterfaceKind.ACTION, "sinks"),
     )
 
 

@@ -37,6 +37,14 @@ def ros2_control(device: Device, hardware: HardwareComponent, target: str, start
     )
 
 
+def share_folders(device: Device) -> tuple[str, ...]:
+    """Return the packages whose share folders the real hardware's parameters name; xacro stops where one is missing."""
+    if device.hardware is None:
+        return ()
+    parameters = device.hardware.parameters.get("real", {})
+    return tuple(package for value in parameters.values() for package in _SHARE.findall(value))
+
+
 def _hardware(hardware: HardwareComponent, target: str) -> Element:
     parameters = hardware.parameters[target]
     return element(

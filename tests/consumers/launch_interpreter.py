@@ -1,0 +1,162 @@
+"""An interpreter of launch XML, written from the public grammar of ros2/launch and launch_ros.
+
+It knows what our files may use and refuses the rest, so that a new action in an emitter must be understood here first.
+"""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from xml.etree.ElementTree import Element, fromstring
+
+from tests.consumers.launch_text import LaunchError, World, condition, expand
+
+_NODE = {"pkg", "exec", "name", "namespace", "output", "args", "ros_args", "respawn", "if", "unless"}
+_OUTPUTS = {"screen", "log", "both", "own_log", "full"}
+
+
+@dataclass(frozen=True, slots=True)
+class Process:
+    """A process that launching starts.
+
+    Args:
+        name: name of its node, None where the program's own name stays.
+        namespace: empty for the root, otherwise with a leading slash.
+        files: parameter files by their path in the package, in order.
+        values: parameters given one by one, with the type that is forced, empty where YAML decides.
+    """
+
+    package: str
+    executable: str
+    name: str | None
+    namespace: str
+    arguments: tuple[str, ...]
+    ros_arguments: tuple[str, ...]
+    files: tuple[str, ...]
+    values: Mapping[str, tuple[str, str]]
+    remaps: Mapping[str, str]
+    respawn: bool
+
+
+@dataclass(slots=True)
+class Launch:
+    """One run of ``ros2 launch PACKAGE cell.launch.xml name:=value …`` on a package in memory."""
+
+    package: str
+    texts: Mapping[str, str]
+    given: Mapping[str, str]
+    configurations: dict[str, str] = field(default_factory=dict)
+    namespace: str = ""
+    processes: list[Process] = field(default_factory=list)
+    descriptions: dict[str, str] = field(default_factory=dict)
+
+    def run(self, path: str) -> Launch:
+        """Interpret a file of the package; raises LaunchError where launching stops."""
+        root = fromstring(self.texts[path])
+        if root.tag != "launch":
+            raise LaunchError(f"{path}: root is {root.tag}")
+        for action in root:
+            self._act(action)
+        return self
+
+    def _act(self, action: Element) -> None:
+        if not self._applies(action):
+            return
+        known = {
+            "arg": self._argument,
+            "let": self._let,
+            "group": self._group,
+            "include": self._include,
+            "push_ros_namespace": self._push,
+            "node": self._node,
+        }
+        if action.tag not in known:
+            raise LaunchError(f"unknown action <{action.tag}>")
+        known[action.tag](action)
+
+    def _applies(self, action: Element) -> bool:
+        if "if" in action.attrib and "unless" in action.attrib:
+            raise LaunchError("if and unless together")
+        wanted = "unless" not in action.attrib
+        text = action.get("if", action.get("unless"))
+        return text is None or condition(self._text(text)) is wanted
+
+    def _text(self, text: str) -> str:
+        return expand(text, World(self.configurations, self._command))
+
+    def _command(self, line: str) -> str:
+        program, *arguments = shlex.split(line)
+        if program not in ("xacro", "cat") or len(arguments) != 1:
+            raise LaunchError(f"unknown command {line}")
+        return self.texts[self._file(arguments[0])]
+
+    def _file(self, path: str) -> str:
+        """Return the path in the package of an installed file; one that it lacks stops launching."""
+        share = f"/share/{self.package}/"
+        inside = path.removeprefix(share)
+        if not path.startswith(share) or inside not in self.texts:
+            raise LaunchError(f"there is no file {path}")
+        return inside
+
+    def _argument(self, action: Element) -> None:
+        name = action.attrib["name"]
+        self.descriptions[name] = action.get("description", "")
+        if name in self.given:
+            value = self.given[name]
+        elif name not in self.configurations and "default" not in action.attrib:
+            raise LaunchError(f"required launch argument '{name}' was not provided")
+        else:
+            value = self.configurations.get(name, self._text(action.get("default", "")))
+        choices = [choice.attrib["value"] for choice in action.findall("choice")]
+        if choices and value not in choices:
+            raise LaunchError(f"argument '{name}' is '{value}', not one of {choices}")
+        self.configurations[name] = value
+
+    def _let(self, action: Element) -> None:
+        self.configurations[action.attrib["name"]] = self._text(action.attrib["value"])
+
+    def _group(self, action: Element) -> None:
+        configurations, namespace = dict(self.configurations), self.namespace
+        for child in action:
+            self._act(child)
+        if condition(self._text(action.get("scoped", "true"))):
+            self.configurations, self.namespace = configurations, namespace
+
+    def _include(self, action: Element) -> None:
+        # An include is not scoped: what it sets stays set.
+        for argument in action.findall("arg"):
+            self.configurations[argument.attrib["name"]] = self._text(argument.attrib["value"])
+        self.run(self._file(self._text(action.attrib["file"])))
+
+    def _push(self, action: Element) -> None:
+        self.namespace = self._in(self._text(action.attrib["namespace"]))
+
+    def _in(self, namespace: str) -> str:
+        below = namespace if namespace.startswith("/") else f"{self.namespace}/{namespace}"
+        return below.rstrip("/")
+
+    def _node(self, action: Element) -> None:
+        if unknown := set(action.attrib) - _NODE | {child.tag for child in action} - {"param", "remap"}:
+            raise LaunchError(f"<node> has unknown {sorted(unknown)}")
+        if action.get("output", "log") not in _OUTPUTS:
+            raise LaunchError(f"unknown output {action.get('output')}")
+        parameters = action.findall("param")
+        self.processes.append(
+            Process(
+                package=self._text(action.attrib["pkg"]),
+                executable=self._text(action.attrib["exec"]),
+                name=self._text(action.attrib["name"]) if "name" in action.attrib else None,
+                namespace=self._in(self._text(action.get("namespace", ""))),
+                arguments=tuple(shlex.split(self._text(action.get("args", "")))),
+                ros_arguments=tuple(shlex.split(self._text(action.get("ros_args", "")))),
+                files=tuple(self._file(self._text(one.attrib["from"])) for one in parameters if "from" in one.attrib),
+                values={
+                    one.attrib["name"]: (self._text(one.attrib["value"]), one.get("type", ""))
+                    for one in parameters
+                    if "from" not in one.attrib
+                },
+                remaps={one.attrib["from"]: self._text(one.attrib["to"]) for one in action.findall("remap")},
+                respawn=condition(self._text(action.get("respawn", "false"))),
+            )
+        )

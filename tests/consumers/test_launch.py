@@ -1,0 +1,151 @@
+"""What `ros2 launch` does with the emitted launch files, by an interpreter that cellc knows nothing of."""
+
+from __future__ import annotations
+
+import re
+from xml.etree.ElementTree import fromstring
+
+import pytest
+
+from tests.consumers.launch_interpreter import Process
+from tests.consumers.launch_text import LaunchError
+from tests.consumers.matrix import SPECS, build, every_build, every_cell
+from tests.consumers.starting import CONFIRMED, launched, node_name, processes, spawners, written_managers
+
+TARGETS = ("mock", "real")
+_ADDRESS = re.compile(r"\b\d+\.\d+\.\d+\.\d+\b|/dev/\w+")
+
+
+def _told(process: Process, texts: dict[str, str]) -> str:
+    """Return everything that a process is started with."""
+    values = [value for value, _ in process.values.values()]
+    return "\n".join([*process.arguments, *values, *(texts[file] for file in process.files)])
+
+
+@every_build
+def test_real_target_is_refused_without_its_confirmation(cell: str, distro: str) -> None:
+    built = build(cell, distro)
+    for given in ({"target": "real"}, {"target": "real", "confirm_real": "yes"}, {"target": "reel"}):
+        with pytest.raises(LaunchError, match=r"confirm_real|target"):
+            launched(built, **given)
+    assert launched(built, **CONFIRMED).processes
+
+
+@every_build
+def test_nothing_on_the_mock_is_told_of_a_real_address_or_plugin(cell: str, distro: str) -> None:
+    built = build(cell, distro)
+    for process in processes(cell, distro, "mock"):
+        told = _told(process, built.texts)
+        assert not _ADDRESS.findall(told), process
+        plugins = re.findall(r"<plugin>(.*?)</plugin>", told)
+        assert set(plugins) <= {"mock_components/GenericSystem"}, process
+
+
+@every_build
+def test_real_target_has_no_mock_hardware_and_the_mock_has_no_driver(cell: str, distro: str) -> None:
+    texts = build(cell, distro).texts
+    real = processes(cell, distro, "real")
+    assert not [process for process in real if "mock_components" in _told(process, texts)]
+    mock = processes(cell, distro, "mock")
+    drivers = {node_name(process) for process in real} - {node_name(process) for process in mock}
+    assert {node_name(process) for process in mock} <= {node_name(process) for process in real}
+    if cell == "ur5e_pick":
+        assert drivers == {"/arm_dashboard_client", "/arm_state_helper", "/camera"}
+
+
+@pytest.mark.parametrize("target", TARGETS)
+def test_processes_of_the_pick_cell_start_in_this_order(target: str) -> None:
+    drivers = ["/arm_dashboard_client", "/arm_state_helper", "/camera"] if target == "real" else []
+    names = [node_name(process) for process in processes("ur5e_pick", "jazzy", target)]
+    nodes = ["/perception", "/task", "/move_group"]
+    assert names == ["/robot_state_publisher", "/controller_manager", "/spawner", *nodes, *drivers]
+
+
+@every_build
+def test_other_address_than_that_of_the_description_is_refused(cell: str, distro: str) -> None:
+    built = build(cell, distro)
+    addresses = {name for name in launched(built).descriptions if name.endswith("_address")}
+    for name in addresses:
+        with pytest.raises(LaunchError, match="not one of"):
+            launched(built, **{name: "10.99.99.99"})
+
+
+@every_build
+def test_static_transforms_have_one_authority(cell: str, distro: str) -> None:
+    for target in TARGETS:
+        started = processes(cell, distro, target)
+        assert not [process for process in started if "static_transform_publisher" in process.executable]
+        publishers = [process for process in started if process.executable == "robot_state_publisher"]
+        whole = [process for process in publishers if not {"/tf", "/tf_static"} <= set(process.remaps)]
+        assert [node_name(process) for process in whole] == ["/robot_state_publisher"]
+        assert whole[0].values["robot_description"][0] == build(cell, distro).urdf(target)
+        assert {process.values["robot_description"][1] for process in publishers} == {"str"}
+
+
+@every_build
+def test_spawners_follow_the_spec_and_leave_alternates_inactive(cell: str, distro: str) -> None:
+    expected: list[list[str]] = []
+    for namespace, manager in written_managers(cell):
+        controllers = manager["controllers"].items()
+        for names, flags in (
+            ([name for name, one in controllers if one.get("active", True)], []),
+            ([name for name, one in controllers if not one.get("active", True)], ["--inactive"]),
+        ):
+            expected += [[*names, "-c", f"{namespace}/controller_manager", *flags]] if names else []
+    assert [list(process.arguments) for process in spawners(cell, distro)] == expected
+    assert spawners(cell, distro, "real") == spawners(cell, distro, "mock")
+
+
+@every_build
+def test_each_manager_hears_the_description_of_its_own_hardware(cell: str, distro: str) -> None:
+    for target in TARGETS:
+        started = processes(cell, distro, target)
+        said = {
+            process.remaps.get("robot_description", f"{process.namespace}/robot_description"): process
+            for process in started
+            if process.executable == "robot_state_publisher"
+        }
+        heard: list[str] = []
+        for manager in (process for process in started if process.executable == "ros2_control_node"):
+            assert manager.name is None  # it would name the nodes of the hardware too
+            topic = manager.remaps.get("robot_description", f"{manager.namespace}/robot_description")
+            assert manager.remaps["~/robot_description"] == topic
+            description = said[topic].values["robot_description"][0]
+            if distro == "humble":
+                assert manager.values["robot_description"] == (description, "str")
+            heard += [tag.attrib["name"] for tag in fromstring(description).findall("ros2_control")]
+        everything = fromstring(build(cell, distro).urdf(target)).findall("ros2_control")
+        assert heard == [tag.attrib["name"] for tag in everything]
+
+
+@every_build
+def test_node_names_differ_and_nothing_that_commands_is_started_again(cell: str, distro: str) -> None:
+    started = processes(cell, distro, "real")
+    names = [node_name(process) for process in started if process.executable != "spawner"]
+    assert len(set(names)) == len(names)
+    assert not [process for process in started if process.respawn]
+
+
+@every_build
+def test_every_parameter_file_is_read_by_a_process(cell: str, distro: str) -> None:
+    texts = build(cell, distro).texts
+    parameters = {path for path, text in texts.items() if path.startswith("config/") and "ros__parameters:" in text}
+    if "move_group" not in SPECS[cell].read_text(encoding="utf-8"):
+        parameters = {path for path in parameters if "moveit/" not in path and "joint_limits" not in path}
+    assert {file for process in processes(cell, distro, "real") for file in process.files} == parameters
+
+
+@every_build
+def test_what_is_launched_or_found_is_a_dependency_and_is_installed(cell: str, distro: str) -> None:
+    texts = build(cell, distro).texts
+    depends = {tag.text for tag in fromstring(texts["package.xml"]).findall("exec_depend")}
+    launch = {process.package for process in processes(cell, distro, "real")}
+    found = {package for text in texts.values() for package in re.findall(r"\$\(find ([^)]+)\)", text)}
+    assert launch | found <= depends
+    installed = set(re.findall(r"^  ([a-z_.]+)$", texts["CMakeLists.txt"], re.MULTILINE))
+    assert {path.split("/")[0] for path in texts if path.startswith(("launch", "config", "urdf"))} <= installed
+
+
+@every_cell
+def test_arguments_are_described(cell: str) -> None:
+    assert all(launched(build(cell, "jazzy"), **CONFIRMED).descriptions.values())

@@ -1,0 +1,84 @@
+"""The emitted policy against what launching starts: who may command, and that nobody is denied what it needs."""
+
+from __future__ import annotations
+
+from xml.etree.ElementTree import Element, fromstring
+
+import pytest
+
+from tests.consumers.matrix import build, every_build
+from tests.consumers.starting import node_name, processes, written_managers
+
+
+def profiles(cell: str, distro: str) -> dict[str, Element]:
+    """Return the profile of every node by its fully qualified name."""
+    policy = fromstring(build(cell, distro).texts["security/policy.xml"])
+    return {f"{one.attrib['ns'].rstrip('/')}/{one.attrib['node']}": one for one in policy.iter("profile")}
+
+
+def granted(profile: Element, plural: str, right: str) -> set[str]:
+    """Return the names that a profile grants for one right."""
+    lists = [one for one in profile.findall(plural) if one.get(right) == "ALLOW"]
+    return {entry.text or "" for one in lists for entry in one}
+
+
+@every_build
+def test_processes_start_in_enclaves_of_the_policy(cell: str, distro: str) -> None:
+    policy = fromstring(build(cell, distro).texts["security/policy.xml"])
+    enclaves = {enclave.attrib["path"]: enclave for enclave in policy.iter("enclave")}
+    for process in processes(cell, distro, "real"):
+        flag, path = process.ros_arguments
+        assert flag == "--enclave"
+        inside = {f"{one.attrib['ns'].rstrip('/')}/{one.attrib['node']}" for one in enclaves[path].iter("profile")}
+        # A spawner calls itself spawner_CONTROLLER after the first one that it is given, in the manager's namespace.
+        first = f"spawner_{process.arguments[0]}" if process.executable == "spawner" else ""
+        assert {name for name in inside if name.endswith(first)} if first else node_name(process) in inside
+
+
+@every_build
+def test_controllers_serve_their_own_actions_alone_and_their_clients_alone_may_call(cell: str, distro: str) -> None:
+    found = profiles(cell, distro)
+    callers: dict[str, set[str]] = {}
+    for name, profile in found.items():
+        for action in granted(profile, "actions", "call"):
+            callers.setdefault(action, set()).add(name)
+    for namespace, manager in written_managers(cell):
+        for controller, written in manager["controllers"].items():
+            node = f"{namespace}/{controller}"
+            served = granted(found[node], "actions", "execute")
+            assert all(action.startswith(f"{node}/") for action in served), node
+            for action in served:
+                assert callers.get(action, set()) == ({f"/{written['client']}"} if "client" in written else set())
+
+
+@every_build
+def test_what_one_node_hears_another_may_say(cell: str, distro: str) -> None:
+    found = profiles(cell, distro)
+    said = {topic for profile in found.values() for topic in granted(profile, "topics", "publish")}
+    for name, profile in found.items():
+        heard = granted(profile, "topics", "subscribe") - {"/clock"}
+        assert heard <= said, name
+
+
+@every_build
+def test_descriptions_and_joint_states_pass(cell: str, distro: str) -> None:
+    found = profiles(cell, distro)
+    for process in (one for one in processes(cell, distro, "mock") if one.executable != "spawner"):
+        may_say = granted(found[node_name(process)], "topics", "publish")
+        may_hear = granted(found[node_name(process)], "topics", "subscribe")
+        if process.executable == "robot_state_publisher":
+            assert f"{process.namespace}/robot_description" in may_say
+            assert {process.remaps.get(topic, topic) for topic in ("/tf", "/tf_static")} <= may_say
+            assert process.remaps.get("joint_states", f"{process.namespace}/joint_states") in may_hear
+        if process.executable == "ros2_control_node":
+            assert process.remaps["~/robot_description"] in may_hear
+        if process.executable == "move_group":
+            assert "/joint_states" in may_hear
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_arm_of_one_side_is_not_commanded_from_the_other(side: str) -> None:
+    other = "right" if side == "left" else "left"
+    profile = profiles("two_arms", "jazzy")[f"/{side}_task"]
+    assert granted(profile, "actions", "call") >= {f"/{side}/gripper_action/gripper_cmd"}
+    assert not [action for action in granted(profile, "actions", "call") if action.startswith(f"/{other}/")]
