@@ -7,7 +7,8 @@ from pathlib import Path
 import click
 
 from cellc.artifact import Artifact
-from cellc.cli.findings import FAIL_ON, FORMAT, finish, show_findings
+from cellc.cli.findings import FAIL_ON, FORMAT, finish, number_hidden, show_findings
+from cellc.cli.selecting import IGNORE, SELECT, read_selection, selected_and_errors
 from cellc.output.compare import Difference, compare
 from cellc.output.write import WriteReport, write
 from cellc.pipeline import Checked, compile_cell, with_findings
@@ -30,16 +31,26 @@ from cellc.report.progress import progress
     "--check", "only_compare", is_flag=True, help="Write nothing; fail where a folder is not what its cell makes."
 )
 @click.option("--force", is_flag=True, help="Discard edits that were made by hand in generated files.")
+@SELECT
+@IGNORE
 @FORMAT
 @FAIL_ON
 def build(
-    files: tuple[str, ...], output: Path, only_compare: bool, force: bool, output_format: str, fail_on: str
+    files: tuple[str, ...],
+    output: Path,
+    only_compare: bool,
+    force: bool,
+    select: tuple[str, ...],
+    ignore: tuple[str, ...],
+    output_format: str,
+    fail_on: str,
 ) -> None:
     """Check each cell in FILES and write its ROS 2 package to OUTPUT/<cell>.
 
     Errors stop a cell from being written. Blockers do not: they refuse the real target, not the mock. Files that you
-    put beside the generated ones stay.
+    put beside the generated ones stay. No option hides an error.
     """
+    wanted = read_selection(select, ignore)
     built: list[Checked] = []
     told: list[str] = []
     differs = False
@@ -57,12 +68,13 @@ def build(
                     checked, report = _written(checked, artifacts, folder, force)
                     told += [] if report is None else [_told(report, folder)]
             built.append(checked)
-    show_findings(built, output_format)
+    shown = [selected_and_errors(one, wanted) for one in built]
+    show_findings(shown, output_format, hidden=number_hidden(built, shown))
     if output_format == "text" and told:
         click.echo("\n".join(told))
     if differs:
         raise click.exceptions.Exit(1)
-    finish(built, fail_on)
+    finish(shown, fail_on)
 
 
 def _compiled(file: str) -> tuple[Checked, tuple[Artifact, ...] | None]:

@@ -4,21 +4,28 @@ from __future__ import annotations
 
 import click
 
-from cellc.cli.findings import FAIL_ON, FORMAT, finish, show_findings
+from cellc.cli.findings import FAIL_ON, FORMAT, finish, number_hidden, show_findings
+from cellc.cli.selecting import IGNORE, SELECT, read_selection, selected
 from cellc.pipeline import check as check_cell
 from cellc.report.progress import progress
 
 
 @click.command()
 @click.argument("files", nargs=-1, required=True, type=click.Path(path_type=str))
+@SELECT
+@IGNORE
 @FORMAT
 @FAIL_ON
-def check(files: tuple[str, ...], output_format: str, fail_on: str) -> None:
+def check(
+    files: tuple[str, ...], select: tuple[str, ...], ignore: tuple[str, ...], output_format: str, fail_on: str
+) -> None:
     """Check each cell in FILES and point at what is wrong."""
+    wanted = read_selection(select, ignore)
     checked = []
     with progress("checking") as update:
         for file in files:
             update(file)
             checked.append(check_cell(file))
-    show_findings(checked, output_format)
-    finish(checked, fail_on)
+    shown = [selected(one, wanted) for one in checked]
+    show_findings(shown, output_format, hidden=number_hidden(checked, shown))
+    finish(shown, fail_on)

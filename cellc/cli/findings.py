@@ -4,21 +4,21 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from pathlib import Path
 
 import click
 
-from cellc.diagnostics import Severity
+from cellc.diagnostics import Diagnostic, Severity
 from cellc.pipeline import Checked
 from cellc.report.colour import wants_colour
-from cellc.report.json_report import render_json
 from cellc.report.summary import summary
 from cellc.report.text_report import render_text
 
 FORMAT = click.option(
     "--format",
     "output_format",
-    type=click.Choice(["text", "json"]),
+    type=click.Choice(["text", "json", "sarif", "github"]),
     default="text",
     show_default=True,
     help="How findings are written.",
@@ -34,16 +34,27 @@ FAIL_ON = click.option(
 _RANK = {Severity.ERROR: 0, Severity.BLOCKER: 1, Severity.WARNING: 2, Severity.AUDIT: 3}
 
 
-def show_findings(checked: Sequence[Checked], output_format: str) -> None:
-    """Write the findings of all cells to standard output."""
-    if output_format == "json":
-        click.echo(render_json([d for one in checked for d in one.diagnostics]), nl=False)
+def show_findings(checked: Sequence[Checked], output_format: str, *, hidden: int = 0) -> None:
+    """Write the findings of all cells to standard output.
+
+    Args:
+        hidden: findings that options left out; people are told how many.
+    """
+    if output_format != "text":
+        click.echo(_renderer(output_format)([d for one in checked for d in one.diagnostics]), nl=False)
         return
     colour = wants_colour(sys.stdout, os.environ)
     for one in checked:
         if one.diagnostics:
             click.echo(render_text(one.diagnostics, one.texts, colour=colour), color=colour)
         click.echo(summary(one.diagnostics, [one.file], colour=colour), color=colour)
+    if hidden:
+        click.echo(f"{hidden} hidden by --select or --ignore")
+
+
+def number_hidden(checked: Sequence[Checked], shown: Sequence[Checked]) -> int:
+    """Return how many findings options left out."""
+    return sum(len(one.diagnostics) for one in checked) - sum(len(one.diagnostics) for one in shown)
 
 
 def finish(checked: Sequence[Checked], fail_on: str) -> None:
@@ -51,3 +62,18 @@ def finish(checked: Sequence[Checked], fail_on: str) -> None:
     limit = _RANK[Severity(fail_on)]
     if any(_RANK[d.severity] <= limit for one in checked for d in one.diagnostics):
         raise click.exceptions.Exit(1)
+
+
+def _renderer(output_format: str) -> Callable[[Sequence[Diagnostic]], str]:
+    """Return the renderer of a format for programs; each is imported only when it is asked for."""
+    if output_format == "json":
+        from cellc.report.json_report import render_json
+
+        return render_json
+    if output_format == "sarif":
+        from cellc.report.sarif_report import render_sarif
+
+        return lambda found: render_sarif(found, Path.cwd())
+    from cellc.report.github_report import render_github
+
+    return lambda found: render_github(found, Path.cwd())

@@ -2,30 +2,14 @@
 
 from __future__ import annotations
 
-from cellc.catalog.codes import CODES as CATALOG_CODES
 from cellc.diagnostics.page import CodePage
-from cellc.link.codes import CODES as LINK_CODES
-from cellc.output.codes import CODES as OUTPUT_CODES
+from cellc.report.families import STAGES
 from cellc.rules.all_rules import ALL_RULES
-from cellc.rules.ignore_codes import CODES as IGNORE_CODES
-from cellc.source.codes import CODES as SOURCE_CODES
-from cellc.spec.codes import CODES as SPEC_CODES
-from cellc.verify.codes import CODES as VERIFY_CODES
-
-STAGES: tuple[tuple[CodePage, ...], ...] = (
-    SOURCE_CODES,
-    SPEC_CODES,
-    CATALOG_CODES,
-    LINK_CODES,
-    IGNORE_CODES,
-    VERIFY_CODES,
-    OUTPUT_CODES,
-)
 
 
 def all_pages() -> dict[str, CodePage]:
     """Return the pages by code, in alphabetical order."""
-    pages = [page for stage in STAGES for page in stage]
+    pages = [page for stage in STAGES.values() for page in stage]
     pages += [CodePage(rule.code, rule.severity, rule.title, _body(rule.page), "") for rule in ALL_RULES]
     return {page.code: page for page in sorted(pages, key=lambda page: page.code)}
 
