@@ -1,0 +1,116 @@
+"""Every emitted XML file against the schema that the project behind its reader publishes."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from xml.etree.ElementTree import Element, fromstring, tostring
+
+import pytest
+import xmlschema
+from lxml import etree  # type: ignore[import-untyped]  # lxml ships no types
+
+from tests.consumers.matrix import ORACLES, build, every_build, needs_oracles
+
+pytestmark = needs_oracles
+
+_SCHEMAS = {
+    "package.xml": "package_format3.xsd",
+    ".urdf": "urdf.xsd",
+    "security/policy.xml": "sros2_policy.xsd",
+    ".fastdds.xml": "fastdds_profiles.xsd",
+    ".cyclonedds.xml": "cyclonedds.xsd",
+}
+# Version 2 of Fast DDS, of Humble and Jazzy, has another namespace than the schema, which is of version 3.
+_FASTDDS_2, _FASTDDS_3 = "http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles", "http://www.eprosima.com"
+_ELSEWHERE = (".launch.xml", ".srdf", ".svg")
+
+
+@lru_cache(maxsize=8)
+def schema(name: str) -> etree.XMLSchema:
+    """Return a schema of version 1.0; what it imports is taken from beside it, never from the network."""
+    file = ORACLES / "xsd" / name
+    text = file.read_bytes().replace(b"http://www.w3.org/2001/03/xml.xsd", b"xml.xsd")
+    parser = etree.XMLParser(no_network=True)
+    return etree.XMLSchema(etree.fromstring(text, parser, base_url=str(file)))
+
+
+@lru_cache(maxsize=1)
+def launch_schema() -> xmlschema.XMLSchema11:
+    """Return the schema of launch files, which needs version 1.1."""
+    return xmlschema.XMLSchema11(ORACLES / "xsd" / "launch.0.1.1.xsd")
+
+
+@lru_cache(maxsize=256)
+def faults(path: str, text: str) -> list[str]:
+    """Return what the schema of a file says of its text."""
+    (name,) = (name for end, name in _SCHEMAS.items() if path.endswith(end))
+    root = fromstring(text.replace(_FASTDDS_2, _FASTDDS_3))
+    for tag in root.findall("ros2_control"):  # outside of the schema of urdfdom
+        root.remove(tag)
+    checked = schema(name)
+    checked.validate(etree.fromstring(tostring(root)))
+    return [str(error) for error in checked.error_log]
+
+
+@lru_cache(maxsize=64)
+def launch_faults(text: str) -> list[str]:
+    """Return what the schema says of a launch file, without what launching knows since and the schema does not."""
+    root = fromstring(text)
+    for action in root.iter():
+        _take_newer_away(action)
+    return [str(error.reason) for error in launch_schema().iter_errors(root)]
+
+
+def _take_newer_away(action: Element) -> None:
+    for choice in action.findall("choice"):
+        assert set(choice.attrib) == {"value"}
+        action.remove(choice)
+    if action.tag == "arg":
+        action.text = None
+    if action.tag == "param":
+        assert action.attrib.pop("type", "str") in {"str", "int", "float", "bool"}
+    if action.tag == "node":
+        assert action.attrib.pop("output", "both") == "both"
+        action.attrib.pop("ros_args", None)
+
+
+@every_build
+def test_xml_is_what_its_readers_declare(cell: str, distro: str) -> None:
+    files = {path: text for path, text in build(cell, distro).texts.items() if path.endswith(("xml", "urdf"))}
+    checked = [path for path in files if not path.endswith(_ELSEWHERE)]
+    assert {"package.xml", "security/policy.xml", f"urdf/{cell}.mock.urdf", f"urdf/{cell}.real.urdf"} <= set(checked)
+    for path in checked:
+        assert faults(path, files[path]) == [], path
+
+
+@every_build
+def test_launch_files_follow_their_grammar(cell: str, distro: str) -> None:
+    for path, text in build(cell, distro).texts.items():
+        if path.endswith(".launch.xml"):
+            assert launch_faults(text) == [], path
+
+
+@pytest.mark.parametrize(
+    ("path", "old", "new"),
+    [
+        ("package.xml", "<license>", "<licence>"),
+        ("urdf/ur5e_pick.mock.urdf", 'type="revolute"', 'type="hinge"'),
+        ("security/policy.xml", 'publish="ALLOW"', 'publish="PERMIT"'),
+        ("middleware/control_pc.fastdds.xml", "<type>UDPv4</type>", "<kind>UDPv4</kind>"),
+    ],
+)
+def test_schemas_see_a_fault(path: str, old: str, new: str) -> None:
+    text = build("ur5e_pick", "jazzy").texts[path]
+    broken = text.replace(old, new).replace(old.replace("<", "</"), new.replace("<", "</"))
+    assert broken != text
+    assert faults(path, broken)
+
+
+def test_schema_of_cyclone_sees_a_fault() -> None:
+    text = build("fr3_hand", "humble").texts["middleware/control_pc.cyclonedds.xml"]
+    assert faults("a.cyclonedds.xml", text.replace("AllowMulticast>", "AllowMulticasts>"))
+
+
+def test_schema_of_launch_files_sees_a_fault() -> None:
+    text = build("ur5e_pick", "jazzy").texts["launch/cell.launch.xml"]
+    assert launch_faults(text.replace(' exec="spawner"', ' execute="spawner"'))
