@@ -1,6 +1,6 @@
 """A topic with positions names no frame.
 
-Poses, points and images are in some frame. If the spec does not say which, nobody can check that the reader
+Poses, points and clouds are in some frame. If the spec does not say which, nobody can check that the reader
 transforms from the right one.
 
 Example that is reported:
@@ -39,12 +39,13 @@ from cellc.rules.finding import found
 
 def check(graph: CellGraph) -> Iterator[Finding]:
     """Yield topics of the spec that carry positions and can move something, without a frame."""
-    known = interface_types()
     for interface in graph.cell.interfaces:
-        facts = known.get(interface.type)
         if interface.kind is not InterfaceKind.TOPIC or interface.derived or interface.frame is not None:
             continue
-        if facts is not None and facts.feeds_motion and (facts.unit or "").startswith("m"):
+        facts = interface_types().get(interface.type)
+        if facts is None or not (facts.unit or "").startswith("m"):
+            continue
+        if facts.feeds_motion or interface.name in graph.data.feeding_motion():
             message = f"`{interface.name}` carries `{interface.type}` but names no frame"
             yield found(graph, interface.path, message, "add `frame:`")
 

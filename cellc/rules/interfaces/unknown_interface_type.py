@@ -63,4 +63,10 @@ def _alike(known: str, written: str) -> bool:
     return word.isalpha() and SequenceMatcher(None, word, other).ratio() >= _ALIKE
 
 
-RULE = define("unknown-interface-type", Severity.ERROR, check, __doc__, assumes=("interface-kind-mismatch",))
+RULE = define(
+    "unknown-interface-type",
+    Severity.ERROR,
+    check,
+    __doc__,
+    assumes=("interface-kind-mismatch", "malformed-interface-type"),
+)
