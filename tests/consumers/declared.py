@@ -156,3 +156,10 @@ def _accepted(name: str, value: Any, said: Any) -> bool:
         "joint_trajectory_controller::state_interface_type_combinations": lambda: bool(set(value) in _STATES),
     }
     return checks[name]()
+
+
+@lru_cache(maxsize=8)
+def known_plugins(distro: str) -> set[str]:
+    """Return the controller types of a distribution whose declarations are known here."""
+    folder = ORACLES / "parameters" / distro
+    return {plugin for plugin, file in _FILES.items() if (folder / f"{file}_parameters.yaml").is_file()}

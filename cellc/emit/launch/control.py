@@ -13,9 +13,10 @@ from xml.etree.ElementTree import Element
 from cellc.cell.cell import Cell
 from cellc.cell.control import ControllerManager
 from cellc.emit.launch.elements import description_parameter, enclave, remap
-from cellc.emit.launch.substitutions import TARGET, share
+from cellc.emit.launch.substitutions import ON_REAL, TARGET, share
 from cellc.formats.enclaves import manager_enclave, spawner_enclave
 from cellc.formats.package_files import controllers_file, manager_description_file
+from cellc.formats.spawning import spawnings
 from cellc.formats.xml_text import element
 
 _TOPIC = "robot_description"
@@ -95,19 +96,16 @@ def _manager(cell: Cell, manager: ControllerManager, topic: str) -> Element:
 
 
 def _spawners(cell: Cell, manager: ControllerManager) -> Iterator[Element]:
-    """Yield one spawner for the active controllers, in order, and one for their alternates, which stay inactive."""
-    active = [controller.name for controller in manager.controllers if controller.active]
-    inactive = [controller.name for controller in manager.controllers if not controller.active]
-    for names, flags in ((active, []), (inactive, ["--inactive"])):
-        if names:
-            arguments = [*names, "-c", f"{manager.namespace}/controller_manager", *flags]
-            yield element(
-                "node",
-                {
-                    "pkg": "controller_manager",
-                    "exec": "spawner",
-                    "args": " ".join(arguments),
-                    "output": "both",
-                    **enclave(spawner_enclave(cell, manager)),
-                },
-            )
+    for one in spawnings(cell, manager):
+        flags = ["--inactive"] if one.inactive else []
+        yield element(
+            "node",
+            {
+                "pkg": "controller_manager",
+                "exec": "spawner",
+                "args": " ".join([*one.controllers, "-c", f"{manager.namespace}/controller_manager", *flags]),
+                "output": "both",
+                **enclave(spawner_enclave(cell, manager)),
+                **({"unless": ON_REAL} if one.mock_alone else {}),
+            },
+        )

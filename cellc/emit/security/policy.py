@@ -20,6 +20,7 @@ from cellc.emit.security.rights import common_profile, manager_client, manager_p
 from cellc.emit.security.several_managers import description_publisher, joint_state_merger
 from cellc.formats.enclaves import enclave_of, manager_enclave, spawner_enclave
 from cellc.formats.header import Header
+from cellc.formats.spawning import spawnings
 from cellc.formats.xml_text import element, render
 from cellc.graph.cell_graph import CellGraph
 
@@ -38,7 +39,7 @@ def _enclaves(cell: Cell) -> Iterator[Element]:
             yield _enclave(enclave_of(cell, node), [node_profile(cell, node)])
     for manager in cell.managers:
         yield _enclave(manager_enclave(cell, manager), manager_process(cell, manager))
-        yield _enclave(spawner_enclave(cell, manager), _spawners(manager))
+        yield _enclave(spawner_enclave(cell, manager), _spawners(cell, manager))
     if len(cell.managers) > 1:
         common = common_profile(cell)
         publishers = (description_publisher(manager, common) for manager in cell.managers)
@@ -46,12 +47,10 @@ def _enclaves(cell: Cell) -> Iterator[Element]:
             yield _enclave(f"/{cell.name}{profile.namespace}/{profile.node}", [profile])
 
 
-def _spawners(manager: ControllerManager) -> Iterator[Profile]:
+def _spawners(cell: Cell, manager: ControllerManager) -> Iterator[Profile]:
     # The spawner names itself after its first controller.
-    for active in (True, False):
-        first = next((controller.name for controller in manager.controllers if controller.active is active), None)
-        if first is not None:
-            yield manager_client(manager, f"spawner_{first}")
+    for one in spawnings(cell, manager):
+        yield manager_client(manager, f"spawner_{one.controllers[0]}")
 
 
 def _enclave(path: str, profiles: Iterator[Profile] | list[Profile]) -> Element:
