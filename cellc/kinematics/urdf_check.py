@@ -53,6 +53,10 @@ def _check_joint(joint: ElementTree.Element, links: list[str]) -> None:
             raise ModelError(f"joint `{name}` has the {end} link `{link}`, which does not exist")
     if kind in ("revolute", "prismatic") and joint.find("limit") is None:
         raise ModelError(f"joint `{name}` is {kind} and has no limit")
+    limit = joint.find("limit")
+    for value in ("effort", "velocity"):
+        if limit is not None and limit.get(value) is None:
+            raise ModelError(f"the limit of joint `{name}` states no {value}")
 
 
 def _check_tree(joints: list[ElementTree.Element], links: list[str]) -> None:

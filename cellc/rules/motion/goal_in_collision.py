@@ -1,0 +1,49 @@
+"""At a goal the robot touches something.
+
+Joint positions for the goal exist, but in none of them is the robot free: a link, the tool or the scene is in the way.
+The planner refuses the goal.
+
+Example that is reported:
+
+```yaml
+scene:
+  crate: {parent: fixture_A, xyz: 0 0 100 mm, box: 200 200 200 mm}
+```
+
+Example that is accepted:
+
+```yaml
+scene:
+  crate: {parent: fixture_A, xyz: 0 0 -100 mm, box: 200 200 150 mm}
+```
+
+Fix: correct place and size of the box, or raise the goal above it.
+
+Source: inverse kinematics from 24 configurations, with the gripper where the cell begins; a part in the gripper is
+not counted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.geometry import motion_answer
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+from cellc.rules.sound_model import KNOWN_GOALS
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield goals whose every solution is in collision, with what touches in the one nearest to the start."""
+    paths = {goal.name: goal.path for goal in graph.cell.goals}
+    for goal in motion_answer(graph).goals:
+        if goal.failure == "goal_in_collision":
+            message = f"at goal `{goal.name}` {goal.detail}"
+            help_text = "correct place and size of what is in the way, or move the goal"
+            yield found(graph, (*paths[goal.name], "frame"), message, help_text)
+
+
+RULE = define("goal-in-collision", Severity.ERROR, check, __doc__, assumes=KNOWN_GOALS)

@@ -1,0 +1,54 @@
+"""A goal puts a joint next to its limit.
+
+A little farther and the goal has no solution, or the arm has to turn all the way round to the other one. Where a part
+lies a few millimetres aside, or the calibration is measured anew, the motion fails.
+
+Example that is reported:
+
+```yaml
+motion:
+  poses: {home: {manipulator: 350 -90 90 -90 -90 0 deg}}
+```
+
+Example that is accepted:
+
+```yaml
+motion:
+  poses: {home: {manipulator: 0 -90 90 -90 -90 0 deg}}
+```
+
+Fix: begin nearer to the middle of the joint's range, or move the goal.
+
+Source: position limits of the cell, in the configuration nearest to where the cell begins; 2 % of the range are asked
+for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.geometry import motion_answer
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+from cellc.rules.sound_model import KNOWN_GOALS
+
+_LEAST_SHARE = 0.02
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield goals that leave one joint less than its share of room."""
+    paths = {goal.name: goal.path for goal in graph.cell.goals}
+    for goal in motion_answer(graph).goals:
+        if goal.limit_joint and goal.limit_share < _LEAST_SHARE:
+            message = (
+                f"goal `{goal.name}` leaves `{goal.limit_joint}` {goal.limit_distance:.2g} from its limit, "
+                f"{goal.limit_share:.1%} of its range where {_LEAST_SHARE:.0%} are asked for"
+            )
+            help_text = "begin nearer to the middle of the joint's range, or move the goal"
+            yield found(graph, (*paths[goal.name], "frame"), message, help_text)
+
+
+RULE = define("goal-near-joint-limit", Severity.WARNING, check, __doc__, assumes=KNOWN_GOALS)

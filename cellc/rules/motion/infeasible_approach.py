@@ -1,0 +1,48 @@
+"""No straight line leads to a goal.
+
+The goal itself can be reached, its approach cannot: the pose before it is out of reach, something is in the way, or the
+arm would have to change its posture on the line.
+
+Example that is reported:
+
+```yaml
+motion:
+  goals: {place: {frame: fixture_A, rpy: 180 0 0 deg, approach: 0 0 -900 mm}}
+```
+
+Example that is accepted:
+
+```yaml
+motion:
+  goals: {place: {frame: fixture_A, rpy: 180 0 0 deg, approach: 0 0 -100 mm}}
+```
+
+Fix: shorten or turn the approach; it is given in the tip's own axes.
+
+Source: four configurations before the goal, from each the line in steps of 5 mm with inverse kinematics and collision
+check: what the mock tries.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.geometry import motion_answer
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+from cellc.rules.sound_model import KNOWN_GOALS
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield goals that are reached, but not along their approach."""
+    paths = {goal.name: goal.path for goal in graph.cell.goals}
+    for goal in motion_answer(graph).goals:
+        if goal.approach_failure:
+            message = f"no straight line leads to goal `{goal.name}`: {goal.approach_failure}"
+            yield found(graph, (*paths[goal.name], "approach"), message, "shorten or turn the approach")
+
+
+RULE = define("infeasible-approach", Severity.ERROR, check, __doc__, assumes=KNOWN_GOALS)

@@ -1,0 +1,55 @@
+"""A goal lies near a singularity.
+
+The arm gets there, but slowly: what the tip moves in the lost direction a joint has to move many times over, and small
+errors of calibration become large motions of a joint.
+
+Example that is reported:
+
+```yaml
+frames:
+  edge: {parent: world, xyz: 806 100 850 mm, designed: true}
+motion:
+  goals: {fetch: {frame: edge, rpy: 180 0 0 deg}}
+```
+
+Example that is accepted:
+
+```yaml
+frames:
+  edge: {parent: world, xyz: 700 100 850 mm, designed: true}
+motion:
+  goals: {fetch: {frame: edge, rpy: 180 0 0 deg}}
+```
+
+Fix: move the frame or the robot, or turn the goal.
+
+Source: least singular value of the tip's Jacobian, rows in m and rad, in the configuration nearest to where the cell
+begins. At 0.05 a tip at 100 mm/s asks for 2 rad/s.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.geometry import motion_answer
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+from cellc.rules.sound_model import KNOWN_GOALS
+
+_LEAST = 0.05
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield goals below the least singular value that leaves room."""
+    paths = {goal.name: goal.path for goal in graph.cell.goals}
+    for goal in motion_answer(graph).goals:
+        least = goal.min_singular_value
+        if least is not None and least < _LEAST:
+            message = f"at goal `{goal.name}` the least singular value is {least:.2g}, from {_LEAST:g} on there is room"
+            yield found(graph, (*paths[goal.name], "frame"), message, "move the frame or the robot, or turn the goal")
+
+
+RULE = define("near-singular-goal", Severity.WARNING, check, __doc__, assumes=KNOWN_GOALS)

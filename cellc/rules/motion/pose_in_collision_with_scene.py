@@ -1,0 +1,54 @@
+"""A named pose puts the robot into something of the scene.
+
+A link and a declared solid thing are at one place. The planner refuses the pose, or the scene is not where it was
+declared and the next plan goes through the real thing.
+
+Example that is reported:
+
+```yaml
+scene:
+  table: {parent: world, xyz: 350 0 700 mm, box: 900 1200 40 mm}
+motion:
+  poses: {low: {manipulator: 0 40 0 -90 -90 0 deg}}
+```
+
+Example that is accepted:
+
+```yaml
+scene:
+  table: {parent: world, xyz: 350 0 700 mm, box: 900 1200 40 mm}
+motion:
+  poses: {low: {manipulator: 0 0 0 -90 -90 0 deg}}
+```
+
+Fix: change the pose, or correct place and size of the box.
+
+Source: shapes of the descriptions and boxes of `scene`, checked with all groups of the pose in place and every other
+joint where the cell begins.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.geometry import motion_answer
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.contacts import named, with_scene
+from cellc.rules.define import define
+from cellc.rules.finding import found
+from cellc.rules.sound_model import KNOWN_POSES
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield each pose in which a link touches a box of the scene."""
+    paths = {pose.name: pose.path for pose in reversed(graph.cell.poses)}
+    for pose in motion_answer(graph).poses:
+        contacts = with_scene(graph, pose.contacts)
+        if contacts:
+            message = f"in pose `{pose.name}` {named(contacts)}"
+            yield found(graph, paths[pose.name], message, "change the pose, or correct place and size of the box")
+
+
+RULE = define("pose-in-collision-with-scene", Severity.ERROR, check, __doc__, assumes=KNOWN_POSES)

@@ -1,0 +1,50 @@
+"""A named pose lets the robot touch itself.
+
+Two links that are no neighbours touch in this pose, so no planner goes there, and a controller that is commanded there
+presses the arm against itself. A digit too many in an elbow is enough, and joint limits alone do not notice.
+
+Example that is reported:
+
+```yaml
+motion:
+  poses: {folded: {manipulator: 0 -90 170 -90 -90 0 deg}}
+```
+
+Example that is accepted:
+
+```yaml
+motion:
+  poses: {folded: {manipulator: 0 -90 130 -90 -90 0 deg}}
+```
+
+Fix: change the pose until the named links are apart.
+
+Source: shapes of the descriptions, checked with all groups of the pose in place and every other joint where the cell
+begins; pairs that MoveIt does not check are not checked here either.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.geometry import motion_answer
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.contacts import named, within_robot
+from cellc.rules.define import define
+from cellc.rules.finding import found
+from cellc.rules.sound_model import KNOWN_POSES
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield each pose in which links touch links."""
+    paths = {pose.name: pose.path for pose in reversed(graph.cell.poses)}
+    for pose in motion_answer(graph).poses:
+        contacts = within_robot(graph, pose.contacts)
+        if contacts:
+            message = f"in pose `{pose.name}` {named(contacts)}"
+            yield found(graph, paths[pose.name], message, "change the joint positions until the links are apart")
+
+
+RULE = define("pose-in-self-collision", Severity.ERROR, check, __doc__, assumes=KNOWN_POSES)

@@ -1,0 +1,52 @@
+"""A goal is reached in a singularity alone.
+
+In every configuration that puts the tip there the arm has lost a direction: it is stretched out, or two axes are in
+line. A straight motion would ask a joint for a speed without bound, and the controller stops.
+
+Example that is reported:
+
+```yaml
+frames:
+  edge: {parent: world, xyz: 813.75 100 850 mm, designed: true}
+motion:
+  goals: {fetch: {frame: edge, rpy: 180 0 0 deg}}
+```
+
+Example that is accepted:
+
+```yaml
+frames:
+  edge: {parent: world, xyz: 700 100 850 mm, designed: true}
+motion:
+  goals: {fetch: {frame: edge, rpy: 180 0 0 deg}}
+```
+
+Fix: move the frame or the robot, or turn the goal.
+
+Source: least singular value of the tip's Jacobian, rows in m and rad, below 0.005: the planner of the mock refuses
+the same.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.geometry import motion_answer
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+from cellc.rules.sound_model import KNOWN_GOALS
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield goals whose every solution is singular."""
+    paths = {goal.name: goal.path for goal in graph.cell.goals}
+    for goal in motion_answer(graph).goals:
+        if goal.failure == "singular":
+            message = f"goal `{goal.name}` is reached in a singularity alone: {goal.detail}"
+            yield found(graph, (*paths[goal.name], "frame"), message, "move the frame or the robot, or turn the goal")
+
+
+RULE = define("singular-goal", Severity.ERROR, check, __doc__, assumes=KNOWN_GOALS)

@@ -1,0 +1,53 @@
+"""The cell begins in a collision.
+
+Without a pose `home` every joint begins at the home of its device, or at zero. There something touches, so that no
+planner finds a first motion and every rehearsal ends before it moves.
+
+Example that is reported:
+
+```yaml
+scene:
+  wall: {parent: world, xyz: 700 100 1000 mm, box: 100 1000 400 mm}
+motion:
+  poses: {home: null, ready: {manipulator: 0 -90 90 -90 -90 0 deg}}
+rehearsals:
+  pick_and_place: {steps: [move: ready]}
+```
+
+Example that is accepted:
+
+```yaml
+scene:
+  wall: {parent: world, xyz: 700 100 1000 mm, box: 100 1000 400 mm}
+motion:
+  poses: {home: {manipulator: 0 -90 90 -90 -90 0 deg}, ready: {manipulator: 0 -90 90 -90 -90 0 deg}}
+```
+
+Fix: declare a pose `home` of all groups that is free of collision.
+
+Source: where a mock begins: the pose `home`, else the home of the catalogue, else zero.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.geometry import motion_answer
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.contacts import named
+from cellc.rules.define import define
+from cellc.rules.finding import found
+from cellc.rules.sound_model import KNOWN_POSES
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield a start in which something touches, where no pose `home` says so already."""
+    contacts = motion_answer(graph).start
+    if contacts and all(pose.name != "home" for pose in graph.cell.poses):
+        message = f"where the cell begins {named(contacts)}"
+        yield found(graph, ("motion", "poses"), message, "declare a pose `home` that is free of collision")
+
+
+RULE = define("start-in-collision", Severity.WARNING, check, __doc__, assumes=KNOWN_POSES)

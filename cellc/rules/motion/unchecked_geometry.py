@@ -1,0 +1,48 @@
+"""Shapes cannot be read, so that nothing is known of collisions.
+
+The kinematics refuses the robot description, most often because it names a mesh that is not here. Poses and goals are
+then not checked, the semantic description lists neighbours alone, and the mock does not plan.
+
+Example that is reported:
+
+```xml
+<link name="tool">
+  <collision><geometry><mesh filename="package://nowhere/tool.stl"/></geometry></collision>
+</link>
+```
+
+Example that is accepted:
+
+```xml
+<link name="tool">
+  <collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision>
+</link>
+```
+
+Fix: give collision shapes as boxes, cylinders and spheres.
+
+Source: what pinocchio reads of the generated description.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.geometry import motion_answer
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+from cellc.rules.sound_model import SOUND_MODEL
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield the reason for which the description is refused."""
+    refused = motion_answer(graph).refused
+    if refused:
+        message = f"poses and goals are not checked: {refused}"
+        yield found(graph, ("motion", "groups"), message, "give collision shapes as boxes, cylinders and spheres")
+
+
+RULE = define("unchecked-geometry", Severity.WARNING, check, __doc__, assumes=SOUND_MODEL)

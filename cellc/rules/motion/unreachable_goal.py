@@ -1,0 +1,52 @@
+"""No joint positions put the tip at a goal.
+
+The place is near enough, but not in this orientation, or only outside the joint limits. The planner says so when the
+part already lies there.
+
+Example that is reported:
+
+```yaml
+frames:
+  edge: {parent: world, xyz: 820 100 850 mm, designed: true}
+motion:
+  goals: {fetch: {frame: edge, rpy: 180 0 0 deg}}
+```
+
+Example that is accepted:
+
+```yaml
+frames:
+  edge: {parent: world, xyz: 700 100 850 mm, designed: true}
+motion:
+  goals: {fetch: {frame: edge, rpy: 180 0 0 deg}}
+```
+
+Fix: move the frame or the robot, or turn the goal: the tip's z points into the part.
+
+Source: inverse kinematics from 24 configurations, the first of which is where the cell begins. A search proves that a
+goal can be reached, and makes it likely that one cannot.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.geometry import motion_answer
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+from cellc.rules.sound_model import KNOWN_GOALS
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield goals for which the search ended away from the target."""
+    paths = {goal.name: goal.path for goal in graph.cell.goals}
+    for goal in motion_answer(graph).goals:
+        if goal.failure in ("no_ik_solution", "out_of_limits"):
+            message = f"no joint positions were found for goal `{goal.name}`: {goal.detail}"
+            yield found(graph, (*paths[goal.name], "frame"), message, "move the frame or the robot, or turn the goal")
+
+
+RULE = define("unreachable-goal", Severity.ERROR, check, __doc__, assumes=KNOWN_GOALS)
