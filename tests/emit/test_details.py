@@ -100,6 +100,7 @@ def test_package_depends_on_what_it_starts_and_loads() -> None:
         "robot_state_publisher",
         "robotiq_driver",
         "ros2launch",
+        "ur_client_library",
         "ur_controllers",
         "ur_robot_driver",
         "xacro",
