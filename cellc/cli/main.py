@@ -17,6 +17,7 @@ _COMMANDS = {
     "build": "Check cells and write their artifacts.",
     "check": "Find what is wrong before anything moves.",
     "completion": "Print the completion script of a shell.",
+    "diagnose": "Tell what a symptom may mean, and what to look at.",
     "explain": "Explain a diagnostic code.",
     "init": "Write a new cell from device names.",
     "mock": "Execute the rehearsals of a generated folder.",

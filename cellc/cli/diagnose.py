@@ -1,0 +1,46 @@
+"""``cellc diagnose``: what a symptom may mean in this cell, and what to look at."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+import click
+
+from cellc.cell.cell import Cell
+from cellc.cli.findings import show_findings
+from cellc.report.colour import wants_colour
+
+
+@click.command()
+@click.argument("symptom")
+@click.argument("file", required=False, type=click.Path(path_type=str))
+def diagnose(symptom: str, file: str | None) -> None:
+    """Classify SYMPTOM, words or a log line, and tell which read-only observation rules each cause out.
+
+    With FILE, a cell spec, the commands name its own controllers, topics and frames. Nothing is executed, and nothing
+    that is told bypasses a protection. Exit code 1 where no known symptom fits.
+    """
+    from cellc.report.diagnosis_text import render_suspicions
+    from cellc.symptoms.diagnose import diagnose as suspicions_of
+    from cellc.symptoms.load import knowledge
+
+    suspicions = suspicions_of(symptom, _cell(file))
+    if not suspicions:
+        layers = ", ".join(layer.title for layer in knowledge())
+        click.echo(f"UNKNOWN: no known symptom fits; rule out in this order: {layers}")
+        raise click.exceptions.Exit(1)
+    colour = wants_colour(sys.stdout, os.environ)
+    click.echo(render_suspicions(suspicions, colour=colour), nl=False, color=colour)
+
+
+def _cell(file: str | None) -> Cell | None:
+    if file is None:
+        return None
+    from cellc.pipeline import check
+
+    checked = check(file)
+    if checked.graph is None:
+        show_findings([checked], "text")
+        raise click.exceptions.Exit(1)
+    return checked.graph.cell

@@ -1,0 +1,183 @@
+"""What observations are made of: the topics, controllers, frames and devices of a cell, as texts for commands."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from typing import Literal
+
+from cellc.cell.cell import Cell
+from cellc.cell.control import Controller, ControllerManager
+from cellc.cell.device import Device
+from cellc.cell.frame import Frame, FrameKind
+from cellc.cell.interface import Endpoint, Interface, InterfaceKind
+from cellc.formats.numbers import shortest
+
+Scope = Literal["cell", "topic", "action", "controller", "manager", "frame", "node", "lifecycle_node", "device"]
+Subject = Mapping[str, str]
+"""Field → text; the first field is the subject's name."""
+
+FIELDS: dict[Scope, tuple[str, ...]] = {
+    "cell": ("cell", "domain_id", "rmw", "discovery", "tf_publishers", "stop_authority", "observer"),
+    "topic": ("topic", "type", "publishers", "qos", "rate", "max_age"),
+    "action": ("action", "server", "client"),
+    "controller": ("controller", "node", "manager", "plugin", "joints", "claims", "path_tolerance"),
+    "manager": ("manager", "namespace", "rate", "components"),
+    "frame": ("frame", "parent", "authority", "calibration"),
+    "node": ("node",),
+    "lifecycle_node": ("node",),
+    "device": ("device", "address", "modes", "states", "firmware", "driver", "payload"),
+}
+"""Which fields an observation of each scope may name."""
+
+_NOT_STATED = "not stated"
+
+
+def subjects(cell: Cell | None, scope: Scope) -> tuple[Subject, ...]:
+    """Return what a scope stands for in a cell, in its order; without a cell one subject of placeholders."""
+    if cell is None:
+        return ({field: f"<{field}>" for field in FIELDS[scope]},)
+    rows = _ROWS[scope](cell)
+    return tuple(dict(zip(FIELDS[scope], row, strict=True)) for row in rows)
+
+
+Rows = list[tuple[str, ...]]
+
+
+def _cell(cell: Cell) -> Rows:
+    network, safety = cell.spec.network, cell.spec.safety
+    publishers = dict.fromkeys(frame.authority for frame in cell.frames if frame.kind is FrameKind.DYNAMIC)
+    return [
+        (
+            cell.name,
+            str(network.domain_id),
+            str(cell.spec.versions.rmw).split(" ")[0],
+            network.discovery,
+            ", ".join(["robot_state_publisher", *publishers]),
+            safety.stop.authority,
+            safety.recovery.observer,
+        )
+    ]
+
+
+def _topics(cell: Cell) -> Rows:
+    return [_topic(one) for one in cell.interfaces if one.kind is InterfaceKind.TOPIC]
+
+
+def _topic(topic: Interface) -> tuple[str, ...]:
+    ends = [_qos("from", end) for end in topic.sources] + [_qos("to", end) for end in topic.sinks]
+    return (
+        topic.name,
+        topic.type,
+        _list(end.node for end in topic.sources),
+        "; ".join(ends) or _NOT_STATED,
+        _NOT_STATED if topic.rate_hz is None else f"{shortest(topic.rate_hz)} Hz",
+        _NOT_STATED if topic.max_age_s is None else f"{shortest(topic.max_age_s)} s",
+    )
+
+
+def _qos(way: str, end: Endpoint) -> str:
+    kept = f"last {end.qos.depth}" if end.qos.history == "keep_last" else "all"
+    return f"{way} {end.node} {end.qos.reliability}, {end.qos.durability}, {kept}"
+
+
+def _actions(cell: Cell) -> Rows:
+    rows: Rows = [
+        (one.name, _list(end.node for end in one.sources), _list(end.node for end in one.sinks))
+        for one in cell.interfaces
+        if one.kind is InterfaceKind.ACTION
+    ]
+    known = {row[0] for row in rows}
+    rows += [
+        (one.action, one.name, one.client or "none")
+        for one in cell.controllers
+        if one.action is not None and one.action not in known
+    ]
+    return rows
+
+
+def _controllers(cell: Cell) -> Rows:
+    return [_controller(one, manager) for manager in cell.managers for one in manager.controllers if one.joints]
+
+
+def _controller(controller: Controller, manager: ControllerManager) -> tuple[str, ...]:
+    tolerance = controller.path_tolerance
+    return (
+        controller.name,
+        f"{manager.namespace}/{controller.name}",
+        _manager_node(manager),
+        controller.plugin,
+        _list(controller.joints),
+        _list(controller.command_interfaces),
+        _NOT_STATED if tolerance is None else shortest(tolerance),
+    )
+
+
+def _managers(cell: Cell) -> Rows:
+    hardware = {one.name: one.hardware.name for one in cell.devices if one.hardware is not None}
+    return [
+        (
+            _manager_node(one),
+            one.namespace,
+            shortest(one.update_rate_hz),
+            _list(hardware[name] for name in one.devices if name in hardware),
+        )
+        for one in cell.managers
+    ]
+
+
+def _manager_node(manager: ControllerManager) -> str:
+    return f"{manager.namespace}/controller_manager"
+
+
+def _frames(cell: Cell) -> Rows:
+    # Links inside a device are its description's business; what the cell places or publishes is what goes wrong.
+    wanted = (FrameKind.DYNAMIC, FrameKind.FIXED, FrameKind.MOUNT)
+    return [_frame(one) for one in cell.frames if one.kind in wanted]
+
+
+def _frame(frame: Frame) -> tuple[str, ...]:
+    return (frame.name, frame.parent, frame.authority, frame.calibration or "none")
+
+
+def _nodes(cell: Cell) -> Rows:
+    return [(one.full_name,) for one in cell.nodes]
+
+
+def _lifecycle_nodes(cell: Cell) -> Rows:
+    return [(one.full_name,) for one in cell.nodes if one.lifecycle]
+
+
+def _devices(cell: Cell) -> Rows:
+    return [_device(one) for one in cell.devices]
+
+
+def _device(device: Device) -> tuple[str, ...]:
+    connection, payload, safety = device.spec.connection, device.spec.payload, device.facts.safety
+    address = _NOT_STATED if connection is None else connection.address or connection.port or _NOT_STATED
+    load = "" if payload is None else f"{payload.mass.text}, centre of mass {payload.center_of_mass.text}"
+    return (
+        device.name,
+        address,
+        _list(() if safety is None else safety.modes),
+        _list(() if safety is None else (state.name for state in safety.states)),
+        str(device.spec.firmware),
+        str(device.spec.driver),
+        load or _NOT_STATED,
+    )
+
+
+def _list(names: Iterable[str]) -> str:
+    return ", ".join(names) or _NOT_STATED
+
+
+_ROWS: dict[Scope, Callable[[Cell], Rows]] = {
+    "cell": _cell,
+    "topic": _topics,
+    "action": _actions,
+    "controller": _controllers,
+    "manager": _managers,
+    "frame": _frames,
+    "node": _nodes,
+    "lifecycle_node": _lifecycle_nodes,
+    "device": _devices,
+}
