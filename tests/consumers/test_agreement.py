@@ -1,0 +1,231 @@
+"""What is written in several emitted files is the same in all of them, and is what the spec says."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+import subprocess
+from typing import Any
+from xml.etree.ElementTree import fromstring
+
+import pytest
+import yaml
+
+from tests.consumers.matrix import build, every_build, spec_for
+from tests.consumers.parameter_files import sections, told
+from tests.consumers.starting import node_name, processes, written, written_managers
+
+_RELIABILITY, _DURABILITY = {"reliable", "best_effort"}, {"volatile", "transient_local"}
+_LEGAL = {
+    "reliability": _RELIABILITY,
+    "durability": _DURABILITY,
+    "history": {"keep_last", "keep_all"},
+    "liveliness": {"automatic", "manual_by_topic"},
+}
+# What the drivers declare: ur_control.launch.py, rs_launch.py, franka_gripper's gripper.launch.py.
+_OF_DRIVERS = {
+    "dashboard_client": {"robot_ip"},
+    "robot_state_helper": {"robot_ip", "headless_mode"},
+    "franka_gripper_node": {"robot_ip", "joint_names"},
+    "realsense2_camera_node": {
+        *("camera_name", "base_frame_id", "tf_prefix", "publish_tf"),
+        *(f"enable_{stream}" for stream in ("color", "depth", "infra1", "infra2", "gyro", "accel")),
+        *("rgb_camera.color_profile", "depth_module.depth_profile", "pointcloud.enable", "align_depth.enable"),
+    },
+}
+
+
+def contract(cell: str, distro: str) -> Any:
+    """Return the contract as plain data."""
+    return json.loads(build(cell, distro).texts["contract.json"])
+
+
+@every_build
+def test_frames_are_where_the_description_has_them(cell: str, distro: str) -> None:
+    texts = build(cell, distro).texts
+    frames, promised = yaml.safe_load(texts["config/frames.yaml"])["frames"], contract(cell, distro)["frames"]
+    robot = fromstring(build(cell, distro).urdf("real"))
+    above = {tag.attrib["link"]: joint for joint in robot.findall("joint") for tag in joint.findall("child")}
+    assert set(frames) == set(promised)
+    assert {link.attrib["name"] for link in robot.findall("link")} == {
+        name for name, frame in frames.items() if frame["authority"] == "robot_state_publisher"
+    }
+    for name, frame in frames.items():
+        assert (frame.get("parent", ""), frame["kind"]) == (promised[name]["parent"], promised[name]["kind"])
+        assert frame["authority"] == promised[name]["authority"]
+        if name in above:
+            origin, parent = above[name].find("origin"), above[name].find("parent")
+            assert parent is not None
+            assert frame["parent"] == parent.attrib["link"]
+            for key in ("xyz", "rpy"):
+                stated = "0 0 0" if origin is None else origin.get(key, "0 0 0")
+                assert frame[key] == pytest.approx([float(part) for part in stated.split()], abs=1e-9)
+            pose = promised[name]["pose"]  # of what moves the mock asks the description
+            assert pose is None or pose["xyz"] == pytest.approx(frame["xyz"], abs=1e-9)
+
+
+@every_build
+def test_contract_has_the_limits_of_the_description(cell: str, distro: str) -> None:
+    robot = fromstring(build(cell, distro).urdf("real"))
+    limits = {joint.attrib["name"]: joint.find("limit") for joint in robot.findall("joint")}
+    for joint, promised in contract(cell, distro)["joint_limits"].items():
+        limit = limits[joint]
+        assert limit is not None
+        for key, name in (("lower", "lower"), ("upper", "upper"), ("velocity", "velocity")):
+            assert promised[name] == pytest.approx(float(limit.attrib[key]), abs=1e-12), joint
+
+
+@every_build
+def test_contract_has_the_controllers_of_the_parameter_files(cell: str, distro: str) -> None:
+    texts, promised = build(cell, distro).texts, contract(cell, distro)["managers"]
+    loops = [one for one in processes(cell, distro, "mock") if one.executable == "ros2_control_node"]
+    for process, manager in zip(loops, promised.values(), strict=True):
+        values = told(texts, process.files, node_name(process))
+        assert (values["update_rate"], process.namespace) == (manager["update_rate_hz"], manager["namespace"])
+        types = {key.removesuffix(".type"): plugin for key, plugin in values.items() if key.endswith(".type")}
+        assert types == {name: one["plugin"] for name, one in manager["controllers"].items()}
+        for name, one in manager["controllers"].items():
+            own = told(texts, process.files, f"{process.namespace}/{name}")
+            joints = own.get("joints", [own["joint"]] if "joint" in own else [])
+            assert joints == one["joints"] or one["behaviour"] == "joint_state_broadcaster", name
+            if "command_interfaces" in own:
+                kinds = own["command_interfaces"]
+                assert one["command_interfaces"] == [f"{joint}/{kind}" for joint in joints for kind in kinds]
+
+
+def _si(text: str) -> float:
+    number, unit = text.split()
+    return float(number) * {"s": 1.0, "ms": 1e-3, "rad": 1.0, "mm": 1e-3, "m": 1.0, "deg": 0.017453292519943295}[unit]
+
+
+@every_build
+def test_tolerances_are_those_of_the_spec_for_every_joint(cell: str, distro: str) -> None:
+    texts = build(cell, distro).texts
+    loops = [one for one in processes(cell, distro, "mock") if one.executable == "ros2_control_node"]
+    for process, (namespace, manager) in zip(loops, written_managers(cell), strict=True):
+        for name, one in manager["controllers"].items():
+            own = told(texts, process.files, f"{namespace}/{name}")
+            for joint in own.get("joints", ()) if "goal_time" in one else ():
+                assert own[f"constraints.{joint}.trajectory"] == pytest.approx(_si(one["path_tolerance"]))
+                assert own[f"constraints.{joint}.goal"] == pytest.approx(_si(one["goal_tolerance"]))
+            if "goal_time" in one:
+                assert own["constraints.goal_time"] == pytest.approx(_si(one["goal_time"]))
+                assert own["constraints.stopped_velocity_tolerance"] > 0
+                assert own["allow_partial_joints_goal"] is own["allow_nonzero_velocity_at_trajectory_end"] is False
+
+
+@every_build
+def test_qos_overrides_are_those_of_the_contract(cell: str, distro: str) -> None:
+    text = build(cell, distro).texts.get("config/qos_overrides.yaml")
+    if text is None:
+        return
+    interfaces = contract(cell, distro)["interfaces"]
+    for key, values in sections(text).items():
+        stated: dict[tuple[str, str], dict[str, Any]] = {}
+        for name, value in values.items():
+            topic, side, policy = name.removeprefix("qos_overrides.").rsplit(".", 2)
+            assert policy == "depth" or value in _LEGAL[policy], name
+            stated.setdefault((topic, side), {})[policy] = value
+        for (topic, side), policies in stated.items():
+            ends = interfaces[topic]["sources" if side == "publisher" else "sinks"]
+            (qos,) = [end["qos"] for end in ends if f"/{end['node']}" == key]
+            assert policies == {name: qos[name] for name in (*_LEGAL, "depth")}
+
+
+@every_build
+def test_recording_has_a_complete_profile_for_each_topic_that_it_records(cell: str, distro: str) -> None:
+    text = build(cell, distro).texts["config/recording_qos.yaml"]
+    profiles = yaml.safe_load(text)
+    commanded = [line.strip("# \\") for line in text.splitlines() if re.match(r"#   /", line)]
+    assert commanded == list(profiles)
+    for topic, profile in profiles.items():
+        assert set(profile) == {"history", "depth", "reliability", "durability"}, topic
+        assert all(profile[name] in _LEGAL[name] for name in ("history", "reliability", "durability"))
+        assert profile["depth"] >= 1
+
+
+@every_build
+def test_drivers_are_told_what_they_declare_and_the_address_of_the_spec(cell: str, distro: str) -> None:
+    texts = build(cell, distro).texts
+    addresses = {one["connection"].get("address") for one in written(cell)["devices"].values() if "connection" in one}
+    for process in processes(cell, distro, "real"):
+        if process.executable in _OF_DRIVERS:
+            values = told(texts, process.files, node_name(process))
+            assert set(values) == _OF_DRIVERS[process.executable], node_name(process)
+            assert values.get("robot_ip") in addresses | {None, "UNKNOWN"}  # UNKNOWN blocks the real target
+
+
+@every_build
+def test_environment_is_the_spec_and_leads_to_files_of_the_package(cell: str, distro: str) -> None:
+    texts, spec = build(cell, distro).texts, yaml.safe_load(spec_for(cell, distro))
+    for path in (path for path in texts if path.endswith(".sh")):
+        subprocess.run(["bash", "-n"], input=texts[path], text=True, check=True, capture_output=True)
+        stated = dict(re.findall(r'^export (\w+)="(.*)"$', texts[path], re.MULTILINE))
+        rmw = spec["versions"].get("rmw", "").split(" ")[0]
+        assert stated["RMW_IMPLEMENTATION"] == (rmw or stated["RMW_IMPLEMENTATION"])
+        if "network" in spec:
+            assert stated["ROS_DOMAIN_ID"] == str(spec["network"]["domain_id"])
+        discovery = "ROS_LOCALHOST_ONLY" if distro == "humble" else "ROS_AUTOMATIC_DISCOVERY_RANGE"
+        assert discovery in stated
+        leads = {name: value.split("/", 1)[1] for name, value in stated.items() if "_cell_share" in value}
+        leads = {name: value.removeprefix("/").removeprefix("${_cell_share}/") for name, value in leads.items()}
+        assert set(leads.values()) <= set(texts)
+        wanted = {
+            "rmw_fastrtps_cpp": {"FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_DEFAULT_PROFILES_FILE"},
+            "rmw_cyclonedds_cpp": {"CYCLONEDDS_URI"},
+        }
+        assert set(leads) == wanted[stated["RMW_IMPLEMENTATION"]]
+        assert texts[path].count(f'"$(ros2 pkg prefix --share {cell})"') == 1
+
+
+@every_build
+def test_everything_that_is_read_at_run_time_is_installed(cell: str, distro: str) -> None:
+    texts = build(cell, distro).texts
+    installs = re.findall(
+        r"^install\((FILES|DIRECTORY)\n((?:  [\w./]+\n)+)  DESTINATION share/\$\{PROJECT_NAME\}\n\)",
+        texts["CMakeLists.txt"],
+        re.M,
+    )
+    kinds = {kind: set(names.split()) for kind, names in installs}
+    folders = {path.split("/")[0] for path in texts if "/" in path and not path.startswith(("gates", "graph"))}
+    assert kinds["DIRECTORY"] >= folders - {"evidence"}
+    assert kinds["FILES"] >= {"contract.json", "manifest.json", "rehearsals.json"}
+    assert texts["CMakeLists.txt"].rstrip().endswith("ament_package()")
+    assert f"project({cell} NONE)" in texts["CMakeLists.txt"]
+    assert "find_package(ament_cmake REQUIRED)" in texts["CMakeLists.txt"]
+
+
+@every_build
+def test_manifest_names_every_file(cell: str, distro: str) -> None:
+    texts = build(cell, distro).texts
+    files = json.loads(texts["manifest.json"])["files"]
+    assert set(files) == set(texts) - {"manifest.json"}
+    assert all(re.fullmatch("[0-9a-f]{64}", digest) for digest in files.values())
+
+
+@every_build
+def test_manifest_has_the_digest_of_every_file(cell: str, distro: str) -> None:
+    texts = build(cell, distro).texts
+    for path, digest in json.loads(texts["manifest.json"])["files"].items():
+        assert hashlib.sha256(texts[path].encode()).hexdigest() == digest, path
+
+
+# spec.md, what `cellc build` writes; the middleware's profile depends on the middleware.
+_PARTS = {
+    *("README.md", "audit.md", "CMakeLists.txt", "package.xml", "contract.json", "rehearsals.json", "manifest.json"),
+    *(f"config/{name}.yaml" for name in ("frames", "joint_limits", "recording_qos")),
+    *(f"config/moveit/{name}.yaml" for name in ("kinematics", "controllers", "planning_pipelines")),
+    *("gates/promotion.md", "gates/network.md", "graph/responsibility.mmd", "graph/responsibility.svg"),
+    *("launch/cell.launch.xml", "launch/real_gate.launch.xml", "security/policy.xml"),
+}
+
+
+@every_build
+def test_package_has_every_part(cell: str, distro: str) -> None:
+    texts = build(cell, distro).texts
+    assert _PARTS | {f"urdf/{cell}.mock.urdf", f"urdf/{cell}.real.urdf", f"config/moveit/{cell}.srdf"} <= set(texts)
+    spec = yaml.safe_load(spec_for(cell, distro))
+    assert {f"middleware/{host}.sh" for host in spec.get("hosts", {})} <= set(texts)
+    overridden = any("to" in one or isinstance(one.get("from"), dict) for one in spec.get("interfaces", {}).values())
+    assert ("config/qos_overrides.yaml" in texts) is overridden

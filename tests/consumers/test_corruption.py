@@ -1,0 +1,155 @@
+"""How much of what an emitter could get wrong is seen without a golden record, and that no emitter can be left out.
+
+The golden record in ``generated/`` sees every changed byte. What is counted here is what foreign parsers, schemas and
+declared rules see on their own: a fault that was there before the record was made.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+import pytest
+
+from cellc.artifact import Artifact
+from cellc.emit.emit_all import EMITTERS
+from cellc.formats.configuration import configuration_id, configuration_inputs
+from cellc.formats.header import Header, header_of
+from cellc.graph.cell_graph import CellGraph
+from cellc.verify.verify import verify
+from tests.consumers import (
+    starting,
+    test_agreement,
+    test_launch,
+    test_moveit,
+    test_parameters,
+    test_refusals,
+    test_security,
+    test_xsd,
+)
+from tests.consumers.corruption import corruptions
+from tests.consumers.matrix import Build, build, in_place, needs_oracles
+
+_SEED = 20260822
+_SAMPLE = 50
+_FLOOR = 36
+# Prose for people, figures and pairs that sampling found are for the golden record; all else is seen here.
+_READ_BY_PROGRAMS = (
+    "config/controllers",
+    "launch/",
+    "package.xml",
+    "urdf/",
+    "CMakeLists.txt",
+    "middleware/",
+    "contract.json",
+)
+
+_CELL, _DISTRO = "ur5e_pick", "jazzy"
+_CHECKS: tuple[Callable[[str, str], None], ...] = (
+    test_launch.test_nothing_on_the_mock_is_told_of_a_real_address_or_plugin,
+    test_launch.test_real_target_is_refused_without_its_confirmation,
+    test_launch.test_real_target_has_no_mock_hardware_and_the_mock_has_no_driver,
+    test_launch.test_other_address_than_that_of_the_description_is_refused,
+    test_launch.test_static_transforms_have_one_authority,
+    test_launch.test_each_manager_hears_the_description_of_its_own_hardware,
+    test_launch.test_node_names_differ_and_nothing_that_commands_is_started_again,
+    test_launch.test_every_parameter_file_is_read_by_a_process,
+    test_launch.test_what_is_launched_or_found_is_a_dependency_and_is_installed,
+    test_security.test_processes_start_in_enclaves_of_the_policy,
+    test_security.test_controllers_serve_their_own_actions_alone_and_their_clients_alone_may_call,
+    test_security.test_what_one_node_hears_another_may_say,
+    test_security.test_descriptions_and_joint_states_pass,
+    test_parameters.test_controllers_declare_what_they_are_told_and_are_told_what_they_need,
+    test_parameters.test_manager_declares_what_it_is_told,
+    test_parameters.test_every_section_belongs_to_a_node_that_runs,
+    test_moveit.test_move_group_is_told_all_that_it_needs_and_nothing_that_it_does_not_know,
+    test_moveit.test_pipelines_name_plugins_and_adapters_that_exist,
+    test_moveit.test_controllers_of_moveit_have_the_joints_of_their_controllers,
+    test_moveit.test_limits_of_moveit_are_those_of_the_description,
+    test_moveit.test_semantic_description_names_what_exists,
+    test_moveit.test_named_states_state_every_joint_of_their_group,
+    test_agreement.test_frames_are_where_the_description_has_them,
+    test_agreement.test_contract_has_the_limits_of_the_description,
+    test_agreement.test_contract_has_the_controllers_of_the_parameter_files,
+    test_agreement.test_tolerances_are_those_of_the_spec_for_every_joint,
+    test_agreement.test_qos_overrides_are_those_of_the_contract,
+    test_agreement.test_recording_has_a_complete_profile_for_each_topic_that_it_records,
+    test_agreement.test_drivers_are_told_what_they_declare_and_the_address_of_the_spec,
+    test_agreement.test_environment_is_the_spec_and_leads_to_files_of_the_package,
+    test_agreement.test_everything_that_is_read_at_run_time_is_installed,
+    test_agreement.test_manifest_names_every_file,
+    test_agreement.test_package_has_every_part,
+    test_xsd.test_xml_is_what_its_readers_declare,
+    test_xsd.test_launch_files_follow_their_grammar,
+)
+_CHECKS_OF_TARGETS: tuple[Callable[[str, str, str], None], ...] = (
+    test_launch.test_spawners_follow_the_spec_and_leave_alternates_inactive,
+    test_refusals.test_no_emitted_description_is_refused_or_dangerous,
+    test_refusals.test_no_emitted_parameter_file_is_refused_or_dangerous,
+)
+
+
+def caught_by(built: Build) -> str:
+    """Return the first check that fails on a build, empty where all of them pass."""
+    starting.processes.cache_clear()
+    try:
+        with in_place(built):
+            for check in _CHECKS:
+                if _fails(lambda check=check: check(_CELL, _DISTRO)):  # type: ignore[misc]  # a default binds the loop's value
+                    return check.__name__
+            for check_of in _CHECKS_OF_TARGETS:
+                for target in ("mock", "real"):
+                    if _fails(lambda check=check_of, target=target: check(_CELL, _DISTRO, target)):  # type: ignore[misc]  # as above
+                        return check_of.__name__
+    finally:
+        starting.processes.cache_clear()
+    found = verify(built.artifacts, built.graph)
+    return found[0].code if found else ""
+
+
+def _fails(check: Callable[[], None]) -> bool:
+    try:
+        check()
+    except (Exception, pytest.fail.Exception):  # any way in which a reader stops is a fault that was seen
+        return True
+    return False
+
+
+def test_build_itself_is_found_without_fault() -> None:
+    assert caught_by(build(_CELL, _DISTRO)) == ""
+
+
+@needs_oracles
+def test_most_faults_in_single_lines_are_seen_without_a_golden_record(capsys: pytest.CaptureFixture[str]) -> None:
+    built = build(_CELL, _DISTRO)
+    sample = list(corruptions(built, _SEED, _SAMPLE))
+    survivors = [one for one in sample if not caught_by(one.of(built))]
+    seen = len(sample) - len(survivors)
+    with capsys.disabled():
+        print(f"\n{seen} of {len(sample)} single-line faults are seen by parsers, schemas and rules; not seen:")
+        for one in survivors:
+            new = "missing" if one.new is None else repr(one.new.strip())
+            print(f"  {one.path}:{one.line}: {one.old.strip()!r} -> {new}")
+    assert seen >= _FLOOR
+    assert {one.path for one in survivors if one.path.startswith(_READ_BY_PROGRAMS)} == set()
+
+
+@pytest.mark.parametrize("emitter", EMITTERS, ids=lambda emitter: emitter.__module__.rpartition(".")[2])
+def test_emitter_that_is_left_out_is_missed(emitter: Callable[[CellGraph, Header], Iterator[Artifact]]) -> None:
+    built = build(_CELL, _DISTRO)
+    header = header_of(built.graph.cell, configuration_id(configuration_inputs(built.graph.cell)))
+    gone = {artifact.path for artifact in emitter(built.graph, header)}
+    assert gone
+    assert gone <= set(built.texts)
+    kept = tuple(_without(artifact, gone) for artifact in built.artifacts if artifact.path not in gone)
+    assert caught_by(replace(built, artifacts=kept))
+
+
+def _without(artifact: Artifact, gone: set[str]) -> Artifact:
+    """Return an artifact as it were without others: the manifest would not name them."""
+    if artifact.path != "manifest.json":
+        return artifact
+    manifest = json.loads(artifact.text)
+    manifest["files"] = {path: digest for path, digest in manifest["files"].items() if path not in gone}
+    return replace(artifact, text=json.dumps(manifest, indent=2) + "\n")

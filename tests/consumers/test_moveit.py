@@ -1,0 +1,216 @@
+"""What move_group is told: every parameter that it needs, none that it does not know, and joints that exist."""
+
+from __future__ import annotations
+
+from typing import Any
+from xml.etree.ElementTree import Element, fromstring
+
+from tests.consumers.matrix import build, every_build
+from tests.consumers.parameter_files import told
+from tests.consumers.refused_parameters import claimed
+from tests.consumers.starting import node_name, processes
+
+# launch_moveit.md 5.3; request and response adapters of default_planning_*_adapters, Jazzy and later.
+_REQUEST = {"ResolveConstraintFrames", "ValidateWorkspaceBounds", "CheckStartStateBounds", "CheckStartStateCollision"}
+_RESPONSE = {"AddTimeOptimalParameterization", "ValidateSolution", "DisplayMotionPath"}
+_REQUEST_HUMBLE = {
+    "AddTimeOptimalParameterization",
+    "ResolveConstraintFrames",
+    "FixWorkspaceBounds",
+    "FixStartStateBounds",
+    "FixStartStateCollision",
+    "FixStartStatePathConstraints",
+}
+_PLUGINS = {
+    "ompl": "ompl_interface/OMPLPlanner",
+    "pilz_industrial_motion_planner": "pilz_industrial_motion_planner/CommandPlanner",
+}
+_SCENE = ("planning_scene", "geometry_updates", "state_updates", "transforms_updates", "robot_description")
+_EXECUTION = (
+    "execution_duration_monitoring",
+    "allowed_execution_duration_scaling",
+    "allowed_goal_duration_margin",
+    "allowed_start_tolerance",
+    "wait_for_trajectory_completion",
+)
+_LIMITS = ("position_limits", "velocity_limits", "acceleration_limits", "jerk_limits")
+_BOUNDS = ("min_position", "max_position", "max_velocity", "max_acceleration", "max_jerk")
+
+
+def _told(cell: str, distro: str) -> dict[str, Any]:
+    texts = build(cell, distro).texts
+    planners = [one for one in processes(cell, distro, "mock") if one.executable == "move_group"]
+    return told(texts, planners[0].files, "/move_group") if planners else {}
+
+
+def _semantic(cell: str, distro: str) -> Element:
+    return fromstring(build(cell, distro).texts[f"config/moveit/{cell}.srdf"])
+
+
+def _joints(cell: str, distro: str) -> dict[str, Element]:
+    return {one.attrib["name"]: one for one in fromstring(build(cell, distro).urdf("mock")).findall("joint")}
+
+
+def _commanded(cell: str, distro: str) -> dict[str, list[str]]:
+    """Return the joints of each active controller with an action, under the name that MoveIt has for it."""
+    texts, found = build(cell, distro).texts, {}
+    for manager in (one for one in processes(cell, distro, "mock") if one.executable == "ros2_control_node"):
+        types = told(texts, manager.files, node_name(manager))
+        for spawner in (one for one in processes(cell, distro, "mock") if one.executable == "spawner"):
+            line = spawner.arguments
+            if line[line.index("-c") + 1] != node_name(manager) or "--inactive" in line:
+                continue
+            for name in line[: line.index("-c")]:
+                values = told(texts, manager.files, f"{manager.namespace}/{name}")
+                joints = [one.rpartition("/")[0] for one in claimed(values)]
+                if joints and types[f"{name}.type"] != "forward_command_controller/ForwardCommandController":
+                    found[f"{manager.namespace}/{name}".removeprefix("/")] = joints
+    return found
+
+
+def _expected(cell: str, distro: str) -> set[str]:
+    """Return the name of every parameter of a complete configuration."""
+    groups = [
+        group.attrib["name"] for group in _semantic(cell, distro).findall("group") if group.find("chain") is not None
+    ]
+    commanded = _commanded(cell, distro)
+    names = {f"publish_{one}" for one in (*_SCENE, "robot_description_semantic")}
+    names |= {f"trajectory_execution.{one}" for one in _EXECUTION} | {"moveit_manage_controllers"}
+    names |= {"planning_pipelines", "default_planning_pipeline", "capabilities", "moveit_controller_manager"}
+    manager = "moveit_simple_controller_manager"
+    names |= {f"{manager}.controller_names"}
+    names |= {f"{manager}.{one}.{key}" for one in commanded for key in ("type", "action_ns", "joints", "default")}
+    planning = "robot_description_planning"
+    names |= {f"{planning}.default_{one}_scaling_factor" for one in ("velocity", "acceleration")}
+    names |= {f"{planning}.cartesian_limits.max_{one}" for one in ("trans_vel", "trans_acc", "trans_dec", "rot_vel")}
+    joints = [joint for one in commanded.values() for joint in one]
+    names |= {f"{planning}.joint_limits.{joint}.has_{one}" for joint in joints for one in _LIMITS}
+    names |= {f"{planning}.joint_limits.{joint}.{one}" for joint in joints for one in _BOUNDS}
+    solver = ("kinematics_solver", "kinematics_solver_search_resolution", "kinematics_solver_timeout")
+    names |= {f"robot_description_kinematics.{group}.{one}" for group in groups for one in solver}
+    return names | _pipelines(distro, groups)
+
+
+def _pipelines(distro: str, groups: list[str]) -> set[str]:
+    humble = distro == "humble"
+    own = (
+        ("planning_plugin", "request_adapters")
+        if humble
+        else ("planning_plugins", "request_adapters", "response_adapters")
+    )
+    names = {f"{pipeline}.{key}" for pipeline in _PLUGINS for key in own}
+    names |= {"ompl.start_state_max_bounds_error"} if humble else set()
+    of_group = ("default_planner_config", "planner_configs", "longest_valid_segment_fraction", "projection_evaluator")
+    names |= {f"ompl.{group}.{key}" for group in groups for key in of_group}
+    return names | {
+        "ompl.planner_configs.RRTConnectkConfigDefault.type",
+        "pilz_industrial_motion_planner.default_planner_config",
+    }
+
+
+@every_build
+def test_move_group_is_told_all_that_it_needs_and_nothing_that_it_does_not_know(cell: str, distro: str) -> None:
+    found = _told(cell, distro)
+    assert not found or set(found) == _expected(cell, distro)
+
+
+@every_build
+def test_pipelines_name_plugins_and_adapters_that_exist(cell: str, distro: str) -> None:
+    found = _told(cell, distro)
+    for pipeline, plugin in _PLUGINS.items() if found else ():
+        if distro == "humble":
+            assert found[f"{pipeline}.planning_plugin"] == plugin
+            adapters = found[f"{pipeline}.request_adapters"].split()
+            assert {one.removeprefix("default_planner_request_adapters/") for one in adapters} <= _REQUEST_HUMBLE
+        else:
+            assert found[f"{pipeline}.planning_plugins"] == [plugin]
+            for side, known in (("request", _REQUEST), ("response", _RESPONSE)):
+                adapters = found[f"{pipeline}.{side}_adapters"]
+                assert {one.removeprefix(f"default_planning_{side}_adapters/") for one in adapters} <= known
+                assert len(adapters) == len(set(adapters)) >= 2
+    if found:
+        assert found["planning_pipelines"] == list(_PLUGINS)
+        assert found["default_planning_pipeline"] in found["planning_pipelines"]
+        assert found["pilz_industrial_motion_planner.default_planner_config"] in ("PTP", "LIN", "CIRC")
+        capabilities = found["capabilities"].split()
+        service = {"pilz_industrial_motion_planner/MoveGroupSequenceAction"}
+        assert service <= set(capabilities) <= service | {"pilz_industrial_motion_planner/MoveGroupSequenceService"}
+        manager = "moveit_simple_controller_manager/MoveItSimpleControllerManager"
+        assert found["moveit_controller_manager"] == manager
+
+
+@every_build
+def test_controllers_of_moveit_have_the_joints_of_their_controllers(cell: str, distro: str) -> None:
+    found, manager = _told(cell, distro), "moveit_simple_controller_manager"
+    if not found:
+        return
+    commanded = _commanded(cell, distro)
+    assert found[f"{manager}.controller_names"] == list(commanded)
+    gripper = "GripperCommand" if distro == "humble" else "ParallelGripperCommand"
+    for name, joints in commanded.items():
+        kind, action = (
+            (gripper, "gripper_cmd") if len(joints) == 1 else ("FollowJointTrajectory", "follow_joint_trajectory")
+        )
+        assert found[f"{manager}.{name}.joints"] == joints
+        assert (found[f"{manager}.{name}.type"], found[f"{manager}.{name}.action_ns"]) == (kind, action)
+        assert found[f"{manager}.{name}.default"] is True
+
+
+@every_build
+def test_limits_of_moveit_are_those_of_the_description(cell: str, distro: str) -> None:
+    found, joints = _told(cell, distro), _joints(cell, distro)
+    start = "robot_description_planning.joint_limits."
+    for joint in {name.removeprefix(start).split(".")[0] for name in found if name.startswith(start)}:
+        limit = joints[joint].find("limit")
+        assert limit is not None
+        values = {name.removeprefix(f"{start}{joint}."): one for name, one in found.items() if f".{joint}." in name}
+        assert all(values[f"has_{one}"] is True for one in _LIMITS), joint
+        assert values["min_position"] == float(limit.attrib["lower"])
+        assert values["max_position"] == float(limit.attrib["upper"])
+        assert values["max_velocity"] == float(limit.attrib["velocity"])
+        assert values["max_acceleration"] > 0 < values["max_jerk"]
+
+
+@every_build
+def test_semantic_description_names_what_exists(cell: str, distro: str) -> None:
+    robot, joints = fromstring(build(cell, distro).urdf("mock")), _joints(cell, distro)
+    links = {link.attrib["name"]: link for link in robot.findall("link")}
+    semantic = _semantic(cell, distro)
+    assert semantic.attrib["name"] == robot.attrib["name"]
+    groups = {group.attrib["name"] for group in semantic.findall("group")}
+    for tag in semantic.iter():
+        assert {
+            tag.attrib[key] for key in ("base_link", "tip_link", "parent_link", "link1", "link2") if key in tag.attrib
+        } <= set(links)
+        assert tag.get("group", next(iter(groups))) in groups
+    for tag in (*semantic.findall("group/joint"), *semantic.findall("group_state/joint")):
+        limit = joints[tag.attrib["name"]].find("limit")
+        assert limit is not None
+        assert (
+            float(limit.attrib["lower"])
+            <= float(tag.get("value", limit.attrib["lower"]))
+            <= float(limit.attrib["upper"])
+        )
+    pairs = [frozenset((tag.attrib["link1"], tag.attrib["link2"])) for tag in semantic.findall("disable_collisions")]
+    assert len(set(pairs)) == len(pairs)
+    assert all(len(pair) == 2 and all(links[link].find("collision") is not None for link in pair) for pair in pairs)
+    reasons = {tag.get("reason") for tag in semantic.findall("disable_collisions")}
+    assert reasons <= {"Adjacent", "Never", "Always", "Default"}
+
+
+@every_build
+def test_named_states_state_every_joint_of_their_group(cell: str, distro: str) -> None:
+    semantic, joints = _semantic(cell, distro), _joints(cell, distro)
+    parents = {one.find("child").attrib["link"]: one for one in joints.values()}  # type: ignore[union-attr]  # URDF has it
+    for group in semantic.findall("group"):
+        names = {joint.attrib["name"] for joint in group.findall("joint")}
+        chain = group.find("chain")
+        link = "" if chain is None else chain.attrib["tip_link"]
+        while chain is not None and link != chain.attrib["base_link"]:
+            joint = parents[link]
+            names |= {joint.attrib["name"]} if joint.get("type") != "fixed" else set()
+            link = joint.find("parent").attrib["link"]  # type: ignore[union-attr]  # URDF has it
+        assert names
+        for state in semantic.findall("group_state"):
+            if state.get("group") == group.get("name"):
+                assert {joint.attrib["name"] for joint in state.findall("joint")} == names
