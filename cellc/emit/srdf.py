@@ -17,7 +17,7 @@ from cellc.formats.header import Header
 from cellc.formats.moveit_files import semantic_file
 from cellc.formats.numbers import shortest
 from cellc.formats.xml_text import comment, element, render
-from cellc.geometry import MARGIN_M, RNG_SEED, SAMPLES, disabled_links
+from cellc.geometry import MARGIN_M, RNG_SEED, disabled_links
 from cellc.graph.cell_graph import CellGraph
 
 
@@ -42,11 +42,12 @@ def _parts(graph: CellGraph) -> Iterator[Element]:
         if device.facts.gripper is not None and device.name not in named:
             yield comment(f"devices.{device.name}")
             yield from _gripper(device)
+    disabled = disabled_links(graph)
     yield comment(
-        f"neighbours, and pairs that touch at all or none of {SAMPLES} configurations within the joint limits, drawn "
-        f"with seed {RNG_SEED}; none means farther apart than {shortest(MARGIN_M)} m"
+        f"neighbours, and pairs that touch at all or none of {disabled.samples} configurations within the joint "
+        f"limits, drawn with seed {RNG_SEED}; none means farther apart than {shortest(MARGIN_M)} m"
     )
-    for pair in disabled_links(graph):
+    for pair in disabled.pairs:
         names = {"link1": pair.first, "link2": pair.second}
         yield element("disable_collisions", names | {"reason": pair.reason.capitalize()})
 

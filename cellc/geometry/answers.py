@@ -16,9 +16,15 @@ class DisabledLinks:
 
 @dataclass(frozen=True, slots=True)
 class DisabledAnswer:
-    """All such pairs; ``refused`` says why the description cannot be used, empty where it can."""
+    """All such pairs, sorted by name.
+
+    Attributes:
+        samples: number of configurations that "never" and "always" rest on.
+        refused: why the description cannot be used, empty where it can.
+    """
 
     pairs: tuple[DisabledLinks, ...]
+    samples: int
     refused: str = ""
 
 

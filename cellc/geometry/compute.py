@@ -36,7 +36,8 @@ def answer(question: MotionQuestion, disabled: tuple[DisabledLinks, ...]) -> Mot
         start = {joint: value for joint, value in question.start if joint in robot.joints}
         pairs = [(pair.first, pair.second) for pair in disabled]
         scene = CollisionScene(robot, disabled_collisions=pairs, other_positions=start)
-        planners = {group.name: _planner(group, robot, scene) for group in question.groups}
+        asked = {goal.group for goal in question.goals}
+        planners = {group.name: _planner(group, robot, scene) for group in question.groups if group.name in asked}
     except (ModelError, LimitsError) as error:
         return MotionAnswer(refused=str(error))
     return MotionAnswer(

@@ -9,19 +9,21 @@ from cellc.geometry.question import shapes_and_joints
 from cellc.graph.cell_graph import CellGraph
 
 SAMPLES = 10_000
-"""As many as MoveIt's Setup Assistant draws by default."""
+"""As many as MoveIt's Setup Assistant draws by default; fewer where many robots share a cell."""
+LEAST_SAMPLES = 500
+_PAIRS_TIMES_SAMPLES = 2_000_000
 RNG_SEED = 0
 MARGIN_M = 0.005
 """Two links that come nearer than this in any sample stay checked, so that no near miss passes for "never"."""
 
 
-def disabled_links(graph: CellGraph) -> tuple[DisabledLinks, ...]:
-    """Return the pairs with their reasons, sorted by name.
+def disabled_links(graph: CellGraph) -> DisabledAnswer:
+    """Return the pairs with their reasons.
 
     Where the kinematics refuses the description, because it names a mesh that is not here for instance, these are the
     pairs that follow from the tree alone.
     """
-    return graph.once(_of_cell).pairs
+    return graph.once(_of_cell)
 
 
 def disabled_in(urdf: str) -> DisabledAnswer:
@@ -37,15 +39,18 @@ def _of_cell(graph: CellGraph) -> DisabledAnswer:
         DisabledLinks(min(first, second), max(first, second), reason.lower())
         for first, second, reason in touching_links(graph.cell)
     )
-    return DisabledAnswer(tuple(sorted(found)), answer.refused)
+    return DisabledAnswer(tuple(sorted(found)), 0, answer.refused)
 
 
 def _sampled(urdf: str) -> DisabledAnswer:
-    from cellc.kinematics import ModelError, RobotModel, disabled_collisions
+    from cellc.kinematics import CollisionScene, ModelError, RobotModel, disabled_collisions
 
     try:
         robot = RobotModel.from_urdf(urdf)
     except ModelError as error:
-        return DisabledAnswer((), str(error))
-    pairs = disabled_collisions(robot, samples=SAMPLES, rng_seed=RNG_SEED, margin_m=MARGIN_M)
-    return DisabledAnswer(tuple(DisabledLinks(pair.first, pair.second, pair.reason.value) for pair in pairs))
+        return DisabledAnswer((), 0, str(error))
+    checked = len(CollisionScene(robot).checked_pairs())
+    samples = min(SAMPLES, max(LEAST_SAMPLES, _PAIRS_TIMES_SAMPLES // max(1, checked)))
+    pairs = disabled_collisions(robot, samples=samples, rng_seed=RNG_SEED, margin_m=MARGIN_M)
+    links = tuple(DisabledLinks(pair.first, pair.second, pair.reason.value) for pair in pairs)
+    return DisabledAnswer(links, samples)

@@ -37,35 +37,37 @@ class PairCheck:
         self._geometry_data = self._geometry.createData()
         for request in self._geometry_data.collisionRequests:
             request.security_margin = margin_m
-        self._active = dict.fromkeys(range(len(self._links)))
+        # A tree of bounding boxes: without it the time grows with the square of the number of shapes.
+        self._manager = pinocchio.BroadPhaseManager_DynamicAABBTreeCollisionManager(
+            self._model, self._geometry, self._geometry_data
+        )
+        self._active: dict[LinkPair, list[int]] = {pair: [] for pair in wanted}
+        for index, pair in enumerate(self._links):
+            self._active[pair].append(index)
 
     def some_touching(self, configuration: Array) -> set[LinkPair]:
-        """Return at least one pair that touches; empty where none does."""
-        return self._touching() if self._compute(configuration, stop_at_first=True) else set()
+        """Return at least one pair that touches; empty where none does.
+
+        Whoever asks drops what is returned before asking again: a pair that the search did not come to keeps its answer
+        of an earlier configuration, which was "no" then.
+        """
+        found = pinocchio.computeCollisions(self._model, self._data, self._manager, configuration, True)
+        return self._touching() if found else set()
 
     def all_touching(self, configuration: Array) -> set[LinkPair]:
         """Return all pairs that touch."""
-        self._compute(configuration, stop_at_first=False)
+        pinocchio.computeCollisions(self._model, self._data, self._geometry, self._geometry_data, configuration, False)
         return self._touching()
 
-    def drop(self, pairs: set[LinkPair]) -> None:
+    def drop(self, pairs: Iterable[LinkPair]) -> None:
         """Check these pairs no more."""
-        for index in [index for index in self._active if self._links[index] in pairs]:
-            self._geometry_data.deactivateCollisionPair(index)
-            del self._active[index]
-
-    def _compute(self, configuration: Array, *, stop_at_first: bool) -> bool:
-        return bool(
-            pinocchio.computeCollisions(
-                self._model, self._data, self._geometry, self._geometry_data, configuration, stop_at_first
-            )
-        )
+        for pair in pairs:
+            for index in self._active.pop(pair):
+                self._geometry_data.deactivateCollisionPair(index)
 
     def _touching(self) -> set[LinkPair]:
-        # A pair after the first that touched keeps its answer of an earlier configuration, which was "no": callers that
-        # stop at the first drop what touches at once.
         results = self._geometry_data.collisionResults
-        return {self._links[index] for index in self._active if results[index].isCollision()}
+        return {pair for pair, indices in self._active.items() if any(results[at].isCollision() for at in indices)}
 
 
 def shape_links(model: RobotModel) -> list[str]:

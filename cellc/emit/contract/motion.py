@@ -33,7 +33,7 @@ def goals(cell: Cell) -> dict[str, ContractGoal]:
 
 def disabled_collisions(graph: CellGraph) -> tuple[ContractDisabledCollision, ...]:
     """Return the pairs that the SRDF lists too; none where there is no group to plan for."""
-    pairs = disabled_links(graph) if graph.cell.groups else ()
+    pairs = disabled_links(graph).pairs if graph.cell.groups else ()
     return tuple(
         ContractDisabledCollision.model_validate({"first": pair.first, "second": pair.second, "reason": pair.reason})
         for pair in pairs
