@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from cellc.rules.bringup import (
+    credential_in_text,
     first_motion_cannot_end,
     first_motion_of_unknown_joint,
     first_motion_too_large,
@@ -11,9 +12,11 @@ from cellc.rules.bringup import (
     respawned_commander,
     secret_in_spec,
     startup_cycle,
+    unproven_readiness,
 )
 
 RULES = (
+    credential_in_text.RULE,
     first_motion_cannot_end.RULE,
     first_motion_of_unknown_joint.RULE,
     first_motion_too_large.RULE,
@@ -22,4 +25,5 @@ RULES = (
     respawned_commander.RULE,
     secret_in_spec.RULE,
     startup_cycle.RULE,
+    unproven_readiness.RULE,
 )

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from cellc.rules.clocks import (
+    age_budget_exceeded,
     clock_offset_beyond_age,
     continues_on_stale,
     continues_on_timeout,
+    contradicting_time_source,
     max_age_beyond_timeout,
     max_age_too_short,
     missing_max_age,
@@ -17,9 +19,11 @@ from cellc.rules.clocks import (
 )
 
 RULES = (
+    age_budget_exceeded.RULE,
     clock_offset_beyond_age.RULE,
     continues_on_stale.RULE,
     continues_on_timeout.RULE,
+    contradicting_time_source.RULE,
     max_age_beyond_timeout.RULE,
     max_age_too_short.RULE,
     missing_max_age.RULE,

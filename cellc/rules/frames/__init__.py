@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from cellc.rules.frames import (
+    broken_flange_convention,
+    budget_beyond_buffer,
     calibration_of_two_frames,
     calibration_without_evidence,
     calibration_without_owner,
@@ -16,6 +18,7 @@ from cellc.rules.frames import (
     short_transform_buffer,
     tip_off_the_tool_chain,
     too_few_reference_points,
+    turned_optical_frame,
     two_authorities,
     uncalibrated_frame,
     undated_calibration,
@@ -24,6 +27,8 @@ from cellc.rules.frames import (
 )
 
 RULES = (
+    broken_flange_convention.RULE,
+    budget_beyond_buffer.RULE,
     calibration_of_two_frames.RULE,
     calibration_without_evidence.RULE,
     calibration_without_owner.RULE,
@@ -37,6 +42,7 @@ RULES = (
     short_transform_buffer.RULE,
     tip_off_the_tool_chain.RULE,
     too_few_reference_points.RULE,
+    turned_optical_frame.RULE,
     two_authorities.RULE,
     uncalibrated_frame.RULE,
     undated_calibration.RULE,

@@ -14,7 +14,7 @@ Example that is accepted:
 
 ```yaml
 nodes:
-  tracker: {run: cell_tasks/tracker, host: control_pc, owner: integration}
+  tracker: {run: cell_tasks/tracker, host: control_pc, owner: integration, lifecycle: true}
 ```
 
 Fix: rename one of the two, or give it a namespace.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from cellc.rules.network import (
+    address_in_parameters,
     camera_on_control_card,
     cards_in_one_subnet,
     device_outside_subnet,
@@ -25,6 +26,7 @@ from cellc.rules.network import (
 )
 
 RULES = (
+    address_in_parameters.RULE,
     camera_on_control_card.RULE,
     cards_in_one_subnet.RULE,
     device_outside_subnet.RULE,

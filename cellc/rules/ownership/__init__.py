@@ -5,6 +5,7 @@ from __future__ import annotations
 from cellc.rules.ownership import (
     controller_without_client,
     direct_sdk_without_adapter,
+    direct_sdk_without_bounded_command,
     double_claim,
     double_claim_after_switch,
     group_joints_without_controller,
@@ -24,6 +25,7 @@ from cellc.rules.ownership import (
 RULES = (
     controller_without_client.RULE,
     direct_sdk_without_adapter.RULE,
+    direct_sdk_without_bounded_command.RULE,
     double_claim.RULE,
     double_claim_after_switch.RULE,
     group_joints_without_controller.RULE,

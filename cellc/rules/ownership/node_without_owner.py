@@ -6,14 +6,14 @@ Example that is reported:
 
 ```yaml
 nodes:
-  tracker: {run: cell_tasks/tracker, host: control_pc}
+  tracker: {run: cell_tasks/tracker, host: control_pc, lifecycle: true}
 ```
 
 Example that is accepted:
 
 ```yaml
 nodes:
-  tracker: {run: cell_tasks/tracker, host: control_pc, owner: integration}
+  tracker: {run: cell_tasks/tracker, host: control_pc, owner: integration, lifecycle: true}
 ```
 
 Fix: write `owner:`.

@@ -24,7 +24,8 @@ Example that is accepted:
 
 ```yaml
 nodes:
-  follower: {run: cell_tasks/follower, host: control_pc, owner: integration, language: python}
+  follower: {run: cell_tasks/follower, host: control_pc, owner: integration, language: python,
+             lifecycle: true}
 ```
 
 Fix: leave the loop to a controller or to the vendor's servo, and send goals or trajectories.

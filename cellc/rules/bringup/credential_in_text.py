@@ -1,0 +1,65 @@
+"""A text of the spec holds a credential.
+
+An address with a password in it, a private key or a token of a code host is a secret under whatever key it stands. The
+spec is reviewed, copied and compiled into files that everybody on the host can read.
+
+Example that is reported:
+
+```yaml
+nodes:
+  task: {parameters: {stream: "rtsp://viewer:hunter2@10.10.0.40/live"}}
+```
+
+Example that is accepted:
+
+```yaml
+nodes:
+  task: {parameters: {stream: "rtsp://10.10.0.40/live"}}
+```
+
+Fix: take it out, change it, and give the node the name of a file or of an environment variable that holds the new one.
+
+Source: chapter 4, section 6: parameter files separate secrets and environment-specific values; RFC 3986, section 3.2.1:
+a password in the user information of an address is deprecated.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity, YamlPath
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+from cellc.source.plain import Plain
+
+_CREDENTIALS = (
+    ("an address with a password", re.compile(r"[a-z][a-z0-9+.-]*://[^/\s:@]*:[^/\s@]+@", re.IGNORECASE)),
+    ("a private key", re.compile(r"-----BEGIN [A-Z ]*PRIVATE KEY-----")),
+    ("an access token", re.compile(r"\b(?:gh[opsu]_[A-Za-z0-9]{36}|glpat-[A-Za-z0-9_-]{20}|AKIA[A-Z0-9]{16})\b")),
+)
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield texts that look like a credential, wherever they stand."""
+    for path, text in _texts((), graph.cell.document.data):
+        kind = next((kind for kind, pattern in _CREDENTIALS if pattern.search(text)), None)
+        if kind is not None:
+            message = f"the text holds {kind}"
+            yield found(graph, path, message, "name a file or an environment variable that holds it")
+
+
+def _texts(path: YamlPath, value: Plain) -> Iterator[tuple[YamlPath, str]]:
+    if isinstance(value, str):
+        yield path, value
+    elif isinstance(value, dict):
+        for key, item in value.items():
+            yield from _texts((*path, key), item)
+    elif isinstance(value, list):
+        for index, item in enumerate(value):
+            yield from _texts((*path, index), item)
+
+
+RULE = define("credential-in-text", Severity.ERROR, check, __doc__, assumes=("secret-in-spec",))

@@ -1,0 +1,49 @@
+"""Nothing shows that a node is ready.
+
+A started process proves nothing. A managed node has a state; others show an interface, a transform or the goals that
+they send. A node with none of them counts as ready because it was spawned.
+
+Example that is reported:
+
+```yaml
+nodes:
+  warmer: {run: cell_tasks/warmer, host: control_pc, owner: integration}
+```
+
+Example that is accepted:
+
+```yaml
+nodes:
+  warmer: {run: cell_tasks/warmer, host: control_pc, owner: integration, lifecycle: true}
+```
+
+Fix: make it a managed node, or declare the interface or frame by which it can be seen.
+
+Source: chapter 4, section 6: ordered spawning is not readiness; each component must prove required state, interfaces,
+and transforms.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.cell.interface import NodeSource
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield nodes of the spec without a lifecycle, an interface, a frame or a controller that they command."""
+    shown = {end.node for interface in graph.cell.interfaces for end in (*interface.sources, *interface.sinks)}
+    shown |= {frame.authority for frame in graph.cell.frames}
+    shown |= {controller.client for controller in graph.cell.controllers if controller.client}
+    for node in graph.cell.nodes:
+        if node.source is NodeSource.SPEC and not node.lifecycle and node.name not in shown:
+            message = f"no state, interface or transform shows that `{node.name}` is ready"
+            yield found(graph, node.path, message, "add `lifecycle: true`, or declare what it publishes or serves")
+
+
+RULE = define("unproven-readiness", Severity.ERROR, check, __doc__)

@@ -1,0 +1,55 @@
+"""An observation is too old at the end of its chain, though each step of the chain keeps its own limit.
+
+A detector passes the stamp of the image on. Its pose is as old as the image was, plus its own period: the reader's
+limit holds for the sum, and a limit that only fits the last step rejects fresh poses.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /object_pose: {max_age: 120 ms}
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /object_pose: {max_age: 150 ms}
+```
+
+Fix: raise the limit above the sum of the shares, or raise a rate of the chain.
+
+Source: chapter 4, section 3: exposure delay, buffering and transport latency; measure both offset and observation age.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from cellc.diagnostics import Related, Severity
+from cellc.graph.age_budget import age_shares
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield topics whose age limit is below the sum of the shares of their chain."""
+    for interface in graph.cell.interfaces:
+        shares = () if interface.max_age_s is None else age_shares(graph.cell, interface)
+        needed = sum(share.total_s for share in shares)
+        if interface.max_age_s is None or len(shares) < 2 or interface.max_age_s >= needed:
+            continue
+        way = " + ".join(str(share) for share in shares)
+        age = interface.max_age_s * 1e3
+        message = f"`{interface.name}` may be {age:g} ms old, its observation takes {needed * 1e3:.4g} ms: {way}"
+        related = tuple(
+            Related("part of the chain", graph.cell.locate("interfaces", share.topic)) for share in shares[:-1]
+        )
+        advice = f"allow at least {math.ceil(needed * 1e3)} ms, or raise a rate of the chain"
+        yield found(graph, (*interface.path, "max_age"), message, advice, related)
+
+
+RULE = define("age-budget-exceeded", Severity.ERROR, check, __doc__, assumes=("max-age-too-short",))

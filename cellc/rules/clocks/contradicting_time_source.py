@@ -1,0 +1,63 @@
+"""A topic claims another time source than its publisher has.
+
+A topic that is said to carry hardware stamps, from a driver that stamps on arrival, hides the delay that the stamp
+should show. One that claims simulated time from a node on wall time is never found in the TF buffer.
+
+Example that is reported:
+
+```yaml
+interfaces:
+  /preview: {topic: sensor_msgs/msg/Image, from: perception, to: {task: {depth: 1}}, frame: camera/color_optical,
+             wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: reject_goal, time_source: hardware}
+```
+
+Example that is accepted:
+
+```yaml
+interfaces:
+  /preview: {topic: sensor_msgs/msg/Image, from: perception, to: {task: {depth: 1}}, frame: camera/color_optical,
+             wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: reject_goal, time_source: ros}
+```
+
+Fix: write the clock that the publisher really stamps with.
+
+Source: chapter 4, section 3: ROS time can mix wall, steady and simulation clocks; document each clock domain.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.cell.interface import Interface
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+_OTHER = {"wall": "sim", "sim": "wall"}
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield interfaces whose time source is not that of a node or device that publishes them."""
+    for interface in graph.cell.interfaces:
+        if interface.derived or interface.time_source is None:
+            continue
+        for node, clock in _clocks(graph, interface):
+            hardware = interface.time_source == "hardware" and clock != "hardware"
+            if hardware or clock == _OTHER.get(interface.time_source):
+                message = f"`{interface.name}` claims {interface.time_source} stamps, `{node}` stamps by {clock} time"
+                yield found(graph, (*interface.path, "time_source"), message, "write the clock that really stamps")
+                break
+
+
+def _clocks(graph: CellGraph, interface: Interface) -> Iterator[tuple[str, str]]:
+    """Yield each publisher with its clock: what a sensor states, what a node runs on, or ros."""
+    stamps = {device.name: device.spec.stamp for device in graph.cell.devices}
+    clocks = {node.name: node.clock for node in graph.cell.nodes}
+    for source in interface.sources:
+        stamp = stamps.get(source.node)
+        yield source.node, clocks.get(source.node) or "ros" if stamp is None else stamp.source
+
+
+RULE = define("contradicting-time-source", Severity.ERROR, check, __doc__)

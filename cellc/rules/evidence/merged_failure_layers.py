@@ -1,0 +1,60 @@
+"""A rehearsal expects the failure of another layer than the one that it provokes.
+
+A lost transform that ends as stale state, or any fault that ends in a mere timeout, teaches nobody which layer failed.
+The outcomes are kept apart so that each names its cause.
+
+Example that is reported:
+
+```yaml
+rehearsals:
+  lost_frame: {use: pick_and_place, inject: {drop_frame: object, at: 0 s}, expect: timeout}
+```
+
+Example that is accepted:
+
+```yaml
+rehearsals:
+  lost_frame: {use: pick_and_place, inject: {drop_frame: object, at: 0 s}, expect: tf_failure}
+```
+
+Fix: expect the outcome of the layer that the injected fault hits, or `succeeded` where the cell should bear it.
+
+Source: chapter 4, section 10: TF failure, stale state, planning failure, goal rejection, tolerance violation, missed
+cycle and protective stop are different failures.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+_LAYERS = {
+    "freeze": "stale_state",
+    "delay": "stale_state",
+    "drop_frame": "tf_failure",
+    "cancel": "cancelled",
+    "reject": "goal_rejection",
+    "stick": "tolerance_violation",
+    "skip_cycles": "missed_cycle",
+    "protective_stop": "protective_stop",
+    "unreachable": "planning_failure",
+}
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield rehearsals that expect a failure which belongs to none of their faults."""
+    for rehearsal in graph.cell.rehearsals:
+        layers = [_LAYERS[fault.kind] for fault in rehearsal.faults]
+        if layers and rehearsal.expect != "succeeded" and rehearsal.expect not in layers:
+            faults = " and ".join(f"`{fault.kind}`" for fault in rehearsal.faults)
+            message = f"`{rehearsal.name}` provokes {faults} and expects `{rehearsal.expect}`"
+            due = " or ".join(f"`{layer}`" for layer in dict.fromkeys(layers))
+            yield found(graph, (*rehearsal.path, "expect"), message, f"expect {due}, or `succeeded`")
+
+
+RULE = define("merged-failure-layers", Severity.ERROR, check, __doc__)

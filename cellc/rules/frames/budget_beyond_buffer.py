@@ -1,0 +1,68 @@
+"""A transform is forgotten before its goal is executed.
+
+A goal rests on the transform at the stamp of its observation. The observation may be as old as its topic allows when
+planning begins, and the key figure allows planning its own time; if the buffer is shorter than the sum, the lookup
+before execution fails with an extrapolation error, or is made with a newer transform.
+
+Example that is reported:
+
+```yaml
+frames:
+  object: {buffer: 600 ms}
+```
+
+Example that is accepted:
+
+```yaml
+frames:
+  object: {buffer: 2 s}
+```
+
+Fix: keep the frame for longer than the age of the observation and the time to execution together.
+
+Source: chapter 4, section 3: both transforms must be valid for the observation time; checkpoint: plan-to-execute
+latency.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.cell.frame import FrameKind
+from cellc.cell.interface import Interface
+from cellc.diagnostics import Related, Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield dynamic frames of goals whose buffer is below age limit plus plan-to-execute target."""
+    target = graph.cell.spec.kpis.plan_to_execute
+    goals = {goal.frame for goal in graph.cell.goals}
+    for frame in graph.cell.frames:
+        if frame.kind is not FrameKind.DYNAMIC or frame.buffer_s is None or frame.name not in goals or target is None:
+            continue
+        oldest = _oldest(graph, frame.authority)
+        if oldest is None or oldest.max_age_s is None or oldest.max_age_s + target.si <= frame.buffer_s:
+            continue
+        needed = oldest.max_age_s + target.si
+        message = (
+            f"`{frame.name}` is kept for {frame.buffer_s:g} s, its goals take {needed:g} s: "
+            f"`{oldest.name}` {oldest.max_age_s:g} s + plan to execute {target.si:g} s"
+        )
+        related = (
+            Related("the age is allowed here", graph.cell.locate(*oldest.path, "max_age")),
+            Related("the time to execution here", graph.cell.locate("kpis", "plan_to_execute")),
+        )
+        yield found(graph, (*frame.path, "buffer"), message, f"keep it for more than {needed:g} s", related)
+
+
+def _oldest(graph: CellGraph, node: str) -> Interface | None:
+    """Return the topic of a node whose samples may be oldest."""
+    sent = [i for i in graph.cell.interfaces if i.max_age_s and any(source.node == node for source in i.sources)]
+    return max(sent, key=lambda interface: interface.max_age_s or 0.0, default=None)
+
+
+RULE = define("budget-beyond-buffer", Severity.ERROR, check, __doc__, assumes=("short-transform-buffer",))

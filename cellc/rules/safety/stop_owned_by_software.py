@@ -1,0 +1,59 @@
+"""A piece of software answers for the safety of people.
+
+The physical stop and the vendor's safety configuration belong to a person or a team. A node, a controller or a computer
+of the cell cannot answer for them, nor can a QoS event, a domain id or a lifecycle state.
+
+Example that is reported:
+
+```yaml
+owners: {responsibilities: {physical_stop: task}}
+```
+
+Example that is accepted:
+
+```yaml
+owners: {responsibilities: {physical_stop: safety}}
+```
+
+Fix: name the role that signs for it.
+
+Source: chapter 4, section 5: domain ids and namespaces are no safety boundaries; section 6: lifecycle nodes do not
+replace the safety state machine; section 11: the workstation does not own E-stop authority.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity, YamlPath
+from cellc.graph.cell_graph import CellGraph
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+_SOFTWARE = re.compile(
+    r"(?i)\b(qos|deadline|liveliness|domain(_id)?|namespace|lifecycle|watchdog|ros2?|software|node)\b"
+)
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield owners of the safety that are a part of the cell or a word for software."""
+    cell = graph.cell
+    parts = {*cell.spec.hosts, *(node.name for node in cell.nodes), *(c.name for c in cell.controllers)}
+    for path, owner in _safety_owners(graph):
+        if owner in parts or _SOFTWARE.search(owner):
+            message = f"`{path[-1]}` is answered for by `{owner}`, which is software"
+            yield found(graph, path, message, "name the role that signs for it")
+
+
+def _safety_owners(graph: CellGraph) -> Iterator[tuple[YamlPath, str]]:
+    owners, recovery = graph.cell.spec.owners, graph.cell.spec.safety.recovery
+    yield ("owners", "responsibilities", "vendor_safety"), owners.responsibilities.vendor_safety
+    yield ("owners", "responsibilities", "physical_stop"), owners.responsibilities.physical_stop
+    yield ("owners", "approvals", "safety"), owners.approvals.safety
+    yield ("safety", "recovery", "owner"), recovery.owner
+    yield ("safety", "recovery", "observer"), recovery.observer
+
+
+RULE = define("stop-owned-by-software", Severity.ERROR, check, __doc__)
