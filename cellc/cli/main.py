@@ -14,6 +14,7 @@ from cellc import __version__
 
 # Command → module; the function in it has the command's name.
 _COMMANDS = {
+    "audit": "Print versions, expectations, command paths and open questions.",
     "build": "Check cells and write their artifacts.",
     "check": "Find what is wrong before anything moves.",
     "completion": "Print the completion script of a shell.",

@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterator
 
 from cellc.artifact import Artifact
 from cellc.emit import (
-    audit,
     cmake,
     controllers,
     frames,
@@ -20,6 +19,7 @@ from cellc.emit import (
     srdf,
     urdf,
 )
+from cellc.emit.audit import audit
 from cellc.emit.contract import contract
 from cellc.emit.gates import gates
 from cellc.emit.launch import launch

@@ -1,0 +1,30 @@
+"""``cellc audit``: what the people who approve a cell read, without writing anything."""
+
+from __future__ import annotations
+
+import click
+
+from cellc.cli.findings import show_findings
+from cellc.pipeline import check
+
+
+@click.command()
+@click.argument("file", type=click.Path(path_type=str))
+def audit(file: str) -> None:
+    """Print the audit of the cell in FILE, as `cellc build` writes it to audit.md.
+
+    The exact version tuple with what is known of it, what is expected of the running cell, every command path, and
+    the blockers as questions to their owner or supplier.
+    """
+    checked = check(file)
+    if checked.graph is None:
+        show_findings([checked], "text")
+        raise click.exceptions.Exit(1)
+    from cellc.emit.audit.audit import emit
+    from cellc.formats.configuration import configuration_id, configuration_inputs
+    from cellc.formats.header import header_of
+
+    cell = checked.graph.cell
+    header = header_of(cell, configuration_id(configuration_inputs(cell)))
+    for artifact in emit(checked.graph, header):
+        click.echo(artifact.text, nl=False)

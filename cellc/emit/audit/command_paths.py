@@ -1,0 +1,112 @@
+"""Every way along which something is commanded: frame, unit, rate, time source, QoS, watchdog, failure behaviour."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.cell.cell import Cell
+from cellc.cell.control import Controller, ControllerManager
+from cellc.cell.interface import Endpoint, Interface, InterfaceKind
+from cellc.emit.audit.table import table
+from cellc.formats.interface_label import interface_facts
+from cellc.formats.numbers import shortest
+from cellc.graph.cell_graph import CellGraph
+
+_NOT_STATED = "not stated"
+# REP-103: SI and radians; by the joint's type.
+_UNITS = {
+    "position": ("rad", "m"),
+    "velocity": ("rad/s", "m/s"),
+    "acceleration": ("rad/s^2", "m/s^2"),
+    "effort": ("Nm", "N"),
+}
+
+
+def owners_section(graph: CellGraph) -> str:
+    """Write who owns each command interface, and who tells that owner what to do."""
+    return table(("command interface", "controller", "commanded by", "owner"), _owners(graph.cell))
+
+
+def command_section(graph: CellGraph) -> str:
+    """Write the command paths: through controllers down to joints, and the actions above them."""
+    head = ("path", "frame", "unit", "rate", "time source", "QoS", "watchdog", "on failure")
+    return table(head, [*_requests(graph.cell), *_controllers(graph.cell)])
+
+
+def _owners(cell: Cell) -> Iterator[tuple[str, ...]]:
+    people = {node.name: node.owner for node in cell.nodes}
+    for controller in cell.controllers:
+        for name in controller.command_interfaces:
+            client = controller.client or "nobody"
+            state = "" if controller.active else " (inactive)"
+            yield f"`{name}`", f"{controller.name}{state}", client, people.get(client, _NOT_STATED)
+
+
+def _requests(cell: Cell) -> Iterator[tuple[str, ...]]:
+    served = {controller.action for controller in cell.controllers}
+    for one in cell.interfaces:
+        if one.kind is InterfaceKind.ACTION and one.name not in served:
+            ends = f"{_names(one.sinks)} → `{one.name}` → {_names(one.sources)}"
+            time = one.time_source or _NOT_STATED
+            qos = _qos((*one.sinks, *one.sources))
+            yield (
+                ends,
+                one.frame or _NOT_STATED,
+                one.unit or "as the type",
+                "on request",
+                time,
+                qos,
+                "none",
+                _failure(one),
+            )
+
+
+def _controllers(cell: Cell) -> Iterator[tuple[str, ...]]:
+    actions = {one.name: one for one in cell.interfaces}
+    for manager in cell.managers:
+        for controller in manager.controllers:
+            if controller.command_interfaces:
+                yield _controller(cell, manager, controller, actions.get(controller.action or ""))
+
+
+def _controller(
+    cell: Cell, manager: ControllerManager, controller: Controller, action: Interface | None
+) -> tuple[str, ...]:
+    device = next((one for one in cell.devices if one.name == controller.device), None)
+    hardware = "its hardware" if device is None or device.hardware is None else device.hardware.name
+    safety = None if device is None else device.facts.safety
+    rate = controller.update_rate_hz or manager.update_rate_hz
+    behaviour = "" if action is None else f"; {_failure(action)}"
+    name = controller.action or f"{manager.namespace}/{controller.name}"
+    return (
+        f"{controller.client or 'nobody'} → `{name}` → {controller.name} → {hardware}",
+        (action.frame if action is not None else None) or "joints",
+        _units(cell, controller),
+        f"{shortest(rate)} Hz",
+        (action.time_source if action is not None else None) or f"clock of {manager.host or 'its host'}",
+        _NOT_STATED if action is None else _qos((*action.sinks, *action.sources)),
+        (safety.watchdog if safety is not None else None) or _NOT_STATED,
+        f"on violation {controller.on_violation}{behaviour}",
+    )
+
+
+def _units(cell: Cell, controller: Controller) -> str:
+    types = {joint.name: joint.type for device in cell.devices for joint in device.joints}
+    units = (
+        _UNITS[kind][types[joint] == "prismatic"] if joint in types and kind in _UNITS else f"as {kind} of the device"
+        for joint, _, kind in (name.rpartition("/") for name in controller.command_interfaces)
+    )
+    return ", ".join(dict.fromkeys(units))
+
+
+def _failure(interface: Interface) -> str:
+    return list(interface_facts(interface))[2].partition("; ")[2]
+
+
+def _qos(ends: tuple[Endpoint, ...]) -> str:
+    texts = (f"{end.qos.reliability}, {end.qos.durability}, depth {end.qos.depth}" for end in ends)
+    return "; ".join(dict.fromkeys(texts)) or _NOT_STATED
+
+
+def _names(ends: tuple[Endpoint, ...]) -> str:
+    return ", ".join(dict.fromkeys(end.node for end in ends)) or "nobody"

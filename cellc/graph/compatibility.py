@@ -1,0 +1,123 @@
+"""Whether the parts of the version tuple go together, as far as a matrix says: OK, INCOMPATIBLE or UNKNOWN."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import Enum
+
+from cellc.catalog.device_operation import VersionRow
+from cellc.catalog.distro_model import DistroFacts
+from cellc.catalog.load import load_distros
+from cellc.cell.cell import Cell
+from cellc.graph.distribution import distribution
+from cellc.graph.pins import Pin, cell_pins, device_pins, version_number, version_numbers
+
+
+class Answer(str, Enum):
+    """What a matrix says of one part; what no matrix names stays UNKNOWN."""
+
+    OK = "OK"
+    INCOMPATIBLE = "INCOMPATIBLE"
+    UNKNOWN = "UNKNOWN"
+
+
+@dataclass(frozen=True, slots=True)
+class Judgement:
+    """One part of the tuple with the answer, and what the answer rests on."""
+
+    pin: Pin
+    answer: Answer
+    evidence: str
+
+
+def compatibility(cell: Cell) -> tuple[Judgement, ...]:
+    """Judge every part of the tuple, the cell's first."""
+    return (*_of_cell(cell), *_of_devices(cell))
+
+
+def _of_cell(cell: Cell) -> Iterator[Judgement]:
+    facts, table = distribution(cell), load_distros().value
+    for pin in cell_pins(cell):
+        if not pin.known:
+            yield Judgement(pin, Answer.UNKNOWN, "not pinned")
+        elif facts is None or table is None:
+            yield Judgement(pin, Answer.UNKNOWN, "the catalogue has no such distribution")
+        else:
+            answer, evidence = _cell_answer(pin, facts)
+            yield Judgement(pin, answer, f"{evidence} (as of {table.as_of})")
+
+
+def _cell_answer(pin: Pin, facts: DistroFacts) -> tuple[Answer, str]:
+    if pin.part == "ros":
+        return Answer.OK, f"end of life {facts.end_of_life}"
+    if pin.part == "os":
+        return _os_answer(pin.text.lower(), facts)
+    name = pin.text.split()[0] if pin.part == "rmw" else pin.part
+    if pin.part == "rmw" and name not in (*facts.rmw, *facts.rmw_unverified):
+        return Answer.INCOMPATIBLE, f"{facts.title} has {', '.join(facts.rmw)}"
+    released = facts.packages.get(name, "")
+    if not released:
+        return Answer.UNKNOWN, "no matrix names it"
+    if version_number(pin.text) == version_number(released):
+        return Answer.OK, f"{facts.title} releases {released}"
+    # MoveIt and Zenoh's middleware stay below 3 for years: their second number is what changes with the distribution.
+    digits = 2 if name in ("moveit", "rmw_zenoh_cpp") and version_numbers(released)[:1] <= (2,) else 1
+    if version_numbers(pin.text)[:digits] != version_numbers(released)[:digits]:
+        return Answer.INCOMPATIBLE, f"{facts.title} releases {released}"
+    return Answer.UNKNOWN, f"{facts.title} releases {released}; this one is not tested with it"
+
+
+def _os_answer(written: str, facts: DistroFacts) -> tuple[Answer, str]:
+    if any(written == due or written.startswith(f"{due}.") for due in facts.os):
+        return Answer.OK, f"{facts.title} is built for it"
+    if any(written == due or written.startswith(f"{due}.") for due in facts.os_tier3):
+        return Answer.UNKNOWN, "third tier: built from source, untested by the distribution"
+    return Answer.INCOMPATIBLE, f"{facts.title} is built for {', '.join(facts.os)}"
+
+
+def _of_devices(cell: Cell) -> Iterator[Judgement]:
+    devices = {device.name: device for device in cell.devices}
+    for pin in device_pins(cell):
+        if not pin.known:
+            yield Judgement(pin, Answer.UNKNOWN, "not pinned")
+            continue
+        rows = [row for row in devices[pin.holder].facts.versions if row.part == pin.part]
+        judge = _firmware_answer if pin.part == "firmware" else _package_answer
+        answer, evidence = judge(pin, rows, cell.distro)
+        yield Judgement(pin, answer, evidence)
+
+
+def _firmware_answer(pin: Pin, rows: list[VersionRow], distro: str) -> tuple[Answer, str]:
+    numbers = version_numbers(pin.text)
+    for row in rows:
+        if row.product != pin.text.split()[0] or not numbers:
+            continue
+        least, below = version_numbers(row.minimum or ""), version_numbers(row.below or "")
+        inside = (not least or numbers >= least) and (not below or numbers < below)
+        bounds = f"from {row.minimum or 'any'}" + (f", below {row.below}" if row.below else "")
+        return (Answer.OK if inside else Answer.INCOMPATIBLE), f"{bounds}: {_origin(row)}"
+    return Answer.UNKNOWN, "no matrix names it"
+
+
+def _package_answer(pin: Pin, rows: list[VersionRow], distro: str) -> tuple[Answer, str]:
+    here = [row for row in rows if row.distro in (None, distro) and row.known]
+    elsewhere = [row for row in rows if row not in here and row.known]
+    ours = version_number(pin.text)
+    for row in here:
+        if ours in map(version_number, row.known):
+            return Answer.OK, f"{distro} knows {', '.join(row.known)}: {_origin(row)}"
+    lines = {version_numbers(known)[:1] for row in here for known in row.known}
+    for row in elsewhere:
+        if lines and version_numbers(pin.text)[:1] not in lines and _has_line(row, pin):
+            return Answer.INCOMPATIBLE, f"it is of {row.distro}: {_origin(row)}"
+    known = ", ".join(known for row in here for known in row.known)
+    return Answer.UNKNOWN, f"{distro} knows {known}: {_origin(here[0])}" if here else "no matrix names it"
+
+
+def _has_line(row: VersionRow, pin: Pin) -> bool:
+    return any(version_numbers(known)[:1] == version_numbers(pin.text)[:1] for known in row.known)
+
+
+def _origin(row: VersionRow) -> str:
+    return f"{row.source}, as of {row.as_of}"

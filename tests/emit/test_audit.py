@@ -1,0 +1,109 @@
+"""The audit answers prompt A of the chapter: tuple, expectations, owners, command paths, questions."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.cli.run import MINIMAL, PICK, run
+from tests.emit.cells import CELLS, artifacts_of, emitted, spec_text
+
+
+def section(text: str, title: str) -> list[list[str]]:
+    """Return the rows of a section's table, head and rule left out."""
+    body = text.split(f"\n## {title}\n")[1].split("\n## ")[0]
+    rows = [line.strip("| ").split(" | ") for line in body.splitlines() if line.startswith("|")]
+    return rows[2:]
+
+
+def answers(tmp_path: Path, old: str, new: str) -> dict[tuple[str, str], str]:
+    text = spec_text("ur5e_pick")
+    assert old in text
+    rows = section(emitted(tmp_path, text.replace(old, new))["audit.md"], "Version tuple")
+    return {(of, part): answer for of, part, _, answer, _ in rows}
+
+
+# versions.md: rows of the vendors' matrices and of rosdistro.
+@pytest.mark.parametrize(
+    ("old", "new", "part", "answer"),
+    [
+        ("polyscope 5.21.0", "polyscope 5.9.4", ("arm", "firmware"), "OK"),
+        ("polyscope 5.21.0", "polyscope 5.9.3", ("arm", "firmware"), "INCOMPATIBLE"),
+        ("polyscope 5.21.0", "polyscope 10.7.0", ("arm", "firmware"), "INCOMPATIBLE"),
+        ("polyscope 5.21.0", "somethingelse 1.0", ("arm", "firmware"), "UNKNOWN"),
+        ("ur_robot_driver 3.8.0", "ur_robot_driver 2.14.0", ("arm", "driver"), "INCOMPATIBLE"),
+        ("ur_robot_driver 3.8.0", "ur_robot_driver 3.9.0", ("arm", "driver"), "UNKNOWN"),
+        ("ubuntu 24.04", "ubuntu 20.04", ("ur5e_pick", "os"), "INCOMPATIBLE"),
+        ("ubuntu 24.04", "ubuntu 22.04", ("ur5e_pick", "os"), "UNKNOWN"),  # third tier of REP-2000
+        ("moveit: 2.12.4", "moveit: 2.5.9", ("ur5e_pick", "moveit"), "INCOMPATIBLE"),
+        ("moveit: 2.12.4", "moveit: 2.12.3", ("ur5e_pick", "moveit"), "UNKNOWN"),
+        ("moveit: 2.12.4", "moveit: UNKNOWN", ("ur5e_pick", "moveit"), "UNKNOWN"),
+        ("rmw_fastrtps_cpp 8.4.4", "rmw_other_cpp 1.0.0", ("ur5e_pick", "rmw"), "INCOMPATIBLE"),
+    ],
+)
+def test_tuple_has_three_answers(tmp_path: Path, old: str, new: str, part: tuple[str, str], answer: str) -> None:
+    assert answers(tmp_path, old, new)[part] == answer
+
+
+def test_untested_version_is_a_question_to_the_supplier(tmp_path: Path) -> None:
+    text = spec_text("ur5e_pick").replace("ur_robot_driver 3.8.0", "ur_robot_driver 3.9.0")
+    rows = section(emitted(tmp_path, text)["audit.md"], "Open questions")
+    (row,) = (row for row in rows if row[2] == "`devices.arm.driver`")
+    assert row[0] == "supplier Universal Robots"
+    assert "3.9.0" in row[1]
+    assert "rosdistro" in row[1]
+
+
+def test_what_stands_on_the_device_is_asked_of_its_owner() -> None:
+    rows = section(artifacts_of("ur5e_pick")["audit.md"], "Open questions")
+    assert ["robot", "Which serial does arm have, by its nameplate or panel?", "`devices.arm.serial`"] in rows
+
+
+def test_every_command_interface_has_its_owner() -> None:
+    rows = section(artifacts_of("ur5e_pick")["audit.md"], "Command owners")
+    assert len(rows) == 7  # six joints of the arm and the gripper's one
+    assert ["`arm_elbow_joint/position`", "arm_trajectory", "move_group", "integration"] in rows
+
+
+def test_command_path_states_what_the_chapter_asks_for() -> None:
+    rows = section(artifacts_of("ur5e_pick")["audit.md"], "Command paths")
+    (row,) = (row for row in rows if "follow_joint_trajectory" in row[0])
+    path, frame, unit, rate, time, qos, watchdog, failure = row
+    assert path == "move_group → `/arm_trajectory/follow_joint_trajectory` → arm_trajectory → arm_hardware"
+    assert (frame, unit, rate, time) == ("joints", "rad", "500 Hz", "ros")
+    assert "reliable" in qos
+    assert "0.04 s" in watchdog  # robots.md: robot_receive_timeout
+    assert failure.startswith("on violation abort_and_hold")
+
+
+@pytest.mark.parametrize("cell", CELLS)
+def test_audit_expects_the_interfaces_of_the_contract(cell: str) -> None:
+    artifacts = artifacts_of(cell)
+    kinds = {"topic": "Expected topics", "service": "Expected services", "action": "Expected actions"}
+    for name, interface in json.loads(artifacts["contract.json"])["interfaces"].items():
+        assert f"`{name}`" in [row[0] for row in section(artifacts["audit.md"], kinds[interface["kind"]])]
+
+
+@pytest.mark.parametrize("cell", CELLS)
+def test_every_table_is_as_wide_as_its_head(cell: str) -> None:
+    width = 0
+    for line in artifacts_of(cell)["audit.md"].splitlines():
+        if not line.startswith("|"):
+            width = 0
+        elif width:
+            assert line.replace("\\|", "").count("|") == width, line
+        else:
+            width = line.count("|")
+
+
+@pytest.mark.parametrize("file", [PICK, MINIMAL])
+def test_command_prints_what_is_built(file: str) -> None:
+    ran = run("audit", file)
+    assert ran.code == 0
+    assert ran.out == artifacts_of(Path(file).parent.name)["audit.md"]
+
+
+def test_command_reports_a_cell_that_cannot_be_linked(tmp_path: Path) -> None:
+    assert run("audit", (tmp_path / "none.yaml").as_posix()).code == 1
