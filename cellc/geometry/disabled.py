@@ -43,13 +43,13 @@ def _of_cell(graph: CellGraph) -> DisabledAnswer:
 
 
 def _sampled(urdf: str) -> DisabledAnswer:
-    from cellc.kinematics import CollisionScene, ModelError, RobotModel, disabled_collisions
+    from cellc.kinematics import CollisionScene, ModelError, RobotModel, beyond_reach, disabled_collisions
 
     try:
         robot = RobotModel.from_urdf(urdf)
     except ModelError as error:
         return DisabledAnswer((), 0, str(error))
-    checked = len(CollisionScene(robot).checked_pairs())
+    checked = len(set(CollisionScene(robot).checked_pairs()) - beyond_reach(robot, margin_m=MARGIN_M))
     samples = min(SAMPLES, max(LEAST_SAMPLES, _PAIRS_TIMES_SAMPLES // max(1, checked)))
     pairs = disabled_collisions(robot, samples=samples, rng_seed=RNG_SEED, margin_m=MARGIN_M)
     links = tuple(DisabledLinks(pair.first, pair.second, pair.reason.value) for pair in pairs)

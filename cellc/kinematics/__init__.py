@@ -7,6 +7,7 @@ from cellc.kinematics.limits import JointLimits, PlanningGroup
 from cellc.kinematics.model import RobotModel
 from cellc.kinematics.path import JointPath
 from cellc.kinematics.planner import Planner
+from cellc.kinematics.reach import beyond_reach
 from cellc.kinematics.scene import Box, CollisionScene
 from cellc.kinematics.timing import time_parameterize
 from cellc.kinematics.trajectory import LimitUse, TimedTrajectory, TrajectoryPoint
@@ -30,6 +31,7 @@ __all__ = [
     "RobotModel",
     "TimedTrajectory",
     "TrajectoryPoint",
+    "beyond_reach",
     "disabled_collisions",
     "time_parameterize",
 ]

@@ -14,6 +14,7 @@ from itertools import combinations
 from cellc.kinematics.limits import Array
 from cellc.kinematics.model import RobotModel
 from cellc.kinematics.pair_check import PairCheck, shape_links
+from cellc.kinematics.reach import beyond_reach
 from cellc.kinematics.sampling import draw_configurations
 from cellc.kinematics.scene import LinkPair
 
@@ -45,7 +46,7 @@ def disabled_collisions(model: RobotModel, *, samples: int, rng_seed: int, margi
 
     - adjacent: neighbours in the tree, with at most one movable joint and no other shape between them;
     - always: in contact at every sample;
-    - never: farther apart than the margin at every sample.
+    - never: farther apart than the margin at every sample, or by the lengths of their chains.
 
     Two links on one rigid body do not move against each other: they are "always" within the margin and "never" beyond.
 
@@ -57,11 +58,13 @@ def disabled_collisions(model: RobotModel, *, samples: int, rng_seed: int, margi
     configurations = draw_configurations(model, samples=samples, rng_seed=rng_seed)
     adjacent = set(_adjacent(model))
     rigid = set(_rigid(model)) - adjacent
-    moving = set(_pairs(shape_links(model))) - adjacent - rigid
+    unreached = beyond_reach(model, margin_m=margin_m) - adjacent - rigid
+    moving = set(_pairs(shape_links(model))) - adjacent - rigid - unreached
     at_rest = PairCheck(model, rigid, margin_m=margin_m).all_touching(configurations[0])
     always = at_rest | _touching_in_all(PairCheck(model, moving), moving, configurations)
     apart = moving - always
-    never = (rigid - at_rest) | _touching_in_none(PairCheck(model, apart, margin_m=margin_m), apart, configurations)
+    never = (rigid - at_rest) | unreached
+    never |= _touching_in_none(PairCheck(model, apart, margin_m=margin_m), apart, configurations)
     found = {DisabledReason.ADJACENT: adjacent, DisabledReason.ALWAYS: always, DisabledReason.NEVER: never}
     return tuple(sorted(DisabledPair(*pair, reason) for reason, pairs in found.items() for pair in pairs))
 

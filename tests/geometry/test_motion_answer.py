@@ -75,8 +75,8 @@ def test_box_on_a_bar_is_touched_and_box_beside_it_is_not(tmp_path: Path) -> Non
 
 
 def test_folded_hand_touches_the_first_bar(tmp_path: Path) -> None:
-    # With the elbow at 171 degrees the middle of the hand is 0.4 * sin 9 deg = 63 mm beside the first bar: less than the
-    # 20 mm that the bar and the 50 mm that the hand is wide to that side. At 150 degrees it is 200 mm.
+    # With the elbow at 171 degrees the middle of the hand is 0.4 * sin 9 deg = 63 mm beside the first bar: less than
+    # the 20 mm that the bar and the 50 mm that the hand is wide to that side. At 150 degrees it is 200 mm.
     poses = {"folded": {"bars": "0 171 0 deg"}, "bent": {"bars": "0 150 0 deg"}}
     folded, bent = _answer(tmp_path, motion=_motion(poses=poses)).poses
     assert [(contact.first, contact.second) for contact in folded.contacts] == [("arm_hand", "arm_upper")]
