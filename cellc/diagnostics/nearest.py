@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from difflib import get_close_matches
+
+_ONE_SUGGESTION = re.compile(r"did you mean `([^`]+)`\?")
 
 
 def nearest(name: str, candidates: Iterable[str], limit: int = 3) -> tuple[str, ...]:
@@ -29,3 +32,9 @@ def did_you_mean(name: str, candidates: Iterable[str], kind: str) -> str:
     shown = ", ".join(f"`{candidate}`" for candidate in known[:12])
     more = f" and {len(known) - 12} more" if len(known) > 12 else ""
     return f"use one of the {kind}: {shown}{more}"
+
+
+def only_suggestion(help_text: str) -> str | None:
+    """Return the name that a help by `did_you_mean` suggests, where it suggests a single one."""
+    match = _ONE_SUGGESTION.fullmatch(help_text)
+    return match[1] if match else None

@@ -1,0 +1,48 @@
+"""The option by which ``cellc check`` mends what has one safe answer."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import groupby
+from pathlib import Path
+
+import click
+
+from cellc.fix.edit import Edit
+from cellc.pipeline import check
+from cellc.report.escape import escape
+
+FIX = click.option(
+    "--fix", is_flag=True, help="Mend in the files what has one safe answer: misspelt keys, a missing modeline."
+)
+# A mended key can show a misspelt one below it; no spec is nested deeper.
+_PASSES = 16
+
+
+def fix_file(file: str) -> None:
+    """Mend a spec and what it includes, and say on standard error what was done."""
+    from cellc.fix.keys import misspelt_keys
+    from cellc.fix.modeline import missing_modeline
+    from cellc.source import read
+
+    for _ in range(_PASSES):
+        document = read(file)
+        if document.value is None or not document.ok:
+            return
+        edits: list[Edit] = [*misspelt_keys(check(file).diagnostics, document.value)]
+        edits += missing_modeline(document.value.file, document.value.texts[document.value.file])
+        if not edits:
+            return
+        for name, group in groupby(sorted(edits, key=lambda one: (one.file, one.line)), key=lambda one: one.file):
+            _rewrite(name, list(group), document.value.texts[name])
+
+
+def _rewrite(file: str, edits: Sequence[Edit], text: str) -> None:
+    from cellc.fix.rewrite import rewrite
+
+    try:
+        done = rewrite(Path(file), edits, text)
+    except OSError as error:
+        raise click.UsageError(f"`{file}` cannot be written: {(error.strerror or 'unknown reason').lower()}") from error
+    for edit in edits if done else ():
+        click.echo(f"{escape(edit.file)}:{edit.line}: {escape(edit.message)}", err=True)

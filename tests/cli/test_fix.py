@@ -1,0 +1,145 @@
+"""``cellc check --fix`` mends what has one safe answer, and nothing else of the file."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from cellc.fix.edit import Edit, apply_edits
+from tests.cli.run import PICK, ROOT, run
+
+PICK_TEXT = Path(PICK).read_text(encoding="utf-8")
+
+
+def write(folder: Path, text: str) -> Path:
+    """Write a spec that lies as deep under the schemas as those of the repository."""
+    (folder / "schemas").mkdir(exist_ok=True)
+    (folder / "schemas/cell.schema.json").write_text("{}")
+    file = folder / "cells/pick/cell.yaml"
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_bytes(text.encode("utf-8"))
+    return file
+
+
+def fixed(folder: Path, text: str) -> str:
+    file = write(folder, text)
+    run("check", file.as_posix(), "--fix")
+    return file.read_bytes().decode("utf-8")
+
+
+def test_misspelt_key_is_mended_and_everything_else_stays(tmp_path: Path) -> None:
+    assert "    firmware: polyscope 5.21.0\n" in PICK_TEXT
+    broken = PICK_TEXT.replace("    firmware: polyscope", "    firmwre: polyscope")
+    assert fixed(tmp_path, broken) == PICK_TEXT
+
+
+def test_several_keys_and_one_below_another_are_mended_in_one_call(tmp_path: Path) -> None:
+    broken = PICK_TEXT.replace("recovery: {states", "recovry: {states").replace(
+        "observer: operator", "observr: operator"
+    )
+    broken = broken.replace("kpis: {", "kpi: {")
+    assert fixed(tmp_path, broken) == PICK_TEXT
+
+
+def test_what_was_done_is_told_on_standard_error(tmp_path: Path) -> None:
+    file = write(tmp_path, PICK_TEXT.replace("    firmware: polyscope", "    firmwre: polyscope"))
+    ran = run("check", file.as_posix(), "--fix", "--format", "json")
+    line = PICK_TEXT.split("    firmware: polyscope")[0].count("\n") + 1
+    assert f"{file.as_posix()}:{line}: `firmwre` becomes `firmware`" in ran.err
+    assert ran.out.startswith("{")
+
+
+def test_fixing_twice_changes_nothing_more(tmp_path: Path) -> None:
+    once = fixed(tmp_path, PICK_TEXT.replace("motion:", "motoin:").split("\n", 1)[1])
+    assert fixed(tmp_path, once) == once
+
+
+def test_line_breaks_and_byte_order_mark_stay(tmp_path: Path) -> None:
+    windows = "\ufeff" + PICK_TEXT.replace("\n", "\r\n")
+    assert fixed(tmp_path, windows.replace("kpis:", "kpsi:")) == windows
+
+
+def test_missing_modeline_is_put_first_with_the_way_to_the_schema(tmp_path: Path) -> None:
+    without = PICK_TEXT.split("\n", 1)[1]
+    assert fixed(tmp_path, without) == PICK_TEXT
+
+
+def test_modeline_of_another_schema_stays(tmp_path: Path) -> None:
+    other = PICK_TEXT.replace("../../schemas/", "https://example.org/")
+    assert fixed(tmp_path, other) == other
+
+
+def test_no_modeline_is_written_where_no_schema_is_near(tmp_path: Path) -> None:
+    file = tmp_path / "cell.yaml"
+    file.write_text(PICK_TEXT.split("\n", 1)[1], encoding="utf-8")
+    run("check", file.as_posix(), "--fix")
+    assert file.read_text(encoding="utf-8") == PICK_TEXT.split("\n", 1)[1]
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("cell: ur5e_pick", "cell: ur5e_pick\nsumary: again"),  # the right key stands there already
+        ("kpis: {", "zzz: {"),  # nothing is near
+        ("firmware: polyscope", '"firmwre": polyscope'),  # in quotes: the span is not the key alone
+        ("rehearsals:", "rehearse:"),  # near, but not near enough to change unread
+        ("    max_age: 100 ms", "    max_rate: 100 ms"),  # near, and something else
+    ],
+)
+def test_key_without_one_safe_answer_stays(tmp_path: Path, old: str, new: str) -> None:
+    assert old in PICK_TEXT
+    text = PICK_TEXT.replace(old, new, 1)
+    assert fixed(tmp_path, text) == text
+
+
+def test_key_in_an_included_file_is_mended_there(tmp_path: Path) -> None:
+    start, end = PICK_TEXT.index("kpis: {"), len(PICK_TEXT)
+    root = PICK_TEXT[:start] + "include: kpis.yaml\n"
+    file = write(tmp_path, root)
+    (file.parent / "kpis.yaml").write_text(
+        "# ours\n" + PICK_TEXT[start:end].replace("cancel:", "cancl:"), encoding="utf-8"
+    )
+    run("check", file.as_posix(), "--fix")
+    assert (file.parent / "kpis.yaml").read_text(encoding="utf-8") == "# ours\n" + PICK_TEXT[start:end]
+    assert file.read_text(encoding="utf-8") == root
+
+
+def test_file_that_is_no_yaml_stays(tmp_path: Path) -> None:
+    assert fixed(tmp_path, "cell: [\n") == "cell: [\n"
+
+
+def test_permissions_stay_and_a_link_stays_a_link(tmp_path: Path) -> None:
+    file = write(tmp_path, PICK_TEXT.replace("kpis:", "kpsi:"))
+    file.chmod(0o640)
+    link = file.with_name("linked.yaml")
+    link.symlink_to(file)
+    run("check", link.as_posix(), "--fix")
+    assert file.read_text(encoding="utf-8") == PICK_TEXT
+    assert link.is_symlink()
+    assert file.stat().st_mode & 0o777 == 0o640
+    assert sorted(os.listdir(file.parent)) == ["cell.yaml", "linked.yaml"]
+
+
+def test_check_without_fix_writes_nothing(tmp_path: Path) -> None:
+    broken = PICK_TEXT.replace("kpis:", "kpsi:")
+    file = write(tmp_path, broken)
+    run("check", file.as_posix())
+    assert file.read_text(encoding="utf-8") == broken
+
+
+@pytest.mark.parametrize("cell", ["minimal", "ur5e_pick"])
+def test_cells_of_the_repository_need_no_fix(cell: str, tmp_path: Path) -> None:
+    text = (ROOT / "cells" / cell / "cell.yaml").read_text(encoding="utf-8")
+    assert fixed(tmp_path, text) == text
+
+
+def test_edits_of_one_line_do_not_move_each_other() -> None:
+    edits = [Edit("f", 1, 1, 3, "long", ""), Edit("f", 1, 4, 5, "x", "")]
+    assert apply_edits("ab c\r\nd", edits) == "long x\r\nd"
+
+
+@pytest.mark.parametrize("key", ["max-age", "maxAge", "max_ag", "max_agee", "max_aeg", "mix_age"])
+def test_one_slip_is_mended(key: str, tmp_path: Path) -> None:
+    assert fixed(tmp_path, PICK_TEXT.replace("    max_age: 100 ms", f"    {key}: 100 ms")) == PICK_TEXT
