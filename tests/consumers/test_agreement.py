@@ -92,6 +92,9 @@ def test_contract_has_the_controllers_of_the_parameter_files(cell: str, distro: 
             if "command_interfaces" in own:
                 kinds = own["command_interfaces"]
                 assert one["command_interfaces"] == [f"{joint}/{kind}" for joint in joints for kind in kinds]
+            if joints and "state_interfaces" in own:
+                kinds = own["state_interfaces"]
+                assert one["state_interfaces"] == [f"{joint}/{kind}" for joint in joints for kind in kinds]
 
 
 def _si(text: str) -> float:
@@ -124,6 +127,7 @@ def test_qos_overrides_are_those_of_the_contract(cell: str, distro: str) -> None
     for key, values in sections(text).items():
         stated: dict[tuple[str, str], dict[str, Any]] = {}
         for name, value in values.items():
+            assert name.startswith("qos_overrides./"), name
             topic, side, policy = name.removeprefix("qos_overrides.").rsplit(".", 2)
             assert policy == "depth" or value in _LEGAL[policy], name
             stated.setdefault((topic, side), {})[policy] = value
@@ -153,6 +157,8 @@ def test_drivers_are_told_what_they_declare_and_the_address_of_the_spec(cell: st
         if process.executable in _OF_DRIVERS:
             values = told(texts, process.files, node_name(process))
             assert set(values) == _OF_DRIVERS[process.executable], node_name(process)
+            switches = [name for name in values if re.search(r"enable|headless|publish_tf", name)]
+            assert all(isinstance(values[name], bool) for name in switches)
             assert values.get("robot_ip") in addresses | {None, "UNKNOWN"}  # UNKNOWN blocks the real target
 
 
@@ -176,6 +182,7 @@ def test_environment_is_the_spec_and_leads_to_files_of_the_package(cell: str, di
             "rmw_cyclonedds_cpp": {"CYCLONEDDS_URI"},
         }
         assert set(leads) == wanted[stated["RMW_IMPLEMENTATION"]]
+        assert texts[path].splitlines()[-1] == "unset _cell_share"  # it is sourced
         assert texts[path].count(f'"$(ros2 pkg prefix --share {cell})"') == 1
 
 
@@ -229,3 +236,62 @@ def test_package_has_every_part(cell: str, distro: str) -> None:
     assert {f"middleware/{host}.sh" for host in spec.get("hosts", {})} <= set(texts)
     overridden = any("to" in one or isinstance(one.get("from"), dict) for one in spec.get("interfaces", {}).values())
     assert ("config/qos_overrides.yaml" in texts) is overridden
+
+
+@every_build
+def test_targets_differ_in_their_hardware_alone(cell: str, distro: str) -> None:
+    robots = [fromstring(build(cell, distro).urdf(target)) for target in ("mock", "real")]
+    for robot in robots:
+        for tag in robot.findall("ros2_control"):
+            robot.remove(tag)
+    # Comments are gone; what stood between the tags is not compared.
+    parts = [[(tag.tag, tag.attrib, (tag.text or "").strip()) for tag in robot.iter()] for robot in robots]
+    assert parts[0] == parts[1]
+
+
+@every_build
+def test_contract_has_limits_calibrations_and_pairs_of_the_other_files(cell: str, distro: str) -> None:
+    texts, promised = build(cell, distro).texts, contract(cell, distro)
+    limits = sections(texts["config/joint_limits.yaml"])["/**"]
+    for joint, limit in promised["joint_limits"].items():
+        for name in ("acceleration", "jerk"):
+            assert limits[f"robot_description_planning.joint_limits.{joint}.max_{name}"] == limit[name], joint
+    frames = yaml.safe_load(texts["config/frames.yaml"])["frames"]
+    assert {name: frame.get("calibration") for name, frame in frames.items()} == {
+        name: frame["calibration"] for name, frame in promised["frames"].items()
+    }
+    publishers = json.loads(texts["manifest.json"])["configuration_inputs"]["tf_publishers"]
+    assert {name: frame["authority"] for name, frame in frames.items() if name in publishers} == publishers
+    links = {tag.attrib["link"] for tag in fromstring(build(cell, distro).urdf("real")).iter("child")}
+    assert links - set(publishers) == set()
+
+
+@every_build
+def test_named_states_are_the_poses_of_the_spec(cell: str, distro: str) -> None:
+    semantic = fromstring(build(cell, distro).texts[f"config/moveit/{cell}.srdf"])
+    states = {(one.attrib["name"], one.attrib["group"]): one for one in semantic.findall("group_state")}
+    for pose, groups in written(cell)["motion"].get("poses", {}).items():
+        for group, text in groups.items():
+            *numbers, unit = text.split()
+            values = [float(joint.attrib["value"]) for joint in states[pose, group].findall("joint")]
+            assert values == pytest.approx([_si(f"{number} {unit}") for number in numbers], abs=1e-12)
+
+
+@every_build
+def test_fast_dds_uses_the_transports_that_it_describes(cell: str, distro: str) -> None:
+    for path in (path for path in build(cell, distro).texts if path.endswith(".fastdds.xml")):
+        text = re.sub(' xmlns="[^"]*"', "", build(cell, distro).texts[path])
+        dds = fromstring(text)
+        described = [tag.text for tag in dds.findall(".//transport_descriptor/transport_id")]
+        used = [tag.text for tag in dds.findall(".//userTransports/transport_id")]
+        assert sorted(map(str, described)) == sorted(map(str, used))
+        assert dds.findtext(".//useBuiltinTransports") == "false"  # they would use every card
+        assert dds.findall(".//interfaceWhiteList/*")
+
+
+@every_build
+def test_collision_pairs_of_contract_and_semantic_description_are_the_same(cell: str, distro: str) -> None:
+    semantic = fromstring(build(cell, distro).texts[f"config/moveit/{cell}.srdf"])
+    pairs = [(one.attrib["link1"], one.attrib["link2"]) for one in semantic.findall("disable_collisions")]
+    promised = [(one["first"], one["second"]) for one in contract(cell, distro)["disabled_collisions"]]
+    assert sorted(map(sorted, pairs)) == sorted(map(sorted, promised))

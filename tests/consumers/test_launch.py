@@ -15,6 +15,11 @@ from tests.consumers.refused_parameters import claimed, interfaces
 from tests.consumers.starting import CONFIRMED, launched, node_name, processes, spawners, written_managers
 
 TARGETS = ("mock", "real")
+# ros2_control.md 4: where the plugin's name does not begin with its package's.
+_PACKAGES = {
+    "parallel_gripper_action_controller/GripperActionController": "parallel_gripper_controller",
+    "position_controllers/GripperActionController": "gripper_controllers",
+}
 _ADDRESS = re.compile(r"\b\d+\.\d+\.\d+\.\d+\b|/dev/\w+")
 
 
@@ -160,6 +165,23 @@ def test_what_is_launched_or_found_is_a_dependency_and_is_installed(cell: str, d
     assert launch | found <= depends
     installed = set(re.findall(r"^  ([a-z_.]+)$", texts["CMakeLists.txt"], re.MULTILINE))
     assert {path.split("/")[0] for path in texts if path.startswith(("launch", "config", "urdf"))} <= installed
+
+
+@every_build
+def test_plugins_are_of_packages_that_the_manifest_names(cell: str, distro: str) -> None:
+    texts = build(cell, distro).texts
+    manifest = fromstring(texts["package.xml"])
+    depends = {tag.text for tag in manifest.findall("exec_depend")}
+    assert [tag.text for tag in manifest.findall("buildtool_depend")] == ["ament_cmake"]
+    assert manifest.findtext("name") == cell
+    used = {"hardware_interface"}  # home of mock_components
+    for path, text in texts.items():
+        if path.endswith(".real.urdf"):
+            used |= {plugin.split("/")[0] for plugin in re.findall(r"<plugin>(.*?)</plugin>", text)}
+        if path.endswith("controllers.yaml") and "moveit" not in path:
+            types = re.findall(r"^ +type: (\S+)$", text, re.MULTILINE)
+            used |= {_PACKAGES.get(plugin, plugin.split("/")[0]) for plugin in types}
+    assert used <= depends
 
 
 @every_cell

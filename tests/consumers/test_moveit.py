@@ -214,3 +214,27 @@ def test_named_states_state_every_joint_of_their_group(cell: str, distro: str) -
         for state in semantic.findall("group_state"):
             if state.get("group") == group.get("name"):
                 assert {joint.attrib["name"] for joint in state.findall("joint")} == names
+
+
+@every_build
+def test_move_group_gets_both_descriptions(cell: str, distro: str) -> None:
+    for process in (one for one in processes(cell, distro, "real") if one.executable == "move_group"):
+        texts = build(cell, distro).texts
+        assert process.values["robot_description"] == (texts[f"urdf/{cell}.real.urdf"], "str")
+        assert process.values["robot_description_semantic"] == (texts[f"config/moveit/{cell}.srdf"], "str")
+
+
+@every_build
+def test_values_are_within_what_their_readers_can_use(cell: str, distro: str) -> None:
+    solvers = {"kdl_kinematics_plugin/KDLKinematicsPlugin", "lma_kinematics_plugin/LMAKinematicsPlugin"}
+    for name, value in _told(cell, distro).items():
+        if name.endswith(".kinematics_solver"):
+            assert value in solvers
+        if name.endswith((".kinematics_solver_timeout", ".kinematics_solver_search_resolution")):
+            assert 0 < value <= 0.1  # a planner asks many times
+        if name.endswith(".allowed_start_tolerance"):
+            assert 0 < value <= 0.1  # rad; zero would switch the check off
+        if name.startswith("publish_") or name == "moveit_manage_controllers":
+            assert isinstance(value, bool)
+        if name.endswith(("scaling_factor", "longest_valid_segment_fraction")):
+            assert 0 < value <= 1

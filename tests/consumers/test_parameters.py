@@ -32,6 +32,8 @@ def test_controllers_declare_what_they_are_told_and_are_told_what_they_need(cell
     assert found
     for name, plugin, values in found:
         assert complaints(distro, plugin, values) == [], name
+        if "GripperAction" in plugin and "state_interfaces" in values:
+            assert values["state_interfaces"] == ["position", "velocity"]  # it stalls by velocity
 
 
 @every_build
@@ -52,7 +54,10 @@ def test_every_section_belongs_to_a_node_that_runs(cell: str, distro: str) -> No
     nodes |= {name for name, _, _ in controllers(cell, distro)}
     for path, text in texts.items():
         if path.startswith("config/") and "ros__parameters:" in text:
-            assert {key for key in sections(text) if not key.startswith("/**")} <= nodes, path
+            named = {key for key in sections(text) if not key.startswith("/**")}
+            assert named <= nodes, path
+            for process in processes(cell, distro, "real"):
+                assert node_name(process) not in named or path in process.files, node_name(process)
 
 
 @pytest.mark.parametrize("distro", DISTROS)
