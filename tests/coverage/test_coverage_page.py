@@ -1,0 +1,57 @@
+"""The page that maps requirements to codes and files names what exists, and leaves nothing out."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from cellc.catalog.codes import CODES as CATALOG_CODES
+from cellc.link.codes import CODES as LINK_CODES
+from cellc.pipeline import check, compile_cell
+from cellc.rules.all_rules import ALL_RULES
+from cellc.source import CODES as SOURCE_CODES
+from cellc.spec.codes import CODES as SPEC_CODES
+
+ROOT = Path(__file__).resolve().parents[2]
+CHECKS = ROOT.parent / "shared" / "design" / "checks.md"
+PAGE = (ROOT / "docs" / "coverage.md").read_text(encoding="utf-8")
+ROWS = [line.strip("| ").split(" | ") for line in PAGE.splitlines() if line.startswith("| ")]
+NAMED = set(re.findall(r"`([^`]+)`", "\n".join(row[-1] for row in ROWS)))
+RULE_CODES = {rule.code for rule in ALL_RULES}
+
+
+def test_every_code_that_is_named_exists() -> None:
+    pages = (*CATALOG_CODES, *LINK_CODES, *SOURCE_CODES, *SPEC_CODES)
+    codes = {name for name in NAMED if re.fullmatch(r"[a-z0-9]+(-[a-z0-9]+)+", name)}
+    assert codes <= RULE_CODES | {page.code for page in pages}
+
+
+def test_every_rule_is_named() -> None:
+    assert RULE_CODES <= NAMED
+
+
+def test_every_file_that_is_named_is_emitted() -> None:
+    artifacts = compile_cell(check(ROOT / "cells" / "ur5e_pick" / "cell.yaml")).value
+    assert artifacts is not None
+    files = {name for name in NAMED if re.search(r"[./]", name)}
+    assert files
+    assert files <= {artifact.path for artifact in artifacts}
+
+
+def test_every_requirement_says_what_holds_it() -> None:
+    for row in ROWS:
+        assert row[0].startswith("**") or (len(row) == 2 and row[1]), row
+
+
+@pytest.mark.skipif(not CHECKS.exists(), reason="the list of checks is not beside the checkout")
+def test_every_row_of_the_list_of_checks_is_mapped() -> None:
+    rows = [
+        line.strip("| ").rsplit(" | ", 1)
+        for line in CHECKS.read_text(encoding="utf-8").splitlines()
+        if line.startswith("| ")
+    ]
+    wrong = [row[0] for row in rows if row[0] != "what is wrong"]
+    assert len(wrong) > 60
+    assert set(wrong) <= {row[0] for row in ROWS}
