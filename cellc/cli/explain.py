@@ -2,19 +2,34 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import click
 
 from cellc.diagnostics import did_you_mean
+from cellc.report.handbook import render_handbook
 from cellc.report.pages import all_pages, render_page
 
 
 @click.command()
 @click.argument("code", required=False)
 @click.option("--all", "everything", is_flag=True, help="Print the page of every code.")
-def explain(code: str | None, everything: bool) -> None:
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path, dir_okay=False),
+    help="With --all, write all pages to a file.",
+)
+def explain(code: str | None, everything: bool, output: Path | None) -> None:
     """Explain CODE, or list all codes."""
     pages = all_pages()
-    if everything:
+    if output is not None:
+        if not everything:
+            raise click.UsageError("--output writes the document of all codes: give --all too")
+        output.parent.mkdir(parents=True, exist_ok=True)
+        output.write_text(render_handbook(), encoding="utf-8", newline="\n")
+        click.echo(f"wrote {output.as_posix()}")
+    elif everything:
         click.echo("\n".join(render_page(page) for page in pages.values()), nl=False)
     elif code is None:
         width = max(len(known) for known in pages)
