@@ -13,7 +13,9 @@ from cellc.pipeline import check
 from cellc.report.escape import escape
 
 FIX = click.option(
-    "--fix", is_flag=True, help="Mend in the files what has one safe answer: misspelt keys, a missing modeline."
+    "--fix",
+    is_flag=True,
+    help="Mend what has one safe answer in the files: misspelt keys and units, the modeline.",
 )
 # A mended key can show a misspelt one below it; no spec is nested deeper.
 _PASSES = 16
@@ -23,13 +25,15 @@ def fix_file(file: str) -> None:
     """Mend a spec and what it includes, and say on standard error what was done."""
     from cellc.fix.keys import misspelt_keys
     from cellc.fix.modeline import missing_modeline
+    from cellc.fix.units import misspelt_units
     from cellc.source import read
 
     for _ in range(_PASSES):
         document = read(file)
         if document.value is None or not document.ok:
             return
-        edits: list[Edit] = [*misspelt_keys(check(file).diagnostics, document.value)]
+        found = check(file).diagnostics
+        edits: list[Edit] = [*misspelt_keys(found, document.value), *misspelt_units(found, document.value)]
         edits += missing_modeline(document.value.file, document.value.texts[document.value.file])
         if not edits:
             return

@@ -9,7 +9,7 @@ import click
 
 from cellc.diagnostics import Severity
 from cellc.pipeline import Checked
-from cellc.report.selection import Selection, UnknownSelectionError, selection
+from cellc.report.selection import Selection
 
 SELECT = click.option(
     "--select", multiple=True, metavar="CODES", help="Report only these codes or families, such as QOS."
@@ -21,6 +21,10 @@ IGNORE = click.option(
 
 def read_selection(select: Sequence[str], ignore: Sequence[str]) -> Selection:
     """Return what the options ask for; each may be given several times, and hold several names with commas."""
+    if not select and not ignore:
+        return Selection()
+    from cellc.report.selection_names import UnknownSelectionError, selection
+
     try:
         return selection(_names(select), _names(ignore))
     except UnknownSelectionError as problem:

@@ -143,3 +143,35 @@ def test_edits_of_one_line_do_not_move_each_other() -> None:
 @pytest.mark.parametrize("key", ["max-age", "maxAge", "max_ag", "max_agee", "max_aeg", "mix_age"])
 def test_one_slip_is_mended(key: str, tmp_path: Path) -> None:
     assert fixed(tmp_path, PICK_TEXT.replace("    max_age: 100 ms", f"    {key}: 100 ms")) == PICK_TEXT
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong"),
+    [
+        ("update_rate: 500 Hz", "update_rate: 500 hz"),
+        ("update_rate: 500 Hz", 'update_rate: "500 hertz"'),
+        ("goal_time: 1 s", "goal_time: 1 sec"),
+        ("xyz: 0 0 162 mm", "xyz: 0 0 162 millimetres"),
+        ("rpy: 0 0 90 deg", "rpy: 0 0 90°"),
+        ("limits: {velocity: 50 %", "limits: {velocity: 50 percent"),
+    ],
+)
+def test_unit_in_another_spelling_is_mended(right: str, wrong: str, tmp_path: Path) -> None:
+    assert right in PICK_TEXT
+    mended = fixed(tmp_path, PICK_TEXT.replace(right, wrong, 1))
+    # Only the unit is replaced: quotes and spaces stay as they were.
+    assert mended.replace('"500 Hz"', "500 Hz").replace("90deg", "90 deg") == PICK_TEXT
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong"),
+    [
+        ("update_rate: 500 Hz", "update_rate: 500"),  # no unit: 500 Hz or 500 kHz
+        ("update_rate: 500 Hz", "update_rate: 500 mhz"),  # milli or mega
+        ("update_rate: 500 Hz", "update_rate: 500 sec"),  # a duration where a frequency is due
+        ("goal_time: 1 s", "goal_time: 1 fortnight"),
+    ],
+)
+def test_unit_that_may_mean_something_else_stays(right: str, wrong: str, tmp_path: Path) -> None:
+    text = PICK_TEXT.replace(right, wrong, 1)
+    assert fixed(tmp_path, text) == text
