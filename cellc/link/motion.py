@@ -8,7 +8,7 @@ from cellc.cell.control import Controller
 from cellc.cell.device import Device
 from cellc.cell.frame import Frame
 from cellc.cell.motion import CartesianGoal, NamedPose, PlanningGroup
-from cellc.diagnostics import Diagnostic, Outcome, Severity
+from cellc.diagnostics import Diagnostic, Outcome, Severity, YamlPath
 from cellc.link.frame_names import FrameNames
 from cellc.link.placement import pose, vector
 from cellc.link.unknown import unknown_name
@@ -37,7 +37,8 @@ def link_groups(
             continue
         links = _chain(parents, base.value, tip.value)
         if links is None:
-            problems.append(_not_a_chain(name, written.base, written.tip, document))
+            circle = _circle(frames, tip.value)
+            problems.append(_not_a_chain(name, written.base, written.tip, document, circle))
             continue
         joints = tuple(joint_of_link[link].name for link in links if link in joint_of_link)
         groups.append(
@@ -121,15 +122,28 @@ def _chain(parents: Mapping[str, str], base: str, tip: str) -> tuple[str, ...] |
     return tuple(reversed(links))
 
 
-def _not_a_chain(name: str, base: str, tip: str, document: SourceDocument) -> Diagnostic:
-    path = ("motion", "groups", name, "tip")
+def _circle(frames: tuple[Frame, ...], tip: str) -> Frame | None:
+    """Return the frame at which the way up from a tip comes round again, or None where it ends."""
+    by_name = {frame.name: frame for frame in frames}
+    seen: set[str] = set()
+    frame = by_name.get(tip)
+    while frame is not None and frame.name not in seen:
+        seen.add(frame.name)
+        frame = by_name.get(frame.parent)
+    return frame
+
+
+def _not_a_chain(name: str, base: str, tip: str, document: SourceDocument, circle: Frame | None) -> Diagnostic:
+    """Report the tip, or the frame on its way that hangs on itself, which is then the cause."""
+    path: YamlPath = ("motion", "groups", name, "tip") if circle is None else (*circle.path, "parent")
+    reason = f"`{tip}` does not hang on `{base}`" if circle is None else f"`{circle.name}` hangs on itself"
     return Diagnostic(
         code="not-a-chain",
         severity=Severity.ERROR,
-        message=f"`{tip}` does not hang on `{base}`: group `{name}` has no chain of joints",
+        message=f"{reason}: group `{name}` has no chain of joints",
         span=document.locate(path),
         yaml_path=path,
-        help="name a tip whose parents lead to the base link",
+        help="name a tip whose parents lead to the base link" if circle is None else "name another parent",
     )
 
 

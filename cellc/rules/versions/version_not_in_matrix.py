@@ -32,21 +32,23 @@ from cellc.rules.finding import found
 
 
 def check(graph: CellGraph) -> Iterator[Finding]:
-    """Yield drivers, SDKs and descriptions of the right line that no row of the distribution knows."""
+    """Yield drivers, SDKs and descriptions that no row knows, unless they are of the line of another distribution."""
     for device in graph.cell.devices:
         for part in ("driver", "sdk", "description"):
             text = {"driver": device.spec.driver, "sdk": device.spec.sdk, "description": device.spec.description}[part]
-            rows = [
-                row for row in device.facts.versions if row.part == part and row.distro in (None, graph.cell.distro)
-            ]
-            known = {name for row in rows for name in row.known}
+            rows = [row for row in device.facts.versions if row.part == part and row.known]
+            here = {name for row in rows if row.distro in (None, graph.cell.distro) for name in row.known}
+            elsewhere = {_line(name) for row in rows for name in row.known} - {_line(name) for name in here}
             ours = version_number(text)
-            if ours and known and ours not in known and ours.split(".")[0] in {name.split(".")[0] for name in known}:
-                names = ", ".join(sorted(known))
-                message = (
-                    f"`{text}` of `{device.name}` is not in the matrix of {graph.cell.distro}, which knows {names}"
-                )
-                yield found(graph, (*device.path, part), message, "pin a version of the matrix, or test the tuple")
+            if not ours or not rows or ours in here or (here and _line(ours) in elsewhere):
+                continue
+            names = ", ".join(sorted(here)) or "none"
+            message = f"`{text}` of `{device.name}` is not in the matrix of {graph.cell.distro}, which knows {names}"
+            yield found(graph, (*device.path, part), message, "pin a version of the matrix, or test the tuple")
+
+
+def _line(version: str) -> str:
+    return version.split(".")[0]
 
 
 RULE = define("version-not-in-matrix", Severity.BLOCKER, check, __doc__)

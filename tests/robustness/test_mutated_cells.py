@@ -1,0 +1,30 @@
+"""No change of a cell's text or structure ends in a traceback, or takes long."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+
+import pytest
+
+from cellc.pipeline import check
+from tests.robustness.mutations import mutated
+
+CELLS = sorted((Path(__file__).resolve().parents[2] / "cells").glob("*/cell.yaml"))
+SEEDS = range(60)  # benchmarks/mutated_cells.py takes thousands
+LONGEST_S = 10.0  # far above what a check takes, far below what a hang does
+
+
+@pytest.mark.parametrize("cell", CELLS, ids=lambda cell: cell.parent.name)
+def test_mutated_cell_is_diagnosed(cell: Path, tmp_path: Path) -> None:
+    text = cell.read_text(encoding="utf-8")
+    for seed in SEEDS:
+        file = tmp_path / "cell.yaml"
+        file.write_bytes(mutated(text, seed).encode("utf-8", "surrogatepass"))
+        begin = time.perf_counter()
+        checked = check(file)
+        assert time.perf_counter() - begin < LONGEST_S, seed
+        for diagnostic in checked.diagnostics:
+            assert diagnostic.message, seed
+            assert "\n" not in diagnostic.message, seed
+            assert diagnostic.span.line >= 1, seed
