@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from cellc.fix.edit import Edit, apply_edits
+from cellc.fix.rewrite import rewrite
 from tests.cli.run import PICK, ROOT, run
 
 PICK_TEXT = Path(PICK).read_text(encoding="utf-8")
@@ -175,3 +176,27 @@ def test_unit_in_another_spelling_is_mended(right: str, wrong: str, tmp_path: Pa
 def test_unit_that_may_mean_something_else_stays(right: str, wrong: str, tmp_path: Path) -> None:
     text = PICK_TEXT.replace(right, wrong, 1)
     assert fixed(tmp_path, text) == text
+
+
+def test_key_that_an_alias_brings_to_several_places_stays(tmp_path: Path) -> None:
+    tcp = "  tcp: {parent: gripper/base, xyz: 0 0 162 mm, calibration: tcp_2f}\n"
+    assert tcp in PICK_TEXT
+    shared = "  tcp: &shared {parnt: gripper/base, xyz: 0 0 162 mm, calibration: tcp_2f}\n  other: *shared\n"
+    text = PICK_TEXT.replace(tcp, shared)
+    assert fixed(tmp_path, text) == text
+
+
+def test_file_that_changed_meanwhile_is_left_alone(tmp_path: Path) -> None:
+    file = tmp_path / "cell.yaml"
+    file.write_text("new: 1\n", encoding="utf-8")
+    assert not rewrite(file, [Edit("cell.yaml", 1, 1, 4, "old", "")], "was: 1\n")
+    assert file.read_text(encoding="utf-8") == "new: 1\n"
+
+
+def test_modeline_in_a_value_is_none(tmp_path: Path) -> None:
+    text = (
+        PICK_TEXT.split("\n", 1)[1]
+        .replace("summary: UR5e", 'summary: "yaml-language-server: UR5e')
+        .replace("wrist camera\n", 'wrist camera"\n', 1)
+    )
+    assert fixed(tmp_path, text).split("\n", 1) == [PICK_TEXT.split("\n", 1)[0], text]

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from cellc.emit.audit.table import table
 from tests.cli.run import MINIMAL, PICK, run
 from tests.emit.cells import CELLS, artifacts_of, emitted, spec_text
 
@@ -31,6 +32,7 @@ def answers(tmp_path: Path, old: str, new: str) -> dict[tuple[str, str], str]:
     [
         ("polyscope 5.21.0", "polyscope 5.9.4", ("arm", "firmware"), "OK"),
         ("polyscope 5.21.0", "polyscope 5.9.3", ("arm", "firmware"), "INCOMPATIBLE"),
+        ("polyscope 5.21.0", "polyscope 10", ("arm", "firmware"), "INCOMPATIBLE"),
         ("polyscope 5.21.0", "polyscope 10.7.0", ("arm", "firmware"), "INCOMPATIBLE"),
         ("polyscope 5.21.0", "somethingelse 1.0", ("arm", "firmware"), "UNKNOWN"),
         ("ur_robot_driver 3.8.0", "ur_robot_driver 2.14.0", ("arm", "driver"), "INCOMPATIBLE"),
@@ -107,3 +109,11 @@ def test_command_prints_what_is_built(file: str) -> None:
 
 def test_command_reports_a_cell_that_cannot_be_linked(tmp_path: Path) -> None:
     assert run("audit", (tmp_path / "none.yaml").as_posix()).code == 1
+
+
+def test_bar_in_a_cell_does_not_end_it() -> None:
+    assert table(("a",), [("x|y",)]) == "| a |\n|---|\n| x\\|y |"
+
+
+def test_section_without_rows_says_so() -> None:
+    assert table(("a",), []) == "None."

@@ -106,3 +106,12 @@ def test_findings_of_real_cells_are_valid(case: Path) -> None:
 def test_every_page_is_a_valid_rule() -> None:
     found = [Diagnostic(page.code, page.severity, "found", Span(FILE, 1, 1, 1, 2)) for page in all_pages().values()]
     assert len(log_of(*found)["runs"][0]["tool"]["driver"]["rules"]) == len(found)
+
+
+def test_each_result_points_at_its_own_rule() -> None:
+    found = [
+        Diagnostic(code, Severity.ERROR, "found", Span(FILE, 1, 1, 1, 2)) for code in ("zero-axis", "duplicate-key")
+    ]
+    run = log_of(*found)["runs"][0]
+    rules = [rule["id"] for rule in run["tool"]["driver"]["rules"]]
+    assert [rules[result["ruleIndex"]] for result in run["results"]] == ["duplicate-key", "zero-axis"]

@@ -6,7 +6,12 @@ from pathlib import Path
 
 import pytest
 
+from cellc.diagnostics import Diagnostic, Severity, Span
 from cellc.pipeline import Checked, check
+from cellc.report.pages import all_pages
+from cellc.rules.all_rules import ALL_RULES
+from cellc.rules.ignore_comment import ignore_comments
+from cellc.rules.ignores import apply_ignores
 
 PICK = Path(__file__).resolve().parents[2] / "cells/ur5e_pick/cell.yaml"
 REVISION = "    revision: UNKNOWN\n    serial"
@@ -120,3 +125,51 @@ def test_comment_in_an_included_file_counts_there(tmp_path: Path) -> None:
     assert "unused-ignore" not in {one.code for one in checked.diagnostics}
     unknown = [one for one in check(PICK).diagnostics if one.code == "unknown-version"]
     assert len([one for one in checked.diagnostics if one.code == "unknown-version"]) == len(unknown) - 1
+
+
+def spot(line: int, file: str = "cell.yaml") -> Span:
+    return Span(file, line, 5, line, 9)
+
+
+def warning(code: str, place: Span) -> Diagnostic:
+    return Diagnostic(code, Severity.WARNING, "found", place)
+
+
+def judged(text: str, *found: Diagnostic) -> list[tuple[str, Span]]:
+    """Return code and place of what remains when the comments of ``cell.yaml`` are applied."""
+    ignores = ignore_comments({"cell.yaml": text, "part.yaml": "a: 1\n"})
+    return [(one.code, one.span) for one in apply_ignores(found, ignores, all_pages())]
+
+
+@pytest.mark.parametrize("place", [spot(2), spot(1, "part.yaml")])
+def test_finding_on_another_line_or_in_another_file_stays(place: Span) -> None:
+    text = "a: 1  # cellc: ignore unknown-version checked by hand\nb: 2\n"
+    remaining = judged(text, warning("unknown-version", place), warning("unknown-version", spot(1)))
+    assert remaining == [("unknown-version", place)]
+
+
+def test_other_finding_on_the_line_stays() -> None:
+    text = "a: 1  # cellc: ignore unknown-version checked by hand\n"
+    remaining = judged(text, warning("missing-rollback", spot(1)), warning("unknown-version", spot(1)))
+    assert remaining == [("missing-rollback", spot(1))]
+
+
+def test_comment_at_the_end_of_a_span_over_lines_counts() -> None:
+    text = "a: [1,\n    2]  # cellc: ignore unknown-version checked by hand\n"
+    assert judged(text, warning("unknown-version", Span("cell.yaml", 1, 4, 2, 7))) == []
+
+
+def test_comment_is_not_called_unused_where_its_rule_could_not_run() -> None:
+    rule = next(rule for rule in ALL_RULES if rule.assumes and rule.family not in ("SAF", "OWN", "FRM"))
+    text = f"a: 1  # cellc: ignore {rule.code} checked by hand\n"
+    cause = warning(rule.assumes[0], spot(3))
+    assert judged(text, cause) == [(rule.assumes[0], spot(3))]
+    assert [code for code, _ in judged(text)] == ["unused-ignore"]
+
+
+def test_marker_inside_a_word_of_a_comment_is_none() -> None:
+    assert ignore_comments({"cell.yaml": "a: 1  # see page# cellc: ignore unknown-version why\n"}) == ()
+
+
+def test_comment_without_a_code_is_reported() -> None:
+    assert [code for code, _ in judged("a: 1  # cellc: ignore\n")] == ["unknown-ignored-code"]

@@ -111,6 +111,16 @@ def test_errors_of_the_recorded_runs_are_recognised() -> None:
     assert [line for line in unknown if not any(text in line for text in harmless)] == []
 
 
+def test_log_line_is_not_distracted_by_words_that_happen_to_fit() -> None:
+    line = "slow topic, no data: Could not initialize the controller named 'arm'"
+    assert [match.layer.layer for match in classify(line, knowledge())] == ["lifecycle"]
+
+
+def test_symptom_that_fits_in_more_words_comes_first() -> None:
+    found = classify("stale image, and the plan succeeds but execute fails", knowledge())
+    assert [match.layer.layer for match in found][:2] == ["ownership", "qos"]
+
+
 def test_every_layer_of_the_chapter_is_there_once() -> None:
     assert tuple(layer.layer for layer in knowledge()) == LAYERS
 
@@ -170,6 +180,12 @@ def test_nothing_is_left_to_fill_in_where_the_cell_is_known(cell: Cell) -> None:
 def test_command_that_acts_is_no_observation(command: str) -> None:
     with pytest.raises(ValidationError, match="only reads"):
         Observation(of="cell", run=command, refuted="never")
+
+
+@pytest.mark.parametrize("action", [{}, {"run": "ros2 node list", "look": "the panel"}])
+def test_observation_runs_one_command_or_looks_at_one_thing(action: dict[str, str]) -> None:
+    with pytest.raises(ValidationError, match="either runs a command or looks"):
+        Observation.model_validate({"of": "cell", "refuted": "never", **action})
 
 
 def test_field_that_the_scope_does_not_have_is_refused() -> None:
