@@ -12,10 +12,11 @@ from pathlib import Path
 
 from cellc.artifact import Artifact
 from cellc.diagnostics import Diagnostic, Outcome, Severity
+from cellc.diagnostics.page import CodePage
 from cellc.graph.cell_graph import CellGraph, build_graph
 from cellc.link.link import link
 from cellc.rules.ignore_comment import ignore_comments
-from cellc.rules.ignores import apply_ignores
+from cellc.rules.ignores import apply_ignores, misused_ignores
 from cellc.rules.run import run_rules
 from cellc.source import read
 from cellc.spec.parse import parse
@@ -47,19 +48,14 @@ def check(path: str | Path) -> Checked:
     spec = parse(source.value)
     found += spec.diagnostics
     if spec.value is None or not spec.ok:
-        return Checked(file, source.value.texts, None, _sorted(found))
+        return Checked(file, source.value.texts, None, _unexcused(found, source.value.texts))
     cell = link(spec.value, source.value)
     found += cell.diagnostics
     if cell.value is None or not cell.ok:
-        return Checked(file, source.value.texts, None, _sorted(found))
+        return Checked(file, source.value.texts, None, _unexcused(found, source.value.texts))
     graph = build_graph(cell.value)
     found += run_rules(graph)
-    if ignores := ignore_comments(source.value.texts):
-        # Few cells excuse anything, and only then the pages of all stages are read.
-        from cellc.report.pages import all_pages
-
-        found = list(apply_ignores(found, ignores, all_pages()))
-    return Checked(file, source.value.texts, graph, _sorted(found))
+    return Checked(file, source.value.texts, graph, _excused(found, source.value.texts))
 
 
 def compile_cell(checked: Checked) -> Outcome[tuple[Artifact, ...]]:
@@ -88,6 +84,25 @@ def compile_cell(checked: Checked) -> Outcome[tuple[Artifact, ...]]:
 def with_findings(checked: Checked, found: tuple[Diagnostic, ...]) -> Checked:
     """Return the check with findings of later stages added."""
     return replace(checked, diagnostics=_sorted([*checked.diagnostics, *found]))
+
+
+def _excused(found: list[Diagnostic], texts: Mapping[str, str]) -> tuple[Diagnostic, ...]:
+    """Take out what comments excuse, once every rule has run."""
+    ignores = ignore_comments(texts)
+    return _sorted(list(apply_ignores(found, ignores, _pages()))) if ignores else _sorted(found)
+
+
+def _unexcused(found: list[Diagnostic], texts: Mapping[str, str]) -> tuple[Diagnostic, ...]:
+    """Keep what stopped a stage, and tell comments that try to excuse it."""
+    ignores = ignore_comments(texts)
+    return _sorted([*found, *misused_ignores(ignores, _pages())]) if ignores else _sorted(found)
+
+
+def _pages() -> dict[str, CodePage]:
+    # Few cells excuse anything, and only for them the pages of all stages are read.
+    from cellc.report.pages import all_pages
+
+    return all_pages()
 
 
 def _sorted(diagnostics: list[Diagnostic]) -> tuple[Diagnostic, ...]:

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from cellc.diagnostics import Diagnostic, Severity, Span, did_you_mean
 from cellc.diagnostics.page import CodePage
+from cellc.link.codes import CODES as LINK_CODES
 from cellc.rules.all_rules import ALL_RULES
 from cellc.rules.ignore_codes import CODES
 from cellc.rules.ignore_comment import IgnoreComment, IgnoredCode
@@ -15,6 +16,8 @@ _PROTECTED_FAMILIES = ("SAF", "OWN", "FRM")
 _STOPPING = (Severity.ERROR, Severity.BLOCKER)
 _RULES = {rule.code: rule for rule in ALL_RULES}
 _PAGES = {page.code: page for page in CODES}
+# A code of a stage and of a rule stops the stage, whatever the family of the rule.
+_LINK_CODES = frozenset(page.code for page in LINK_CODES)
 
 
 def apply_ignores(
@@ -26,24 +29,31 @@ def apply_ignores(
     ignored, has no effect.
 
     Args:
+        diagnostics: what all stages and rules found.
         pages: the page of every code that cellc can report.
     """
     found = tuple(diagnostics)
     reported = {diagnostic.code for diagnostic in found}
     excused: set[Diagnostic] = set()
+    unused: list[Diagnostic] = []
+    for comment in ignores:
+        for ignored in comment.codes if comment.reason else ():
+            if _refusal(ignored, pages) is not None:
+                continue
+            matches = {one for one in found if one.code == ignored.code and _is_on_line(one.span, comment.span)}
+            excused |= matches
+            if not matches and not _may_be_hidden(ignored.code, reported):
+                unused.append(_complaint("unused-ignore", _unused(ignored), ignored.span))
+    return (*(one for one in found if one not in excused), *misused_ignores(ignores, pages), *unused)
+
+
+def misused_ignores(ignores: tuple[IgnoreComment, ...], pages: Mapping[str, CodePage]) -> tuple[Diagnostic, ...]:
+    """Return what is wrong with comments whatever the rules find: no code, no reason, or a code that stays."""
     complaints: list[Diagnostic] = []
     for comment in ignores:
         complaints += _shape_complaints(comment)
-        for ignored in comment.codes:
-            refusal = _refusal(ignored, pages)
-            if refusal is not None:
-                complaints.append(refusal)
-            elif comment.reason:
-                matches = {one for one in found if one.code == ignored.code and _is_on_line(one.span, comment.span)}
-                excused |= matches
-                if not matches and not _may_be_hidden(ignored.code, reported):
-                    complaints.append(_complaint("unused-ignore", _unused(ignored), ignored.span))
-    return (*(one for one in found if one not in excused), *complaints)
+        complaints += (refusal for ignored in comment.codes if (refusal := _refusal(ignored, pages)) is not None)
+    return tuple(complaints)
 
 
 def _shape_complaints(comment: IgnoreComment) -> Iterator[Diagnostic]:
@@ -59,7 +69,7 @@ def _refusal(ignored: IgnoredCode, pages: Mapping[str, CodePage]) -> Diagnostic 
     if page is None:
         known = did_you_mean(ignored.code, pages, "codes that `cellc explain` lists")
         return _complaint("unknown-ignored-code", f"there is no code `{ignored.code}`", ignored.span, known)
-    if rule is None and page.severity is Severity.ERROR:
+    if (rule is None or ignored.code in _LINK_CODES) and page.severity is Severity.ERROR:
         reason = "without it the cell is not known"
     elif rule is not None and rule.family in _PROTECTED_FAMILIES and rule.severity in _STOPPING:
         reason = f"it is {_article(rule.severity)} of family {rule.family}"

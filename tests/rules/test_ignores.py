@@ -173,3 +173,12 @@ def test_marker_inside_a_word_of_a_comment_is_none() -> None:
 
 def test_comment_without_a_code_is_reported() -> None:
     assert [code for code, _ in judged("a: 1  # cellc: ignore\n")] == ["unknown-ignored-code"]
+
+
+def test_comment_on_an_error_of_the_spec_is_refused_although_no_rule_runs(tmp_path: Path) -> None:
+    line = "  kernel: 6.8.0-45-generic"
+    checked = checked_with(tmp_path, (line, f"  kernl: 6.8.0-45-generic  # cellc: ignore unknown-key {REASON}"))
+    assert {code for code, _ in told(checked)} == {"unknown-key", "ignore-refused"}
+    # Whether this one is used nobody knows before the rules have run.
+    checked = checked_with(tmp_path, (line, f"  kernl: 6.8.0-45-generic  # cellc: ignore unknown-version {REASON}"))
+    assert {code for code, _ in told(checked)} == {"unknown-key"}
