@@ -26,7 +26,7 @@ _FILES = (
     ("rehearsals.json", "what the mock executes, and the outcome that each run must end in"),
     ("graph/responsibility.mmd", "who tells what to whom, and who answers for it"),
     ("gates/promotion.md", "gates G0 to G7: commands, evidence, reasons to stop; `gates/network.md` holds L1 to L6"),
-    ("audit.md", "what is not known, who answers for what, what the mock cannot prove"),
+    ("audit.md", "open questions, version tuple, every command path, what the running cell must show, owners"),
     ("config/recording_qos.yaml", "what an attempt records, and the command that does it"),
     ("manifest.json", "version tuple, hash of every file, configuration id"),
 )
