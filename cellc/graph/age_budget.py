@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Mapping
 from dataclasses import dataclass
+from heapq import heapify, heappop, heappush
 
 from cellc.cell.cell import Cell
 from cellc.cell.interface import Interface, InterfaceKind
@@ -27,35 +28,50 @@ class AgeShare:
         return f"`{self.topic}` {self.total_s * 1e3:.4g} ms"
 
 
-def age_shares(cell: Cell, topic: Interface) -> tuple[AgeShare, ...]:
-    """Return the shares from the sensor to a topic, the sensor first; empty for a topic without a rate.
+def age_chains(cell: Cell) -> Mapping[str, tuple[AgeShare, ...]]:
+    """Return, for each topic with a rate, the shares from the sensor to it, the sensor first.
 
     A node passes the stamp of its input on where its output is in the input's frame, as a detector does that publishes
-    poses in the frame of the camera. Of several inputs the freshest counts:
-    whoever is too old by that one is too old by all.
+    poses in the frame of the camera. Of several inputs the freshest counts: whoever is too old by that one is too old
+    by all. Topics that only feed each other in a circle observe nothing and stand alone.
     """
-    return _shares(cell, topic, frozenset())
-
-
-def _shares(cell: Cell, topic: Interface, seen: frozenset[str]) -> tuple[AgeShare, ...]:
-    if not topic.rate_hz:
-        return ()
-    share = AgeShare(topic.name, 1.0 / topic.rate_hz, topic.transport_s or 0.0, _exposure_s(cell, topic))
-    seen = seen | {topic.name}
-    chains = [_shares(cell, source, seen) for source in _observed(cell, topic) if source.name not in seen]
-    return (*min(chains, key=lambda chain: sum(part.total_s for part in chain), default=()), share)
-
-
-def _observed(cell: Cell, topic: Interface) -> Iterator[Interface]:
-    """Yield the topics whose stamps the publisher of a topic passes on."""
-    nodes = {source.node for source in topic.sources}
-    frames = {device.name: frozenset(device.frames.values()) for device in cell.devices}
-    for candidate in cell.interfaces:
-        if candidate.kind is not InterfaceKind.TOPIC or nodes.isdisjoint(sink.node for sink in candidate.sinks):
+    topics = {topic.name: topic for topic in cell.interfaces if topic.kind is InterfaceKind.TOPIC and topic.rate_hz}
+    shares = {name: _share(cell, topic) for name, topic in topics.items()}
+    passed_on = _passed_on(cell, topics)
+    observing = {name for names in passed_on.values() for name in names}
+    queue = [(share.total_s, name, "") for name, share in shares.items() if name not in observing]
+    heapify(queue)
+    chains: dict[str, tuple[AgeShare, ...]] = {}
+    while queue:
+        age_s, name, before = heappop(queue)
+        if name in chains:
             continue
-        known = {candidate.frame}.union(*(frames.get(source.node, frozenset()) for source in candidate.sources))
-        if topic.frame is not None and topic.frame in known:
-            yield candidate
+        chains[name] = (*chains.get(before, ()), shares[name])
+        for reader in passed_on[name]:
+            if reader not in chains:
+                heappush(queue, (age_s + shares[reader].total_s, reader, name))
+    return {name: chains.get(name, (share,)) for name, share in shares.items()}
+
+
+def _passed_on(cell: Cell, topics: Mapping[str, Interface]) -> Mapping[str, list[str]]:
+    """Return, for each topic, the topics to which its readers pass its stamp on."""
+    device_frames = {device.name: frozenset(device.frames.values()) for device in cell.devices}
+    published: dict[str, list[Interface]] = {}
+    for topic in topics.values():
+        for source in topic.sources:
+            published.setdefault(source.node, []).append(topic)
+    passed_on: dict[str, list[str]] = {}
+    for name, topic in topics.items():
+        frames = {topic.frame}.union(*(device_frames.get(source.node, ()) for source in topic.sources))
+        outputs = (output for sink in topic.sinks for output in published.get(sink.node, ()))
+        readers = (output.name for output in outputs if output.frame is not None and output.frame in frames)
+        passed_on[name] = [reader for reader in dict.fromkeys(readers) if reader != name]
+    return passed_on
+
+
+def _share(cell: Cell, topic: Interface) -> AgeShare:
+    period_s = 1.0 / topic.rate_hz if topic.rate_hz else 0.0
+    return AgeShare(topic.name, period_s, topic.transport_s or 0.0, _exposure_s(cell, topic))
 
 
 def _exposure_s(cell: Cell, topic: Interface) -> float:

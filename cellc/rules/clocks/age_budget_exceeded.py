@@ -28,7 +28,7 @@ import math
 from collections.abc import Iterator
 
 from cellc.diagnostics import Related, Severity
-from cellc.graph.age_budget import age_shares
+from cellc.graph.age_budget import age_chains
 from cellc.graph.cell_graph import CellGraph
 from cellc.rule import Finding
 from cellc.rules.define import define
@@ -37,8 +37,9 @@ from cellc.rules.finding import found
 
 def check(graph: CellGraph) -> Iterator[Finding]:
     """Yield topics whose age limit is below the sum of the shares of their chain."""
+    chains = age_chains(graph.cell)
     for interface in graph.cell.interfaces:
-        shares = () if interface.max_age_s is None else age_shares(graph.cell, interface)
+        shares = chains.get(interface.name, ())
         needed = sum(share.total_s for share in shares)
         if interface.max_age_s is None or len(shares) < 2 or interface.max_age_s >= needed:
             continue

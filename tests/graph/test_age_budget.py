@@ -1,0 +1,67 @@
+"""The freshest chain from a sensor to a topic, with shares worked out by hand."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from cellc.cell.cell import Cell
+from cellc.cell.interface import Endpoint, Interface
+from cellc.graph.age_budget import age_chains
+from cellc.link.link import link
+from cellc.source.read import read
+from cellc.spec.parse import parse
+
+CASE = Path(__file__).resolve().parents[1] / "corpus" / "valid" / "complete.yaml"
+
+
+@pytest.fixture(scope="module")
+def cell() -> Cell:
+    document = read(CASE).value
+    assert document is not None
+    spec = parse(document).value
+    assert spec is not None
+    linked = link(spec, document).value
+    assert linked is not None
+    return linked
+
+
+def topic(cell: Cell, name: str, source: str, sink: str, rate_hz: float) -> Interface:
+    pose = next(interface for interface in cell.interfaces if interface.name == "/object_pose")
+
+    def end(node: str) -> Endpoint:
+        return replace(pose.sources[0], node=node)
+
+    return replace(pose, name=name, sources=(end(source),), sinks=(end(sink),), rate_hz=rate_hz)
+
+
+def chain(cell: Cell, name: str) -> list[tuple[str, float]]:
+    return [(share.topic, share.total_s) for share in age_chains(cell)[name]]
+
+
+def test_pose_is_as_old_as_its_image_and_its_own_period(cell: Cell) -> None:
+    # 8 ms of exposure and a period of 33.3 ms for the image, 100 ms for the pose.
+    image, pose = chain(cell, "/object_pose")
+    assert image == ("/camera/camera/color/image_raw", pytest.approx(0.008 + 1 / 30))
+    assert pose == ("/object_pose", pytest.approx(0.1))
+
+
+def test_freshest_of_several_inputs_counts(cell: Cell) -> None:
+    slow, fast = topic(cell, "/slow", "a", "c", 1.0), topic(cell, "/fast", "b", "c", 50.0)
+    made = replace(cell, interfaces=(slow, fast, topic(cell, "/out", "c", "task", 10.0)))
+    assert chain(made, "/out") == [("/fast", pytest.approx(0.02)), ("/out", pytest.approx(0.1))]
+
+
+def test_equally_fresh_inputs_give_the_first_by_name(cell: Cell) -> None:
+    same = [topic(cell, name, name[1:], "c", 10.0) for name in ("/b", "/a")]
+    made = replace(cell, interfaces=(*same, topic(cell, "/out", "c", "task", 10.0)))
+    assert [name for name, _ in chain(made, "/out")] == ["/a", "/out"]
+
+
+def test_topics_in_a_circle_observe_nothing(cell: Cell) -> None:
+    circle = (topic(cell, "/there", "a", "b", 10.0), topic(cell, "/back", "b", "a", 10.0))
+    made = replace(cell, interfaces=circle)
+    assert chain(made, "/there") == [("/there", pytest.approx(0.1))]
+    assert chain(made, "/back") == [("/back", pytest.approx(0.1))]
