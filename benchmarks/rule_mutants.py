@@ -28,7 +28,9 @@ from cellc.source.read import read  # noqa: E402
 from cellc.spec.parse import parse  # noqa: E402
 from tests.rules import examples  # noqa: E402
 
-_WORDING = {"message", "advice", "names", "related", "due", "way", "chain", "allowed", "stated_text", "turns", "faults"}
+_WORDING = {"message", "advice", "names", "related", "due", "way", "chain", "allowed", "turns", "faults"}
+_WORDING |= {"least", "most", "queue", "legal", "per", "deadline", "period", "even"}
+_WORDING_CALLS = {"join", "did_you_mean", "Related"}
 _SWAPS: dict[type[ast.cmpop], type[ast.cmpop]] = {
     ast.Eq: ast.NotEq, ast.NotEq: ast.Eq, ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt,
     ast.In: ast.NotIn, ast.NotIn: ast.In, ast.Is: ast.IsNot, ast.IsNot: ast.Is,
@@ -100,7 +102,8 @@ def mark(tree: ast.Module) -> None:
 def _mark(node: ast.AST) -> None:
     targets = node.targets if isinstance(node, ast.Assign) else []
     wording = any(isinstance(target, ast.Name) and target.id in _WORDING for target in targets)
-    if wording or isinstance(node, (ast.JoinedStr, ast.AnnAssign)):
+    called = getattr(node.func, "attr", getattr(node.func, "id", "")) if isinstance(node, ast.Call) else ""
+    if wording or called in _WORDING_CALLS or isinstance(node, (ast.JoinedStr, ast.AnnAssign)):
         return
     node.mutable = True  # type: ignore[attr-defined]  # a mark that copies keep
     if isinstance(node, ast.Yield):
