@@ -37,7 +37,7 @@ def topic(cell: Cell, name: str, source: str, sink: str, rate_hz: float) -> Inte
     return replace(pose, name=name, sources=(end(source),), sinks=(end(sink),), rate_hz=rate_hz)
 
 
-def chain(cell: Cell, name: str) -> list[tuple[str, float]]:
+def chain(cell: Cell, name: str) -> list[tuple[str, object]]:
     return [(share.topic, share.total_s) for share in age_chains(cell)[name]]
 
 
