@@ -15,6 +15,7 @@ from cellc.source.text import read_text
 
 ModelT = TypeVar("ModelT", bound=BaseModel)
 _CODE = "catalogue-entry-invalid"
+_WORDINGS = {"extra_forbidden": "there is no key `{}`", "missing": "`{}` is missing"}
 
 
 def read_model(path: Path, shown: str, model: type[ModelT]) -> Outcome[tuple[ModelT, SourceDocument]]:
@@ -29,8 +30,11 @@ def read_model(path: Path, shown: str, model: type[ModelT]) -> Outcome[tuple[Mod
     if text.value is None:
         return Outcome(None, text.diagnostics)
     composed = compose(shown, text.value)
-    if composed.value is None or composed.diagnostics:
+    if composed.diagnostics:
         return Outcome(None, composed.diagnostics)
+    if composed.value is None or composed.value.data is None:
+        place = Span(shown, 1, 1, 1, 1)
+        return Outcome(None, (Diagnostic("empty-file", Severity.ERROR, f"`{shown}` holds no data", place),))
     document = SourceDocument(shown, {shown: text.value}, composed.value)
     try:
         value = model.model_validate(_frozen(document.data))
@@ -51,7 +55,9 @@ def _frozen(data: object) -> object:
 def _findings(error: ValidationError, document: SourceDocument) -> Iterator[Diagnostic]:
     for problem in error.errors(include_url=False):
         path = _path_in(document.data, problem["loc"])
-        message = f"`{format_path(path) or document.file}`: {problem['msg'][:1].lower()}{problem['msg'][1:]}"
+        name = format_path(path) or document.file
+        wording = _WORDINGS.get(problem["type"])
+        message = wording.format(name) if wording else f"`{name}`: {problem['msg'][:1].lower()}{problem['msg'][1:]}"
         yield Diagnostic(_CODE, Severity.ERROR, message, document.locate(path), path)
 
 

@@ -9,7 +9,9 @@ import click
 from cellc.artifact import Artifact
 from cellc.cli.findings import FAIL_ON, FORMAT, finish, number_hidden, show_findings
 from cellc.cli.selecting import IGNORE, SELECT, read_selection, selected_and_errors
+from cellc.diagnostics import Span
 from cellc.output.compare import Difference, compare
+from cellc.output.shared import shared_output
 from cellc.output.write import WriteReport, write
 from cellc.pipeline import Checked, compile_cell, with_findings
 from cellc.pipeline import check as check_cell
@@ -52,12 +54,13 @@ def build(
     """
     wanted = read_selection(select, ignore)
     built: list[Checked] = []
+    places: dict[str, Span] = {}
     told: list[str] = []
     differs = False
     with progress("building") as update:
         for file in files:
             update(file)
-            checked, artifacts = _compiled(file)
+            checked, artifacts = _compiled(file, places)
             if artifacts is not None and checked.graph is not None:
                 folder = output / checked.graph.cell.name
                 if only_compare:
@@ -77,8 +80,14 @@ def build(
     finish(shown, fail_on)
 
 
-def _compiled(file: str) -> tuple[Checked, tuple[Artifact, ...] | None]:
+def _compiled(file: str, places: dict[str, Span]) -> tuple[Checked, tuple[Artifact, ...] | None]:
+    """Check and compile a cell; ``places`` holds where the cells of this call are named, and takes this one's."""
     checked = check_cell(file)
+    if checked.graph is not None:
+        cell = checked.graph.cell
+        here = cell.locate("cell")
+        if shared := shared_output(cell.name, here, places.setdefault(cell.name, here)):
+            return with_findings(checked, (shared,)), None
     artifacts = compile_cell(checked)
     return with_findings(checked, artifacts.diagnostics), artifacts.value if artifacts.ok else None
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import re
+import shlex
 from pathlib import Path
 
 import click
@@ -11,6 +13,7 @@ from cellc.catalog.catalog_model import DISTROS, Distro
 from cellc.catalog.load import CatalogDevice, device_names, load_device
 from cellc.catalog.starter import starter_spec
 from cellc.diagnostics import did_you_mean
+from cellc.output.whole_file import write_whole
 
 
 @click.command()
@@ -37,10 +40,12 @@ def init(name: str, devices: tuple[str, ...], ros: Distro, output: Path | None, 
     if file.exists() and not force:
         raise click.UsageError(f"{file.as_posix()} exists; give --force to replace it, or -o for another file")
     entries = _named(devices)
-    schema = "../../schemas/cell.schema.json"
-    file.parent.mkdir(parents=True, exist_ok=True)
-    file.write_text(starter_spec(name, ros, entries, schema), encoding="utf-8", newline="\n")
-    click.echo(f"wrote {file.as_posix()}\nnext: cellc build {file.as_posix()} && cellc mock generated/{name}")
+    schema = Path(os.path.relpath("schemas/cell.schema.json", file.parent)).as_posix()
+    write_whole(file, starter_spec(name, ros, entries, schema))
+    click.echo(f"wrote {file.as_posix()}")
+    click.echo(f"next: cellc build {shlex.quote(file.as_posix())} && cellc mock generated/{name}")
+    if not Path("schemas/cell.schema.json").exists():
+        click.echo("for completion in an editor: cellc schema -o schemas")
 
 
 def _named(devices: tuple[str, ...]) -> dict[str, CatalogDevice]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
 import os
 import sys
@@ -55,23 +56,47 @@ def cellc() -> None:
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Run the command and leave with its exit code; a closed pipe or Ctrl-C ends without a traceback."""
-    for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):
-            # A spec may quote what the terminal's encoding cannot: show it escaped instead of failing.
-            stream.reconfigure(errors="backslashreplace")
+    """Run the command and leave with its exit code; a closed pipe, a full disk or Ctrl-C end without a traceback."""
+    _prepare_streams()
     try:
         given = None if arguments is None else list(arguments)
         # Outside standalone mode click returns the code of an Exit, and what a finished command returned: None.
         code = cellc.main(args=given, prog_name="cellc", standalone_mode=False)
-        sys.exit(code or 0)
+        sys.stdout.flush()
     except click.ClickException as problem:
         problem.show()
-        sys.exit(2)
+        code = 2
     except (click.Abort, KeyboardInterrupt):
-        print("cellc: interrupted, nothing was left half-written", file=sys.stderr)
-        sys.exit(1)
+        print("error: interrupted; nothing was left half-written", file=sys.stderr)
+        code = 1
     except BrokenPipeError:
-        # The reader of our output went away (`cellc show … | head`): keep Python from complaining at exit.
+        # The reader of our output went away (`cellc show … | head`).
+        _discard_output()
+        code = 1
+    except OSError as error:
+        # What a command expects of the disk it reports itself: this is a full disk under the output, and the like.
+        _discard_output()
+        place = f"{error.filename}: " if error.filename else ""
+        print(f"error: {place}{(error.strerror or 'unknown reason').lower()}", file=sys.stderr)
+        code = 1
+    sys.exit(code or 0)
+
+
+def _prepare_streams() -> None:
+    # Python gives None where who started us closed the descriptor.
+    sys.stdout = sys.stdout or _nowhere()
+    sys.stderr = sys.stderr or _nowhere()
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            # A spec may quote what the terminal's encoding cannot: show it escaped instead of failing.
+            stream.reconfigure(errors="backslashreplace")
+
+
+def _nowhere() -> io.TextIOWrapper:
+    return io.TextIOWrapper(io.FileIO(os.devnull, "w"))
+
+
+def _discard_output() -> None:
+    """Keep Python from complaining at exit of output that nobody takes."""
+    with contextlib.suppress(OSError, ValueError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        sys.exit(1)

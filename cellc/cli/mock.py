@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import sys
-
 import click
 
 
 @click.command()
 @click.argument("folder", type=click.Path(path_type=str))
-@click.option("--rehearsal", "names", multiple=True, help="Run only this rehearsal; may be given several times.")
+@click.option(
+    "--rehearsal", "names", multiple=True, metavar="NAME", help="Run only this one; may be given several times."
+)
 @click.option("--json", "as_json", is_flag=True, help="Write the results as JSON.")
 @click.option("--records", type=click.Path(path_type=str, dir_okay=False), help="Write attempt records as JSON lines.")
 @click.option("--seed", default=0, show_default=True, help="Seed of planning and of seeded faults.")
@@ -18,4 +18,4 @@ def mock(folder: str, names: tuple[str, ...], as_json: bool, records: str | None
     # Planning libraries load only for this command.
     from cellc.mock.command import run_command
 
-    sys.exit(run_command(folder, names=names, as_json=as_json, records=records, seed=seed))
+    raise click.exceptions.Exit(run_command(folder, names=names, as_json=as_json, records=records, seed=seed))

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import click
 
+from cellc.output.whole_file import write_whole
 from cellc.spec.schema import schema_files
 
 
@@ -20,9 +21,8 @@ def schema(name: str | None, output: Path | None) -> None:
     """
     files = schema_files()
     if output is not None:
-        output.mkdir(parents=True, exist_ok=True)
         for file, text in files.items():
-            (output / file).write_text(text, encoding="utf-8", newline="\n")
+            write_whole(output / file, text)
             click.echo(f"wrote {(output / file).as_posix()}")
         return
     wanted = f"{(name or 'cell').removesuffix('.schema.json')}.schema.json"

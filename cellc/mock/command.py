@@ -29,6 +29,8 @@ def run_command(
         0 where every rehearsal passed, 1 where one did not, 2 where the folder or a name is unusable.
     """
     try:
+        if seed < 0:
+            raise MockError("", f"the seed is {seed}; it must be 0 or greater")
         cell = load(Path(folder))
         timed = _run(cell, tuple(names) or cell.rehearsals, seed)
         if records is not None:
@@ -61,11 +63,20 @@ def _run(cell: MockCell, names: Sequence[str], seed: int) -> list[TimedResult]:
 
 
 def _write(path: Path, text: str) -> None:
-    """Write a file whole or not at all."""
+    """Write a file whole or not at all; a pipe or a device such as ``/dev/stdout`` is written to, not replaced."""
+    try:
+        if path.exists() and not path.is_file():
+            path.write_bytes(text.encode())
+        else:
+            _replace(Path(os.path.realpath(path)), text)
+    except OSError as error:
+        raise MockError(path.as_posix(), f"cannot be written: {(error.strerror or 'unknown reason').lower()}") from None
+
+
+def _replace(path: Path, text: str) -> None:
     part = path.with_name(f".{path.name}.part")
     try:
         part.write_bytes(text.encode())
         os.replace(part, path)
-    except OSError as error:
+    finally:
         part.unlink(missing_ok=True)
-        raise MockError(path.as_posix(), f"cannot be written: {error.strerror}") from None

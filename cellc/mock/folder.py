@@ -46,7 +46,10 @@ def read_folder(folder: Path) -> GeneratedFolder:
         MockError: a file is missing, unreadable, not what its name says, or lies outside the folder.
     """
     if not folder.is_dir():
-        raise MockError(folder.as_posix(), "is not a folder" if folder.exists() else "no such folder")
+        problem = "is not a folder" if folder.exists() else "no such folder"
+        raise MockError(folder.as_posix(), f"{problem}; name one that `cellc build` wrote")
+    if not (folder / CONTRACT_FILE).exists():
+        raise MockError(folder.as_posix(), f"holds no {CONTRACT_FILE}; name a folder that `cellc build` wrote")
     contract = _read_model(folder, CONTRACT_FILE, Contract)
     rehearsals = _read_model(folder, contract.files.rehearsals, Rehearsals)
     manifest = _read_model(folder, MANIFEST_FILE, Manifest)

@@ -38,6 +38,13 @@ CODES: tuple[CodePage, ...] = (
         "wait until the other build has ended",
     ),
     _page(
+        "output-shared",
+        "two specs of one call make the same folder",
+        "The generated folder has the name of its cell. The second build would replace what the first one wrote, and "
+        "which of the two is left would depend on the order of the arguments.",
+        "rename one of the cells, or build them with different `--output` folders",
+    ),
+    _page(
         "output-symlink",
         "a symbolic link stands inside the generated folder or in its place",
         "Writing through a link changes files outside the folder that is under review.",

@@ -101,7 +101,7 @@ def _unlike_yaml(text: str, name: str) -> Diagnostic | None:
         return finding("control-character", message, _span_after(text[: match.start()], name, 1))
     if _XML_START.match(text):
         before = text[: len(text) - len(text.lstrip())]
-        advice = "name the cell spec; a URDF or xacro belongs under `description:` of a device"
+        advice = "name the cell spec; a URDF or xacro belongs into the folder of a device, `model: ./my_robot`"
         span = _span_after(before, name, 1)
         return finding("not-yaml", "this looks like XML/URDF, not a cell spec", span, advice=advice)
     return None

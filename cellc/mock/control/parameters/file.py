@@ -24,6 +24,24 @@ class ParameterFileError(Exception):
         self.reason = reason
 
 
+_MAX_DEPTH = 64
+"""Deeper files would exhaust the stack; no controller has parameters of a tenth of it."""
+
+
+def _refuse_aliases_and_depth(text: str) -> None:
+    depth = 0
+    for event in yaml.parse(text, Loader=yaml.SafeLoader):
+        line = 1 if event.start_mark is None else event.start_mark.line + 1
+        if isinstance(event, yaml.AliasEvent):
+            raise ParameterFileError(f"Will not support aliasing at line {line}")
+        if isinstance(event, yaml.CollectionStartEvent):
+            depth += 1
+        elif isinstance(event, yaml.CollectionEndEvent):
+            depth -= 1
+        if depth > _MAX_DEPTH:
+            raise ParameterFileError(f"Values are nested more than {_MAX_DEPTH} deep at line {line}")
+
+
 def _line(node: yaml.Node) -> int:
     return int(node.start_mark.line) + 1
 
@@ -94,9 +112,13 @@ class ParameterFile:
         if any("\t" in line[: len(line) - len(line.lstrip())] for line in text.splitlines()):
             raise ParameterFileError("found character that cannot start any token (tab)")
         try:
+            _refuse_aliases_and_depth(text)
             root = yaml.compose(text, Loader=yaml.SafeLoader)
+        except yaml.MarkedYAMLError as error:
+            line = 1 if error.problem_mark is None else error.problem_mark.line + 1
+            raise ParameterFileError(f"Error parsing a event near line {line}: {error.problem}") from None
         except yaml.YAMLError as error:
-            raise ParameterFileError(f"Error parsing a event near line: {error}") from None
+            raise ParameterFileError(f"Error parsing a event: {' '.join(str(error).split())}") from None
         self._sections = [] if root is None else _sections(root, "")
 
     def of_node(self, name: str, namespace: str) -> dict[str, ParameterValue]:
