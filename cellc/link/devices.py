@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from pathlib import Path
 
 from cellc.catalog.device_control import GroupInterfaces, JointInterfaces
 from cellc.catalog.device_model import AccelerationLimit, DeviceModel, JerkLimit
-from cellc.catalog.load import CatalogDevice, device_names, load_device, load_device_folder
+from cellc.catalog.load import CatalogDevice, device_names, load_device
 from cellc.cell.description import Description, Joint
 from cellc.cell.device import Device, DeviceJoint, HardwareComponent, InterfaceGroup
 from cellc.cell.frame import WORLD
 from cellc.diagnostics import Diagnostic, Outcome, Severity, did_you_mean
+from cellc.link.local_device import local_device
 from cellc.link.placeholders import Placeholders, placeholders
 from cellc.link.placement import pose
 from cellc.link.unknown import unknown_name
@@ -50,8 +50,7 @@ def prefix_of(name: str, written: DeviceSpec) -> str:
 def _catalogue_entry(name: str, written: DeviceSpec, document: SourceDocument) -> Outcome[CatalogDevice]:
     path = ("devices", name, "model")
     if "/" in written.model or written.model.startswith("."):
-        root = Path(document.locate(path).file).parent
-        return load_device_folder(root / written.model, root)
+        return local_device(written.model, document.locate(path), path)
     if written.model not in device_names():
         problem = Diagnostic(
             code="unknown-model",
