@@ -43,7 +43,7 @@ def gate_text(gate: Gate) -> str:
         f"State: {gate.state}. Signed by: {gate.owner}. Evidence: `evidence/<attempt_id>/{gate.evidence}`.",
         "",
         *(line for check in gate.checks for line in _check_lines(check)),
-        *([] if gate.checks[-1].commands else [""]),
+        *([""] if gate.checks and not gate.checks[-1].commands else []),
         f"**Stop, and do not go on, on:** {'; '.join(gate.stop)}.",
     ]
     return "\n".join(lines)
