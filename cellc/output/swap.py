@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import shutil
 from dataclasses import dataclass, field
@@ -63,8 +64,11 @@ class Swap:
                 (self.folder / path).unlink(missing_ok=True)
             elif kept.exists():
                 os.replace(kept, self.folder / path)
+        # All that was kept is back in its place; the staging folder would hold the folder that was made around it.
+        shutil.rmtree(self.staging, ignore_errors=True)
         for folder in reversed(self._made):
-            if folder.is_dir():
+            # One that holds a file of somebody else by now stays, and what ended the build is told, not this.
+            with contextlib.suppress(OSError):
                 folder.rmdir()
 
     def _keep(self, path: str) -> None:

@@ -7,6 +7,7 @@ from io import BytesIO
 from typing import Any
 
 from cellc.transforms import Pose
+from cellc.verify.held_interrupt import held_interrupt
 from cellc.verify.lean_import import import_yourdfpy
 from cellc.verify.reading import JointReading, Reading, RefusedError, displaced_positions
 
@@ -20,8 +21,9 @@ def read_by_yourdfpy(urdf: str) -> tuple[Reading, dict[str, float]]:
         RefusedError: yourdfpy does not take the description.
     """
     try:
-        # Transforms alone: no mesh is opened, and nothing is looked up beside the text.
-        robot = import_yourdfpy().URDF.load(BytesIO(urdf.encode()), load_meshes=False)
+        with held_interrupt():
+            # Transforms alone: no mesh is opened, and nothing is looked up beside the text.
+            robot = import_yourdfpy().URDF.load(BytesIO(urdf.encode()), load_meshes=False)
     except Exception as error:  # it lets through whatever its parts raise
         raise RefusedError(f"yourdfpy refuses it: {type(error).__name__} {error}") from error
     movable = [joint for joint in robot.robot.joints if joint.type in _MOVABLE]

@@ -1,0 +1,139 @@
+"""Places that cannot be written: a reason, no traceback, nothing half-written, no temporary file left."""
+
+from __future__ import annotations
+
+import os
+import resource
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.cli.refused import assert_refused, everything_below
+from tests.cli.run import MINIMAL, ROOT, Ran, run
+
+INIT = ("init", "bench", "ur5e", "-o")
+_AS_ROOT = pytest.mark.skipif(os.name != "posix" or os.geteuid() == 0, reason="root may write where nobody may")
+
+
+def _with_small_disk(*arguments: str, limit_bytes: int) -> Ran:
+    """Run a process that may write so many bytes to one file: the write fails in the middle, as on a full disk."""
+    done = subprocess.run(
+        [sys.executable, "-m", "cellc", *arguments],
+        cwd=ROOT,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit_bytes, limit_bytes)),
+        env=os.environ | {"CELLC_NO_CACHE": "1", "PYTHONDONTWRITEBYTECODE": "1"},
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    return Ran(done.returncode, done.stdout, done.stderr)
+
+
+@pytest.mark.parametrize("compare", [(), ("--check",)], ids=["build", "build --check"])
+def test_output_folder_that_is_a_file_is_refused(compare: tuple[str, ...], tmp_path: Path) -> None:
+    (tmp_path / "out").write_text("mine")
+    ran = run("build", MINIMAL, "-o", (tmp_path / "out").as_posix(), *compare)
+    assert_refused(ran, (tmp_path / "out").as_posix())
+    assert (tmp_path / "out").read_text() == "mine"
+    assert everything_below(tmp_path) == ["out"]
+
+
+def test_cell_folder_that_is_a_file_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "minimal").write_text("mine")
+    assert_refused(run("build", MINIMAL, "-o", tmp_path.as_posix()), "output-blocked")
+    assert (tmp_path / "minimal").read_text() == "mine"
+    assert everything_below(tmp_path) == ["minimal"]
+
+
+def test_cell_folder_that_is_a_link_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out/minimal").symlink_to(tmp_path / "elsewhere")
+    assert_refused(run("build", MINIMAL, "-o", (tmp_path / "out").as_posix()), "output-symlink")
+    assert everything_below(tmp_path / "elsewhere") == []
+
+
+@pytest.mark.parametrize("limit_bytes", [100, 4096])
+def test_full_disk_leaves_nothing_of_a_first_build(limit_bytes: int, tmp_path: Path) -> None:
+    ran = _with_small_disk("build", MINIMAL, "-o", (tmp_path / "out").as_posix(), limit_bytes=limit_bytes)
+    assert_refused(ran, "cannot be written: file too large")
+    assert everything_below(tmp_path) == []
+
+
+def test_full_disk_leaves_the_folder_of_the_last_build(tmp_path: Path) -> None:
+    assert run("build", MINIMAL, "-o", tmp_path.as_posix()).code == 0
+    contract = (tmp_path / "minimal/contract.json").read_bytes()
+    spec = tmp_path / "minimal.yaml"
+    spec.write_text(Path(MINIMAL).read_text().replace("goal_time: 1 s", "goal_time: 2 s"))
+    before = everything_below(tmp_path)
+    assert_refused(
+        _with_small_disk("build", spec.as_posix(), "-o", tmp_path.as_posix(), limit_bytes=4096),
+        "cannot be written: file too large",
+    )
+    assert (tmp_path / "minimal/contract.json").read_bytes() == contract
+    assert everything_below(tmp_path) == before
+
+
+def test_full_disk_leaves_no_half_spec_or_schema(tmp_path: Path) -> None:
+    init = _with_small_disk(*INIT, (tmp_path / "cell.yaml").as_posix(), limit_bytes=100)
+    assert_refused(init, f"{tmp_path.as_posix()}/cell.yaml: file too large")
+    schema = _with_small_disk("schema", "-o", (tmp_path / "schemas").as_posix(), limit_bytes=100)
+    assert_refused(schema, ".schema.json: file too large")
+    assert everything_below(tmp_path) in ([], ["schemas"])
+
+
+@_AS_ROOT
+def test_read_only_output_is_refused(tmp_path: Path) -> None:
+    tmp_path.chmod(0o555)
+    try:
+        assert_refused(run("build", MINIMAL, "-o", tmp_path.as_posix()), "output-unwritable")
+        assert_refused(run(*INIT, (tmp_path / "cell.yaml").as_posix()), "permission denied")
+    finally:
+        tmp_path.chmod(0o755)
+    assert everything_below(tmp_path) == []
+
+
+def test_file_in_the_way_of_init_and_schema_is_named(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    inside = (tmp_path / "file/cell.yaml").as_posix()
+    assert_refused(run(*INIT, inside), inside)
+    assert_refused(run("schema", "-o", (tmp_path / "file").as_posix()), (tmp_path / "file").as_posix())
+    assert everything_below(tmp_path) == ["file"]
+
+
+def test_two_cells_of_one_name_do_not_replace_each_other(tmp_path: Path) -> None:
+    other = tmp_path / "other.yaml"
+    other.write_text(Path(MINIMAL).read_text().replace("goal_time: 1 s", "goal_time: 2 s"))
+    ran = run("build", MINIMAL, other.as_posix(), "-o", (tmp_path / "out").as_posix())
+    assert_refused(ran, "error[output-shared]: two specs of this call are called `minimal`")
+    assert MINIMAL in ran.out
+    assert "goal_time: 1.0" in (tmp_path / "out/minimal/config/controllers.yaml").read_text()
+
+
+def test_one_cell_named_twice_is_no_fault(tmp_path: Path) -> None:
+    assert run("build", MINIMAL, MINIMAL, "-o", tmp_path.as_posix()).code == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("init", "Bench", "ur5e"), "`Bench` is no package name"),
+        (("init", "bench"), "name at least one model"),
+        (("init", "bench", "arm=ur5e", "arm=ur5e"), "`arm` is no device name, or is taken"),
+        (("init", "bench", "ur5e", "--ros", "foxy"), "foxy"),
+        (("schema", "cel"), "there is no schema `cel`"),
+        (("explain", ""), "there is no code"),
+        (("show", MINIMAL, "."), "there is no"),
+    ],
+)
+def test_argument_that_means_nothing_is_a_usage_error(
+    arguments: tuple[str, ...], words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    ran = run(*arguments)
+    assert_refused(ran, words)
+    assert ran.code == 2
+    assert everything_below(tmp_path) == []
