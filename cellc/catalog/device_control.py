@@ -20,9 +20,9 @@ class HardwareFacts(CatalogModel):
 
 
 class HardwareByTarget(CatalogModel):
-    """The plugin that moves metal, and the one that pretends."""
+    """The plugin that moves metal, and the one that pretends; no ``real`` where the driver's own nodes move it."""
 
-    real: HardwareFacts
+    real: HardwareFacts | None = None
     mock: HardwareFacts
 
 
@@ -66,9 +66,13 @@ class PluginUse(CatalogModel):
 
 
 class DeviceController(CatalogModel):
-    """A controller kind that only this device offers; ``behaviour`` is the neutral kind that it acts as."""
+    """A controller kind that only this device offers; ``behaviour`` is the neutral kind that it acts as.
+
+    ``command_interfaces`` are what it claims where the spec says nothing; empty for those of the neutral kind.
+    """
 
     behaviour: Token
+    command_interfaces: tuple[InterfaceName, ...] = ()
     plugins: dict[Distro, PluginUse]
     source: Text
 

@@ -2,8 +2,8 @@
 
 Texts may carry placeholders that link fills in: ``{device}`` the name in the spec, ``{prefix}`` that of its ROS names,
 ``{stem}`` the prefix without its last underscore, ``{address}`` and ``{port}`` of the connection, ``{host_address}`` of
-the host's card, ``{share:PACKAGE}`` the share folder of an installed package. Links, joints, sensors and gpios are
-named without prefix.
+the host's card, ``{carrier_address}`` that of the device on which this one is mounted, ``{share:PACKAGE}`` the share
+folder of an installed package. Links, joints, sensors and gpios are named without prefix.
 """
 
 from __future__ import annotations

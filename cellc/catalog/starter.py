@@ -75,9 +75,12 @@ def _control(distro: Distro, devices: Mapping[str, CatalogDevice]) -> Iterator[s
 
 
 def _trajectory_kind(entry: CatalogDevice, distro: Distro) -> str:
-    """Prefer the device's own trajectory controller, which knows its speed scaling."""
+    """Prefer the device's own trajectory controller, which knows its speed scaling.
+
+    One that claims interfaces of its own is left to a person: a mock moves on position commands.
+    """
     for kind, own in entry.model.controllers.items():
-        if own.behaviour == "joint_trajectory" and distro in own.plugins:
+        if own.behaviour == "joint_trajectory" and not own.command_interfaces and distro in own.plugins:
             return kind
     return "joint_trajectory"
 

@@ -46,9 +46,14 @@ class InterfaceGroup:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HardwareComponent:
-    """What becomes one ``<ros2_control>`` tag; plugins and parameters by target (``mock``, ``real``)."""
+    """What moves a device; plugins and parameters by target (``mock``, ``real``).
+
+    ``targets`` are those on which it becomes a ``<ros2_control>`` tag. On any other the driver's own node moves the
+    device, and stands in ``plugins`` as ``package/executable``.
+    """
 
     name: str
+    targets: tuple[str, ...]
     plugins: Mapping[str, str]
     parameters: Mapping[str, Mapping[str, str]]
     sensors: tuple[InterfaceGroup, ...]

@@ -123,7 +123,7 @@ def _controller(
         return Outcome(None, (_no_device(name, written, path, context),))
     joints = _joints(written, path, kind, device, context)
     client = _unknown_client(written, path, context)
-    claims = _claimed(written, kind)
+    claims = _claimed(written, device, kind)
     states = _read(kind, joints.value or (), device)
     parameters = bind_parameters(kind, plugin, written, joints.value or (), claims, states, device, context.distro)
     texts = None if device is None else placeholders(device.name, device.prefix, device.spec, context.spec)
@@ -133,16 +133,13 @@ def _controller(
         span=context.document.locate(path),
         manager=manager,
         kind=written.type,
-        behaviour=_behaviour(written, device, kind),
+        behaviour=_behaviour(plugin, device, kind),
         plugin=plugin.type,
         device=written.device,
         joints=joints.value or (),
         command_interfaces=tuple(f"{joint}/{claim}" for joint in joints.value or () for claim in claims),
         state_interfaces=tuple(f"{joint}/{state}" for joint in joints.value or () for state in states),
-        parameters={
-            key: texts.fill(value) if texts is not None and isinstance(value, str) else value
-            for key, value in parameters.items()
-        },
+        parameters=parameters if texts is None else texts.fill_parameters(parameters),
         active=written.active,
         client=written.client,
         action=None if kind.action is None else f"{namespace}/{name}/{kind.action.suffix}",
@@ -182,9 +179,11 @@ def _plugin(
     return Outcome(None, (problem,))
 
 
-def _behaviour(written: ControllerSpec, device: Device | None, kind: ControllerKind) -> str:
-    own = {} if device is None else device.facts.controllers
-    return written.type if written.type in own else kind.kind
+def _behaviour(plugin: PluginUse, device: Device | None, kind: ControllerKind) -> str:
+    """Return the neutral kind; a trajectory controller that is told of the device's speed scaling follows it."""
+    scaling = None if device is None else device.facts.speed_scaling
+    scaled = scaling is not None and scaling.state_interface in plugin.parameters.values()
+    return f"scaled_{kind.kind}" if scaled else kind.kind
 
 
 def _unknown_kind(
@@ -233,8 +232,10 @@ def _default_joints(kind: ControllerKind, device: Device) -> tuple[str, ...]:
     return tuple(joint.name for joint in device.actuated_joints)
 
 
-def _claimed(written: ControllerSpec, kind: ControllerKind) -> tuple[str, ...]:
-    return written.command_interfaces or kind.command_interfaces
+def _claimed(written: ControllerSpec, device: Device | None, kind: ControllerKind) -> tuple[str, ...]:
+    """Return what the spec claims, or the kind of the device, or the neutral kind."""
+    own = None if device is None else device.facts.controllers.get(written.type)
+    return written.command_interfaces or (own.command_interfaces if own is not None else ()) or kind.command_interfaces
 
 
 def _read(kind: ControllerKind, joints: tuple[str, ...], device: Device | None) -> tuple[str, ...]:

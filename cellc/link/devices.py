@@ -199,10 +199,13 @@ def _hardware(facts: DeviceModel, known: Placeholders, prefix: str) -> HardwareC
     control = facts.control
     if control is None:
         return None
-    by_target = {"mock": control.hardware.mock, "real": control.hardware.real}
+    by_target = {"mock": control.hardware.mock}
+    if control.hardware.real is not None:
+        by_target["real"] = control.hardware.real
     return HardwareComponent(
         name=known.fill(control.component),
-        plugins={target: hardware.plugin for target, hardware in by_target.items()},
+        targets=tuple(by_target),
+        plugins={"real": _driver(facts)} | {target: hardware.plugin for target, hardware in by_target.items()},
         parameters={
             target: {key: known.fill(value) for key, value in hardware.parameters.items()}
             for target, hardware in by_target.items()
@@ -210,6 +213,11 @@ def _hardware(facts: DeviceModel, known: Placeholders, prefix: str) -> HardwareC
         sensors=_groups(control.sensors, prefix),
         gpios=_groups(control.gpios, prefix),
     )
+
+
+def _driver(facts: DeviceModel) -> str:
+    """Return the node that moves a device which no component of ros2_control moves."""
+    return next((f"{node.package}/{node.executable}" for node in facts.nodes), "no driver")
 
 
 def _groups(groups: Mapping[str, GroupInterfaces], prefix: str) -> tuple[InterfaceGroup, ...]:

@@ -100,10 +100,7 @@ def _driver_nodes(spec: CellSpec, devices: tuple[Device, ...]) -> Iterator[Node]
                 language="cpp",
                 real_only=entry.provides == "real",
                 device=device.name,
-                parameters={
-                    key: known.fill(value) if isinstance(value, str) else value
-                    for key, value in entry.parameters.items()
-                },
+                parameters=known.fill_parameters(entry.parameters),
             )
 
 

@@ -6,6 +6,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from cellc.cell.interface import ParameterValue
 from cellc.spec.cell_spec import CellSpec
 from cellc.spec.devices import DeviceSpec
 
@@ -23,6 +24,17 @@ class Placeholders:
         """Return the text with every known placeholder replaced; others stay as they are."""
         return _PLACEHOLDER.sub(lambda match: self.values.get(match[1], match[0]), text)
 
+    def fill_parameters(self, parameters: Mapping[str, ParameterValue]) -> dict[str, ParameterValue]:
+        """Return parameters with the texts of names, values and lists filled: a joint may stand in any of them."""
+        return {self.fill(name): self._fill_value(value) for name, value in parameters.items()}
+
+    def _fill_value(self, value: ParameterValue) -> ParameterValue:
+        if isinstance(value, str):
+            return self.fill(value)
+        if isinstance(value, tuple):
+            return tuple(self.fill(item) if isinstance(item, str) else item for item in value)
+        return value
+
 
 def placeholders(name: str, prefix: str, written: DeviceSpec, spec: CellSpec) -> Placeholders:
     """Collect the values for a device; what the connection does not state is UNKNOWN, never guessed."""
@@ -39,5 +51,13 @@ def placeholders(name: str, prefix: str, written: DeviceSpec, spec: CellSpec) ->
             "address": (connection.address if connection is not None else None) or UNKNOWN,
             "port": (connection.port if connection is not None else None) or UNKNOWN,
             "host_address": host_address,
+            "carrier_address": _carrier_address(written, spec),
         }
     )
+
+
+def _carrier_address(written: DeviceSpec, spec: CellSpec) -> str:
+    """Return the address of the device in whose frame this one is mounted: a tool may be reached through its arm."""
+    carrier = None if written.mount is None else spec.devices.get(written.mount.parent.partition("/")[0])
+    connection = None if carrier is None else carrier.connection
+    return UNKNOWN if connection is None else connection.address or UNKNOWN

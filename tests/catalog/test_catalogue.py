@@ -25,7 +25,8 @@ from cellc.catalog.load import (
 )
 
 PARAMETERS = Path(__file__).resolve().parents[3] / "shared" / "oracles" / "parameters"
-PLACEHOLDERS = {"device", "prefix", "stem", "address", "port", "host_address"}
+PLACEHOLDERS = {"device", "prefix", "stem", "address", "port", "host_address", "carrier_address"}
+ARMS = ("franka_fr3", "ur5e")
 # Upstream files behind each kind; on humble the gripper comes from another package.
 DECLARATIONS = {
     "joint_trajectory": "joint_trajectory_controller__joint_trajectory_controller_parameters",
@@ -76,22 +77,29 @@ def test_device_speaks_of_known_types_profiles_and_kinds(name: str) -> None:
         assert topic.qos in profiles.profiles
     for service in model.services:
         assert types.kind_of(service.type) == "service"
+    for action in model.actions:
+        assert types.kind_of(action.type) == "action"
+    released = {row.distro for row in model.versions if row.part == "driver"}
     for controller in model.controllers.values():
         assert controller.behaviour in (*controller_kinds(), "broadcaster", "service")
-        assert set(controller.plugins) == set(DISTROS)
+        # A controller of the vendor exists where its driver is released, one of ros2_controllers everywhere.
+        assert set(controller.plugins) in (set(DISTROS), released)
 
 
-def test_every_moving_joint_of_an_arm_has_acceleration_and_jerk() -> None:
-    arm = _device("ur5e")
+@pytest.mark.parametrize("name", ARMS)
+def test_every_moving_joint_of_an_arm_has_acceleration_and_jerk(name: str) -> None:
+    arm = _device(name)
     for joint in arm.description.joints:
         if joint.movable:
             assert arm.model.limits.acceleration_of(joint.name) is not None
             assert arm.model.limits.jerk_of(joint.name) is not None
 
 
-def test_home_lies_within_the_limits() -> None:
-    arm = _device("ur5e")
+@pytest.mark.parametrize("name", ARMS)
+def test_home_lies_within_the_limits(name: str) -> None:
+    arm = _device(name)
     assert arm.model.home is not None
+    assert set(arm.model.home) == {joint.name for joint in arm.description.joints if joint.movable}
     for name, position in arm.model.home.items():
         joint = arm.description.joint(name)
         assert joint is not None

@@ -10,15 +10,13 @@ from itertools import combinations
 from pathlib import Path
 
 import numpy as np
-import numpy.typing as npt
 import pinocchio
 import pytest
 
 from cellc.catalog.expansion import expand_here
 from cellc.catalog.load import CATALOGUE, device_names, load_device
-from cellc.cell.description import Description, Inertial, Joint
-
-Matrix = npt.NDArray[np.float64]
+from cellc.cell.description import Description, Inertial
+from tests.catalog.chains import Matrix, axis_rotation, transform
 
 # Classic DH of the arm as the vendor publishes it: a, alpha, d; theta is the joint.
 PI = math.pi
@@ -38,6 +36,7 @@ UR5E_JOINTS = (
     "wrist_2_joint",
     "wrist_3_joint",
 )
+FR3_JOINTS = tuple(f"fr3_joint{number}" for number in range(1, 8))
 
 
 def _description(name: str) -> Description:
@@ -53,59 +52,28 @@ def _dh(a: float, alpha: float, d: float, theta: float) -> Matrix:
     )
 
 
-def _axis_rotation(axis: tuple[float, float, float], angle: float) -> Matrix:
-    # Rodrigues' formula.
-    x, y, z = axis
-    k = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]], dtype=float)
-    result = np.eye(4)
-    result[:3, :3] = np.eye(3) + math.sin(angle) * k + (1 - math.cos(angle)) * k @ k
-    return result
-
-
-def _joint_transform(joint: Joint, angle: float) -> Matrix:
-    x, y, z, w = joint.pose.quaternion
-    fixed = np.eye(4)
-    fixed[:3, :3] = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-    ]
-    fixed[:3, 3] = joint.pose.position
-    return fixed @ _axis_rotation(joint.axis, angle)
-
-
-def _transform(description: Description, root: str, tip: str, positions: dict[str, float]) -> Matrix:
-    by_child = {joint.child: joint for joint in description.joints}
-    result = np.eye(4)
-    while tip != root:
-        joint = by_child[tip]
-        result = _joint_transform(joint, positions.get(joint.name, 0.0)) @ result
-        tip = joint.parent
-    return result
-
-
 def test_arm_has_the_forward_kinematics_of_the_published_parameters() -> None:
     description = _description("ur5e")
     generator = np.random.default_rng(20260722)
     for configuration in generator.uniform(-PI, PI, size=(100, 6)):
-        expected = _axis_rotation((0.0, 0.0, 1.0), PI)  # base_link is turned by pi against the vendor's base
+        expected = axis_rotation((0.0, 0.0, 1.0), PI)  # base_link is turned by pi against the vendor's base
         for (a, alpha, d), theta in zip(UR5E_DH, configuration, strict=True):
             expected = expected @ _dh(a, alpha, d, theta)
-        actual = _transform(description, "base_link", "tool0", dict(zip(UR5E_JOINTS, configuration, strict=True)))
+        actual = transform(description, "base_link", "tool0", dict(zip(UR5E_JOINTS, configuration, strict=True)))
         np.testing.assert_allclose(actual, expected, atol=1e-9)
 
 
 def test_vendor_base_frame_is_base() -> None:
-    turned = _transform(_description("ur5e"), "base_link", "base", {})
-    np.testing.assert_allclose(turned, _axis_rotation((0.0, 0.0, 1.0), PI), atol=1e-12)
+    turned = transform(_description("ur5e"), "base_link", "base", {})
+    np.testing.assert_allclose(turned, axis_rotation((0.0, 0.0, 1.0), PI), atol=1e-12)
 
 
 def test_flange_points_out_with_x_and_tool0_with_z() -> None:
     # REP-199 draft: X+ leaves the flange; tool0 keeps the vendor's Z+ out.
     description = _description("ur5e")
-    wrist_to_flange = _transform(description, "wrist_3_link", "flange", {})
+    wrist_to_flange = transform(description, "wrist_3_link", "flange", {})
     np.testing.assert_allclose(wrist_to_flange[:3, 0], [0, 0, 1], atol=1e-12)
-    np.testing.assert_allclose(_transform(description, "wrist_3_link", "tool0", {}), np.eye(4), atol=1e-12)
+    np.testing.assert_allclose(transform(description, "wrist_3_link", "tool0", {}), np.eye(4), atol=1e-12)
 
 
 @pytest.mark.parametrize(("angle", "gap_mm"), [(0.0, 85.0), (0.7929, 0.97), (0.8, 0.16)])
@@ -123,7 +91,7 @@ def test_jaws_open_to_the_stroke_and_close(angle: float, gap_mm: float) -> None:
         link = description.link(tip)
         assert link is not None
         (collision,) = link.collisions
-        frame = _transform(description, "base_link", tip, positions)
+        frame = transform(description, "base_link", tip, positions)
         np.testing.assert_allclose(frame[:3, :3], np.eye(3), atol=1e-9)  # the pads stay parallel
         sign = 1.0 if side == "left" else -1.0
         half_width = getattr(collision.geometry, "size")[0] / 2  # noqa: B009 - a box, checked by the access
@@ -134,7 +102,7 @@ def test_jaws_open_to_the_stroke_and_close(angle: float, gap_mm: float) -> None:
 @pytest.mark.parametrize("frame", ["color_optical_frame", "depth_optical_frame"])
 def test_optical_frames_look_along_z(frame: str) -> None:
     # REP-103: z forward, x right, y down, seen from a body with x forward, y left, z up.
-    turned = _transform(_description("realsense_d435i"), "link", frame, {})[:3, :3]
+    turned = transform(_description("realsense_d435i"), "link", frame, {})[:3, :3]
     np.testing.assert_allclose(turned, [[0, 0, 1], [-1, 0, 0], [0, -1, 0]], atol=1e-12)
 
 
@@ -182,15 +150,34 @@ def _touching(name: str, positions: dict[str, float]) -> set[tuple[str, str]]:
     return found
 
 
-@pytest.mark.parametrize("degrees", [(0, -90, 90, -90, -90, 0), (0, -90, 0, -90, 0, 0), (30, -60, 100, -130, -90, 45)])
-def test_arm_does_not_touch_itself(degrees: tuple[float, ...]) -> None:
-    positions = dict(zip(UR5E_JOINTS, np.radians(degrees), strict=True))
-    assert _touching("ur5e", positions) == set()
+@pytest.mark.parametrize(
+    ("name", "joints", "degrees"),
+    [
+        ("ur5e", UR5E_JOINTS, (0, -90, 90, -90, -90, 0)),
+        ("ur5e", UR5E_JOINTS, (0, -90, 0, -90, 0, 0)),
+        ("ur5e", UR5E_JOINTS, (30, -60, 100, -130, -90, 45)),
+        ("franka_fr3", FR3_JOINTS, (0, -45, 0, -135, 0, 90, 45)),
+        ("franka_fr3", FR3_JOINTS, (0, 0, 0, -9, 0, 32, 0)),
+        # Joints 2 and 4 at their ends: neighbours but one must not be mistaken for a collision.
+        ("franka_fr3", FR3_JOINTS, (90, 102, 0, -9, 0, 200, 170)),
+        ("franka_fr3", FR3_JOINTS, (0, 0, 0, -174, 0, 170, 0)),
+    ],
+)
+def test_arm_does_not_touch_itself(name: str, joints: tuple[str, ...], degrees: tuple[float, ...]) -> None:
+    assert _touching(name, dict(zip(joints, np.radians(degrees), strict=True))) == set()
 
 
-def test_folded_arm_touches_itself() -> None:
-    # The elbow bent by 175 deg lays the forearm into the upper arm: shapes that enclose the links must meet.
-    assert _touching("ur5e", dict(zip(UR5E_JOINTS, np.radians((0, -90, 175, 0, 0, 0)), strict=True)))
+@pytest.mark.parametrize(
+    ("name", "joints", "degrees"),
+    [
+        # The elbow bent by 175 deg lays the forearm into the upper arm: shapes that enclose the links must meet.
+        ("ur5e", UR5E_JOINTS, (0, -90, 175, 0, 0, 0)),
+        # Bent forward over the base and folded, the wrist of the seven-joint arm ends in its own base or column.
+        ("franka_fr3", FR3_JOINTS, (0, 100, 0, -174, 0, 120, 0)),
+    ],
+)
+def test_folded_arm_touches_itself(name: str, joints: tuple[str, ...], degrees: tuple[float, ...]) -> None:
+    assert _touching(name, dict(zip(joints, np.radians(degrees), strict=True)))
 
 
 @pytest.mark.parametrize("angle", [0.0, 0.2, 0.4, 0.6, 0.7929, 0.8])

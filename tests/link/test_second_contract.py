@@ -1,0 +1,132 @@
+"""The cell with seven joints, effort interfaces and a gripper that a node moves: read, parsed, linked, described."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from cellc.cell.cell import Cell
+from cellc.cell.control import Controller
+from cellc.formats.urdf.robot import robot_description
+from cellc.pipeline import check
+from tests.link.cells import ROOT, linked, linked_text
+
+SPEC = ROOT / "cells" / "fr3_hand" / "cell.yaml"
+JOINTS = tuple(f"fr3_joint{number}" for number in range(1, 8))
+TRAJECTORY = "joint_trajectory_controller/JointTrajectoryController"
+
+
+@pytest.fixture(scope="module")
+def cell() -> Cell:
+    return linked(SPEC)
+
+
+def _controller(cell: Cell, name: str) -> Controller:
+    return next(controller for controller in cell.controllers if controller.name == name)
+
+
+def _changed(old: str, new: str, folder: Path) -> Cell:
+    text = SPEC.read_text(encoding="utf-8")
+    assert old in text
+    return linked_text(text.replace(old, new), folder)
+
+
+def test_spec_is_a_page_of_120_lines_at_most() -> None:
+    assert len(SPEC.read_text(encoding="utf-8").splitlines()) <= 120
+
+
+def test_only_what_nobody_has_read_off_the_robot_blocks_the_real_target() -> None:
+    found = check(str(SPEC)).diagnostics
+    assert {(entry.code, entry.severity.value) for entry in found} == {
+        ("missing-rollback", "blocker"),
+        ("unknown-version", "blocker"),
+    }
+
+
+def test_joints_have_the_names_of_the_vendor_where_the_prefix_is_empty(cell: Cell) -> None:
+    assert tuple(joint.name for joint in cell.device("arm").joints) == JOINTS
+    hand = cell.device("hand")
+    assert [(joint.name, joint.mimics) for joint in hand.joints] == [
+        ("fr3_finger_joint1", None),
+        ("fr3_finger_joint2", "fr3_finger_joint1"),
+    ]
+    assert hand.parent_frame == "fr3_link8"
+    assert next(group for group in cell.groups if group.name == "arm").tip_frame == "fr3_hand_tcp"
+
+
+def test_limits_of_the_cell_are_shares_of_the_documented_ones(cell: Cell) -> None:
+    # 35 % of 2.62 and 5.26 rad/s stay below the rectangular limits of 1.0 (joint 2) and 3.0 rad/s (joint 5).
+    by_name = {joint.name: joint for joint in cell.device("arm").joints}
+    assert by_name["fr3_joint2"].velocity == pytest.approx(0.917)
+    assert by_name["fr3_joint5"].velocity == pytest.approx(1.841)
+    assert by_name["fr3_joint2"].acceleration == pytest.approx(1.5)
+    assert by_name["fr3_joint2"].jerk == 5000.0
+
+
+def test_alternate_claims_effort_with_a_gain_for_each_joint(cell: Cell) -> None:
+    effort = _controller(cell, "arm_effort")
+    assert not effort.active
+    assert effort.command_interfaces == tuple(f"{joint}/effort" for joint in JOINTS)
+    assert effort.parameters["command_interfaces"] == ("effort",)
+    assert effort.parameters["gains.fr3_joint1.p"] == 600.0
+    assert effort.parameters["gains.fr3_joint7.d"] == 5.0
+    assert _controller(cell, "arm_trajectory").command_interfaces == tuple(f"{joint}/position" for joint in JOINTS)
+
+
+def test_alternate_of_a_device_acts_as_its_neutral_kind(cell: Cell) -> None:
+    assert _controller(cell, "arm_effort").behaviour == "joint_trajectory"
+    assert cell.behaviours[TRAJECTORY] == "joint_trajectory"
+
+
+def test_parameter_names_carry_the_prefix(tmp_path: Path) -> None:
+    prefixed = _changed('    prefix: ""                 # joints', "    prefix: left_  # joints", tmp_path)
+    parameters = _controller(prefixed, "arm_effort").parameters
+    assert parameters["gains.left_fr3_joint4.p"] == 600.0
+    assert not [name for name in parameters if "{" in name]
+    arm = prefixed.device("arm").hardware
+    assert arm is not None
+    assert (arm.name, arm.parameters["real"]["arm_prefix"]) == ("left_FrankaHardwareInterface", "left_")
+
+
+def test_claims_of_the_spec_come_before_those_of_the_kind(tmp_path: Path) -> None:
+    claimed = "{type: effort_joint_trajectory, command_interfaces: [position, effort], device: arm, active: false"
+    changed = _changed("{type: effort_joint_trajectory, device: arm, active: false", claimed, tmp_path)
+    assert _controller(changed, "arm_effort").parameters["command_interfaces"] == ("position", "effort")
+
+
+def test_node_of_the_hand_reaches_it_through_the_arm(cell: Cell) -> None:
+    (node,) = (node for node in cell.nodes if node.device == "hand")
+    assert node.real_only
+    assert node.parameters == {"robot_ip": "172.16.0.2", "joint_names": ("fr3_finger_joint1", "fr3_finger_joint2")}
+
+
+def test_address_of_the_carrier_is_unknown_where_the_arm_has_none(tmp_path: Path) -> None:
+    changed = _changed("nic: robot, address: 172.16.0.2}", "nic: robot}", tmp_path)
+    (node,) = (node for node in changed.nodes if node.device == "hand")
+    assert node.parameters["robot_ip"] == "UNKNOWN"
+
+
+def test_hand_has_hardware_on_the_mock_alone(cell: Cell) -> None:
+    hand = cell.device("hand").hardware
+    assert hand is not None
+    assert hand.targets == ("mock",)
+    assert hand.plugins["real"] == "franka_gripper/franka_gripper_node"
+    tags = {
+        target: [tag.get("name") for tag in robot_description(cell, target).iter("ros2_control")]
+        for target in ("mock", "real")
+    }
+    assert tags == {"mock": ["FrankaHardwareInterface", "hand_hardware"], "real": ["FrankaHardwareInterface"]}
+
+
+@pytest.mark.parametrize("distro", ["humble", "jazzy", "kilted", "lyrical"])
+def test_cell_links_on_every_distribution(distro: str, tmp_path: Path) -> None:
+    changed = _changed("ros: humble", f"ros: {distro}", tmp_path)
+    assert _controller(changed, "arm_effort").plugin == TRAJECTORY
+
+
+@pytest.mark.parametrize("distro", ["humble", "jazzy", "kilted", "lyrical"])
+def test_controller_that_is_told_of_speed_scaling_follows_it(distro: str, tmp_path: Path) -> None:
+    text = (ROOT / "cells" / "ur5e_pick" / "cell.yaml").read_text(encoding="utf-8")
+    changed = linked_text(text.replace("ros: jazzy", f"ros: {distro}"), tmp_path)
+    assert _controller(changed, "arm_trajectory").behaviour == "scaled_joint_trajectory"
