@@ -1,0 +1,92 @@
+"""The steps of the README in an empty folder, and the mistakes that a newcomer makes first."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from tests.cli.refused import process
+from tests.cli.run import PICK, ROOT, Ran
+
+INIT = ("init", "bench", "arm=ur5e", "gripper=robotiq_2f_85")
+
+
+def _ran(folder: Path, line: str) -> Ran:
+    ran = process(*line.split(), cwd=folder)
+    assert ran.code == 0, ran.out + ran.err
+    return ran
+
+
+def _commands_of_readme() -> list[str]:
+    block = re.search(
+        r"## Your own cell\n\n```sh\n(.+?)```", (ROOT / "README.md").read_text(encoding="utf-8"), re.DOTALL
+    )
+    assert block is not None
+    return [line.partition("#")[0].strip().removeprefix("cellc ") for line in block[1].splitlines()]
+
+
+@pytest.mark.skipif(not (ROOT / "README.md").exists(), reason="no README beside the package")
+def test_readme_leads_from_an_empty_folder_to_a_rehearsed_cell(tmp_path: Path) -> None:
+    commands = _commands_of_readme()
+    assert [command.split()[0] for command in commands] == ["init", "check", "build", "mock", "explain"]
+    for command in commands:
+        ran = _ran(tmp_path, command)
+    assert (tmp_path / "generated/bench/package.xml").exists()
+    assert "# uncalibrated-frame" in ran.out
+
+
+@pytest.mark.parametrize("ros", ["humble", "jazzy", "kilted"])
+def test_cell_of_init_passes_on_every_distribution(ros: str, tmp_path: Path) -> None:
+    _ran(tmp_path, f"{' '.join(INIT)} --ros {ros}")
+    _ran(tmp_path, "build cells/bench/cell.yaml")
+    assert "passed  ready" in _ran(tmp_path, "mock generated/bench").out
+
+
+@pytest.mark.parametrize("models", ["ur5e", "robotiq_2f_85", "realsense_d435i", "ur5e ur5e robotiq_2f_85"])
+def test_cell_of_init_builds_and_runs_with_any_devices(models: str, tmp_path: Path) -> None:
+    _ran(tmp_path, f"init bench {models}")
+    _ran(tmp_path, "build cells/bench/cell.yaml")
+    _ran(tmp_path, "mock generated/bench")
+
+
+def test_init_tells_the_next_step_and_the_editor_finds_the_schema(tmp_path: Path) -> None:
+    told = _ran(tmp_path, f"{' '.join(INIT)} -o deep/er/bench.yaml").out
+    assert "next: cellc build deep/er/bench.yaml && cellc mock generated/bench" in told
+    assert "cellc schema -o schemas" in told
+    _ran(tmp_path, "schema -o schemas")
+    modeline = (tmp_path / "deep/er/bench.yaml").read_text().splitlines()[0]
+    schema = modeline.removeprefix("# yaml-language-server: $schema=")
+    assert (tmp_path / "deep/er" / schema).resolve() == (tmp_path / "schemas/cell.schema.json").resolve()
+
+
+def test_build_writes_the_same_bytes_from_any_folder(pick: Path, tmp_path: Path) -> None:
+    """Only the remembered command names the spec as it was given, so the spec is given alike."""
+    far = tmp_path / "far away"
+    far.mkdir()
+    ran = process("build", PICK, "-o", "here", cwd=far)
+    assert ran.code == 0
+    built, again = _contents(pick), _contents(far / "here/ur5e_pick")
+    assert built == again
+
+
+def test_edited_file_is_kept_and_named_until_it_is_forced(tmp_path: Path) -> None:
+    _ran(tmp_path, " ".join(INIT))
+    _ran(tmp_path, "build cells/bench/cell.yaml")
+    file = tmp_path / "generated/bench/config/controllers.yaml"
+    file.write_text(file.read_text() + "# mine\n")
+    (tmp_path / "generated/bench/notes.md").write_text("mine")
+    for arguments in (("build",), ("build", "--check")):
+        ran = process(*arguments, "cells/bench/cell.yaml", cwd=tmp_path)
+        assert ran.code == 1
+        assert "generated/bench/config/controllers.yaml" in ran.out
+    assert file.read_text().endswith("# mine\n")
+    _ran(tmp_path, "build --force cells/bench/cell.yaml")
+    assert "# mine" not in file.read_text()
+    assert (tmp_path / "generated/bench/notes.md").read_text() == "mine"
+    assert "as the cell makes it" in _ran(tmp_path, "build --check cells/bench/cell.yaml").out
+
+
+def _contents(folder: Path) -> dict[str, bytes]:
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
