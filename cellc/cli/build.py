@@ -108,4 +108,6 @@ def _told(report: WriteReport, folder: Path) -> str:
 def _differences(differences: tuple[Difference, ...], folder: Path) -> list[str]:
     if not differences:
         return [f"{folder.as_posix()}: as the cell makes it"]
+    if not folder.is_dir():
+        return [f"{folder.as_posix()}: there is no such folder; `cellc build` without `--check` writes it"]
     return [render_difference(difference, folder) for difference in differences]

@@ -58,8 +58,10 @@ def _named(devices: tuple[str, ...]) -> dict[str, CatalogDevice]:
         entry = load_device(model).value
         assert entry is not None  # package data, held valid by the catalogue's tests
         name = given or _free_name(entry.model.kind, entries)
-        if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name) or name in entries:
-            raise click.UsageError(f"`{name}` is no device name, or is taken: use letters, digits and underscores once")
+        if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name):
+            raise click.UsageError(f"`{name}` is no device name: use letters, digits and underscores")
+        if name in entries:
+            raise click.UsageError(f"two devices are called `{name}`: name them apart, such as `{name}_2={model}`")
         entries[name] = entry
     return entries
 

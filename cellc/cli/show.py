@@ -22,6 +22,7 @@ def show(file: str, path: str) -> None:
 
     Without PATH the sections are listed.
     """
+    path = path.rstrip(".")
     checked = check(file)
     if checked.graph is None:
         show_findings([checked], "text")
@@ -42,13 +43,16 @@ def show(file: str, path: str) -> None:
 
 def _at(tree: Tree, path: str) -> Tree:
     """Walk down a dotted path; keys may hold dots themselves, so the longest key that fits is taken."""
-    rest = path
+    # The spec says `control` for the one controller manager that most cells have.
+    rest = f"managers.{path}" if "control" not in tree and path.split(".")[0] == "control" else path
     while rest:
         if isinstance(tree, Leaf):
             raise click.UsageError(f"`{path}` goes on below a value; there is nothing at `{rest}`")
         keys = [key for key in tree if rest == key or rest.startswith(f"{key}.")]
         if not keys:
             wanted = rest.partition(".")[0]
+            if not wanted:
+                raise click.UsageError(f"`{path}` has an empty name beside a dot")
             raise click.UsageError(f"there is no `{wanted}` in `{path}`: {did_you_mean(wanted, tree, 'names here')}")
         key = max(keys, key=len)
         tree, rest = tree[key], rest[len(key) + 1 :]

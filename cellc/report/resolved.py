@@ -139,6 +139,9 @@ def _origin(cell: Cell, entity: Entity, field: str) -> str:
     if isinstance(entity, DeviceJoint):
         tightened = key == "limits" and cell.document.has((*path, field))
         return f"{_written(cell, (*path, field))} of {catalogue}" if tightened else catalogue
+    if isinstance(entity, Controller) and field == "parameters":
+        # Some follow from the controller's keys, some from its device, some from its kind.
+        return f"{_written(cell, entity.path)} with {catalogue}"
     if cell.document.has(path):
         return _written(cell, path)
     known = next((names for kind, names in _FROM_CATALOGUE.items() if isinstance(entity, kind)), set[str]())

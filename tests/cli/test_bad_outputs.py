@@ -122,11 +122,12 @@ def test_one_cell_named_twice_is_no_fault(tmp_path: Path) -> None:
     [
         (("init", "Bench", "ur5e"), "`Bench` is no package name"),
         (("init", "bench"), "name at least one model"),
-        (("init", "bench", "arm=ur5e", "arm=ur5e"), "`arm` is no device name, or is taken"),
+        (("init", "bench", "arm=ur5e", "arm=ur5e"), "two devices are called `arm`"),
         (("init", "bench", "ur5e", "--ros", "foxy"), "foxy"),
         (("schema", "cel"), "there is no schema `cel`"),
         (("explain", ""), "there is no code"),
-        (("show", MINIMAL, "."), "there is no"),
+        (("show", MINIMAL, "devices..arm"), "`devices..arm` has an empty name beside a dot"),
+        (("show", MINIMAL, "control.update_rate"), "did you mean `update_rate_hz`?"),
     ],
 )
 def test_argument_that_means_nothing_is_a_usage_error(
