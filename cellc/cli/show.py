@@ -44,7 +44,7 @@ def show(file: str, path: str) -> None:
 def _at(tree: Tree, path: str) -> Tree:
     """Walk down a dotted path; keys may hold dots themselves, so the longest key that fits is taken."""
     # The spec says `control` for the one controller manager that most cells have.
-    rest = f"managers.{path}" if "control" not in tree and path.split(".")[0] == "control" else path
+    rest = f"managers.{path}" if path.partition(".")[0] == "control" else path
     while rest:
         if isinstance(tree, Leaf):
             raise click.UsageError(f"`{path}` goes on below a value; there is nothing at `{rest}`")
