@@ -11,6 +11,7 @@ from cellc.catalog.device_control import PluginUse
 from cellc.catalog.load import controller_kinds
 from cellc.cell.control import Controller, ControllerManager, ControllerSwitch
 from cellc.cell.device import Device
+from cellc.cell.interface import ParameterValue
 from cellc.diagnostics import Diagnostic, Outcome, Severity, YamlPath, did_you_mean
 from cellc.link.controller_parameters import bind_parameters
 from cellc.link.placeholders import placeholders
@@ -126,7 +127,6 @@ def _controller(
     claims = _claimed(written, device, kind)
     states = _read(kind, joints.value or (), device)
     parameters = bind_parameters(kind, plugin, written, joints.value or (), claims, states, device, context.distro)
-    texts = None if device is None else placeholders(device.name, device.prefix, device.spec, context.spec)
     controller = Controller(
         name=name,
         path=path,
@@ -139,7 +139,7 @@ def _controller(
         joints=joints.value or (),
         command_interfaces=tuple(f"{joint}/{claim}" for joint in joints.value or () for claim in claims),
         state_interfaces=tuple(f"{joint}/{state}" for joint in joints.value or () for state in states),
-        parameters=parameters if texts is None else texts.fill_parameters(parameters),
+        parameters=_filled(parameters, device, context),
         active=written.active,
         client=written.client,
         action=None if kind.action is None else f"{namespace}/{name}/{kind.action.suffix}",
@@ -151,6 +151,14 @@ def _controller(
         update_rate_hz=None if written.update_rate is None else written.update_rate.si,
     )
     return Outcome(controller, (*joints.diagnostics, *client))
+
+
+def _filled(
+    parameters: Mapping[str, ParameterValue], device: Device | None, context: ControlContext
+) -> Mapping[str, ParameterValue]:
+    if device is None:
+        return parameters
+    return placeholders(device.name, device.prefix, device.spec, context.spec).fill_parameters(parameters)
 
 
 def _plugin(
