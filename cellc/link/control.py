@@ -133,7 +133,7 @@ def _controller(
         span=context.document.locate(path),
         manager=manager,
         kind=written.type,
-        behaviour=_behaviour(plugin, device, kind),
+        behaviour=_behaviour(plugin, device, kind, context),
         plugin=plugin.type,
         device=written.device,
         joints=joints.value or (),
@@ -187,11 +187,13 @@ def _plugin(
     return Outcome(None, (problem,))
 
 
-def _behaviour(plugin: PluginUse, device: Device | None, kind: ControllerKind) -> str:
+def _behaviour(plugin: PluginUse, device: Device | None, kind: ControllerKind, context: ControlContext) -> str:
     """Return the neutral kind; a trajectory controller that is told of the device's speed scaling follows it."""
+    neutral = kind.plugins.get(context.distro)
     scaling = None if device is None else device.facts.speed_scaling
-    scaled = scaling is not None and scaling.state_interface in plugin.parameters.values()
-    return f"scaled_{kind.kind}" if scaled else kind.kind
+    if scaling is None or (neutral is not None and neutral.type == plugin.type):
+        return kind.kind  # where the upstream plugin is used it takes the factor by parameters of its own
+    return f"scaled_{kind.kind}" if scaling.state_interface in plugin.parameters.values() else kind.kind
 
 
 def _unknown_kind(

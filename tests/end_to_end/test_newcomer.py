@@ -37,7 +37,7 @@ def test_readme_leads_from_an_empty_folder_to_a_rehearsed_cell(tmp_path: Path) -
     assert "# uncalibrated-frame" in ran.out
 
 
-@pytest.mark.parametrize("ros", ["humble", "jazzy", "kilted"])
+@pytest.mark.parametrize("ros", ["humble", "jazzy", "kilted", "lyrical"])
 def test_cell_of_init_passes_on_every_distribution(ros: str, tmp_path: Path) -> None:
     _ran(tmp_path, f"{' '.join(INIT)} --ros {ros}")
     _ran(tmp_path, "build cells/bench/cell.yaml")

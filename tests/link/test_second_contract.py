@@ -125,8 +125,21 @@ def test_cell_links_on_every_distribution(distro: str, tmp_path: Path) -> None:
     assert _controller(changed, "arm_effort").plugin == TRAJECTORY
 
 
-@pytest.mark.parametrize("distro", ["humble", "jazzy", "kilted", "lyrical"])
-def test_controller_that_is_told_of_speed_scaling_follows_it(distro: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("distro", "behaviour", "parameter"),
+    [
+        ("humble", "scaled_joint_trajectory", "speed_scaling_interface_name"),
+        ("jazzy", "scaled_joint_trajectory", "speed_scaling_interface_name"),
+        ("kilted", "scaled_joint_trajectory", "speed_scaling_interface_name"),
+        # The vendor's type is gone; the upstream one reads the factor by a parameter of its own (facts/robots.md).
+        ("lyrical", "joint_trajectory", "speed_scaling.state_interface"),
+    ],
+)
+def test_controller_that_is_told_of_speed_scaling_follows_it(
+    distro: str, behaviour: str, parameter: str, tmp_path: Path
+) -> None:
     text = (ROOT / "cells" / "ur5e_pick" / "cell.yaml").read_text(encoding="utf-8")
     changed = linked_text(text.replace("ros: jazzy", f"ros: {distro}"), tmp_path)
-    assert _controller(changed, "arm_trajectory").behaviour == "scaled_joint_trajectory"
+    controller = _controller(changed, "arm_trajectory")
+    assert controller.behaviour == behaviour
+    assert controller.parameters[parameter] == "arm_speed_scaling/speed_scaling_factor"
