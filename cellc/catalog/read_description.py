@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
+from cellc.catalog.description import Description
 from cellc.catalog.expansion import Expansion, expand_here
 from cellc.catalog.urdf_reader import read_urdf
 from cellc.catalog.xacro_expander import expand_xacro
 from cellc.catalog.xacro_files import ConfinedFiles, XacroRefusedError
-from cellc.cell.description import Description
 from cellc.diagnostics import Diagnostic, Outcome, Severity, Span
 
 

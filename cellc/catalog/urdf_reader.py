@@ -9,6 +9,15 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from typing import TypeVar
 
+from cellc.catalog.description import (
+    Description,
+    Joint,
+    JointDynamics,
+    JointLimit,
+    Link,
+    Mimic,
+    SafetyController,
+)
 from cellc.catalog.urdf_shapes import read_link
 from cellc.catalog.urdf_values import (
     UrdfError,
@@ -23,15 +32,6 @@ from cellc.catalog.urdf_values import (
     vector,
 )
 from cellc.catalog.xml_tree import XmlElement, read_xml
-from cellc.cell.description import (
-    Description,
-    Joint,
-    JointDynamics,
-    JointLimit,
-    Link,
-    Mimic,
-    SafetyController,
-)
 from cellc.diagnostics import Diagnostic, Outcome, Severity, Span, did_you_mean
 
 JOINT_TYPES = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")

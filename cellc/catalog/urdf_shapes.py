@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from cellc.catalog.description import Box, Collision, Cylinder, Geometry, Inertial, Link, Mesh, Sphere, Visual
 from cellc.catalog.urdf_values import number, numbers, origin_pose, refused, required, required_child, vector
 from cellc.catalog.xml_tree import XmlElement
-from cellc.cell.description import Box, Collision, Cylinder, Geometry, Inertial, Link, Mesh, Sphere, Visual
 
 Rgba = tuple[float, float, float, float]
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from cellc.catalog.description import Description
 from cellc.catalog.device_model import DeviceModel
-from cellc.cell.description import Description
 from cellc.cell.entity import Entity
 from cellc.spec.devices import DeviceSpec
 from cellc.transforms import Pose

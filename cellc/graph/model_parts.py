@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from cellc.catalog.description import Joint, Link
 from cellc.cell.cell import Cell
-from cellc.cell.description import Joint, Link
 from cellc.cell.device import Device
 from cellc.diagnostics import Span, YamlPath
 

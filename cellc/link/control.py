@@ -166,13 +166,15 @@ def _plugin(
 ) -> Outcome[tuple[PluginUse, ControllerKind]]:
     """Choose the plugin of a kind for the distribution: the device's own kinds come before the neutral ones."""
     own = {} if device is None else device.facts.controllers
-    if written.type in own:
-        plugins, kind = own[written.type].plugins, context.kinds[own[written.type].behaviour]
+    # A device may list kinds that act as none of the neutral ones, such as a vendor's own broadcaster: not offered yet.
+    offered = {name: one for name, one in own.items() if one.behaviour in context.kinds}
+    if written.type in offered:
+        plugins, kind = offered[written.type].plugins, context.kinds[offered[written.type].behaviour]
     elif written.type in context.kinds:
         kind = context.kinds[written.type]
         plugins = kind.plugins
     else:
-        return Outcome(None, (_unknown_kind(written, path, own, context),))
+        return Outcome(None, (_unknown_kind(written, path, offered, context),))
     if context.distro in plugins:
         return Outcome((plugins[context.distro], kind))
     at = (*path, "type")

@@ -44,9 +44,7 @@ def _link_with_devices(
 ) -> Outcome[Cell]:
     devices = linked_devices.value or ()
     kinds = _controller_kinds(spec, devices)
-    table = load_qos_profiles().value
-    assert table is not None  # package data, held valid by the catalogue's tests
-    resolver = QosResolver(table, _rmw(spec))
+    resolver = _qos_resolver(spec)
     names = name_frames(spec, document, devices)
     scene = link_scene(spec, document, names)
     frames = link_frames(spec, document, devices, names)
@@ -84,6 +82,12 @@ def _link_with_devices(
     )
     parts = (linked_devices, scene, frames, nodes, managers, interfaces, groups, poses, goals, rehearsals)
     return Outcome(cell, tuple(problem for part in parts for problem in part.diagnostics))
+
+
+def _qos_resolver(spec: CellSpec) -> QosResolver:
+    table = load_qos_profiles().value
+    assert table is not None  # package data, held valid by the catalogue's tests
+    return QosResolver(table, _rmw(spec))
 
 
 def _controller_kinds(spec: CellSpec, devices: tuple[Device, ...]) -> dict[str, ControllerKind]:

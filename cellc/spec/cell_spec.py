@@ -26,7 +26,9 @@ class CellSpec(SpecModel):
     """One physical cell, as its integrator writes it."""
 
     format: Literal[1] = Field(..., description="Version of this spec language.", examples=[1])
-    cell: PackageName = Field(..., description="Name of the cell and of the generated package.", examples=["ur5e_pick"])
+    cell: PackageName = Field(
+        ..., description="Name of the cell and of the generated package.", examples=["bench_pick"]
+    )
     summary: Text = Field(
         "", description="One sentence on what the cell does.", examples=["Picks parts from fixture A"], min_length=0
     )
@@ -38,7 +40,10 @@ class CellSpec(SpecModel):
         default_factory=NetworkSpec, description="DDS network.", examples=[{"domain_id": 42, "discovery": "unicast"}]
     )
     devices: dict[Name, DeviceSpec] = Field(
-        ..., description="Robots, grippers and sensors by name.", examples=[{"arm": {"model": "ur5e"}}], min_length=1
+        ...,
+        description="Robots, grippers and sensors by name.",
+        examples=[{"arm": {"model": "./my_arm"}}],
+        min_length=1,
     )
     calibrations: dict[Name, CalibrationSpec] = Field(
         default_factory=dict, description="Measurements by id.", examples=[{"hand_eye": {"revision": 4}}]

@@ -74,7 +74,9 @@ class DeviceSpec(SpecModel):
     """One device: a catalogue entry, where it is mounted, and the exact thing that stands there."""
 
     model: Text = Field(
-        ..., description="Catalogue entry, or a folder beside this file with your own device.yaml.", examples=["ur5e"]
+        ...,
+        description="Catalogue entry, or a folder beside this file with your own device.yaml.",
+        examples=["./my_arm"],
     )
     mount: PlacementSpec | None = Field(
         None,
@@ -93,11 +95,11 @@ class DeviceSpec(SpecModel):
     )
     revision: Pin = Field("UNKNOWN", description="Hardware revision.", examples=["UNKNOWN"])
     serial: Pin = Field("UNKNOWN", description="Serial number on the nameplate.", examples=["20235500001"])
-    firmware: Pin = Field("UNKNOWN", description="Controller software or firmware.", examples=["polyscope 5.21.0"])
-    driver: Pin = Field("UNKNOWN", description="ROS 2 driver package and version.", examples=["ur_robot_driver 3.8.0"])
-    sdk: Pin = Field("UNKNOWN", description="Vendor library and version.", examples=["ur_client_library 2.14.1"])
+    firmware: Pin = Field("UNKNOWN", description="Controller software or firmware.", examples=["controller 5.21.0"])
+    driver: Pin = Field("UNKNOWN", description="ROS 2 driver package and version.", examples=["my_arm_driver 3.8.0"])
+    sdk: Pin = Field("UNKNOWN", description="Vendor library and version.", examples=["my_arm_sdk 2.14.1"])
     description: Pin = Field(
-        "UNKNOWN", description="Description package and version.", examples=["ur_description 3.5.1"]
+        "UNKNOWN", description="Description package and version.", examples=["my_arm_description 3.5.1"]
     )
     connection: ConnectionSpec | None = Field(
         None,

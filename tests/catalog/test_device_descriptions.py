@@ -13,9 +13,9 @@ import numpy as np
 import pinocchio
 import pytest
 
+from cellc.catalog.description import Description, Inertial
 from cellc.catalog.expansion import expand_here
 from cellc.catalog.load import CATALOGUE, device_names, load_device
-from cellc.cell.description import Description, Inertial
 from tests.catalog.chains import Matrix, axis_rotation, transform
 
 # Classic DH of the arm as the vendor publishes it: a, alpha, d; theta is the joint.

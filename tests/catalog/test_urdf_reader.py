@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from cellc.catalog.description import Box, Cylinder, Description, Mesh, Sphere
 from cellc.catalog.urdf_reader import read_urdf
-from cellc.cell.description import Box, Cylinder, Description, Mesh, Sphere
 from cellc.diagnostics import Diagnostic, Span
 
 ROBOT = """<?xml version="1.0"?>

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from xml.etree.ElementTree import Element
 
-from cellc.cell.description import Joint, JointDynamics, Mimic, SafetyController
+from cellc.catalog.description import Joint, JointDynamics, Mimic, SafetyController
 from cellc.cell.device import DeviceJoint
 from cellc.formats.numbers import settled, shortest
 from cellc.formats.urdf.geometry import numbers, origin

@@ -26,15 +26,15 @@ def refusal(folder: Path) -> MockError:
 
 
 def test_folder_that_does_not_exist(tmp_path: Path) -> None:
-    assert refusal(tmp_path / "absent").reason == "no such folder"
+    assert refusal(tmp_path / "absent").reason == "no such folder; name one that `cellc build` wrote"
 
 
 def test_file_in_place_of_a_folder(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
-    assert refusal(tmp_path / "file").reason == "is not a folder"
+    assert refusal(tmp_path / "file").reason == "is not a folder; name one that `cellc build` wrote"
 
 
-@pytest.mark.parametrize("name", ["contract.json", "rehearsals.json", "manifest.json", "config/controllers.yaml"])
+@pytest.mark.parametrize("name", ["rehearsals.json", "manifest.json", "config/controllers.yaml"])
 def test_missing_file_is_named(folder: Path, name: str) -> None:
     (folder / name).unlink()
     error = refusal(folder)
@@ -106,7 +106,8 @@ def test_command_says_what_is_wrong_and_ends_with_two(tmp_path: Path) -> None:
         [sys.executable, "-m", "cellc.mock", str(tmp_path)], cwd=ROOT, capture_output=True, text=True, check=False
     )
     assert done.returncode == 2
-    assert done.stderr == "error: contract.json: is missing from the generated folder\n"
+    reason = "holds no contract.json; name a folder that `cellc build` wrote"
+    assert done.stderr == f"error: {tmp_path.as_posix()}: {reason}\n"
 
 
 def test_mock_runs_without_the_rest_of_the_compiler(built_folder: Path, tmp_path: Path) -> None:

@@ -277,7 +277,9 @@ class JointTrajectoryController(QuietController):
         return self.goals.next_monitor_ns()
 
     def monitor(self, now_ns: int) -> None:
-        """Deliver results and feedback."""
+        """Deliver results and feedback; a controller that was never active has neither goals nor a last update."""
+        if self.goals.idle:
+            return
         self.goals.deliver(now_ns, self.last, self._motion, self.interfaces)
 
     def query_state(self, time_ns: int) -> TrajectoryStateResponse:

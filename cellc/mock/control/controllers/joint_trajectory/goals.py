@@ -92,6 +92,11 @@ class GoalBook:
         due = [time for monitor in monitors if (time := monitor.next_ns()) is not None]
         return min(due, default=None)
 
+    @property
+    def idle(self) -> bool:
+        """Whether no goal runs and no result waits for its tick."""
+        return self._active is None and not self._waiting
+
     def deliver(self, now_ns: int, last: LastUpdate, motion: Motion | None, interfaces: JointInterfaces) -> None:
         """Deliver what is due now."""
         for monitor in [m for m in self._waiting if m.next_ns() == now_ns]:
