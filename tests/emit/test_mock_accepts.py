@@ -11,10 +11,7 @@ from tests.emit.cells import CELLS, DISTROS, artifacts_of
 control = pytest.importorskip("cellc.mock.control", reason="the mock is not there yet")
 
 
-_LYRICAL = pytest.mark.xfail(reason="the plain plugin that scales by itself there is taken for the vendor's own")
-
-
-@pytest.mark.parametrize("distro", [*DISTROS[:3], pytest.param("lyrical", marks=_LYRICAL)])
+@pytest.mark.parametrize("distro", DISTROS)
 @pytest.mark.parametrize("cell", CELLS)
 def test_every_controller_becomes_active(cell: str, distro: str) -> None:
     artifacts = artifacts_of(cell, distro)
