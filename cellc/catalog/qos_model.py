@@ -10,6 +10,7 @@ from cellc.catalog.catalog_model import CatalogModel, Date, Text, Token
 from cellc.spec.quantity import Duration
 
 Rmw = Literal["rmw_fastrtps_cpp", "rmw_cyclonedds_cpp", "rmw_zenoh_cpp"]
+RMWS: tuple[Rmw, ...] = ("rmw_fastrtps_cpp", "rmw_cyclonedds_cpp", "rmw_zenoh_cpp")
 
 
 class QosProfile(CatalogModel):

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -45,9 +46,9 @@ def _apart(first: dict[int, _Ball], second: dict[int, _Ball], margin_m: float) -
     return distance > first[joint].radius + second[joint].radius + margin_m
 
 
-def _balls(model: RobotModel, shape: object) -> Iterator[_Ball]:
+def _balls(model: RobotModel, shape: Any) -> Iterator[_Ball]:
     """Yield the ball of a shape in the frame of its joint, and of each joint above it up to the world."""
-    geometry, placement, joint = shape.geometry, shape.placement, int(shape.parentJoint)  # type: ignore[attr-defined]  # pinocchio's
+    geometry, placement, joint = shape.geometry, shape.placement, int(shape.parentJoint)
     geometry.computeLocalAABB()
     centre, radius = np.asarray(placement.act(geometry.aabb_center)), float(geometry.aabb_radius)
     yield _Ball(joint, centre, radius)

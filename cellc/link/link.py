@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from typing import get_args
-
 from cellc.catalog.catalog_model import DISTROS, Distro
 from cellc.catalog.controller_kind import ControllerKind
 from cellc.catalog.load import controller_kinds, load_controller_kind, load_qos_profiles
-from cellc.catalog.qos_model import Rmw
+from cellc.catalog.qos_model import RMWS, Rmw
 from cellc.cell.cell import Cell
 from cellc.cell.device import Device
 from cellc.diagnostics import Diagnostic, Outcome, Severity, did_you_mean
@@ -118,7 +116,7 @@ def _distro(spec: CellSpec, document: SourceDocument) -> Outcome[Distro]:
 def _rmw(spec: CellSpec) -> Rmw:
     """Return the middleware of the tuple; an unknown one is a rule's finding, and QoS is then that of Fast DDS."""
     written = spec.versions.rmw.split()[0]
-    for rmw in get_args(Rmw):
+    for rmw in RMWS:
         if written == rmw:
-            return rmw  # type: ignore[no-any-return]  # get_args has no type
+            return rmw
     return "rmw_fastrtps_cpp"

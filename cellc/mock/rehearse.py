@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
 from cellc.contract.contract import Contract
 from cellc.contract.rehearsals import FaultEntry, RehearsalEntry
@@ -58,10 +59,10 @@ def rehearse(folder: GeneratedFolder, memory: PlanMemory, rehearsal: RehearsalEn
 def _schedule(plant: Plant, faults: Sequence[tuple[FaultEntry, Fault]], begun_ns: int) -> None:
     for entry, fault in faults:
         at_ns = begun_ns + round(entry.at_s * 1e9)
-        plant.simulation.at(at_ns, lambda fault=fault: fault.begin(plant))  # type: ignore[misc]
+        plant.simulation.at(at_ns, partial(fault.begin, plant))
         if entry.lasting_s is not None:
             end_ns = at_ns + round(entry.lasting_s * 1e9)
-            plant.simulation.at(end_ns, lambda fault=fault: fault.end(plant))  # type: ignore[misc]
+            plant.simulation.at(end_ns, partial(fault.end, plant))
 
 
 def _response_s(rehearsal: RehearsalEntry, records: Sequence[AttemptRecord], begun_ns: int) -> float | None:

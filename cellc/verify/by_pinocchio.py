@@ -55,6 +55,7 @@ def _poses(model: Any, configuration: Any) -> dict[str, Pose]:
     poses = {}
     for frame, placement in zip(model.frames, data.oMf, strict=True):
         if frame.type == pinocchio.FrameType.BODY:
-            position, quaternion = placement.translation, pinocchio.Quaternion(placement.rotation).coeffs()
-            poses[frame.name] = Pose(tuple(map(float, position)), tuple(map(float, quaternion)))  # type: ignore[arg-type]  # of length 3 and 4
+            x, y, z = map(float, placement.translation)
+            qx, qy, qz, qw = map(float, pinocchio.Quaternion(placement.rotation).coeffs())
+            poses[frame.name] = Pose((x, y, z), (qx, qy, qz, qw))
     return poses

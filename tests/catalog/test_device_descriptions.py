@@ -13,7 +13,7 @@ import numpy as np
 import pinocchio
 import pytest
 
-from cellc.catalog.description import Description, Inertial
+from cellc.catalog.description import Box, Description, Inertial
 from cellc.catalog.expansion import expand_here
 from cellc.catalog.load import CATALOGUE, device_names, load_device
 from tests.catalog.chains import Matrix, axis_rotation, transform
@@ -94,7 +94,8 @@ def test_jaws_open_to_the_stroke_and_close(angle: float, gap_mm: float) -> None:
         frame = transform(description, "base_link", tip, positions)
         np.testing.assert_allclose(frame[:3, :3], np.eye(3), atol=1e-9)  # the pads stay parallel
         sign = 1.0 if side == "left" else -1.0
-        half_width = getattr(collision.geometry, "size")[0] / 2  # noqa: B009 - a box, checked by the access
+        assert isinstance(collision.geometry, Box)
+        half_width = collision.geometry.size[0] / 2
         pads.append(frame[0, 3] + collision.pose.position[0] - sign * half_width)
     assert (pads[0] - pads[1]) * 1000 == pytest.approx(gap_mm, abs=0.05)
 

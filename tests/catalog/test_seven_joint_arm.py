@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 
+from cellc.catalog.description import Box
 from cellc.catalog.load import CatalogDevice, load_device
 from cellc.catalog.starter import starter_spec
 from tests.catalog.chains import Matrix, transform
@@ -135,7 +136,9 @@ def test_jaws_part_by_twice_the_way_of_a_finger(finger: float, gap_mm: float) ->
         link = hand.link(f"fr3_{side}finger")
         assert link is not None
         frame = transform(hand, "fr3_hand", link.name, positions)
-        sizes = [(shape.pose.position[1], getattr(shape.geometry, "size")[1]) for shape in link.collisions]  # noqa: B009 - boxes, checked by the access
+        boxes = [(shape.pose.position[1], shape.geometry) for shape in link.collisions]
+        sizes = [(centre, box.size[1]) for centre, box in boxes if isinstance(box, Box)]
+        assert len(sizes) == len(boxes)
         inner.append(sign * min(sign * (frame[1, 3] + centre) - width / 2 for centre, width in sizes))
     assert (inner[0] - inner[1]) * 1000 == pytest.approx(gap_mm, abs=1e-6)
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
 
 import pytest
 
@@ -95,11 +96,11 @@ def caught_by(built: Build) -> str:
     try:
         with in_place(built):
             for check in _CHECKS:
-                if _fails(lambda check=check: check(_CELL, _DISTRO)):  # type: ignore[misc]  # a default binds the loop's value
+                if _fails(partial(check, _CELL, _DISTRO)):
                     return check.__name__
             for check_of in _CHECKS_OF_TARGETS:
                 for target in ("mock", "real"):
-                    if _fails(lambda check=check_of, target=target: check(_CELL, _DISTRO, target)):  # type: ignore[misc]  # as above
+                    if _fails(partial(check_of, _CELL, _DISTRO, target)):
                         return check_of.__name__
     finally:
         starting.processes.cache_clear()

@@ -198,10 +198,16 @@ def test_semantic_description_names_what_exists(cell: str, distro: str) -> None:
     assert reasons <= {"Adjacent", "Never", "Always", "Default"}
 
 
+def _link_of(joint: Element, end: str) -> str:
+    found = joint.find(end)
+    assert found is not None
+    return found.attrib["link"]
+
+
 @every_build
 def test_named_states_state_every_joint_of_their_group(cell: str, distro: str) -> None:
     semantic, joints = _semantic(cell, distro), _joints(cell, distro)
-    parents = {one.find("child").attrib["link"]: one for one in joints.values()}  # type: ignore[union-attr]  # URDF has it
+    parents = {_link_of(one, "child"): one for one in joints.values()}
     for group in semantic.findall("group"):
         names = {joint.attrib["name"] for joint in group.findall("joint")}
         chain = group.find("chain")
@@ -209,7 +215,7 @@ def test_named_states_state_every_joint_of_their_group(cell: str, distro: str) -
         while chain is not None and link != chain.attrib["base_link"]:
             joint = parents[link]
             names |= {joint.attrib["name"]} if joint.get("type") != "fixed" else set()
-            link = joint.find("parent").attrib["link"]  # type: ignore[union-attr]  # URDF has it
+            link = _link_of(joint, "parent")
         assert names
         for state in semantic.findall("group_state"):
             if state.get("group") == group.get("name"):

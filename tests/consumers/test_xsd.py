@@ -7,7 +7,7 @@ from xml.etree.ElementTree import Element, fromstring, tostring
 
 import pytest
 import xmlschema
-from lxml import etree  # type: ignore[import-untyped]  # lxml ships no types
+from lxml import etree
 
 from tests.consumers.matrix import ORACLES, build, every_build, needs_oracles
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -78,8 +80,8 @@ def test_same_seed_gives_the_same_pairs() -> None:
 
 
 @pytest.mark.parametrize("path", [ARM, GRIPPER], ids=["arm", "gripper"])
-def test_pairs_hold_at_other_samples(path: object) -> None:
-    model = RobotModel.from_urdf(_expanded(path))  # type: ignore[arg-type]  # parametrize loses the type
+def test_pairs_hold_at_other_samples(path: Path) -> None:
+    model = RobotModel.from_urdf(_expanded(path))
     pairs = disabled_collisions(model, samples=10_000, rng_seed=0, margin_m=0.005)
     never = {pair.links for pair in pairs if pair.reason is DisabledReason.NEVER}
     always = {pair.links for pair in pairs if pair.reason is DisabledReason.ALWAYS}

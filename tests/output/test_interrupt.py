@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from types import FrameType
 from typing import Any
@@ -60,7 +61,7 @@ def test_interrupt_on_any_line_leaves_the_old_or_the_new_folder(start: Any, tmp_
         if start:
             write(start, place / "generated/small")
         old, new = contents(place), {f"generated/small/{path}": text for path, text in as_contents(SECOND).items()}
-        was_interrupted = _interrupt_at(line, lambda folder=place / "generated/small": write(SECOND, folder))  # type: ignore[misc]
+        was_interrupted = _interrupt_at(line, partial(write, SECOND, place / "generated/small"))
         left = contents(place)
         assert _but_empty_folders(left) in (old, new), line
         both.add(left == old)

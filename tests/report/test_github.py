@@ -10,7 +10,7 @@ from cellc.diagnostics import Severity, Span
 from cellc.report.github_report import render_github
 from tests.report.findings import FILE, finding
 
-HOME = PurePosixPath("/home/runner/work/project")
+HOME = PurePosixPath("/project")
 
 
 def test_command_names_place_code_and_help() -> None:

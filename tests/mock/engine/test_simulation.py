@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import pytest
 
 from cellc.mock import MockCell, to_json_lines
 from cellc.mock.engine.control_stack import ControlStack
-from cellc.mock.engine.process import Signal, Wait, Waiting
+from cellc.mock.engine.process import Process, Signal, Wait, Waiting
 from cellc.mock.engine.queue import EventQueue
 from cellc.mock.engine.simulation import Simulation
 
@@ -18,9 +20,10 @@ def simulation() -> Simulation:
 
 
 def test_events_of_one_instant_run_in_the_order_of_scheduling() -> None:
-    queue, ran = EventQueue(), []
+    queue = EventQueue()
+    ran: list[str] = []
     for at_ns, name in ((20, "c"), (10, "a"), (20, "d"), (10, "b")):
-        queue.at(at_ns, lambda name=name: ran.append(name))  # type: ignore[misc]  # mypy sees no type of a default
+        queue.at(at_ns, partial(ran.append, name))
     while (event := queue.pop_due(20)) is not None:
         event.run()
     assert ran == ["a", "b", "c", "d"]
@@ -105,9 +108,9 @@ def test_long_blocks_give_the_same_records_as_a_stop_at_every_event(
     in_blocks = to_json_lines(cell.run(rehearsal).attempts)
     at_event = Simulation._next_ns
 
-    def at_every_event(self: Simulation, process: object) -> int:
+    def at_every_event(self: Simulation, process: Process) -> int:
         background_ns = self._background.next_ns()
-        target_ns = at_event(self, process)  # type: ignore[arg-type]  # called with what the caller passed
+        target_ns = at_event(self, process)
         return target_ns if background_ns is None else min(target_ns, background_ns)
 
     monkeypatch.setattr(Simulation, "_next_ns", at_every_event)

@@ -6,6 +6,7 @@ at once; a goal that runs while the controller is deactivated never gets a resul
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -154,10 +155,10 @@ class GripperController(QuietController):
         """Whether a goal is decided and its result not delivered yet."""
         return any(monitor.goal_id == goal_id for monitor in self._waiting)
 
-    def _decide(self, now_ns: int, result: object) -> None:
+    def _decide(self, now_ns: int, result: Callable[[int], GripperEnded]) -> None:
         monitor = self._goal
         assert monitor is not None, "only a running goal is decided"
-        monitor.decide(now_ns, result)  # type: ignore[arg-type] # a callable of the stamp
+        monitor.decide(now_ns, result)
         self._waiting.append(monitor)
         self._goal = None
 

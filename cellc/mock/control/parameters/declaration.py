@@ -96,8 +96,10 @@ class ParameterSet:
             _check_type(parameter, value)
         elif parameter.default is None:
             raise ParameterError(f"parameter '{parameter.name}' is not initialized")
+        else:
+            value = parameter.default
         self._declared[parameter.name] = parameter
-        self._values[parameter.name] = parameter.default if value is None else value  # type: ignore[assignment] # see elif
+        self._values[parameter.name] = value
 
     def set(self, name: str, value: ParameterValue) -> None:
         """Change a parameter at run time.

@@ -6,6 +6,7 @@ PyYAML is used for the grammar alone: its nodes are typed here, since its own re
 from __future__ import annotations
 
 import re
+from typing import cast
 
 import yaml
 
@@ -54,7 +55,7 @@ def _sequence(node: yaml.SequenceNode) -> ParameterValue:
         values.append(scalar(item.value, item.style is not None))
     if len({type(value) for value in values}) > 1:
         raise ParameterFileError(f"Sequence should be of same type. Value type at line_num {_line(node)}")
-    return values  # type: ignore[return-value] # the items were just seen to be of one type
+    return cast("ParameterValue", values)  # the items were just seen to be of one type
 
 
 def _parameters(node: yaml.MappingNode, prefix: str) -> dict[str, ParameterValue]:
