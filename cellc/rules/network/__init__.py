@@ -20,7 +20,6 @@ from cellc.rules.network import (
     robot_off_control_card,
     traffic_on_control_card,
     unicast_without_peers,
-    unknown_nic,
     unsuited_kernel,
     unusable_address,
 )
@@ -43,7 +42,6 @@ RULES = (
     robot_off_control_card.RULE,
     traffic_on_control_card.RULE,
     unicast_without_peers.RULE,
-    unknown_nic.RULE,
     unsuited_kernel.RULE,
     unusable_address.RULE,
 )

@@ -41,30 +41,31 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cellc.diagnostics import Related, Severity
+from cellc.cell.interface import Qos
+from cellc.diagnostics import Severity
 from cellc.graph.cell_graph import CellGraph
+from cellc.graph.data_flow import TopicPair
 from cellc.rule import Finding
 from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.unmatched import longer, unmatched
 
 
-def _seconds(value: float | None) -> str:
-    return "nothing" if value is None else f"{value:g} s"
+def _refused(offered: Qos, requested: Qos) -> bool:
+    return longer(offered.deadline_s, requested.deadline_s)
+
+
+def _message(pair: TopicPair) -> str:
+    offered_s, requested_s = pair.source.qos.deadline_s, pair.sink.qos.deadline_s
+    promised = "nothing" if offered_s is None else f"{offered_s:g} s"
+    return (
+        f"`{pair.sink.node}` wants a sample of `{pair.topic.name}` every {requested_s:g} s, "
+        f"`{pair.source.node}` promises {promised}"
+    )
 
 
 def check(graph: CellGraph) -> Iterator[Finding]:
     """Yield subscribers that ask for more than their publisher offers."""
-    for pair in graph.data.topic_pairs():
-        offered, requested = pair.source.qos, pair.sink.qos
-        if requested.deadline_s is not None and (
-            offered.deadline_s is None or offered.deadline_s > requested.deadline_s
-        ):
-            message = (
-                f"`{pair.sink.node}` wants a sample of `{pair.topic.name}` every {requested.deadline_s:g} s, "
-                f"`{pair.source.node}` promises {_seconds(offered.deadline_s)}"
-            )
-            related = (Related("offered here", pair.source.span),)
-            yield found(graph, pair.sink.path, message, "promise a deadline that is at least as short", related)
+    return unmatched(graph, _refused, _message, "promise a deadline that is at least as short")
 
 
 RULE = define("deadline-mismatch", Severity.ERROR, check, __doc__)

@@ -41,21 +41,26 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cellc.diagnostics import Related, Severity
+from cellc.cell.interface import Qos
+from cellc.diagnostics import Severity
 from cellc.graph.cell_graph import CellGraph
+from cellc.graph.data_flow import TopicPair
 from cellc.rule import Finding
 from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.unmatched import unmatched
+
+
+def _refused(offered: Qos, requested: Qos) -> bool:
+    return (offered.durability, requested.durability) == ("volatile", "transient_local")
+
+
+def _message(pair: TopicPair) -> str:
+    return f"`{pair.sink.node}` wants the history of `{pair.topic.name}`, `{pair.source.node}` keeps none"
 
 
 def check(graph: CellGraph) -> Iterator[Finding]:
     """Yield subscribers that ask for more than their publisher offers."""
-    for pair in graph.data.topic_pairs():
-        offered, requested = pair.source.qos, pair.sink.qos
-        if (offered.durability, requested.durability) == ("volatile", "transient_local"):
-            message = f"`{pair.sink.node}` wants the history of `{pair.topic.name}`, `{pair.source.node}` keeps none"
-            related = (Related("offered here", pair.source.span),)
-            yield found(graph, pair.sink.path, message, "ask for volatile, or publish transient local", related)
+    return unmatched(graph, _refused, _message, "ask for volatile, or publish transient local")
 
 
 RULE = define("durability-mismatch", Severity.ERROR, check, __doc__)

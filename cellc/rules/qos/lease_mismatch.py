@@ -41,30 +41,31 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cellc.diagnostics import Related, Severity
+from cellc.cell.interface import Qos
+from cellc.diagnostics import Severity
 from cellc.graph.cell_graph import CellGraph
+from cellc.graph.data_flow import TopicPair
 from cellc.rule import Finding
 from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.unmatched import longer, unmatched
 
 
-def _seconds(value: float | None) -> str:
-    return "none" if value is None else f"{value:g} s"
+def _refused(offered: Qos, requested: Qos) -> bool:
+    return longer(offered.lease_duration_s, requested.lease_duration_s)
+
+
+def _message(pair: TopicPair) -> str:
+    offered_s, requested_s = pair.source.qos.lease_duration_s, pair.sink.qos.lease_duration_s
+    promised = "none" if offered_s is None else f"{offered_s:g} s"
+    return (
+        f"`{pair.sink.node}` wants a lease of {requested_s:g} s on `{pair.topic.name}`, "
+        f"`{pair.source.node}` promises {promised}"
+    )
 
 
 def check(graph: CellGraph) -> Iterator[Finding]:
     """Yield subscribers that ask for more than their publisher offers."""
-    for pair in graph.data.topic_pairs():
-        offered, requested = pair.source.qos, pair.sink.qos
-        if requested.lease_duration_s is not None and (
-            offered.lease_duration_s is None or offered.lease_duration_s > requested.lease_duration_s
-        ):
-            message = (
-                f"`{pair.sink.node}` wants a lease of {requested.lease_duration_s:g} s on `{pair.topic.name}`, "
-                f"`{pair.source.node}` promises {_seconds(offered.lease_duration_s)}"
-            )
-            related = (Related("offered here", pair.source.span),)
-            yield found(graph, pair.sink.path, message, "promise a lease that is at least as short", related)
+    return unmatched(graph, _refused, _message, "promise a lease that is at least as short")
 
 
 RULE = define("lease-mismatch", Severity.ERROR, check, __doc__)

@@ -41,26 +41,29 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cellc.diagnostics import Related, Severity
+from cellc.cell.interface import Qos
+from cellc.diagnostics import Severity
 from cellc.graph.cell_graph import CellGraph
+from cellc.graph.data_flow import TopicPair
 from cellc.rule import Finding
 from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.unmatched import unmatched
+
+
+def _refused(offered: Qos, requested: Qos) -> bool:
+    return (offered.liveliness, requested.liveliness) == ("automatic", "manual_by_topic")
+
+
+def _message(pair: TopicPair) -> str:
+    return (
+        f"`{pair.sink.node}` wants `{pair.source.node}` to assert its life on `{pair.topic.name}` "
+        f"by topic, it offers automatic"
+    )
 
 
 def check(graph: CellGraph) -> Iterator[Finding]:
     """Yield subscribers that ask for more than their publisher offers."""
-    for pair in graph.data.topic_pairs():
-        offered, requested = pair.source.qos, pair.sink.qos
-        if (offered.liveliness, requested.liveliness) == ("automatic", "manual_by_topic"):
-            message = (
-                f"`{pair.sink.node}` wants `{pair.source.node}` to assert its life on `{pair.topic.name}` "
-                f"by topic, it offers automatic"
-            )
-            related = (Related("offered here", pair.source.span),)
-            yield found(
-                graph, pair.sink.path, message, "ask for automatic, or let the publisher assert by topic", related
-            )
+    return unmatched(graph, _refused, _message, "ask for automatic, or let the publisher assert by topic")
 
 
 RULE = define("liveliness-mismatch", Severity.ERROR, check, __doc__)

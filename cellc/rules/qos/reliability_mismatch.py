@@ -41,21 +41,26 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cellc.diagnostics import Related, Severity
+from cellc.cell.interface import Qos
+from cellc.diagnostics import Severity
 from cellc.graph.cell_graph import CellGraph
+from cellc.graph.data_flow import TopicPair
 from cellc.rule import Finding
 from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.unmatched import unmatched
+
+
+def _refused(offered: Qos, requested: Qos) -> bool:
+    return (offered.reliability, requested.reliability) == ("best_effort", "reliable")
+
+
+def _message(pair: TopicPair) -> str:
+    return f"`{pair.sink.node}` wants `{pair.topic.name}` reliable, `{pair.source.node}` offers best effort"
 
 
 def check(graph: CellGraph) -> Iterator[Finding]:
     """Yield subscribers that ask for more than their publisher offers."""
-    for pair in graph.data.topic_pairs():
-        offered, requested = pair.source.qos, pair.sink.qos
-        if (offered.reliability, requested.reliability) == ("best_effort", "reliable"):
-            message = f"`{pair.sink.node}` wants `{pair.topic.name}` reliable, `{pair.source.node}` offers best effort"
-            related = (Related("offered here", pair.source.span),)
-            yield found(graph, pair.sink.path, message, "ask for best effort, or publish reliably", related)
+    return unmatched(graph, _refused, _message, "ask for best effort, or publish reliably")
 
 
 RULE = define("reliability-mismatch", Severity.ERROR, check, __doc__)
