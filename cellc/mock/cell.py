@@ -5,11 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 from cellc.contract.contract import Contract
+from cellc.contract.rehearsals import RehearsalEntry
 from cellc.mock.errors import MockError
 from cellc.mock.folder import GeneratedFolder, read_folder
 from cellc.mock.nodes.motion_model import build_motion_model
 from cellc.mock.nodes.motion_planner import PlanMemory
-from cellc.mock.rehearse import rehearse
+from cellc.mock.rehearse import Watch, rehearse
 from cellc.mock.result import RehearsalResult
 from cellc.mock.world.links import read_links
 
@@ -30,7 +31,12 @@ class MockCell:
     @property
     def rehearsals(self) -> tuple[str, ...]:
         """Names of the rehearsals in the order of the folder."""
-        return tuple(entry.name for entry in self._folder.rehearsals)
+        return tuple(entry.name for entry in self.entries)
+
+    @property
+    def entries(self) -> tuple[RehearsalEntry, ...]:
+        """The rehearsals themselves."""
+        return self._folder.rehearsals
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -43,11 +49,19 @@ class MockCell:
         Raises:
             MockError: there is no rehearsal of this name, or it names what the contract does not have.
         """
-        for entry in self._folder.rehearsals:
+        for entry in self.entries:
             if entry.name == rehearsal:
-                return rehearse(self._folder, self._memory, entry, seed)
+                return self.rehearse(entry, seed=seed)
         known = ", ".join(f"`{name}`" for name in self.rehearsals) or "none"
         raise MockError(self.contract.files.rehearsals, f"has no rehearsal `{rehearsal}`; it has {known}")
+
+    def rehearse(self, entry: RehearsalEntry, *, seed: int = 0, watch: Watch | None = None) -> RehearsalResult:
+        """Run a rehearsal that need not stand in the folder; ``watch`` sees the plant before anything runs.
+
+        Raises:
+            MockError: it names what the contract does not have.
+        """
+        return rehearse(self._folder, self._memory, entry, seed, watch)
 
 
 def load(folder: Path) -> MockCell:

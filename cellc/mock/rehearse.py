@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 
 from cellc.contract.contract import Contract
@@ -21,9 +21,21 @@ from cellc.mock.result import BRINGUP_FAILURE, RehearsalResult, StageEvidence
 from cellc.mock.task.context import TaskContext
 from cellc.mock.task.task import Task
 
+Watch = Callable[[Plant], None]
+"""Called with the plant before anything runs, so that whoever keeps evidence can listen from the first cycle on."""
 
-def rehearse(folder: GeneratedFolder, memory: PlanMemory, rehearsal: RehearsalEntry, seed: int) -> RehearsalResult:
+
+def rehearse(
+    folder: GeneratedFolder,
+    memory: PlanMemory,
+    rehearsal: RehearsalEntry,
+    seed: int,
+    watch: Watch | None = None,
+) -> RehearsalResult:
     """Run a rehearsal from a cell that is off to its named end.
+
+    Args:
+        watch: sees the plant first; it may listen, and must not change anything.
 
     Raises:
         MockError: a fault names what the contract does not have.
@@ -34,6 +46,8 @@ def rehearse(folder: GeneratedFolder, memory: PlanMemory, rehearsal: RehearsalEn
     except ManagerAborted as aborted:
         evidence = StageEvidence("discover", (), (f"the controller manager ended: {aborted.reason}",))
         return _not_up(rehearsal, (evidence,), unmatched_pairs(folder.contract))
+    if watch is not None:
+        watch(plant)
     start_nodes(plant)
     bringup = Bringup(plant)
     plant.simulation.run_process(bringup.run())
