@@ -13,9 +13,12 @@ from cellc.pipeline import check, compile_cell
 from cellc.rules.all_rules import ALL_RULES
 from cellc.source import CODES as SOURCE_CODES
 from cellc.spec.codes import CODES as SPEC_CODES
+from tests.coverage.sentences import expand, units
 
 ROOT = Path(__file__).resolve().parents[2]
-CHECKS = ROOT.parent / "shared" / "design" / "checks.md"
+DESIGN = ROOT.parent / "shared" / "design"
+CHECKS = DESIGN / "checks.md"
+CHAPTER = DESIGN / "chapter-4.txt"
 PAGE = (ROOT / "docs" / "coverage.md").read_text(encoding="utf-8")
 ROWS = [line.strip("| ").split(" | ") for line in PAGE.splitlines() if line.startswith("| ")]
 NAMED = set(re.findall(r"`([^`]+)`", "\n".join(row[-1] for row in ROWS)))
@@ -42,7 +45,7 @@ def test_every_file_that_is_named_is_emitted() -> None:
 
 def test_every_requirement_says_what_holds_it() -> None:
     for row in ROWS:
-        assert row[0].startswith("**") or (len(row) == 2 and row[1]), row
+        assert row[-1].startswith("**") or row[0].startswith("**") or all(row), row
 
 
 @pytest.mark.skipif(not CHECKS.exists(), reason="the list of checks is not beside the checkout")
@@ -55,3 +58,12 @@ def test_every_row_of_the_list_of_checks_is_mapped() -> None:
     wrong = [row[0] for row in rows if row[0] != "what is wrong"]
     assert len(wrong) > 60
     assert set(wrong) <= {row[0] for row in ROWS}
+
+
+@pytest.mark.skipif(not CHAPTER.exists(), reason="the chapter is not beside the checkout")
+def test_every_unit_of_the_chapter_is_mapped_or_listed_as_demanding_nothing() -> None:
+    table, _, nothing = PAGE.partition("## The chapter")[2].partition("Units that describe")
+    mapped = {unit for where in re.findall(r"^\| (\d[^|]*) \|", table, re.M) for unit in expand(where)}
+    listed = {unit for where in re.findall(r"^- (.+)$", nothing, re.M) for unit in expand(where)}
+    assert mapped | listed == set(units(CHAPTER))
+    assert not mapped & listed
