@@ -14,18 +14,16 @@ _CITATIONS = re.compile(r"(\[\d+\] ?)+")
 
 def units(chapter: Path) -> dict[str, str]:
     """Return every sentence, heading, item and row of a table by `section.number`, counted from 1 in each section."""
-    found: dict[str, str] = {}
-    section, number = "", 0
+    texts: dict[str, list[str]] = {}
+    section = ""
     for line in chapter.read_text(encoding="utf-8").splitlines():
         if (heading := _section(line)) is not None:
-            section, number = heading, 0
+            section = heading
         elif line.strip() == _END:
             break
         elif section:
-            for text in _split(line):
-                number += 1
-                found[f"{section}.{number}"] = text
-    return found
+            texts.setdefault(section, []).extend(_split(line))
+    return {f"{key}.{number}": text for key, found in texts.items() for number, text in enumerate(found, start=1)}
 
 
 def expand(where: str) -> Iterator[str]:
