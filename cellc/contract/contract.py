@@ -140,6 +140,17 @@ class ContractCamera(ContractModel):
     clock: str = Field(description="Clock domain of the stamps.")
 
 
+class ContractClock(ContractModel):
+    """A clock that stamps are made on: of a host, or of a device with one of its own."""
+
+    domain: str = Field(description="Clock domain.")
+    synchronised_by: str | None = Field(None, description="What disciplines it.")
+    max_offset_s: float | None = Field(None, description="Bound of its offset; null where nothing bounds it.")
+    simulated: bool = Field(False, description="Time comes from /clock.")
+    offset_s: float = Field(0.0, description="Offset that the mock gives it.")
+    drift: float = Field(0.0, description="Seconds that the mock lets it gain in a second, until the bound.")
+
+
 class ContractDevice(ContractModel):
     """A device as the mock needs it."""
 
@@ -237,6 +248,10 @@ class Contract(ContractModel):
     frames: dict[str, ContractFrame] = Field(description="Frames by name.")
     interfaces: dict[str, ContractInterface] = Field(description="Interfaces by full ROS name.")
     managers: dict[str, ContractManager] = Field(description="Controller managers by name.")
+    clocks: dict[str, ContractClock] = Field(default_factory=dict, description="Clocks by host or device.")
+    clock_of: dict[str, str] = Field(
+        default_factory=dict, description="Clock of each node, controller and device that makes or ages stamps."
+    )
     plugin_behaviours: dict[str, str] = Field(description="Behaviour of each controller plugin.")
     devices: dict[str, ContractDevice] = Field(description="Devices by name.")
     joint_limits: dict[str, ContractJointLimits] = Field(description="Limits by joint.")

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from cellc.contract.contract import Contract, ContractFrame, ContractInterface
 from cellc.mock.bus.matching import hears, task_node
 from cellc.mock.bus.topic import Topic
+from cellc.mock.clocks import build_clocks
 from cellc.mock.control import ControllerManager
 from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.engine.simulation import Simulation
@@ -51,6 +52,7 @@ def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int) -> Plant:
         buffer=TransformBuffer(),
         robot_state_publisher=published,
         planner=MotionPlanner(memory, seed),
+        clocks=build_clocks(contract, lambda: simulation.now_ns),
         heard_histories=_heard(contract, control, task),
         cameras={},
         perceptions={},

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from cellc.contract.contract import Contract
+from cellc.mock.clocks import Clocks
 from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.engine.process import Signal
 from cellc.mock.engine.simulation import Simulation
@@ -53,6 +54,7 @@ class Plant:
     buffer: TransformBuffer
     robot_state_publisher: RobotStatePublisher
     planner: MotionPlanner
+    clocks: Clocks
     heard_histories: tuple[JointStateHistory, ...]
     cameras: dict[str, Camera]
     perceptions: dict[str, Perception]

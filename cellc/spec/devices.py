@@ -7,7 +7,7 @@ from typing import Literal
 from pydantic import Field
 
 from cellc.spec.base import FrameReference, Name, Pin, SpecModel, Text
-from cellc.spec.quantity import Duration, Mass, Position, Ratio, RollPitchYaw
+from cellc.spec.quantity import Drift, Duration, Mass, Position, Ratio, RollPitchYaw
 
 
 class PlacementSpec(SpecModel):
@@ -61,6 +61,12 @@ class StampSpec(SpecModel):
         None, description="What ties the clock to the host's.", examples=["global_time"]
     )
     max_offset: Duration | None = Field(None, description="Bound of the offset to the host's clock.", examples=["1 ms"])
+    simulated_offset: Duration | None = Field(
+        None, description="Offset that the mock gives this clock; none if absent.", examples=["0.5 ms"]
+    )
+    simulated_drift: Drift | None = Field(
+        None, description="Drift that the mock gives this clock, up to `max_offset`.", examples=["20 ppm"]
+    )
 
 
 class PayloadSpec(SpecModel):

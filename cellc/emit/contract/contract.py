@@ -13,6 +13,7 @@ from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
 from cellc.cell.frame import WORLD
 from cellc.contract.contract import Contract, ContractFiles, ContractKpis, ContractSafety
+from cellc.emit.contract.clocks import clock_of, clocks
 from cellc.emit.contract.control import joint_limits, managers
 from cellc.emit.contract.devices import devices
 from cellc.emit.contract.frames import calibrations, frames
@@ -47,6 +48,8 @@ def _contract(graph: CellGraph, configuration_id: str) -> Contract:
         frames=frames(cell),
         interfaces=interfaces(cell),
         managers=managers(cell),
+        clocks=clocks(cell),
+        clock_of=clock_of(cell),
         plugin_behaviours=dict(cell.behaviours),
         devices=devices(cell),
         joint_limits=joint_limits(cell),
