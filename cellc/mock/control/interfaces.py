@@ -9,6 +9,8 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from cellc.mock.control.journal import CommandJournal
+
 Array: TypeAlias = NDArray[np.float64]
 Times: TypeAlias = NDArray[np.int64]
 Flags: TypeAlias = NDArray[np.bool_]
@@ -22,12 +24,14 @@ class InterfaceTable:
         command: values of the command interfaces, NaN where nothing was commanded yet.
         state: values of the state interfaces.
         claims: name of the controller that owns a command interface.
+        journal: what was commanded, for who listens.
     """
 
     def __init__(self) -> None:
         self.command: Array = np.empty(0)
         self.state: Array = np.empty(0)
         self.claims: dict[str, str] = {}
+        self.journal = CommandJournal()
         self._command_columns: dict[str, int] = {}
         self._state_columns: dict[str, int] = {}
         self._types: dict[str, str] = {}
@@ -36,6 +40,7 @@ class InterfaceTable:
         """Add a command interface, or find it where it exists, and return its column."""
         if name not in self._command_columns:
             self._command_columns[name] = len(self._command_columns)
+            self.journal.interface_names.append(name)
             self.command = np.append(self.command, value)
         self._types[name] = data_type
         return self._command_columns[name]

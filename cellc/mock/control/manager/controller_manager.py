@@ -64,6 +64,7 @@ class ControllerManager:
         )
         self.log = stack.log
         self.disturbances = stack.disturbances
+        self.journal = stack.table.journal
         self.description_error = stack.description_error
         self.period_ns = stack.period_ns
         self.now_ns = start_ns

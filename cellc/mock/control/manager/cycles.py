@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from cellc.mock.control.controllers.base import Cycle
 from cellc.mock.control.errors import UpdateError
 from cellc.mock.control.hardware import CommandLimiter, Disturbances
@@ -48,6 +50,7 @@ class CycleRunner:
     ) -> None:
         self._registry = registry
         self._hardware = hardware
+        self._table = table
         self._switcher = switcher
         self._ahead = Lookahead(table, hardware, limiter, rate, period_ns)
         self._disturbances = disturbances
@@ -154,6 +157,8 @@ class CycleRunner:
                     f"{error.reason}",
                 )
             return False
+        stamps = np.array([time_ns], dtype=np.int64)
+        self._table.journal.add(loaded.name, loaded.columns.tolist(), stamps, self._table.command[None, :])
         return True
 
     def _stop_failed(self, failed: list[Component], what: str, time_ns: int) -> None:

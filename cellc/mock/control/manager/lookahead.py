@@ -174,6 +174,7 @@ class Lookahead:
             seen = self._seen(part, block, self._done)
             if start < len(seen):
                 part.loaded.controller.commit(seen, start)
+                self._table.journal.add(part.loaded.name, part.columns, seen.times_ns[start:], seen.command[start:])
                 part.loaded.last_update_ns = int(seen.times_ns[-1])
                 if self._limiter is not None:
                     self._limiter.commit(seen, part.columns)

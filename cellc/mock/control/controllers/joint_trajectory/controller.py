@@ -14,6 +14,7 @@ from cellc.mock.control.controllers.joint_trajectory.commands import JointComman
 from cellc.mock.control.controllers.joint_trajectory.declaration import declare
 from cellc.mock.control.controllers.joint_trajectory.goals import GoalBook
 from cellc.mock.control.controllers.joint_trajectory.interfaces import JointInterfaces
+from cellc.mock.control.controllers.joint_trajectory.interruption import cause_of
 from cellc.mock.control.controllers.joint_trajectory.local_order import in_local_order
 from cellc.mock.control.controllers.joint_trajectory.motion import (
     LastUpdate,
@@ -147,7 +148,7 @@ class JointTrajectoryController(QuietController):
 
     def hold(self) -> None:
         """Queue holding the last measured position."""
-        self._pending = PendingTrajectory(held_point(self.last.measured.position), 0, held=True)
+        self._pending = PendingTrajectory(held_point(self.last.measured.position), 0, held=True, interrupts=True)
 
     def stop(self) -> None:
         """Queue a stop: with the configured deceleration where there is one, otherwise a plain hold."""
@@ -157,7 +158,7 @@ class JointTrajectoryController(QuietController):
             self.hold()
             return
         points = stop_points(measured.position, measured.velocity, self._stop, self._ahead_ns)
-        self._pending = PendingTrajectory(points, 0, held=True)
+        self._pending = PendingTrajectory(points, 0, held=True, interrupts=True)
 
     def _hold_end(self, motion: Motion) -> None:
         """Queue holding the last point of a trajectory, even if it has a velocity."""
@@ -165,6 +166,9 @@ class JointTrajectoryController(QuietController):
 
     def _start(self, pending: PendingTrajectory, measured: StartState) -> Motion:
         now_ns = measured.time_ns
+        cause = cause_of(pending, self._motion, measured.position, self._commands.present())
+        if cause is not None:
+            self.context.table.journal.note(now_ns, self.context.name, cause)
         commanded = self._commanded if self._from_desired else None
         start = start_of(measured, commanded, pending, self.interfaces)
         spline = Spline(start, pending.points, pending.stamp_ns or now_ns, self._interpolate)

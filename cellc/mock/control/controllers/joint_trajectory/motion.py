@@ -15,11 +15,17 @@ from cellc.mock.control.messages import TrajectoryPoint, TrajectoryStateResponse
 
 @dataclass(frozen=True, slots=True)
 class PendingTrajectory:
-    """A trajectory that the next update takes over; `held` marks one that the controller holds a position with."""
+    """A trajectory that the next update takes over.
+
+    Attributes:
+        held: the controller holds a position with it.
+        interrupts: it ends what was going on, wherever that was.
+    """
 
     points: tuple[TrajectoryPoint, ...]
     stamp_ns: int
     held: bool
+    interrupts: bool = False
 
 
 class Samples:

@@ -6,6 +6,7 @@ import math
 
 from cellc.mock.control.block import Block
 from cellc.mock.control.controllers.base import Context
+from cellc.mock.control.journal import Cause
 
 
 class SpeedScaling:
@@ -42,7 +43,7 @@ class SpeedScaling:
         if self._column is not None:
             value = float(self._context.table.state[self._column])
             if not math.isnan(value):
-                self.factor = value
+                self._take(value)
         return self.factor
 
     def set(self, factor: float) -> None:
@@ -53,7 +54,12 @@ class SpeedScaling:
         if self._command:
             self._context.command(self._context.table.command_column(self._command), factor)
         if self._column is None:
-            self.factor = factor
+            self._take(factor)
+
+    def _take(self, factor: float) -> None:
+        if factor != self.factor:
+            self._context.table.journal.note(self._context.log.now_ns, self._context.name, Cause.SCALING)
+        self.factor = factor
 
     def unchanged(self, block: Block) -> int:
         """How many leading cycles of a block run with the present factor."""
