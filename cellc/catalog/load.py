@@ -16,6 +16,7 @@ from cellc.catalog.qos_model import QosTable
 from cellc.catalog.read_description import read_catalogue_description, read_description
 from cellc.catalog.read_model import ModelT, read_model
 from cellc.diagnostics import Diagnostic, Outcome, Severity, Span, YamlPath, did_you_mean
+from cellc.disk import unrecorded
 from cellc.source.document import SourceDocument
 
 CATALOGUE = Path(__file__).parent
@@ -63,7 +64,8 @@ def load_device(name: str) -> Outcome[CatalogDevice]:
     def read(file: Path, arguments: dict[str, str]) -> Outcome[Description]:
         return read_catalogue_description(file, arguments, devices, shown)
 
-    return _load(devices / name, f"{shown}/{name}", read)
+    with unrecorded():
+        return _load(devices / name, f"{shown}/{name}", read)
 
 
 def load_device_folder(folder: Path, root: Path) -> Outcome[CatalogDevice]:
@@ -160,7 +162,8 @@ def load_qos_profiles() -> Outcome[QosTable]:
 
 
 def _table(file: str, model: type[ModelT]) -> Outcome[ModelT]:
-    read = read_model(CATALOGUE / file, f"{_SHOWN}/{file}", model)
+    with unrecorded():
+        read = read_model(CATALOGUE / file, f"{_SHOWN}/{file}", model)
     return Outcome(None if read.value is None else read.value[0], read.diagnostics)
 
 

@@ -8,6 +8,7 @@ import sys
 
 from cellc.catalog.expansion import expand_here
 from cellc.catalog.xacro_expander import encode
+from cellc.disk import recorded
 
 CPU_SECONDS = 8
 MEMORY_BYTES = 1024 * 1024 * 1024
@@ -18,8 +19,9 @@ def main() -> None:
     _limit_resources()
     request = json.load(sys.stdin)
     os.chdir(request["folder"])  # names in diagnostics stay those that the user wrote
-    outcome = expand_here(request["file"], request["arguments"], request["root"])
-    json.dump(encode(outcome), sys.stdout)
+    with recorded() as record:
+        outcome = expand_here(request["file"], request["arguments"], request["root"])
+    json.dump({**encode(outcome), "asked": record.to_plain()}, sys.stdout)
 
 
 def _limit_resources() -> None:

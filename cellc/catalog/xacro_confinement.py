@@ -7,7 +7,6 @@ macros, includes and elements are counted.
 
 from __future__ import annotations
 
-import glob
 import os
 import re
 from collections.abc import Callable, Iterator, Mapping
@@ -23,6 +22,7 @@ from cellc.catalog.xacro_expression import evaluate, functions
 from cellc.catalog.xacro_files import ConfinedFiles, XacroRefusedError
 from cellc.catalog.xml_tree import XmlElement, read_xml
 from cellc.diagnostics import Span
+from cellc.disk import matches
 
 _PLACE = "cellc-place"
 _SUBSTITUTION = re.compile(r"\$\((\w+)\s*(.*?)\s*\)", re.DOTALL)
@@ -91,10 +91,10 @@ class Confinement:
         if not re.search(r"[*?\[]", path):
             yield path
             return
-        matches = sorted(glob.glob(path))
-        if not matches:
+        files = matches(path)
+        if not files:
             self.warnings.append(f"`{specification}` matches no file")
-        yield from matches
+        yield from files
 
     def substitute(self, text: str) -> str:
         """Resolve one ``$(…)``: ``arg``, ``find`` and ``dirname``; the rest reaches out of the description."""

@@ -17,6 +17,7 @@ from typing import Any
 import cellc
 from cellc.catalog.expansion import Expansion
 from cellc.diagnostics import Diagnostic, Outcome, Severity, Span
+from cellc.disk import Record, include_in_work, not_to_be_kept
 
 WALL_SECONDS = 10.0
 
@@ -58,10 +59,13 @@ def expand_xacro(
         return _ended(f"the expansion takes longer than {wall_seconds:g} s", start)
     if answer.returncode != 0:
         return _ended("the expansion takes more time or memory than it may use", start)
-    return _decoded(json.loads(answer.stdout))
+    decoded = json.loads(answer.stdout)
+    include_in_work(Record.from_plain(decoded["asked"]))
+    return _decoded(decoded)
 
 
 def _ended(message: str, start: Span) -> Outcome[Expansion]:
+    not_to_be_kept()
     help_text = "look for a macro or an include that calls itself"
     return Outcome(None, (Diagnostic("xacro-too-large", Severity.ERROR, message, start, help=help_text),))
 

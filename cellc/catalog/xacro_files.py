@@ -9,6 +9,7 @@ from typing import Any
 import xacro
 import yaml
 
+from cellc import disk
 from cellc.catalog.xacro_expression import evaluate, functions
 from cellc.catalog.xml_tree import MAX_BYTES
 from cellc.diagnostics import Span
@@ -41,12 +42,12 @@ class ConfinedFiles:
     def __init__(self, root: str, shown_root: str | None = None) -> None:
         self.root = root
         self._shown_root = shown_root
-        self._real_root = os.path.realpath(root)
+        self._real_root = disk.real_path(root)
         self._bytes_read = 0
 
     def checked(self, path: str) -> str:
         """Return ``path`` unless it leads out of the root."""
-        real = os.path.realpath(path)
+        real = disk.real_path(path)
         if real != self._real_root and not real.startswith(self._real_root.rstrip(os.sep) + os.sep):
             raise XacroRefusedError(
                 "xacro-outside-root",
@@ -64,7 +65,7 @@ class ConfinedFiles:
     def read(self, path: str) -> str:
         """Return the text of a file."""
         self.checked(path)
-        if not os.path.isfile(path):
+        if disk.kind_of(path) != "file":
             missing = FileNotFoundError(path)
             raise XacroRefusedError("xacro-file-not-found", f"`{self.shown(path)}` is not a file", cause=missing)
         data = self._read_bytes(path)
@@ -77,8 +78,7 @@ class ConfinedFiles:
     def _read_bytes(self, path: str) -> bytes:
         remaining = MAX_BYTES - self._bytes_read
         try:
-            with open(path, "rb") as file:
-                data = file.read(remaining + 1)
+            data = disk.contents(path, remaining)
         except OSError as error:
             message = f"`{self.shown(path)}` cannot be read: {error.strerror}"
             raise XacroRefusedError("xacro-file-not-found", message, cause=error) from None

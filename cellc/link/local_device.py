@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+from cellc import disk
 from cellc.catalog.load import CatalogDevice, load_device_folder
 from cellc.diagnostics import Diagnostic, Outcome, Related, Severity, Span, YamlPath
 
@@ -19,8 +20,8 @@ def local_device(model: str, place: Span, path: YamlPath) -> Outcome[CatalogDevi
     """
     root = Path(place.file).parent
     folder = root / model
-    if not (folder / "device.yaml").exists():
-        problem = "holds no `device.yaml`" if folder.is_dir() else "is no folder"
+    if disk.kind_of(folder / "device.yaml") == "absent":
+        problem = "holds no `device.yaml`" if disk.kind_of(folder) == "folder" else "is no folder"
         shown = folder.as_posix()
         advice = "write the folder with its `device.yaml`, or name a model of the catalogue"
         missing = Diagnostic("unknown-model", Severity.ERROR, f"`{shown}` {problem}", place, path, advice)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
+from cellc import disk
 from cellc.diagnostics import Diagnostic, Span
 from cellc.source.finding import finding
 from cellc.source.merge import INCLUDE
@@ -46,9 +47,9 @@ def resolve_include(line: IncludeLine, folder: Path, root_folder: Path) -> Path 
     if PurePosixPath(line.path).is_absolute() or Path(line.path).is_absolute():
         return finding("include-escape", f"`{line.path}` is an absolute path", line.span, path=(INCLUDE,))
     try:
-        real = (folder / line.path).resolve()
-    except (OSError, RuntimeError, ValueError):
-        # A link that leads to itself, or a zero character in the name.
+        real = Path(disk.real_path(folder / line.path))
+    except (OSError, ValueError):
+        # A zero character in the name, say.
         return finding("file-unreadable", f"`{line.path}` leads to no file", line.span, path=(INCLUDE,))
     if not real.is_relative_to(root_folder):
         message = f"`{line.path}` leads out of the folder of the spec"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path, PurePosixPath
 
+from cellc import disk
 from cellc.diagnostics import Diagnostic, Outcome, Span
 from cellc.source.compose import compose
 from cellc.source.document import SourceDocument
@@ -117,7 +118,7 @@ class _Reader:
 
 def _real(path: Path) -> Path:
     try:
-        return path.resolve()
-    except (OSError, RuntimeError, ValueError):
-        # A link that leads to itself, or a zero character in the name: reading it reports what is wrong.
+        return Path(disk.real_path(path))
+    except (OSError, ValueError):
+        # A zero character in the name, say: reading it reports what is wrong.
         return path
