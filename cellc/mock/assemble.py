@@ -41,9 +41,9 @@ def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int) -> Plant:
     control = ControlStack(_managers(folder), contract.managers, horizon_s)
     simulation = Simulation(control)
     task = task_node(contract)
-    published = RobotStatePublisher(
-        memory.model.links, _heard(contract, control, ROBOT_STATE_PUBLISHER), PUBLISH_FREQUENCY_HZ, horizon_s
-    )
+    clocks = build_clocks(contract, lambda: simulation.now_ns)
+    heard_by_publisher = _heard(contract, control, ROBOT_STATE_PUBLISHER)
+    published = RobotStatePublisher(memory.model.links, heard_by_publisher, PUBLISH_FREQUENCY_HZ, horizon_s, clocks)
     plant = Plant(
         contract=contract,
         simulation=simulation,
@@ -52,7 +52,7 @@ def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int) -> Plant:
         buffer=TransformBuffer(),
         robot_state_publisher=published,
         planner=MotionPlanner(memory, seed),
-        clocks=build_clocks(contract, lambda: simulation.now_ns),
+        clocks=clocks,
         heard_histories=_heard(contract, control, task),
         cameras={},
         perceptions={},
@@ -113,7 +113,9 @@ def _add_object(plant: Plant, name: str, frame: ContractFrame, images: Mapping[s
     assert frame.simulated_parent is not None  # the caller asked
     position = Pose((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)) if pose is None else Pose(pose.xyz, pose.quaternion)
     plant.world.place(name, frame.simulated_parent, position, 0)
-    transform = SampledSource(frame.parent, frame.authority, frame.buffer_s or DEFAULT_BUFFER_S)
+    transform = SampledSource(
+        frame.parent, name, frame.authority, frame.buffer_s or DEFAULT_BUFFER_S, plant.buffer.warnings
+    )
     if hears(plant.contract, "/tf", frame.authority, task_node(plant.contract)):
         plant.buffer.add(name, transform)
     topic, interface = _pose_topic(plant.contract, frame)

@@ -37,8 +37,8 @@ class Clocks:
             now_ns: the simulated time.
         """
         self.jumps: list[TimeJump] = []
-        self._default = perfect_clock(DEFAULT, DEFAULT)
-        self._clocks = {DEFAULT: self._default, **clocks}
+        self._clocks = {DEFAULT: perfect_clock(DEFAULT, DEFAULT), **clocks}
+        self._default = self._clocks[DEFAULT]
         self._of = {node: self._clocks[name] for node, name in clock_of.items()}
         self._now_ns = now_ns
         self._listeners: list[Callable[[TimeJump], None]] = []

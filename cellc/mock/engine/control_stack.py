@@ -39,7 +39,7 @@ class ControlStack:
             for controller, facts in manager.controllers.items():
                 if facts.behaviour == "joint_state_broadcaster":
                     foreign = _joints(entry for other, entry in contracts.items() if other != name)
-                    history = JointStateHistory(horizon_s, managers[name].period_ns, foreign)
+                    history = JointStateHistory(horizon_s, managers[name].period_ns, foreign, controller)
                     self.histories[(name, controller)] = history
 
     def manager_of(self, controller: str) -> ControllerManager:

@@ -2,102 +2,128 @@
 
 from __future__ import annotations
 
-import bisect
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
+from cellc.mock.clocks import Clock, Clocks
 from cellc.mock.tf.buffer import TransformBuffer
+from cellc.mock.tf.cache import TimeCache
 from cellc.mock.tf.sources import StaticSource
+from cellc.mock.tf.warnings import TfWarnings
 from cellc.mock.world.joint_states import JointStateHistory
 from cellc.mock.world.links import LinkJoint, LinkTree
-from cellc.transforms import Pose, interpolate
+from cellc.transforms import Pose
 
 NODE = "robot_state_publisher"
 PUBLISH_FREQUENCY_HZ = 20.0
 """Default of the parameter `publish_frequency`: /tf is slower than the joint states it comes from."""
 
 
+@dataclass(frozen=True, slots=True)
+class UsedState:
+    """A joint state that became transforms: the simulated instant of its stamp, and the positions."""
+
+    taken_ns: int
+    positions: tuple[float, ...]
+
+
 class PublishedStates:
     """The joint states of one broadcaster that robot_state_publisher turned into transforms.
 
     Joint states are thinned as the node does it: one is used when its stamp is an interval after the last used one.
-    Poses are computed when they are asked for.
+    The transforms carry the stamp of the joint state, made on the clock of its broadcaster. Poses are computed when
+    they are asked for.
     """
 
-    def __init__(self, history: JointStateHistory, rate_hz: float, buffer_s: float) -> None:
+    def __init__(self, history: JointStateHistory, rate_hz: float, buffer_s: float, clock: Clock) -> None:
+        """Bind the states of a broadcaster that stamps with ``clock``."""
         self.history = history
-        self.stamps: list[int] = []
-        self.rows: list[tuple[float, ...]] = []
+        self.cache = TimeCache[UsedState](round(buffer_s * 1e9))
+        self.refused_stamps: list[int] = []
         self._interval_ns = round(1e9 / rate_hz)
-        self._buffer_ns = round(buffer_s * 1e9)
+        self._clock = clock
+        self._last_ns: int | None = None
 
     def catch_up(self, now_ns: int) -> None:
         """Use the joint states that have arrived since the last call."""
         arrived = self.history.arrived(now_ns)
         stamps = self.history.stamps[:arrived]
-        index = 0 if not self.stamps else int(np.searchsorted(stamps, self.stamps[-1] + self._interval_ns))
+        index = 0 if self._last_ns is None else int(np.searchsorted(stamps, self._last_ns + self._interval_ns))
         while index < arrived:
-            self.stamps.append(int(stamps[index]))
-            self.rows.append(tuple(self.history.positions[index].tolist()))
-            index = int(np.searchsorted(stamps, self.stamps[-1] + self._interval_ns))
-        if self.stamps:
-            first = bisect.bisect_left(self.stamps, self.stamps[-1] - self._buffer_ns)
-            del self.stamps[:first], self.rows[:first]
-
-    def positions(self, index: int) -> Mapping[str, float]:
-        """Return the joint positions of one used message."""
-        return dict(zip(self.history.names, self.rows[index], strict=True))
+            taken_ns = int(stamps[index])
+            used = UsedState(taken_ns, tuple(self.history.positions[index].tolist()))
+            stamp_ns = self._clock.read(taken_ns)
+            if not self.cache.insert(stamp_ns, used):
+                self.refused_stamps.append(stamp_ns)
+            self._last_ns = taken_ns
+            index = int(np.searchsorted(stamps, taken_ns + self._interval_ns))
 
 
 class JointSource:
-    """The transform of a link that moves with a joint, published until ``dropped_at_ns``."""
+    """The transform of a link that moves with a joint, but for the times in which it was not published."""
 
     authority = NODE
 
     def __init__(self, joint: LinkJoint, published: PublishedStates) -> None:
-        self.parent = joint.parent
-        self.dropped_at_ns: int | None = None
+        self.published = published
         self._joint = joint
-        self._published = published
+        self._gaps: list[tuple[int, int | None]] = []
 
-    def span_ns(self) -> tuple[int, int] | None:
-        """First and last stamp in the buffer; callers ask ``has_data`` first."""
-        count = self._count()
-        return (self._published.stamps[0], self._published.stamps[count - 1])
+    def drop(self, now_ns: int) -> None:
+        """Stop publishing."""
+        if not self._gaps or self._gaps[-1][1] is not None:
+            self._gaps.append((now_ns, None))
 
-    def has_data(self) -> bool:
-        """Tell whether joint states of this joint were ever received."""
-        followed = self._joint.follows or self._joint.name
-        return followed in self._published.history.names and self._count() > 0
+    def resume(self, now_ns: int) -> None:
+        """Publish again."""
+        if self._gaps and self._gaps[-1][1] is None:
+            self._gaps[-1] = (self._gaps[-1][0], now_ns)
 
-    def at(self, stamp_ns: int) -> Pose:
-        """Interpolate the pose of the link between published transforms, as a listener does."""
-        stamps = self._published.stamps
-        index = bisect.bisect_left(stamps, stamp_ns)
-        after = self._joint.pose(self._published.positions(index))
-        if stamps[index] == stamp_ns:
-            return after
-        before = self._joint.pose(self._published.positions(index - 1))
-        span = stamps[index] - stamps[index - 1]
-        return interpolate(before, after, (stamp_ns - stamps[index - 1]) / span)
+    def stamps(self) -> Sequence[int]:
+        """Rising stamps of the stored transforms."""
+        cache = self.published.cache
+        if not self._gaps:
+            return cache.stamps
+        return [cache.stamps[index] for index in self._kept()]
 
-    def _count(self) -> int:
-        if self.dropped_at_ns is None:
-            return len(self._published.stamps)
-        return bisect.bisect_left(self._published.stamps, self.dropped_at_ns)
+    def parent(self, index: int) -> str:
+        """Return the one parent."""
+        return self._joint.parent
+
+    def pose(self, index: int) -> Pose:
+        """Return the pose of the link as it was published."""
+        values = self.published.cache.values
+        used = values[index] if not self._gaps else values[self._kept()[index]]
+        return self._joint.pose(dict(zip(self.published.history.names, used.positions, strict=True)))
+
+    def clear(self) -> None:
+        """Forget what is stored, for every joint of the broadcaster."""
+        self.published.cache.clear()
+
+    def _kept(self) -> list[int]:
+        """Return the places of the transforms that were published."""
+        return [
+            index
+            for index, used in enumerate(self.published.cache.values)
+            if not any(begin <= used.taken_ns and (end is None or used.taken_ns < end) for begin, end in self._gaps)
+        ]
 
 
 class RobotStatePublisher:
     """Publishes every edge of the URDF: fixed ones latched on /tf_static, moving ones from joint states on /tf."""
 
     def __init__(
-        self, links: LinkTree, histories: Iterable[JointStateHistory], rate_hz: float, buffer_s: float
+        self, links: LinkTree, histories: Iterable[JointStateHistory], rate_hz: float, buffer_s: float, clocks: Clocks
     ) -> None:
         """Bind the node; a joint is taken from the first broadcaster that reports it."""
         self._links = links
-        self._published = tuple(PublishedStates(history, rate_hz, buffer_s) for history in histories)
+        self._published = tuple(
+            PublishedStates(history, rate_hz, buffer_s, clocks.of(history.broadcaster)) for history in histories
+        )
         self._moving: dict[str, JointSource] = {}
+        self._warnings: TfWarnings | None = None
 
     def announce(self, buffer: TransformBuffer, *, hears_static: bool, hears_moving: bool) -> None:
         """Start publishing to a listener; the names of the joints must be known from a first joint state.
@@ -110,23 +136,35 @@ class RobotStatePublisher:
             source = self._source_of(joint)
             if source is not None and (hears_moving if joint.moves else hears_static):
                 buffer.add(child, source)
+        self._warnings = buffer.warnings
 
     def catch_up(self, now_ns: int) -> None:
         """Publish what the joint states that have arrived by now imply."""
         for published in self._published:
             published.catch_up(now_ns)
+            if published.refused_stamps:
+                self._warn(published)
 
     def drop(self, child: str, now_ns: int) -> bool:
         """Stop publishing a moving link; tell whether there is one of this name."""
         source = self._moving.get(child)
         if source is not None:
-            source.dropped_at_ns = now_ns
+            source.drop(now_ns)
         return source is not None
 
-    def resume(self, child: str) -> None:
+    def resume(self, child: str, now_ns: int) -> None:
         """Publish a dropped link again."""
         if child in self._moving:
-            self._moving[child].dropped_at_ns = None
+            self._moving[child].resume(now_ns)
+
+    def _warn(self, published: PublishedStates) -> None:
+        """Log what the listener refused: one line for each link that moves, as tf2 does."""
+        refused, published.refused_stamps = published.refused_stamps, []
+        if self._warnings is None:
+            return
+        for child, source in self._moving.items():
+            for stamp_ns in refused if source.published is published else ():
+                self._warnings.old_data(child, NODE, stamp_ns)
 
     def _source_of(self, joint: LinkJoint) -> StaticSource | JointSource | None:
         if not joint.moves:

@@ -1,15 +1,23 @@
-"""The transform buffer of a listener: looked up at a stamp, interpolated, bounded, never extrapolated."""
+"""The transform buffer of a listener: looked up at a stamp, interpolated, bounded, never extrapolated.
+
+Walks the tree as tf2::BufferCore does, so that of several reasons it names the same one.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-from cellc.mock.tf.failure import TfFailure, TfFailureKind, extrapolation, not_connected, unknown_frame
-from cellc.mock.tf.sources import TransformSource
-from cellc.transforms import Pose, identity
+from cellc.mock.clocks import TimeJump
+from cellc.mock.tf.cache import LATEST, Neighbours, find
+from cellc.mock.tf.failure import Outside, TfFailure, loop, no_data, not_connected, refused_name, unknown_frame
+from cellc.mock.tf.sources import DoubledSource, TransformSource
+from cellc.mock.tf.warnings import TfWarnings
+from cellc.transforms import Pose, identity, interpolate
 
 DEFAULT_BUFFER_S = 10.0
 """tf2::BUFFER_CORE_DEFAULT_CACHE_TIME."""
+MAX_DEPTH = 1000
+"""tf2::BufferCore::MAX_GRAPH_DEPTH."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,44 +30,58 @@ class Transform:
     pose: Pose
 
 
+@dataclass(frozen=True, slots=True)
+class Edge:
+    """A frame in its parent at the stamp of a lookup."""
+
+    parent: str
+    pose: Pose
+
+
 class TransformBuffer:
-    """All edges that a listener has heard of, one authority for each child frame.
+    """All edges that a listener has heard of.
 
     Attributes:
-        conflicts: second authorities, one line for each; the first one keeps the frame.
+        conflicts: second authorities, one line for each; tf2 stores what both say and complains of nothing.
+        warnings: what the listener logs.
     """
 
     def __init__(self) -> None:
         self.conflicts: list[str] = []
+        self.warnings = TfWarnings()
         self._sources: dict[str, TransformSource] = {}
+        self._remembered: set[str] = set()
 
     def add(self, child: str, source: TransformSource) -> None:
-        """Bind a child frame to its publisher; a second publisher of one child is a conflict and is not heard."""
+        """Listen to a publisher of a child frame; a second publisher of one child is a conflict."""
         present = self._sources.get(child)
         if present is not None:
             self.conflicts.append(
                 f"frame `{child}` has two authorities: `{present.authority}` and `{source.authority}`"
             )
-            return
+            source = DoubledSource(present, source)
         self._sources[child] = source
 
+    def note_jump(self, jump: TimeJump) -> None:
+        """Clear the buffer where tf2 does: on a new source of time, and on a step back of /clock.
+
+        A step of the system's own clock goes unnoticed: rcl calls back for time from /clock alone (rcl `time.c`).
+        """
+        if jump.source_changed:
+            self._clear("Detected time source change.")
+        elif jump.clock.simulated and jump.delta_ns < 0:
+            self._clear("Detected jump back in time.")
+
     def lookup(self, target: str, source: str, stamp_ns: int) -> Transform | TfFailure:
-        """Return the pose of ``source`` in ``target`` at ``stamp_ns``, or why there is none."""
-        known = self._known_frames()
-        for argument, frame in (("target_frame", target), ("source_frame", source)):
-            if frame not in known:
-                return unknown_frame(argument, frame)
-        from_source, from_target = self._to_root(source), self._to_root(target)
-        common = next((frame for frame in from_source if frame in from_target), None)
-        if common is None:
-            return not_connected(target, source)
-        up = from_source[: from_source.index(common)]
-        down = from_target[: from_target.index(common)]
-        failure = self._outside((*up, *down), stamp_ns, target, source)
+        """Return the pose of ``source`` in ``target`` at ``stamp_ns``, 0 for the latest; or why there is none."""
+        if target == source:
+            return Transform(target, source, stamp_ns, identity())
+        failure = self._refused(target, source)
         if failure is not None:
             return failure
-        pose = self._compose(down, stamp_ns).inverse() @ self._compose(up, stamp_ns)
-        return Transform(target, source, stamp_ns, pose)
+        if stamp_ns == LATEST:
+            stamp_ns = self.latest_ns(target, source) or LATEST
+        return self._walk(target, source, stamp_ns)
 
     def path(self, target: str, source: str) -> tuple[str, ...]:
         """Return the child frames of all edges between two frames, those that are not published included."""
@@ -71,35 +93,101 @@ class TransformBuffer:
         ends: list[int] = []
         for child in self.path(target, source):
             edge = self._sources.get(child)
-            span = edge.span_ns() if edge is not None and edge.has_data() else None
-            if span is not None:
-                ends.append(span[1])
+            stamps = None if edge is None else edge.stamps()
+            if stamps:
+                ends.append(stamps[-1])
         return min(ends) if ends else None
 
+    def _clear(self, reason: str) -> None:
+        self._remembered |= self._known_frames()
+        self.warnings.cleared(reason, "")
+        for source in self._sources.values():
+            source.clear()
+
+    def _refused(self, target: str, source: str) -> TfFailure | None:
+        """Return why a frame of a lookup cannot be looked for, the target's reason first."""
+        known = self._known_frames()
+        for argument, frame in (("target_frame", target), ("source_frame", source)):
+            failure = refused_name(argument, frame)
+            if failure is None and frame not in known:
+                failure = unknown_frame(argument, frame)
+            if failure is not None:
+                return failure
+        return None
+
+    def _walk(self, target: str, source: str, stamp_ns: int) -> Transform | TfFailure:
+        """Walk up from the source as far as transforms are known, then up from the target until that frame is met."""
+        up: list[Pose] = []
+        top, missing = source, None
+        while (edge := self._edge(top, stamp_ns)) is not None:
+            if isinstance(edge, Outside):
+                missing = edge  # the walk up from the target may meet this frame all the same
+                break
+            if top == target:
+                return Transform(target, source, stamp_ns, _compose(up))
+            up.append(edge.pose)
+            top = edge.parent
+            if len(up) > MAX_DEPTH:
+                return loop()
+        down: list[Pose] = []
+        frame = target
+        while frame != top and (edge := self._edge(frame, stamp_ns)) is not None:
+            if isinstance(edge, Outside):
+                return edge.between(target, source)
+            if frame == source:
+                return Transform(target, source, stamp_ns, _compose(down).inverse())
+            down.append(edge.pose)
+            frame = edge.parent
+            if len(down) > MAX_DEPTH:
+                return loop()
+        if frame != top:
+            return not_connected(target, source) if missing is None else missing.between(target, source)
+        return Transform(target, source, stamp_ns, _compose(down).inverse() @ _compose(up))
+
+    def _edge(self, child: str, stamp_ns: int) -> Edge | Outside | None:
+        """Return a frame in its parent at a stamp; None for a frame that has no parent."""
+        source = self._sources.get(child)
+        if source is None:
+            return None
+        stamps = source.stamps()
+        if stamps is None:
+            return Edge(source.parent(0), source.pose(0))
+        if not stamps:
+            return no_data() if child in self._remembered else None
+        found = find(stamps, stamp_ns)
+        if isinstance(found, Outside):
+            return found
+        return _between(source, found)
+
     def _known_frames(self) -> set[str]:
-        heard = {child: edge for child, edge in self._sources.items() if edge.has_data()}
-        return {*heard, *(edge.parent for edge in heard.values())}
+        known = set(self._remembered)
+        for child, source in self._sources.items():
+            stamps = source.stamps()
+            if stamps is None or stamps:
+                known |= {child, source.parent(-1)}
+        return known
 
     def _to_root(self, frame: str) -> list[str]:
         chain = [frame]
-        while (edge := self._sources.get(chain[-1])) is not None and edge.has_data() and edge.parent not in chain:
-            chain.append(edge.parent)
+        while (source := self._sources.get(chain[-1])) is not None:
+            stamps = source.stamps()
+            if (stamps is not None and not stamps) or source.parent(-1) in chain:
+                break
+            chain.append(source.parent(-1))
         return chain
 
-    def _outside(self, children: tuple[str, ...], stamp_ns: int, target: str, source: str) -> TfFailure | None:
-        for child in children:
-            span = self._sources[child].span_ns()
-            if span is None:
-                continue
-            if stamp_ns > span[1]:
-                return extrapolation(TfFailureKind.EXTRAPOLATION_FUTURE, stamp_ns, span[1], target, source)
-            if stamp_ns < span[0]:
-                return extrapolation(TfFailureKind.EXTRAPOLATION_PAST, stamp_ns, span[0], target, source)
-        return None
 
-    def _compose(self, children: list[str], stamp_ns: int) -> Pose:
-        """Return the pose of the first child in the parent of the last one."""
-        pose = identity()
-        for child in children:
-            pose = self._sources[child].at(stamp_ns) @ pose
-        return pose
+def _between(source: TransformSource, found: Neighbours) -> Edge:
+    """Return the edge at a place between stored transforms; those of different parents are not mixed."""
+    parent, pose = source.parent(found.before), source.pose(found.before)
+    if found.after is None or source.parent(found.after) != parent:
+        return Edge(parent, pose)
+    return Edge(parent, interpolate(pose, source.pose(found.after), found.fraction))
+
+
+def _compose(poses: list[Pose]) -> Pose:
+    """Return the pose of the first child in the parent of the last one."""
+    composed = identity()
+    for pose in poses:
+        composed = pose @ composed
+    return composed

@@ -34,13 +34,18 @@ class JointStateHistory:
         silent: the broadcaster is not active, so that messages which stay away are no missed cycles.
     """
 
-    def __init__(self, horizon_s: float, period_ns: int, foreign: frozenset[str] = frozenset()) -> None:
+    def __init__(
+        self, horizon_s: float, period_ns: int, foreign: frozenset[str] = frozenset(), broadcaster: str = ""
+    ) -> None:
         """Keep at least ``horizon_s`` seconds of messages that come every ``period_ns``.
 
         Args:
             foreign: joints that another controller manager drives. The one description names all hardware, so that
                 this manager simulates them too, and only the other one knows where they are.
+            broadcaster: controller that publishes the messages; it stamps them on its own clock, where the stamps here
+                are simulated time.
         """
+        self.broadcaster = broadcaster
         self.names: tuple[str, ...] = ()
         self.late: list[LateArrival] = []
         self.subscribed = False

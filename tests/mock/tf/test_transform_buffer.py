@@ -9,15 +9,22 @@ import pytest
 from cellc.mock.tf.buffer import Transform, TransformBuffer
 from cellc.mock.tf.failure import TfFailure, TfFailureKind
 from cellc.mock.tf.sources import SampledSource, StaticSource
+from cellc.mock.tf.warnings import TfWarnings
 from cellc.transforms import Pose, from_xyz_rpy
 
 SECOND = 1_000_000_000
 
 
 @pytest.fixture
-def moving() -> SampledSource:
+def warnings() -> TfWarnings:
+    """The log of a listener."""
+    return TfWarnings()
+
+
+@pytest.fixture
+def moving(warnings: TfWarnings) -> SampledSource:
     """A link that moves 1 m along x and turns a quarter about z in the second from 10 s to 11 s."""
-    source = SampledSource("base", "driver", buffer_s=5.0)
+    source = SampledSource("base", "arm", "driver", 5.0, warnings)
     source.insert(10 * SECOND, from_xyz_rpy((0.0, 0.0, 0.0), (0.0, 0.0, 0.0)))
     source.insert(11 * SECOND, from_xyz_rpy((1.0, 0.0, 0.0), (0.0, 0.0, math.pi / 2)))
     return source
@@ -102,13 +109,64 @@ def test_frames_of_two_trees_are_not_connected(buffer: TransformBuffer) -> None:
     assert "Could not find a connection between 'world' and 'shelf'" in found.text
 
 
-def test_second_authority_of_a_frame_is_a_conflict_and_not_heard(buffer: TransformBuffer) -> None:
-    buffer.add("base", StaticSource("world", "intruder", from_xyz_rpy((9.0, 9.0, 9.0), (0.0, 0.0, 0.0))))
-    assert buffer.conflicts == ["frame `base` has two authorities: `publisher` and `intruder`"]
-    assert pose(buffer.lookup("world", "base", 0)).position == (0.0, 0.0, 2.0)
+def test_edge_with_one_transform_answers_for_its_stamp_alone(buffer: TransformBuffer, warnings: TfWarnings) -> None:
+    lone = SampledSource("world", "object", "perception", 5.0, warnings)
+    lone.insert(10 * SECOND, from_xyz_rpy((1.0, 0.0, 0.0), (0.0, 0.0, 0.0)))
+    buffer.add("object", lone)
+    assert pose(buffer.lookup("world", "object", 10 * SECOND)).position == (1.0, 0.0, 0.0)
+    found = failure(buffer.lookup("world", "object", 10 * SECOND + 1600))
+    assert found.kind is TfFailureKind.EXTRAPOLATION_ONE_SAMPLE
+    # tf2 prints with std::fixed and six digits, which rounds: 10.0000016 s is 10.000002.
+    assert found.text == (
+        "Lookup would require extrapolation at time 10.000002, but only time 10.000000 is in the buffer, when looking "
+        "up transform from frame [object] to frame [world]"
+    )
 
 
-def test_repeated_stamp_is_refused(moving: SampledSource) -> None:
-    moving.insert(11 * SECOND, from_xyz_rpy((5.0, 0.0, 0.0), (0.0, 0.0, 0.0)))
-    assert moving.repeated == 1
-    assert moving.at(11 * SECOND).position == (1.0, 0.0, 0.0)
+def test_stamp_zero_asks_for_the_latest_common_time(buffer: TransformBuffer) -> None:
+    answer = buffer.lookup("world", "camera", 0)
+    assert isinstance(answer, Transform)
+    assert answer.stamp_ns == 11 * SECOND
+    assert answer.pose.position == pytest.approx((1.0, 1.0, 2.0), abs=1e-12)
+
+
+def test_frame_in_itself_is_where_it_is_even_if_nobody_knows_it(buffer: TransformBuffer) -> None:
+    assert pose(buffer.lookup("nowhere", "nowhere", 5)).position == (0.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("frame", "text"),
+    [
+        ("", 'Invalid argument "" passed to lookupTransform argument target_frame - in tf2 frame_ids cannot be empty'),
+        (
+            "/world",
+            'Invalid argument "/world" passed to lookupTransform argument target_frame - in tf2 frame_ids cannot start '
+            "with a '/'",
+        ),
+    ],
+)
+def test_name_that_no_frame_can_have_is_an_invalid_argument(buffer: TransformBuffer, frame: str, text: str) -> None:
+    found = failure(buffer.lookup(frame, "camera", 0))
+    assert (found.kind, found.text) == (TfFailureKind.INVALID_ARGUMENT, text)
+
+
+def test_edge_that_fails_below_the_target_is_named_before_one_below_the_source(
+    buffer: TransformBuffer, warnings: TfWarnings
+) -> None:
+    # tf2 remembers what failed above the source, and returns at once with what fails above the target.
+    other = SampledSource("base", "other", "other_driver", 5.0, warnings)
+    for second in (20, 21):
+        other.insert(second * SECOND, from_xyz_rpy((0.0, 0.0, 0.0), (0.0, 0.0, 0.0)))
+    buffer.add("other", other)
+    found = failure(buffer.lookup("camera", "other", 15 * SECOND))
+    assert found.kind is TfFailureKind.EXTRAPOLATION_FUTURE
+    assert "latest data is at time 11.000000" in found.text
+    assert failure(buffer.lookup("other", "camera", 15 * SECOND)).kind is TfFailureKind.EXTRAPOLATION_PAST
+
+
+def test_tree_with_a_loop_is_invalid(buffer: TransformBuffer) -> None:
+    buffer.add("world", StaticSource("camera", "intruder", from_xyz_rpy((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))))
+    buffer.add("shelf", StaticSource("hall", "publisher", from_xyz_rpy((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))))
+    found = failure(buffer.lookup("shelf", "camera", 11 * SECOND))
+    assert found.kind is TfFailureKind.LOOKUP
+    assert found.text.startswith("The tf tree is invalid because it contains a loop.")
