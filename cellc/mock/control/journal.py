@@ -22,9 +22,14 @@ class Cause(str, Enum):
 
 @dataclass(frozen=True, slots=True)
 class Interruption:
-    """From the update at ``stamp_ns`` on, the command of a controller need not continue the one before."""
+    """From the update at ``stamp_ns`` on, the command of a controller need not continue the one before.
+
+    Attributes:
+        until_ns: until then it need not be smooth either; the same stamp for a single step.
+    """
 
     stamp_ns: int
+    until_ns: int
     controller: str
     cause: Cause
 
@@ -78,10 +83,10 @@ class CommandJournal:
         kept.stamps_ns.append(stamps_ns)
         kept.values.append(commands[:, kept.columns])
 
-    def note(self, stamp_ns: int, controller: str, cause: Cause) -> None:
+    def note(self, stamp_ns: int, controller: str, cause: Cause, lasting_ns: int = 0) -> None:
         """Keep an interruption."""
         if self.listening:
-            self._interruptions.append(Interruption(stamp_ns, controller, cause))
+            self._interruptions.append(Interruption(stamp_ns, stamp_ns + lasting_ns, controller, cause))
 
     def take(self) -> tuple[tuple[CommandSamples, ...], tuple[Interruption, ...]]:
         """Hand over what was kept since the last time."""

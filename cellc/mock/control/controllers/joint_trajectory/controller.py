@@ -168,7 +168,8 @@ class JointTrajectoryController(QuietController):
         now_ns = measured.time_ns
         cause = cause_of(pending, self._motion, measured.position, self._commands.present())
         if cause is not None:
-            self.context.table.journal.note(now_ns, self.context.name, cause)
+            stop_ns = pending.points[-1].time_from_start_ns if pending.interrupts else 0
+            self.context.table.journal.note(now_ns, self.context.name, cause, stop_ns)
         commanded = self._commanded if self._from_desired else None
         start = start_of(measured, commanded, pending, self.interfaces)
         spline = Spline(start, pending.points, pending.stamp_ns or now_ns, self._interpolate)
@@ -194,7 +195,8 @@ class JointTrajectoryController(QuietController):
         else:
             self._supervise(motion, samples, cycle, first)
         if self.recorder is not None:
-            self.recorder.add_update(cycle.time_ns, samples, measured.position, self._commands.present())
+            state = self.context.table.state
+            self.recorder.add_update(cycle.time_ns, samples, state, self._commands.present(), self._factor)
 
     def _supervise(self, motion: Motion, samples: Samples, cycle: Cycle, first: bool) -> None:
         """Check tolerances, command unless they are violated, decide the goal."""
@@ -272,7 +274,7 @@ class JointTrajectoryController(QuietController):
         self.last = LastUpdate(time_ns, measured, samples, row)
         self._remember_command(motion, samples, row)
         if self.recorder is not None:
-            self.recorder.add_block(block, start, samples, places["position"], self._commands.columns())
+            self.recorder.add_block(block, start, samples, self._commands.columns(), self._factor)
 
     # -- outside -----------------------------------------------------------------------------------------------------
 

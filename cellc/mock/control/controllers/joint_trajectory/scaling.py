@@ -54,11 +54,12 @@ class SpeedScaling:
         if self._command:
             self._context.command(self._context.table.command_column(self._command), factor)
         if self._column is None:
-            self._take(factor)
+            self._take(factor, since_ns=1)  # it counts for the first update after this instant
 
-    def _take(self, factor: float) -> None:
+    def _take(self, factor: float, since_ns: int = 0) -> None:
         if factor != self.factor:
-            self._context.table.journal.note(self._context.log.now_ns, self._context.name, Cause.SCALING)
+            stamp_ns = self._context.log.now_ns + since_ns
+            self._context.table.journal.note(stamp_ns, self._context.name, Cause.SCALING)
         self.factor = factor
 
     def unchanged(self, block: Block) -> int:

@@ -1,0 +1,157 @@
+"""Whether commands stayed within the limits of the contract: position, velocity, acceleration and jerk.
+
+Commands are sampled once an update. Divided differences of samples x of a smooth motion are weighted means of its
+derivatives over the samples' span (mean value theorem, weights are B-splines): the first lies within the bounds of the
+velocity, twice the second within those of the acceleration, six times the third within those of the jerk, for any
+spacing. So nothing has to be allowed for sampling; what is allowed is rounding alone. A sample is wrong by a few units
+in its last place, 2^-53 |x| each, and a difference of order n over steps of h seconds makes of an error e at most
+2^n e / h^n: with 16 units, at 2 ms and 6.3 rad, 2e-5 rad/s^3, far below any jerk limit.
+
+A hold sets the command to the measured position at once, in the mock as in the real controller, so it steps; so does
+whatever else the controller notes as an interruption. There only the position is held against its limit, and the step
+is told with its size. Controllers that send positions instead of trajectories, those of grippers, leave speed to their
+device: their positions are checked, the rest nobody can check here.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cellc.contract.contract import Contract, ContractJointLimits
+from cellc.mock.campaign.limits_report import CommandStep, LimitExcess, LimitsReport, Peak, merge
+from cellc.mock.control.journal import CommandSamples, Interruption
+
+QUANTITIES = ("position", "velocity", "acceleration", "jerk")
+_TRAJECTORIES = ("joint_trajectory", "scaled_joint_trajectory")
+_ROUNDING = 16 * 2.0**-53
+_RELATIVE = 1e-9
+"""Of the limit itself, which the planner compares in floating point too."""
+
+Array = NDArray[np.float64]
+
+
+def check_limits(
+    contract: Contract, samples: Sequence[CommandSamples], interruptions: Sequence[Interruption]
+) -> LimitsReport:
+    """Compare everything that controllers commanded in one run with the limits of the contract."""
+    return merge(_of_controller(contract, each, interruptions) for each in samples)
+
+
+def _of_controller(contract: Contract, samples: CommandSamples, interruptions: Sequence[Interruption]) -> LimitsReport:
+    other = tuple(name for name in samples.interfaces if not name.endswith("/position"))
+    columns = [
+        (column, joint, contract.joint_limits[joint])
+        for column, name in enumerate(samples.interfaces)
+        if name.endswith("/position") and (joint := name.removesuffix("/position")) in contract.joint_limits
+    ]
+    if not columns:
+        return LimitsReport(unchecked=other)
+    own = [each for each in interruptions if each.controller == samples.controller]
+    trajectories = _sends_trajectories(contract, samples.controller)
+    quantities = QUANTITIES if trajectories else QUANTITIES[:1]
+    joints = tuple(joint for _, joint, _ in columns)
+    limits = tuple(limit for _, _, limit in columns)
+    positions = samples.values[:, [column for column, _, _ in columns]]
+    commands = _Commands(samples.controller, joints, limits, samples.stamps_ns, positions)
+    compared = [_Compared(commands, order, own) for order in range(len(quantities))]
+    unchecked = (*other, *(f"{joint}/{quantity}" for joint in joints for quantity in QUANTITIES[len(quantities) :]))
+    return LimitsReport(
+        peaks=tuple(each.peak() for each in compared[1:]),
+        excesses=tuple(excess for each in compared for excess in each.excesses()),
+        steps=tuple(_steps(commands, own)) if trajectories else (),
+        unchecked=unchecked,
+    )
+
+
+def _sends_trajectories(contract: Contract, controller: str) -> bool:
+    entries = (manager.controllers.get(controller) for manager in contract.managers.values())
+    return any(entry is not None and entry.behaviour in _TRAJECTORIES for entry in entries)
+
+
+@dataclass(frozen=True, slots=True)
+class _Commands:
+    """Commanded positions of the joints of one controller, shape (updates, joints)."""
+
+    controller: str
+    joints: tuple[str, ...]
+    limits: tuple[ContractJointLimits, ...]
+    stamps_ns: NDArray[np.int64]
+    positions: Array
+
+    def limit(self, order: int, joint: int, value: float) -> float:
+        """Return the limit of a derivative of this order; of the position, the bound that ``value`` is beyond."""
+        limit = self.limits[joint]
+        if order:
+            return (limit.velocity, limit.acceleration, limit.jerk)[order - 1]
+        upper = math.inf if limit.upper is None else limit.upper
+        return upper if value > upper or limit.lower is None else limit.lower
+
+
+class _Compared:
+    """One quantity of all joints with its share of the limit; row i belongs to the samples i to i + order."""
+
+    def __init__(self, commands: _Commands, order: int, interruptions: Sequence[Interruption]) -> None:
+        """Compare; rounding is allowed for beforehand, so that a share of more than 1 is an excess."""
+        self._commands = commands
+        self._order = order
+        self._values = _derivative(commands.positions, commands.stamps_ns, order)
+        self._shares = np.nan_to_num(_outside(commands) if order == 0 else np.abs(self._values) / self._allowed())
+        for interruption in interruptions if order else ():
+            begin, end = np.searchsorted(commands.stamps_ns, (interruption.stamp_ns, interruption.until_ns))
+            self._shares[max(0, int(begin) - order) : int(end)] = 0.0
+
+    def _allowed(self) -> Array:
+        commands, order = self._commands, self._order
+        limits = np.array([commands.limit(order, joint, 0.0) for joint in range(len(commands.joints))])
+        largest = max(1.0, float(np.nanmax(np.abs(commands.positions), initial=0.0)))
+        shortest_s = float(np.diff(commands.stamps_ns).min(initial=1_000_000_000)) / 1e9
+        return limits * (1.0 + _RELATIVE) + 2.0**order * _ROUNDING * largest / shortest_s**order
+
+    def peak(self) -> Peak:
+        """Return the largest share of a limit."""
+        return Peak(QUANTITIES[self._order], float(self._shares.max(initial=0.0)))
+
+    def excesses(self) -> Iterator[LimitExcess]:
+        """Yield the worst excess of each joint."""
+        commands = self._commands
+        for joint, name in enumerate(commands.joints):
+            shares = self._shares[:, joint]
+            if shares.max(initial=0.0) > 1.0:
+                row = int(shares.argmax())
+                value = float(self._values[row, joint])
+                stamp_ns = int(commands.stamps_ns[row + self._order])
+                limit = commands.limit(self._order, joint, value)
+                yield LimitExcess(commands.controller, name, QUANTITIES[self._order], stamp_ns, value, limit)
+
+
+def _derivative(positions: Array, stamps_ns: NDArray[np.int64], order: int) -> Array:
+    """Return order! times the divided differences of this order."""
+    values = positions
+    for n in range(1, order + 1):
+        spans_s = (stamps_ns[n:] - stamps_ns[:-n]) / 1e9
+        values = n * np.diff(values, axis=0) / spans_s[:, None]
+    return values
+
+
+def _outside(commands: _Commands) -> Array:
+    """Return 0 where a position is within its limits and 2 where it is not: there is no share of a range."""
+    lower = np.array([-math.inf if limit.lower is None else limit.lower for limit in commands.limits])
+    upper = np.array([math.inf if limit.upper is None else limit.upper for limit in commands.limits])
+    beyond = np.maximum(lower - commands.positions, commands.positions - upper)
+    return np.where(beyond > _ROUNDING * np.maximum(1.0, np.abs(commands.positions)), 2.0, 0.0)
+
+
+def _steps(commands: _Commands, interruptions: Sequence[Interruption]) -> Iterator[CommandStep]:
+    """Yield the largest step that the command of a joint made at each interruption."""
+    for interruption in interruptions:
+        row = int(np.searchsorted(commands.stamps_ns, interruption.stamp_ns))
+        if 0 < row < len(commands.stamps_ns):
+            steps = np.nan_to_num(commands.positions[row] - commands.positions[row - 1])
+            joint = int(np.abs(steps).argmax())
+            name, cause = commands.joints[joint], interruption.cause.value
+            yield CommandStep(commands.controller, name, cause, interruption.stamp_ns, float(steps[joint]))

@@ -1,0 +1,79 @@
+"""What a comparison of commands with limits found."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class LimitExcess:
+    """A command beyond a limit of the contract; rad or m and their derivatives by seconds."""
+
+    controller: str
+    joint: str
+    quantity: str
+    stamp_ns: int
+    value: float
+    limit: float
+
+    def __str__(self) -> str:
+        return (
+            f"joint `{self.joint}` was commanded a {self.quantity} of {self.value:.6g} at {self.stamp_ns / 1e9:.3f} s "
+            f"by `{self.controller}`; its limit is {self.limit:.6g}"
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class CommandStep:
+    """How far a command jumped where its controller was interrupted, rad or m."""
+
+    controller: str
+    joint: str
+    cause: str
+    stamp_ns: int
+    step: float
+
+
+@dataclass(frozen=True, slots=True)
+class Peak:
+    """The largest share of its limit that a quantity came to, 1 at the limit."""
+
+    quantity: str
+    share: float
+
+
+@dataclass(frozen=True, slots=True)
+class LimitsReport:
+    """Limits of one run or of many.
+
+    Attributes:
+        peaks: by quantity, position left out.
+        excesses: the worst of each controller, joint and quantity of each run.
+        steps: at interruptions.
+        unchecked: interfaces or quantities of joints that commands say nothing of.
+    """
+
+    peaks: tuple[Peak, ...] = ()
+    excesses: tuple[LimitExcess, ...] = ()
+    steps: tuple[CommandStep, ...] = ()
+    unchecked: tuple[str, ...] = ()
+
+    @property
+    def held(self) -> bool:
+        """Tell whether no limit was exceeded."""
+        return not self.excesses
+
+
+def merge(reports: Iterable[LimitsReport]) -> LimitsReport:
+    """Return what several reports say together."""
+    known = tuple(reports)
+    shares: dict[str, float] = {}
+    for peak in (peak for report in known for peak in report.peaks):
+        shares[peak.quantity] = max(shares.get(peak.quantity, 0.0), peak.share)
+    return LimitsReport(
+        peaks=tuple(Peak(quantity, share) for quantity, share in shares.items()),
+        excesses=tuple(excess for report in known for excess in report.excesses),
+        steps=tuple(step for report in known for step in report.steps),
+        unchecked=tuple(sorted({name for report in known for name in report.unchecked})),
+    )
