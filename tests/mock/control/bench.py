@@ -16,7 +16,7 @@ from cellc.mock.control import (
     TrajectoryPoint,
 )
 
-from .arm_of_two import MS, S, run, urdf
+from .arm_of_two import S, run, urdf
 
 _Event = TypeVar("_Event", bound=ControlEvent)
 Value = bool | int | float | str | list[str]
@@ -39,6 +39,25 @@ _ARM: dict[str, Value] = {
 _HAND: dict[str, Value] = {"joint": "f", "goal_tolerance": 0.001, "stall_timeout": 0.3}
 
 
+def parameters(
+    arm: dict[str, Value] | None = None,
+    hand: dict[str, Value] | None = None,
+    *,
+    types: dict[str, str] | None = None,
+    manager: dict[str, object] | None = None,
+) -> str:
+    """The parameter file, with what differs from the usual one."""
+    plugins = _TYPES | (types or {})
+    declared = {name: {"type": plugin} for name, plugin in plugins.items()}
+    return json.dumps(
+        {
+            "controller_manager": {"ros__parameters": {"update_rate": 500, **declared, **(manager or {})}},
+            "arm": {"ros__parameters": _ARM | (arm or {})},
+            "hand": {"ros__parameters": _HAND | (hand or {})},
+        }
+    )
+
+
 def bench(
     arm: dict[str, Value] | None = None,
     hand: dict[str, Value] | None = None,
@@ -51,15 +70,7 @@ def bench(
     up: tuple[str, ...] = ("joints", "arm", "hand"),
 ) -> ControllerManager:
     """Start the cell with parameters that differ from the usual ones, and let half a second pass."""
-    plugins = _TYPES | (types or {})
-    declared = {name: {"type": plugin} for name, plugin in plugins.items()}
-    text = json.dumps(
-        {
-            "controller_manager": {"ros__parameters": {"update_rate": 500, **declared}},
-            "arm": {"ros__parameters": _ARM | (arm or {})},
-            "hand": {"ros__parameters": _HAND | (hand or {})},
-        }
-    )
+    text = parameters(arm, hand, types=types)
     manager = ControllerManager(
         description or urdf(), text, distro=distro, plugin_behaviours=behaviours or {}, start_ns=start_ns
     )
@@ -116,4 +127,17 @@ def wait(manager: ControllerManager, duration_s: float) -> list[ControlEvent]:
     return run(manager, round(duration_s * S))
 
 
-__all__ = ["MS", "S", "bench", "commands", "ending", "only", "point", "positions", "run", "send", "urdf", "wait"]
+__all__ = [
+    "S",
+    "bench",
+    "commands",
+    "ending",
+    "only",
+    "parameters",
+    "point",
+    "positions",
+    "run",
+    "send",
+    "urdf",
+    "wait",
+]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 
 from cellc.mock.control.controllers.base import ConfigureError, Context
@@ -150,7 +151,7 @@ class ControllerRegistry:
             return self._rate
         if wanted <= 0 or self._rate % wanted == 0:
             return wanted or self._rate
-        achievable = self._rate // round(self._rate / wanted)
+        achievable = self._rate // math.floor(self._rate / wanted + 0.5)  # std::round: a half goes up
         self._log.warn(
             loaded.name,
             f"The requested update rate of '{wanted}' Hz is not achievable with the controller manager update rate of "
