@@ -31,17 +31,33 @@ class StepEntry(ContractModel):
     duration_s: float | None = Field(None, description="How long a wait lasts.")
 
 
+class FaultEvent(ContractModel):
+    """What a fault waits for: how far a step has come.
+
+    ``started`` is before the first action of the step, ``accepted`` when a controller took its goal, ``moving`` when a
+    joint of that controller was first reported elsewhere than where it stood.
+    """
+
+    step: int = Field(description="Number of the step, from 1.", ge=1)
+    when: Literal["started", "accepted", "moving"] = Field("started", description="How far the step has come.")
+    after_s: float = Field(0.0, description="Simulated time after that.", ge=0.0)
+
+
 class FaultEntry(ContractModel):
-    """One fault; ``target`` is the ROS name of what it hits, or the kind of step for ``cancel``."""
+    """One fault; ``target`` is the ROS name of what it hits, or the kind of step for ``cancel``.
+
+    It begins at ``at_s`` or with ``event``; exactly one of them is given, none in a template.
+    """
 
     kind: Literal[
         "freeze", "drop_frame", "cancel", "reject", "stick", "skip_cycles", "protective_stop", "unreachable", "delay"
     ] = Field(description="What fails.")
     target: str = Field(description="What it hits.")
-    at_s: float = Field(description="Simulated time from the start.")
+    at_s: float | None = Field(None, description="Simulated time from the start; null where an event begins it.")
+    event: FaultEvent | None = Field(None, description="Event that begins it; null where a time does.")
     lasting_s: float | None = Field(None, description="How long; null to the end.")
     cycles: int | None = Field(None, description="Update cycles missed in a row.")
-    delay_s: float | None = Field(None, description="How late joint states arrive.")
+    delay_s: float | None = Field(None, description="How late samples arrive.")
 
 
 class RehearsalEntry(ContractModel):

@@ -19,6 +19,7 @@ from cellc.mock.nodes.perception import ObjectPose, Perception
 from cellc.mock.nodes.robot_state_publisher import NODE as ROBOT_STATE_PUBLISHER
 from cellc.mock.nodes.robot_state_publisher import PUBLISH_FREQUENCY_HZ, RobotStatePublisher
 from cellc.mock.plant import Plant, Requests
+from cellc.mock.progress import Progress
 from cellc.mock.tf.buffer import DEFAULT_BUFFER_S, TransformBuffer
 from cellc.mock.tf.sources import SampledSource
 from cellc.mock.world.joint_states import JOINT_STATE_TYPE, JointStateHistory
@@ -53,12 +54,15 @@ def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int) -> Plant:
         robot_state_publisher=published,
         planner=MotionPlanner(memory, seed),
         clocks=clocks,
+        task=task,
         heard_histories=_heard(contract, control, task),
         cameras={},
         perceptions={},
         inboxes={},
         requests=Requests(),
+        progress=Progress(),
     )
+    clocks.listen(plant.buffer.note_jump)
     images = _add_cameras(plant)
     for name, frame in contract.frames.items():
         if frame.kind == "dynamic" and frame.simulated_parent is not None:
@@ -103,7 +107,9 @@ def _add_cameras(plant: Plant) -> dict[str, Topic[Image]]:
         interface = plant.contract.interfaces[facts.camera.topic]
         topic = topics.setdefault(facts.camera.topic, Topic[Image](facts.camera.topic, interface))
         source = interface.sources[0].node if interface.sources else device
-        plant.cameras[device] = Camera(source, facts.camera, topic, interface.transport_s, plant.simulation)
+        plant.cameras[device] = Camera(
+            source, facts.camera, topic, interface.transport_s, plant.clocks.of(device), plant.simulation
+        )
     return topics
 
 
@@ -119,7 +125,7 @@ def _add_object(plant: Plant, name: str, frame: ContractFrame, images: Mapping[s
     if hears(plant.contract, "/tf", frame.authority, task_node(plant.contract)):
         plant.buffer.add(name, transform)
     topic, interface = _pose_topic(plant.contract, frame)
-    inbox = ObservationInbox(interface, plant.simulation)
+    inbox = ObservationInbox(interface, plant.clocks.of(task_node(plant.contract)), plant.simulation)
     plant.inboxes[name] = inbox
     if topic is not None and interface is not None and interface.sinks:
         inbox.subscribe(topic, interface.sinks[0].node)
@@ -134,8 +140,9 @@ def _add_object(plant: Plant, name: str, frame: ContractFrame, images: Mapping[s
         subscription = stream.subscribe(frame.authority, 0)
         if subscription is not None:
             max_age_s = plant.contract.interfaces[image_topic].max_age_s
+            clock = plant.clocks.of(frame.authority)
             plant.perceptions[name] = Perception(
-                name, frame, subscription, max_age_s, publish, transform, plant.world, plant.simulation
+                name, frame, subscription, max_age_s, publish, transform, plant.world, clock, plant.simulation
             )
             break
 

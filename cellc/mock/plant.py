@@ -14,6 +14,7 @@ from cellc.mock.nodes.motion_planner import MotionPlanner
 from cellc.mock.nodes.observations import ObservationInbox
 from cellc.mock.nodes.perception import Perception
 from cellc.mock.nodes.robot_state_publisher import RobotStatePublisher
+from cellc.mock.progress import Progress
 from cellc.mock.tf.buffer import TransformBuffer
 from cellc.mock.world.joint_states import JointStateHistory
 from cellc.mock.world.objects import World
@@ -41,10 +42,12 @@ class Plant:
     """The parts of a running cell.
 
     Attributes:
+        task: node that the task of a rehearsal stands for.
         heard_histories: joint states that reach the task.
         cameras: by device.
         perceptions: by the dynamic frame that they publish.
         inboxes: the task's observations, by dynamic frame.
+        progress: how far the steps of the rehearsal have come.
     """
 
     contract: Contract
@@ -55,11 +58,13 @@ class Plant:
     robot_state_publisher: RobotStatePublisher
     planner: MotionPlanner
     clocks: Clocks
+    task: str
     heard_histories: tuple[JointStateHistory, ...]
     cameras: dict[str, Camera]
     perceptions: dict[str, Perception]
     inboxes: dict[str, ObservationInbox]
     requests: Requests
+    progress: Progress
 
     @property
     def now_ns(self) -> int:

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import partial
 
 from cellc.contract.contract import Contract
-from cellc.contract.rehearsals import FaultEntry, RehearsalEntry
+from cellc.contract.rehearsals import RehearsalEntry
 from cellc.mock.assemble import assemble, start_nodes
 from cellc.mock.bringup.sequence import Bringup
 from cellc.mock.bus.matching import unmatched_pairs
 from cellc.mock.control import ManagerAborted
 from cellc.mock.faults.build import build_fault
-from cellc.mock.faults.fault import Fault
+from cellc.mock.faults.injection import Injection
 from cellc.mock.folder import GeneratedFolder
 from cellc.mock.nodes.motion_planner import PlanMemory
 from cellc.mock.plant import Plant
@@ -40,7 +39,7 @@ def rehearse(
     Raises:
         MockError: a fault names what the contract does not have.
     """
-    faults = [(entry, build_fault(entry, folder.contract)) for entry in rehearsal.faults]
+    injections = [Injection(entry, build_fault(entry, folder.contract)) for entry in rehearsal.faults]
     try:
         plant = assemble(folder, memory, seed)
     except ManagerAborted as aborted:
@@ -54,7 +53,8 @@ def rehearse(
     if not bringup.passed:
         return _not_up(rehearsal, tuple(bringup.evidence), _findings(plant))
     begun_ns = plant.now_ns
-    _schedule(plant, faults, begun_ns)
+    for injection in injections:
+        injection.schedule(plant, begun_ns)
     task = Task(rehearsal, TaskContext(plant, begun_ns + round(rehearsal.timeout_s * 1e9), seed))
     plant.simulation.run_process(task.run())
     return RehearsalResult(
@@ -62,7 +62,7 @@ def rehearse(
         outcome=task.outcome.value,
         expected=rehearsal.expect,
         sim_time_s=(plant.now_ns - begun_ns) / 1e9,
-        response_s=_response_s(rehearsal, task.records, begun_ns),
+        response_s=_response_s(injections, task.records),
         within_s=rehearsal.within_s,
         attempts=tuple(task.records),
         bringup=tuple(bringup.evidence),
@@ -70,28 +70,19 @@ def rehearse(
     )
 
 
-def _schedule(plant: Plant, faults: Sequence[tuple[FaultEntry, Fault]], begun_ns: int) -> None:
-    for entry, fault in faults:
-        at_ns = begun_ns + round(entry.at_s * 1e9)
-        plant.simulation.at(at_ns, partial(fault.begin, plant))
-        if entry.lasting_s is not None:
-            end_ns = at_ns + round(entry.lasting_s * 1e9)
-            plant.simulation.at(end_ns, partial(fault.end, plant))
-
-
-def _response_s(rehearsal: RehearsalEntry, records: Sequence[AttemptRecord], begun_ns: int) -> float | None:
+def _response_s(injections: Sequence[Injection], records: Sequence[AttemptRecord]) -> float | None:
     """Return the time from the last fault taking effect to the bounded end of the attempt that it ended.
 
     A cancel takes effect when it is requested and ends when the joints stand still. Any other fault takes effect when
     it begins, or when the attempt begins that meets it, and ends with the attempt.
     """
-    if not rehearsal.faults or len(records) < 2:
+    begun = [injection.begun_ns for injection in injections if injection.begun_ns is not None]
+    if not begun or len(records) < 2:
         return None
     ended = records[-2]
     if ended.outcome == "cancelled" and ended.cancel is not None:
         return ended.cancel.latency_s
-    fault_ns = begun_ns + round(max(entry.at_s for entry in rehearsal.faults) * 1e9)
-    return (ended.ended_ns - max(fault_ns, ended.started_ns)) / 1e9
+    return (ended.ended_ns - max(*begun, ended.started_ns)) / 1e9
 
 
 def _not_up(

@@ -2,8 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import partial
 
+from cellc.contract.contract import Contract
+from cellc.contract.rehearsals import FaultEntry
+from cellc.mock.faults.bounds import Bounds
+from cellc.mock.faults.case import BORNE, SUCCEEDED, Ending, FaultCase, ends_in, fault_case
+from cellc.mock.faults.cell_steps import CellStep, ancestors
 from cellc.mock.plant import Plant
 
 
@@ -12,6 +19,11 @@ class DropFrame:
     """Stops the publisher of a frame; a frame of /tf_static stays known to who has heard it, as in tf2."""
 
     frame: str
+
+    @classmethod
+    def of(cls, entry: FaultEntry, contract: Contract) -> DropFrame | None:
+        """Return the fault of an entry; None where its target is no frame."""
+        return cls(entry.target) if entry.target in contract.frames else None
 
     def begin(self, plant: Plant) -> None:
         """Stop publishing."""

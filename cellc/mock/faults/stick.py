@@ -2,8 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
+from cellc.contract.contract import Contract
+from cellc.contract.rehearsals import FaultEntry
+from cellc.mock.faults.bounds import Bounds
+from cellc.mock.faults.case import FaultCase, fault_case
+from cellc.mock.faults.contents import driven_joints, first_joints
+from cellc.mock.faults.off_track import ending_off_track
 from cellc.mock.plant import Plant
 
 
@@ -12,6 +19,11 @@ class Stick:
     """Holds a joint where it is."""
 
     joint: str
+
+    @classmethod
+    def of(cls, entry: FaultEntry, contract: Contract) -> Stick | None:
+        """Return the fault of an entry; None where its target is no joint that moves."""
+        return cls(entry.target) if entry.target in driven_joints(contract) else None
 
     def begin(self, plant: Plant) -> None:
         """Stick."""
@@ -22,3 +34,10 @@ class Stick:
         """Follow again."""
         for manager in plant.control.manager_of_joint(self.joint):
             manager.disturbances.clear(self.joint)
+
+
+def cases(contract: Contract) -> Iterator[FaultCase]:
+    """Yield one joint of every controller that takes goals."""
+    for joint, controller in first_joints(contract).items():
+        entry = FaultEntry(kind="stick", target=joint)
+        yield fault_case(entry, contract, ending_off_track(Bounds(contract), controller))

@@ -9,8 +9,8 @@ from cellc.mock.task.joint_state import CurrentState, current_state
 _LOOK_NS = 10_000_000
 
 
-def state_since(context: TaskContext, stamp_ns: int) -> Waiting[CurrentState]:
-    """Wait for a joint state that is not older than ``stamp_ns``, as long as the newest one is not stale."""
-    while (state := current_state(context.plant)).stamp_ns < stamp_ns:
+def state_since(context: TaskContext, instant_ns: int) -> Waiting[CurrentState]:
+    """Wait for a joint state that is not older than an instant, as long as the newest one is not stale."""
+    while (state := current_state(context.plant)).taken_ns < instant_ns:
         yield from context.pause(context.now_ns + _LOOK_NS)
     return state

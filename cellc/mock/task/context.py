@@ -13,7 +13,7 @@ from cellc.transforms import Pose
 
 NORMAL = "normal"
 PROTECTIVE_STOP = "protective_stop"
-_WATCH_NS = 200_000_000
+WATCH_S = 0.2
 """The task looks at the state of the cell at least five times a second, whatever it waits for."""
 
 GoalEnded = TrajectoryEnded | GripperEnded
@@ -62,9 +62,16 @@ class TaskContext:
         Raises:
             AttemptError: the cell stopped, missed cycles, or the rehearsal's time is over.
         """
-        until_ns = min(until_ns, self.deadline_ns, self.now_ns + _WATCH_NS, self._observed_until_ns())
+        until_ns = min(until_ns, self.deadline_ns, self.now_ns + round(WATCH_S * 1e9), self._observed_until_ns())
         yield Wait(until_ns, (self.plant.control.changed, *signals))
         self.check_cell()
+
+    def let_take_effect(self) -> Waiting[None]:
+        """Wait until what was asked of the controller managers at this instant has been carried out."""
+        periods = (manager.period_ns for manager in self.plant.control.managers.values())
+        until_ns = self.now_ns + max(periods, default=0)
+        while self.now_ns < until_ns:
+            yield Wait(until_ns)
 
     def check_cell(self) -> None:
         """Raise AttemptError for what ends any attempt: a stop first, then missed cycles, stale observations, time."""

@@ -10,7 +10,8 @@ from cellc.mock.task.outcome import AttemptError, Outcome
 
 PATIENCE_PERIODS = 10
 """An observation that stays away for ten of its periods does not come."""
-_DEFAULT_RATE_HZ = 10.0
+DEFAULT_RATE_HZ = 10.0
+"""Of a dynamic frame whose rate is not stated."""
 
 
 def detect(context: TaskContext, attempt: Attempt, frame: str) -> Waiting[None]:
@@ -24,7 +25,7 @@ def detect(context: TaskContext, attempt: Attempt, frame: str) -> Waiting[None]:
     if inbox is None or entry is None:
         raise AttemptError(Outcome.TF_FAILURE, f"nobody observes frame {frame}")
     attempt.goal_frame = frame
-    period_ns = round(1e9 / (entry.rate_hz or _DEFAULT_RATE_HZ))
+    period_ns = round(1e9 / (entry.rate_hz or DEFAULT_RATE_HZ))
     until_ns = context.now_ns + PATIENCE_PERIODS * period_ns
     while inbox.newest is None or inbox.is_stale(inbox.newest.stamp_ns):
         if context.now_ns >= until_ns:

@@ -44,7 +44,9 @@ def execute(
     sent_ns = context.now_ns
     joints = _joints(context.plant, controller)
     context.plant.requests.executing.add(controller)
+    context.plant.progress.announce("accepted")
     try:
+        yield from _until_moving(context, kind, controller, goal_id, joints, sent_ns)
         yield from _result(context, kind, controller, goal_id, timeout_s)
     except AttemptError as failure:
         held = yield from cancel_and_hold(context, attempt, controller, goal_id, joints)
@@ -78,7 +80,7 @@ def _send(context: TaskContext, attempt: Attempt, controller: str, goal: Traject
     attempt.controller_name = controller
     attempt.speed_scaling = _speed_scaling(context.plant, controller)
     attempt.mark(PacketStep.GOAL_SENT, context.now_ns)
-    response = manager.send_goal(controller, goal)
+    response = context.plant.control.send_goal(controller, goal)
     attempt.action_goal_id = _goal_uuid(context.seed, attempt.attempt_id)
     if not response.accepted:
         raise AttemptError(Outcome.GOAL_REJECTION, response.log_reason)
@@ -86,6 +88,20 @@ def _send(context: TaskContext, attempt: Attempt, controller: str, goal: Traject
     next_cycle_ns = (context.now_ns // manager.period_ns + 1) * manager.period_ns
     attempt.mark(PacketStep.WRITTEN, next_cycle_ns)
     return response.goal_id
+
+
+def _until_moving(
+    context: TaskContext, kind: str, controller: str, goal_id: int, joints: tuple[str, ...], sent_ns: int
+) -> Waiting[None]:
+    """Look cycle by cycle for the first motion of a goal, where somebody waits for it."""
+    period_ns = context.plant.control.manager_of(controller).period_ns
+    while context.plant.progress.is_expected("moving") and (controller, goal_id) not in context.ended:
+        if _driven_ns(context.plant, joints, sent_ns) is not None:
+            context.plant.progress.announce("moving")
+            return
+        if kind in context.plant.requests.cancel:
+            return
+        yield from context.pause(context.now_ns + period_ns, context.plant.requests.changed)
 
 
 def _result(context: TaskContext, kind: str, controller: str, goal_id: int, timeout_s: float) -> Waiting[None]:

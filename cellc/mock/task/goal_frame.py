@@ -13,7 +13,6 @@ from cellc.mock.task.context import TaskContext
 from cellc.mock.task.joint_state import current_state
 from cellc.mock.task.outcome import AttemptError, Outcome
 from cellc.mock.tf.buffer import Transform
-from cellc.mock.tf.failure import TfFailureKind
 from cellc.transforms import Pose
 
 TF_TIMEOUT_S = 0.2
@@ -47,7 +46,7 @@ def locate_goal(context: TaskContext, attempt: Attempt, name: str, state_stamp_n
     if observed_frame is not None:
         attempt.mark(PacketStep.OBSERVED, stamp_ns)
     transform = yield from _lookup(context, base, entry.frame, stamp_ns)
-    attempt.tf_lookup_age = (context.now_ns - stamp_ns) / 1e9
+    attempt.tf_lookup_age = context.plant.clocks.age_ns(context.plant.task, stamp_ns) / 1e9
     attempt.mark(PacketStep.TRANSFORMED, context.now_ns)
     dx, dy, dz = context.plant.requests.displaced.get(name, (0.0, 0.0, 0.0))
     displaced = Pose((dx, dy, dz), (0.0, 0.0, 0.0, 1.0)) @ Pose(entry.pose.xyz, entry.pose.quaternion)
@@ -102,7 +101,7 @@ def _lookup(context: TaskContext, target: str, source: str, stamp_ns: int) -> Wa
         answer = context.plant.buffer.lookup(target, source, stamp_ns)
         if isinstance(answer, Transform):
             return answer
-        if answer.kind is not TfFailureKind.EXTRAPOLATION_FUTURE or context.now_ns >= until_ns:
+        if not answer.kind.may_pass or context.now_ns >= until_ns:
             current_state(context.plant)  # joint states that stay away are the cause, transforms only follow them
             raise AttemptError(Outcome.TF_FAILURE, answer.text)
         yield from context.pause(min(until_ns, context.now_ns + 5_000_000))

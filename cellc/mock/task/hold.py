@@ -10,13 +10,12 @@ from cellc.mock.engine.process import Wait, Waiting
 from cellc.mock.plant import Plant
 from cellc.mock.record import CancelRecord
 from cellc.mock.task.attempt import Attempt
+from cellc.mock.task.bounds import cancel_bound_s
 from cellc.mock.task.context import TaskContext
 from cellc.mock.world.joint_states import JointStateHistory
 
 STANDSTILL = 1e-3
 """rad/s or m/s below which a joint is held; far below what a person sees and above what rounding makes."""
-DEFAULT_BOUND_S = 0.5
-"""Where the contract bounds neither the cancel of an action nor that of the cell."""
 _LOOK_NS = 10_000_000
 
 
@@ -33,7 +32,7 @@ def cancel_and_hold(
     plant = context.plant
     requested_ns = plant.now_ns
     response = plant.control.manager_of(controller).cancel_goal(goal_id)
-    until_ns = requested_ns + round(cancel_bound_s(plant) * 1e9)
+    until_ns = requested_ns + round(cancel_bound_s(plant.contract) * 1e9)
     held_ns = held_since(plant, joints, requested_ns)
     while held_ns is None and plant.now_ns < until_ns:
         yield Wait(min(until_ns, plant.now_ns + _LOOK_NS), (plant.control.changed,))
@@ -43,13 +42,6 @@ def cancel_and_hold(
     while (controller, goal_id) not in context.ended and plant.now_ns < until_ns:
         yield Wait(min(until_ns, plant.now_ns + _LOOK_NS), (plant.control.changed,))
     return held_ns is not None
-
-
-def cancel_bound_s(plant: Plant) -> float:
-    """Return the tightest bound that the contract sets for a cancel."""
-    bounds = [plant.contract.kpis.cancel_s, *(each.cancel_within_s for each in plant.contract.interfaces.values())]
-    stated = [bound for bound in bounds if bound is not None]
-    return min(stated) if stated else DEFAULT_BOUND_S
 
 
 def held_since(plant: Plant, joints: Iterable[str], since_ns: int) -> int | None:

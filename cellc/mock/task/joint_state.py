@@ -5,18 +5,22 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from cellc.mock.plant import Plant
+from cellc.mock.task.bounds import joint_state_age_s
 from cellc.mock.task.outcome import AttemptError, Outcome
-from cellc.mock.world.joint_states import JOINT_STATE_TYPE
-
-DEFAULT_MAX_AGE_S = 0.1
-"""Where no interface states how old a joint state may be."""
 
 
 @dataclass(frozen=True, slots=True)
 class CurrentState:
-    """Positions of all joints as the task knows them; the stamp is the oldest of those that were put together."""
+    """Positions of all joints as the task knows them; the stamp is the oldest of those that were put together.
+
+    Attributes:
+        stamp_ns: on the clock of the broadcaster.
+        taken_ns: the same in simulated time.
+        age_s: on the clock of the task.
+    """
 
     stamp_ns: int
+    taken_ns: int
     age_s: float
     positions: dict[str, float]
 
@@ -25,29 +29,25 @@ def current_state(plant: Plant) -> CurrentState:
     """Return the newest joint state that has arrived.
 
     Raises:
-        AttemptError: stale_state, where none has arrived or it is older than its interface allows.
+        AttemptError: stale_state, where none has arrived, it is older than its interface allows, or it is stamped as
+            far in the future: a clock was set back.
     """
-    stamps: list[int] = []
+    stamps: list[tuple[int, int]] = []
     positions: dict[str, float] = {}
     for history in plant.heard_histories:
         arrived = history.arrived(plant.now_ns)
         if arrived == 0:
             raise AttemptError(Outcome.STALE_STATE, "no joint state has arrived")
-        stamps.append(int(history.stamps[arrived - 1]))
+        taken_ns = int(history.stamps[arrived - 1])
+        stamps.append((plant.clocks.of(history.broadcaster).read(taken_ns), taken_ns))
         positions |= dict(zip(history.names, history.positions[arrived - 1].tolist(), strict=True))
     if not stamps:
         raise AttemptError(Outcome.STALE_STATE, "no joint states reach the task")
-    age_s = (plant.now_ns - min(stamps)) / 1e9
-    allowed_s = _max_age_s(plant)
+    stamp_ns, taken_ns = min(stamps)
+    age_s = plant.clocks.age_ns(plant.task, stamp_ns) / 1e9
+    allowed_s = joint_state_age_s(plant.contract)
     if age_s > allowed_s:
         raise AttemptError(Outcome.STALE_STATE, f"joint state is {age_s:.3f} s old, {allowed_s:g} s allowed")
-    return CurrentState(min(stamps), age_s, positions)
-
-
-def _max_age_s(plant: Plant) -> float:
-    stated = [
-        interface.max_age_s
-        for interface in plant.contract.interfaces.values()
-        if interface.type == JOINT_STATE_TYPE and interface.max_age_s is not None
-    ]
-    return min(stated) if stated else DEFAULT_MAX_AGE_S
+    if age_s < -allowed_s:
+        raise AttemptError(Outcome.STALE_STATE, f"joint state is stamped {-age_s:.3f} s in the future")
+    return CurrentState(stamp_ns, taken_ns, age_s, positions)

@@ -11,6 +11,7 @@ from cellc.mock.nodes.motion_request import PlannedMotion
 from cellc.mock.record import PacketStep
 from cellc.mock.task.arrival import state_since
 from cellc.mock.task.attempt import Attempt
+from cellc.mock.task.bounds import action_timeout_s
 from cellc.mock.task.context import TaskContext
 from cellc.mock.task.execute import execute, require_success
 from cellc.mock.task.goal_frame import check_observation, locate_goal
@@ -121,12 +122,5 @@ def _trajectory_goal(trajectory: TimedTrajectory) -> TrajectoryGoal:
 
 
 def _timeout_s(context: TaskContext, duration_s: float) -> float:
-    """Return the bound of the action that plans and executes for the task; a controller's own bound is another one."""
-    contract = context.plant.contract
-    actions = {entry.action for manager in contract.managers.values() for entry in manager.controllers.values()}
-    stated = [
-        interface.timeout_s
-        for name, interface in contract.interfaces.items()
-        if interface.kind == "action" and interface.timeout_s is not None and name not in actions
-    ]
-    return max(stated) if stated else 2.0 * duration_s + MARGIN_S
+    stated_s = action_timeout_s(context.plant.contract)
+    return 2.0 * duration_s + MARGIN_S if stated_s is None else stated_s

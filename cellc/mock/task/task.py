@@ -39,6 +39,7 @@ class Task:
         fault_code = ""
         for number, step in enumerate(self._rehearsal.steps, start=1):
             attempt = Attempt(self._identity, number, _title(step), self._context.now_ns)
+            self._context.plant.progress.step = number
             try:
                 yield from self._step(attempt, step)
             except AttemptError as failure:
@@ -49,6 +50,8 @@ class Task:
         self._close(Attempt(self._identity, len(self.records) + 1, END_STEP, started_ns), fault_code)
 
     def _step(self, attempt: Attempt, step: StepEntry) -> Waiting[None]:
+        if self._context.plant.progress.announce("started"):
+            yield from self._context.let_take_effect()
         self._context.check_cell()
         if step.kind == "move":
             yield from move(self._context, attempt, step.target)

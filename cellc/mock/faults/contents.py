@@ -1,0 +1,40 @@
+"""What a contract holds, in the form in which faults ask for it."""
+
+from __future__ import annotations
+
+from cellc.contract.contract import Contract, ContractController
+
+
+def controllers(contract: Contract) -> dict[str, ContractController]:
+    """Return the controllers of all managers."""
+    return {name: facts for manager in contract.managers.values() for name, facts in manager.controllers.items()}
+
+
+def driven_joints(contract: Contract) -> dict[str, str]:
+    """Return the controller that moves each joint after start-up."""
+    return {
+        joint: name
+        for name, facts in controllers(contract).items()
+        if facts.active and facts.action is not None
+        for joint in facts.joints
+    }
+
+
+def first_joints(contract: Contract) -> dict[str, str]:
+    """Return one joint of every controller that takes goals: the first, which stands for the others."""
+    firsts: dict[str, str] = {}
+    for joint, controller in driven_joints(contract).items():
+        firsts.setdefault(controller, joint)
+    return {joint: controller for controller, joint in firsts.items()}
+
+
+def components(contract: Contract) -> dict[str, str]:
+    """Return the hardware component of every device that has one."""
+    found = {name: device.hardware_component for name, device in contract.devices.items()}
+    return {name: component for name, component in found.items() if component is not None}
+
+
+def joints_of_device(contract: Contract, device: str) -> tuple[str, ...]:
+    """Return the joints that the controllers of a device drive, sorted."""
+    facts = controllers(contract).values()
+    return tuple(sorted({joint for each in facts if each.device == device for joint in each.joints}))

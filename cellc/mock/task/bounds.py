@@ -1,0 +1,39 @@
+"""The bounds that the task takes from the contract, and those it has of its own where nothing is stated."""
+
+from __future__ import annotations
+
+from cellc.contract.contract import Contract
+from cellc.mock.world.joint_states import JOINT_STATE_TYPE
+
+DEFAULT_CANCEL_S = 0.5
+"""Where the contract bounds neither the cancel of an action nor that of the cell."""
+DEFAULT_JOINT_STATE_AGE_S = 0.1
+"""Where no interface states how old a joint state may be."""
+
+
+def cancel_bound_s(contract: Contract) -> float:
+    """Return the tightest bound that the contract sets for a cancel."""
+    bounds = [contract.kpis.cancel_s, *(each.cancel_within_s for each in contract.interfaces.values())]
+    stated = [bound for bound in bounds if bound is not None]
+    return min(stated) if stated else DEFAULT_CANCEL_S
+
+
+def joint_state_age_s(contract: Contract) -> float:
+    """Return how old a joint state may be."""
+    stated = [
+        interface.max_age_s
+        for interface in contract.interfaces.values()
+        if interface.type == JOINT_STATE_TYPE and interface.max_age_s is not None
+    ]
+    return min(stated) if stated else DEFAULT_JOINT_STATE_AGE_S
+
+
+def action_timeout_s(contract: Contract) -> float | None:
+    """Return the bound of the action that plans and executes for the task; a controller's own bound is another one."""
+    actions = {entry.action for manager in contract.managers.values() for entry in manager.controllers.values()}
+    stated = [
+        interface.timeout_s
+        for name, interface in contract.interfaces.items()
+        if interface.kind == "action" and interface.timeout_s is not None and name not in actions
+    ]
+    return max(stated) if stated else None
