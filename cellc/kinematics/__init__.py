@@ -8,7 +8,8 @@ from cellc.kinematics.model import RobotModel
 from cellc.kinematics.path import JointPath
 from cellc.kinematics.planner import Planner
 from cellc.kinematics.reach import beyond_reach
-from cellc.kinematics.scene import Box, CollisionScene
+from cellc.kinematics.scene import CollisionScene
+from cellc.kinematics.shapes import Box
 from cellc.kinematics.timing import time_parameterize
 from cellc.kinematics.trajectory import LimitUse, TimedTrajectory, TrajectoryPoint
 

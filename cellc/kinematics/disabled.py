@@ -13,10 +13,10 @@ from itertools import combinations
 
 from cellc.kinematics.limits import Array
 from cellc.kinematics.model import RobotModel
-from cellc.kinematics.pair_check import PairCheck, shape_links
+from cellc.kinematics.pair_check import PairCheck
 from cellc.kinematics.reach import beyond_reach
 from cellc.kinematics.sampling import draw_configurations
-from cellc.kinematics.scene import LinkPair
+from cellc.kinematics.shapes import LinkPair, shape_links
 
 
 class DisabledReason(str, Enum):

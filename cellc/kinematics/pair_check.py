@@ -8,7 +8,7 @@ import pinocchio
 
 from cellc.kinematics.limits import Array
 from cellc.kinematics.model import RobotModel
-from cellc.kinematics.scene import LinkPair
+from cellc.kinematics.shapes import LinkPair, shape_links
 
 
 class PairCheck:
@@ -68,9 +68,3 @@ class PairCheck:
     def _touching(self) -> set[LinkPair]:
         results = self._geometry_data.collisionResults
         return {pair for pair, indices in self._active.items() if any(results[at].isCollision() for at in indices)}
-
-
-def shape_links(model: RobotModel) -> list[str]:
-    """Name the link of each collision shape, in pinocchio's order of shapes."""
-    frames = model.kinematics.frames
-    return [str(frames[shape.parentFrame].name) for shape in model.geometry.geometryObjects]

@@ -14,8 +14,7 @@ import numpy as np
 
 from cellc.kinematics.limits import Array
 from cellc.kinematics.model import RobotModel
-from cellc.kinematics.pair_check import shape_links
-from cellc.kinematics.scene import LinkPair
+from cellc.kinematics.shapes import LinkPair, shape_links
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -2,35 +2,16 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 
-import coal
-import numpy as np
 import pinocchio
 
 from cellc.kinematics.failure import ModelError
 from cellc.kinematics.limits import Array
-from cellc.kinematics.model import PinGeometry, RobotModel, from_pose
+from cellc.kinematics.model import RobotModel
+from cellc.kinematics.shapes import Box, LinkPair, movable_pairs, ordered, with_boxes
 from cellc.transforms import Pose, Vector3
-
-LinkPair = tuple[str, str]
-
-
-@dataclass(frozen=True, slots=True)
-class Box:
-    """A box that follows a link: an object in the gripper, or on a fixture.
-
-    Attributes:
-        link: the link that carries it.
-        size: full edge lengths in metres.
-        pose_in_link: pose of its centre in the frame of the link.
-    """
-
-    name: str
-    link: str
-    size: Vector3
-    pose_in_link: Pose
 
 
 class CollisionScene:
@@ -61,13 +42,17 @@ class CollisionScene:
         """
         self.model = model
         self.boxes = boxes
-        self.disabled_collisions = tuple(sorted({_ordered(*pair) for pair in disabled_collisions}))
+        self.disabled_collisions = tuple(sorted({ordered(*pair) for pair in disabled_collisions}))
         self.other_positions = dict(other_positions or {})
-        self._names, self._geometry = _shapes(model, boxes)
+        self._names, self._geometry = with_boxes(model, boxes)
         self._check_names()
-        self._add_pairs()
+        self._geometry.setCollisionPairs(movable_pairs(self._geometry, self._names, self.disabled_collisions))
         self._data = model.kinematics.createData()
         self._geometry_data = self._geometry.createData()
+        # A tree of bounding boxes leaves only neighbours to be compared shape by shape.
+        self._tree = pinocchio.BroadPhaseManager_DynamicAABBTreeCollisionManager(
+            model.kinematics, self._geometry, self._geometry_data
+        )
         self._rest = model.configuration(self.other_positions)
 
     def attach(self, name: str, link: str, size: Vector3, pose_in_link: Pose) -> CollisionScene:
@@ -87,17 +72,15 @@ class CollisionScene:
 
     def forbid_touch(self, name: str, others: Iterable[str]) -> CollisionScene:
         """Return the scene in which these pairs are checked again."""
-        refused = {_ordered(name, other) for other in others}
+        refused = {ordered(name, other) for other in others}
         return self._with(disabled=tuple(pair for pair in self.disabled_collisions if pair not in refused))
 
     def with_other_positions(self, positions: Mapping[str, float]) -> CollisionScene:
         """Return the scene with joints outside the group moved, rad or metres; joints not named stay."""
-        return CollisionScene(
-            self.model,
-            disabled_collisions=self.disabled_collisions,
-            boxes=self.boxes,
-            other_positions={**self.other_positions, **positions},
-        )
+        moved = copy.copy(self)  # the shapes are the same, and what is computed with them is never kept
+        moved.other_positions = {**self.other_positions, **positions}
+        moved._rest = self.model.configuration(moved.other_positions)
+        return moved
 
     def rest_configuration(self) -> Array:
         """Return a copy of pinocchio's configuration with the other joints in their places."""
@@ -106,10 +89,23 @@ class CollisionScene:
 
     def collides(self, configuration: Array) -> bool:
         """Tell whether any checked pair touches at a configuration of pinocchio."""
-        model = self.model.kinematics
-        return bool(
-            pinocchio.computeCollisions(model, self._data, self._geometry, self._geometry_data, configuration, True)
-        )
+        return bool(pinocchio.computeCollisions(self.model.kinematics, self._data, self._tree, configuration, True))
+
+    def touching(self, box: Box, configuration: Array) -> tuple[str, ...]:
+        """Return the names of links and boxes that another box would touch at a configuration of pinocchio, sorted.
+
+        Args:
+            box: replaces one of its name; what moves with it is not looked at, nor what is disabled with its name.
+        """
+        others = tuple(each for each in self.boxes if each.name != box.name)
+        names, geometry = with_boxes(self.model, (*others, box))
+        pairs = movable_pairs(geometry, names, self.disabled_collisions)
+        pairs[:-1, :-1] = False
+        geometry.setCollisionPairs(pairs)
+        data, geometry_data = self.model.kinematics.createData(), geometry.createData()
+        pinocchio.computeCollisions(self.model.kinematics, data, geometry, geometry_data, configuration, False)
+        found = zip(geometry.collisionPairs, geometry_data.collisionResults, strict=True)
+        return tuple(sorted({names[pair.first] for pair, result in found if result.isCollision()}))
 
     def contacts(self, configuration: Array) -> tuple[LinkPair, ...]:
         """Return all pairs of names that touch at a configuration of pinocchio, sorted."""
@@ -118,13 +114,13 @@ class CollisionScene:
         found: set[LinkPair] = set()
         for pair, result in zip(self._geometry.collisionPairs, self._geometry_data.collisionResults, strict=True):
             if result.isCollision():
-                found.add(_ordered(self._names[pair.first], self._names[pair.second]))
+                found.add(ordered(self._names[pair.first], self._names[pair.second]))
         return tuple(sorted(found))
 
     def checked_pairs(self) -> tuple[LinkPair, ...]:
         """Return the pairs of names that are checked, sorted."""
         pairs = self._geometry.collisionPairs
-        return tuple(sorted({_ordered(self._names[pair.first], self._names[pair.second]) for pair in pairs}))
+        return tuple(sorted({ordered(self._names[pair.first], self._names[pair.second]) for pair in pairs}))
 
     def _with(
         self, *, boxes: tuple[Box, ...] | None = None, disabled: Iterable[LinkPair] | None = None
@@ -142,33 +138,3 @@ class CollisionScene:
             for name in pair:
                 if name not in known:
                     raise ModelError(f"a disabled collision names `{name}`, which is neither a link nor an object")
-
-    def _add_pairs(self) -> None:
-        disabled = set(self.disabled_collisions)
-        bodies = [shape.parentJoint for shape in self._geometry.geometryObjects]
-        self._geometry.removeAllCollisionPairs()
-        for first in range(len(bodies)):
-            for second in range(first + 1, len(bodies)):
-                pair = _ordered(self._names[first], self._names[second])
-                if bodies[first] != bodies[second] and pair not in disabled:
-                    self._geometry.addCollisionPair(pinocchio.CollisionPair(first, second))
-
-
-def _shapes(model: RobotModel, boxes: tuple[Box, ...]) -> tuple[list[str], PinGeometry]:
-    geometry = model.geometry.copy()
-    frames = model.kinematics.frames
-    names = [str(frames[shape.parentFrame].name) for shape in geometry.geometryObjects]
-    for box in boxes:
-        if box.name in model.links or box.name in names:
-            raise ModelError(f"object `{box.name}` has the name of a link or of another object")
-        frame = model.frame_of(box.link)
-        placement = frames[frame].placement * from_pose(box.pose_in_link)
-        shape = coal.Box(np.array(box.size))
-        joint = frames[frame].parentJoint
-        geometry.addGeometryObject(pinocchio.GeometryObject(box.name, joint, frame, placement, shape))
-        names.append(box.name)
-    return names, geometry
-
-
-def _ordered(first: str, second: str) -> LinkPair:
-    return (first, second) if first <= second else (second, first)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from cellc.kinematics import CollisionScene, ModelError, RobotModel
+from cellc.kinematics import Box, CollisionScene, ModelError, RobotModel
+from cellc.kinematics.sampling import draw_configurations
 from cellc.transforms import Pose, Vector3
+from tests.kinematics.arm import ADJACENT, arm_urdf
 
 # A ball of 0.1 m radius slides along x over a floor whose top is at z = -0.2; a post stands at x = 1.
 SLIDER = """
@@ -75,6 +77,29 @@ def test_allowed_touch_ends_with_forbidding_it_and_with_the_object(scene: Collis
     assert _contacts(grasping.forbid_touch("part", ["ball"]), -1.0) == (("ball", "part"),)
     again = grasping.detach("part").attach("part", "floor", (0.2, 0.2, 0.3), _at((-1.0, 0.0, -0.05)))
     assert _contacts(again, -1.0) == (("ball", "part"),)
+
+
+def test_box_to_be_grasped_touches_what_it_overlaps_and_not_what_carries_it(scene: CollisionScene) -> None:
+    # Around the ball's centre at x = 0.75 the box ends at 0.95 and meets the post; the ball itself carries it.
+    part = Box("part", "ball", (0.4, 0.1, 0.1), _at((0.0, 0.0, 0.0)))
+    assert scene.touching(part, scene.model.configuration({"slide": 0.751})) == ("post",)
+    assert scene.touching(part, scene.model.configuration({"slide": 0.749})) == ()
+    assert scene.allow_touch("post", ["ball"]).touching(part, scene.model.configuration({"slide": 0.8})) == ("post",)
+
+
+def test_other_positions_of_one_scene_do_not_move_another(scene: CollisionScene) -> None:
+    near = scene.with_other_positions({"slide": 1.0})
+    assert near.collides(near.rest_configuration())
+    assert not scene.collides(scene.rest_configuration())
+
+
+def test_tree_of_bounding_boxes_finds_what_all_pairs_do() -> None:
+    model = RobotModel.from_urdf(arm_urdf())
+    scene = CollisionScene(model, disabled_collisions=ADJACENT).attach("part", "tool", (0.1, 0.1, 0.1), _at((0, 0, 0)))
+    configurations = draw_configurations(model, samples=400, rng_seed=3)
+    expected = [bool(scene.contacts(configuration)) for configuration in configurations]
+    assert [scene.collides(configuration) for configuration in configurations] == expected
+    assert 50 < sum(expected) < 350
 
 
 def test_unknown_names_are_refused(scene: CollisionScene) -> None:

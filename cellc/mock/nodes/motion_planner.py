@@ -62,13 +62,12 @@ class MotionPlanner:
     def attach(self, name: str, link: str, pose_in_link: Pose, positions: Mapping[str, float]) -> None:
         """Let a grasped object move with a link; it may touch the gripper and what carries it now."""
         box = Box(name, link, (OBJECT_EDGE_M, OBJECT_EDGE_M, OBJECT_EDGE_M), pose_in_link)
-        grasped = SceneState((*self._scene.boxes, box), self._scene.allowed)
-        scene = build_scene(self._model, grasped, ())
-        contacts = scene.contacts(self._model.robot.configuration(dict(self._independent(positions))))
-        touching = {other for pair in contacts if name in pair for other in pair} - {name}
+        configuration = self._model.robot.configuration(dict(self._independent(positions)))
+        touching = build_scene(self._model, self._scene, ()).touching(box, configuration)
         carrying = {child for child in self._model.links.joints if self._hangs_from(child, link)}
-        may_touch = sorted((touching | carrying | {link}) & set(self._model.robot.links))
-        self._scene = SceneState(grasped.boxes, (*grasped.allowed, *((name, other) for other in may_touch)))
+        may_touch = sorted({*touching, *carrying, link} & set(self._model.robot.links))
+        allowed = (*self._scene.allowed, *((name, other) for other in may_touch))
+        self._scene = SceneState((*self._scene.boxes, box), allowed)
 
     def detach(self, name: str) -> None:
         """Forget a released object."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 from cellc.kinematics import (
     Box,
@@ -21,6 +22,7 @@ from cellc.transforms import Pose, Vector3
 
 _IK_ATTEMPTS = 4
 """Configurations tried before a goal: the straight approach is not possible from every one."""
+_KEPT_SCENES = 4
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,12 +94,16 @@ def plan_motion(model: MotionModel, request: MotionRequest) -> PlannedMotion | P
 
 def build_scene(model: MotionModel, state: SceneState, others: tuple[tuple[str, float], ...]) -> CollisionScene:
     """Return the scene of a request."""
-    return CollisionScene(
-        model.robot,
-        disabled_collisions=(*model.scene.disabled_collisions, *state.allowed),
-        boxes=state.boxes,
-        other_positions=dict(others),
-    )
+    return _scene_of(model, state).with_other_positions(dict(others))
+
+
+@lru_cache(maxsize=_KEPT_SCENES)
+def _scene_of(model: MotionModel, state: SceneState) -> CollisionScene:
+    """Return the scene with all joints outside the group at rest; kept, since motions in a row share it."""
+    if state == SceneState():
+        return model.scene
+    disabled = (*model.scene.disabled_collisions, *state.allowed)
+    return CollisionScene(model.robot, disabled_collisions=disabled, boxes=state.boxes)
 
 
 def _to_goal(
