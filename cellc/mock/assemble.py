@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import partial
 
 from cellc.contract.contract import Contract, ContractFrame, ContractInterface
 from cellc.mock.bus.matching import hears, task_node
 from cellc.mock.bus.topic import Topic
-from cellc.mock.clocks import build_clocks
+from cellc.mock.clocks import TimeJump, build_clocks
 from cellc.mock.control import ControllerManager
 from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.engine.simulation import Simulation
@@ -62,12 +63,19 @@ def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int) -> Plant:
         requests=Requests(),
         progress=Progress(),
     )
-    clocks.listen(plant.buffer.note_jump)
+    clocks.listen(partial(_note_jump, plant))
     images = _add_cameras(plant)
     for name, frame in contract.frames.items():
         if frame.kind == "dynamic" and frame.simulated_parent is not None:
             _add_object(plant, name, frame, images)
     return plant
+
+
+def _note_jump(plant: Plant, jump: TimeJump) -> None:
+    """Let the listener of the task hear of a clock that was set, and the task look at what it waits for."""
+    plant.robot_state_publisher.catch_up(jump.at_ns)
+    plant.buffer.note_jump(jump)
+    plant.requests.changed.fire(jump.at_ns)
 
 
 def _heard(contract: Contract, control: ControlStack, node: str) -> tuple[JointStateHistory, ...]:
@@ -122,10 +130,10 @@ def _add_object(plant: Plant, name: str, frame: ContractFrame, images: Mapping[s
     transform = SampledSource(
         frame.parent, name, frame.authority, frame.buffer_s or DEFAULT_BUFFER_S, plant.buffer.warnings
     )
-    if hears(plant.contract, "/tf", frame.authority, task_node(plant.contract)):
+    if hears(plant.contract, "/tf", frame.authority, plant.task):
         plant.buffer.add(name, transform)
     topic, interface = _pose_topic(plant.contract, frame)
-    inbox = ObservationInbox(interface, plant.clocks.of(task_node(plant.contract)), plant.simulation)
+    inbox = ObservationInbox(interface, plant.clocks.of(plant.task), plant.simulation)
     plant.inboxes[name] = inbox
     if topic is not None and interface is not None and interface.sinks:
         inbox.subscribe(topic, interface.sinks[0].node)

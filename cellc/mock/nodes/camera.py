@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from cellc.contract.contract import ContractCamera
 from cellc.mock.bus.topic import Topic
+from cellc.mock.clocks import Clock
 from cellc.mock.engine.simulation import Simulation
 
 DEFAULT_TRANSPORT_S = 0.005
@@ -14,9 +15,15 @@ DEFAULT_TRANSPORT_S = 0.005
 
 @dataclass(frozen=True, slots=True)
 class Image:
-    """What is known of an image: when its exposure began, and which one it is."""
+    """What is known of an image: when its exposure began, and which one it is.
+
+    Attributes:
+        stamp_ns: begin of the exposure on the clock of the camera.
+        taken_ns: the same in simulated time, which no node knows.
+    """
 
     stamp_ns: int
+    taken_ns: int
     frame: str
     sequence: int
 
@@ -30,7 +37,13 @@ class Camera:
     """
 
     def __init__(
-        self, device: str, facts: ContractCamera, topic: Topic[Image], transport_s: float | None, simulation: Simulation
+        self,
+        device: str,
+        facts: ContractCamera,
+        topic: Topic[Image],
+        transport_s: float | None,
+        clock: Clock,
+        simulation: Simulation,
     ) -> None:
         """Bind the camera to its topic; ``transport_s`` is the time from readout to arrival."""
         self.device = device
@@ -38,6 +51,7 @@ class Camera:
         self.last: Image | None = None
         self._facts = facts
         self._topic = topic
+        self._clock = clock
         self._simulation = simulation
         transport = DEFAULT_TRANSPORT_S if transport_s is None else transport_s
         self._latency_ns = round((facts.exposure_s + transport) * 1e9)
@@ -48,7 +62,8 @@ class Camera:
         rate_hz = self._facts.rate_hz
 
         def deliver(sequence: int) -> None:
-            self._deliver(Image(begun_ns + round(sequence * 1e9 / rate_hz), self._facts.frame, sequence))
+            taken_ns = begun_ns + round(sequence * 1e9 / rate_hz)
+            self._deliver(Image(self._clock.read(taken_ns), taken_ns, self._facts.frame, sequence))
 
         self._simulation.every(begun_ns + self._latency_ns, rate_hz, deliver)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from cellc.contract.contract import ContractInterface
 from cellc.mock.bus.subscription import Subscription
 from cellc.mock.bus.topic import Topic
+from cellc.mock.clocks import Clock
 from cellc.mock.engine.process import Signal
 from cellc.mock.engine.simulation import Simulation
 from cellc.mock.nodes.perception import ObjectPose
@@ -23,13 +24,18 @@ class ObservationInbox:
         on_stale: what the contract says to do with a stale one.
     """
 
-    def __init__(self, interface: ContractInterface | None, simulation: Simulation) -> None:
-        """Bind the inbox to the contract of the topic; None where poses reach the task by /tf alone."""
+    def __init__(self, interface: ContractInterface | None, clock: Clock, simulation: Simulation) -> None:
+        """Bind the inbox to the contract of the topic; None where poses reach the task by /tf alone.
+
+        Args:
+            clock: of the task, on which ages are measured.
+        """
         max_age_s = None if interface is None else interface.max_age_s
         self.arrived = Signal(from_background=True)
         self.newest: ObjectPose | None = None
         self.max_age_s = DEFAULT_MAX_AGE_S if max_age_s is None else max_age_s
         self.on_stale = "reject_goal" if interface is None or interface.on_stale is None else interface.on_stale
+        self._clock = clock
         self._simulation = simulation
         self._subscription: Subscription[ObjectPose] | None = None
 
@@ -38,17 +44,22 @@ class ObservationInbox:
         self._subscription = topic.subscribe(node, self._simulation.now_ns, self._receive)
 
     def age_s(self, stamp_ns: int) -> float:
-        """Return the age of a stamp in seconds."""
-        return (self._simulation.now_ns - stamp_ns) / 1e9
+        """Return the age of a stamp in seconds, negative for one from the future."""
+        return (self._clock.read(self._simulation.now_ns) - stamp_ns) / 1e9
 
     def is_stale(self, stamp_ns: int, allowance_s: float = 0.0) -> bool:
-        """Tell whether a stamp is too old to act on, ``allowance_s`` beyond the bound of the contract."""
-        late_ns = self._simulation.now_ns - round(allowance_s * 1e9)
-        return self.on_stale != "continue" and late_ns >= self.stale_from_ns(stamp_ns)
+        """Tell whether a stamp is too old to act on, ``allowance_s`` beyond the bound of the contract.
+
+        A stamp as far in the future as that bound is none to act on either: a clock was set back.
+        """
+        age_ns = self._clock.read(self._simulation.now_ns) - stamp_ns
+        max_age_ns = round(self.max_age_s * 1e9)
+        too_old = age_ns > max_age_ns + round(allowance_s * 1e9)
+        return self.on_stale != "continue" and (too_old or age_ns < -max_age_ns)
 
     def stale_from_ns(self, stamp_ns: int) -> int:
-        """Return the first nanosecond at which an observation of this stamp is stale."""
-        return stamp_ns + round(self.max_age_s * 1e9) + 1
+        """Return the first simulated instant, from now on, at which an observation of this stamp is too old."""
+        return self._clock.when(stamp_ns + round(self.max_age_s * 1e9) + 1, self._simulation.now_ns)
 
     def describe(self, frame: str) -> str:
         """Say how old the newest observation of ``frame`` is."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from cellc.contract.contract import ContractFrame
 from cellc.mock.bus.subscription import Subscription
+from cellc.mock.clocks import Clock
 from cellc.mock.engine.simulation import Simulation
 from cellc.mock.nodes.camera import Image
 from cellc.mock.tf.sources import SampledSource
@@ -31,7 +32,7 @@ class Perception:
 
     Attributes:
         publishes_transform: cleared by a fault; the pose topic goes on.
-        rejected: images that were too old when their turn came.
+        rejected: images that were too old when their turn came, or stamped as far in the future.
     """
 
     def __init__(
@@ -43,9 +44,14 @@ class Perception:
         publish: Callable[[ObjectPose], None],
         transform: SampledSource,
         world: World,
+        clock: Clock,
         simulation: Simulation,
     ) -> None:
-        """Bind the node that publishes frame ``name``, as a transform and through ``publish``."""
+        """Bind the node that publishes frame ``name``, as a transform and through ``publish``.
+
+        Args:
+            clock: on which the node measures how old an image is.
+        """
         self.publishes_transform = True
         self.rejected = 0
         self._name = name
@@ -55,6 +61,7 @@ class Perception:
         self._publish_pose = publish
         self._transform = transform
         self._world = world
+        self._clock = clock
         self._simulation = simulation
 
     def start(self, rate_hz: float) -> None:
@@ -67,15 +74,16 @@ class Perception:
         if received is None:
             return
         image = received.sample
-        if self._max_image_age_ns is not None and now_ns - image.stamp_ns > self._max_image_age_ns:
+        age_ns = self._clock.read(now_ns) - image.stamp_ns
+        if self._max_image_age_ns is not None and abs(age_ns) > self._max_image_age_ns:
             self.rejected += 1
             return
         self._simulation.at_background(now_ns + round(PROCESSING_S * 1e9), lambda: self._publish(image))
 
     def _publish(self, image: Image) -> None:
         """Publish where the object was, seen from the camera, when the image was taken."""
-        camera = self._world.link_pose(image.frame, image.stamp_ns)
-        pose = camera.inverse() @ self._world.object_pose(self._name, image.stamp_ns)
+        camera = self._world.link_pose(image.frame, image.taken_ns)
+        pose = camera.inverse() @ self._world.object_pose(self._name, image.taken_ns)
         if self.publishes_transform:
             self._transform.insert(image.stamp_ns, pose)
         self._publish_pose(ObjectPose(image.stamp_ns, self._frame.parent, pose))
