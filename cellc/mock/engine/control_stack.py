@@ -5,8 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 
 from cellc.contract.contract import ContractManager
-from cellc.mock.control import ControlEvent, ControllerChanged, ControllerManager, HardwareChanged
+from cellc.mock.control import (
+    ControlEvent,
+    ControllerChanged,
+    ControllerManager,
+    GoalResponse,
+    GripperGoal,
+    HardwareChanged,
+    TrajectoryGoal,
+)
 from cellc.mock.engine.process import Signal
+from cellc.mock.engine.watcher import ControlWatcher, GoalSent
 from cellc.mock.world.joint_states import JointStateHistory
 
 _LOCKSTEP_NS = 10_000_000
@@ -32,6 +41,7 @@ class ControlStack:
         self.unready_hardware: dict[str, str] = {}
         self.histories: dict[tuple[str, str], JointStateHistory] = {}
         self._listeners: list[Callable[[ControlEvent], None]] = []
+        self._watchers: list[ControlWatcher] = []
         self._manager_of = {
             controller: name for name, manager in contracts.items() for controller in manager.controllers
         }
@@ -56,11 +66,25 @@ class ControlStack:
         """Call ``listener`` with every event of every manager, in order."""
         self._listeners.append(listener)
 
+    def watch(self, watcher: ControlWatcher) -> None:
+        """Tell ``watcher`` from now on what is published and asked for."""
+        self._watchers.append(watcher)
+
+    def send_goal(self, controller: str, goal: TrajectoryGoal | GripperGoal) -> GoalResponse:
+        """Send a goal to the action of a controller of the contract."""
+        manager = self.manager_of(controller)
+        response = manager.send_goal(controller, goal)
+        for watcher in self._watchers:
+            watcher.goal_sent(GoalSent(manager.now_ns, controller, goal, response))
+        return response
+
     def subscribe_joint_states(self) -> None:
         """Collect from now on what the broadcasters publish; they must be configured."""
         for (manager, controller), history in self.histories.items():
             self.managers[manager].subscribe_joint_states(controller)
             history.subscribed = True
+        for watcher in self._watchers:
+            watcher.configured()
 
     def advance(self, until_ns: int) -> int:
         """Advance to ``until_ns`` or to the first event before it; return the time reached.
@@ -109,7 +133,10 @@ class ControlStack:
     def _collect(self) -> None:
         for (manager, controller), history in self.histories.items():
             if history.subscribed:
-                history.append(self.managers[manager].take_joint_states(controller))
+                block = self.managers[manager].take_joint_states(controller)
+                history.append(block)
+                for watcher in self._watchers:
+                    watcher.joint_states(manager, controller, block)
 
 
 def _joints(managers: Iterable[ContractManager]) -> frozenset[str]:

@@ -81,6 +81,10 @@ class JointSource:
         if self._gaps and self._gaps[-1][1] is None:
             self._gaps[-1] = (self._gaps[-1][0], now_ns)
 
+    def publishes(self, taken_ns: int) -> bool:
+        """Tell whether the transform of a joint state of this simulated instant was published."""
+        return not any(begin <= taken_ns and (end is None or taken_ns < end) for begin, end in self._gaps)
+
     def stamps(self) -> Sequence[int]:
         """Rising stamps of the stored transforms."""
         cache = self.published.cache
@@ -104,21 +108,21 @@ class JointSource:
 
     def _kept(self) -> list[int]:
         """Return the places of the transforms that were published."""
-        return [
-            index
-            for index, used in enumerate(self.published.cache.values)
-            if not any(begin <= used.taken_ns and (end is None or used.taken_ns < end) for begin, end in self._gaps)
-        ]
+        return [index for index, used in enumerate(self.published.cache.values) if self.publishes(used.taken_ns)]
 
 
 class RobotStatePublisher:
-    """Publishes every edge of the URDF: fixed ones latched on /tf_static, moving ones from joint states on /tf."""
+    """Publishes every edge of the URDF: fixed ones latched on /tf_static, moving ones from joint states on /tf.
+
+    Attributes:
+        links: the edges.
+    """
 
     def __init__(
         self, links: LinkTree, histories: Iterable[JointStateHistory], rate_hz: float, buffer_s: float, clocks: Clocks
     ) -> None:
         """Bind the node; a joint is taken from the first broadcaster that reports it."""
-        self._links = links
+        self.links = links
         self._published = tuple(
             PublishedStates(history, rate_hz, buffer_s, clocks.of(history.broadcaster)) for history in histories
         )
@@ -132,7 +136,7 @@ class RobotStatePublisher:
             hears_static: the listener is connected on /tf_static.
             hears_moving: the listener is connected on /tf.
         """
-        for child, joint in self._links.joints.items():
+        for child, joint in self.links.joints.items():
             source = self._source_of(joint)
             if source is not None and (hears_moving if joint.moves else hears_static):
                 buffer.add(child, source)
@@ -156,6 +160,10 @@ class RobotStatePublisher:
         """Publish a dropped link again."""
         if child in self._moving:
             self._moving[child].resume(now_ns)
+
+    def publishes(self, child: str, taken_ns: int) -> bool:
+        """Tell whether the transform of a moving link was published for a joint state of a simulated instant."""
+        return child not in self._moving or self._moving[child].publishes(taken_ns)
 
     def _warn(self, published: PublishedStates) -> None:
         """Log what the listener refused: one line for each link that moves, as tf2 does."""

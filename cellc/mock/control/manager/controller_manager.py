@@ -286,11 +286,12 @@ class ControllerManager:
         assert isinstance(found, JointStateBroadcaster), f"{name} is no joint state broadcaster"
         return found
 
-    def record(self, controller: str, rate_hz: float) -> None:
-        """Record a trajectory controller from now on, thinned to a rate."""
+    def record(self, controller: str, rate_hz: float) -> Recorder:
+        """Record a trajectory controller from now on, thinned to a rate; return what records it."""
         self._touch()
         found = self._trajectory_controller(controller)
-        found.recorder = Recorder(found.interfaces.joints, round(1e9 / rate_hz))
+        found.recorder = Recorder(found.interfaces, round(1e9 / rate_hz))
+        return found.recorder
 
     def recording(self, controller: str) -> Recording:
         """What was recorded of a trajectory controller."""

@@ -1,12 +1,13 @@
-"""Records the state of the controller, thinned to a told rate, for plots."""
+"""Records the state of the controller, thinned to a told rate, for plots and bags."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
 from cellc.mock.control.block import Block
+from cellc.mock.control.controllers.joint_trajectory.interfaces import JointInterfaces
 from cellc.mock.control.controllers.joint_trajectory.motion import Samples
 from cellc.mock.control.interfaces import Array, Columns, Times
 
@@ -21,7 +22,10 @@ class Recording:
         desired: desired positions, shape (m, joints).
         desired_velocity: desired velocities.
         actual: measured positions.
+        actual_velocity: measured velocities, NaN where the controller does not read them.
+        error: desired - actual, for continuous joints the shortest way round.
         command: commanded values of the first command interface, after limits.
+        scaling: speed scaling factor, shape (m,).
     """
 
     stamps_ns: Times
@@ -29,23 +33,55 @@ class Recording:
     desired: Array
     desired_velocity: Array
     actual: Array
+    actual_velocity: Array
+    error: Array
     command: Array
+    scaling: Array
 
 
 class Recorder:
     """Collects the updates of a controller.
 
     Args:
-        joints: names of the joints.
+        interfaces: of the controller.
         period_ns: time between two records at least.
     """
 
-    def __init__(self, joints: tuple[str, ...], period_ns: int) -> None:
-        self._joints = joints
+    def __init__(self, interfaces: JointInterfaces, period_ns: int) -> None:
+        self._interfaces = interfaces
         self._period_ns = period_ns
         self._next_ns = 0
-        self._stamps: list[Times] = []
-        self._values: list[tuple[Array, Array, Array, Array]] = []
+        self._kept: list[Recording] = []
+
+    def add_update(self, time_ns: int, samples: Samples, state: Array, command: Array, factor: float) -> None:
+        """Record one update; ``state`` has all state interfaces, ``command`` those of the first kind."""
+        times = np.array([time_ns], dtype=np.int64)
+        if len(self._due(times)):
+            self._keep(times, samples, np.array([0]), state[None, :], command[None, :], factor)
+
+    def add_block(self, block: Block, start: int, samples: Samples, command: Columns, factor: float) -> None:
+        """Record a block from `start` on; `command` are columns of its commands."""
+        rows = self._due(block.times_ns[start:]) + start
+        if len(rows):
+            self._keep(
+                block.times_ns[rows], samples, rows, block.state[rows], block.command[np.ix_(rows, command)], factor
+            )
+
+    def recording(self) -> Recording:
+        """Return everything that was recorded and not taken."""
+        if not self._kept:
+            empty = np.empty((0, len(self._interfaces.joints)))
+            stamps = np.empty(0, dtype=np.int64)
+            return Recording(stamps, self._interfaces.joints, empty, empty, empty, empty, empty, empty, np.empty(0))
+        names = [field.name for field in fields(Recording) if field.name != "joints"]
+        columns = {name: np.concatenate([getattr(kept, name) for kept in self._kept]) for name in names}
+        return Recording(joints=self._interfaces.joints, **columns)
+
+    def take(self) -> Recording:
+        """Hand over what was recorded since the last time."""
+        recording = self.recording()
+        self._kept.clear()
+        return recording
 
     def _due(self, times_ns: Times) -> Columns:
         """Rows that are recorded: in each record period the first update."""
@@ -58,31 +94,22 @@ class Recorder:
         self._next_ns = int(slots[-1] + 1) * self._period_ns
         return np.flatnonzero(first)
 
-    def add_update(self, time_ns: int, samples: Samples, actual: Array, command: Array) -> None:
-        """Record one update."""
-        times = np.array([time_ns], dtype=np.int64)
-        if len(self._due(times)):
-            self._stamps.append(times)
-            rows = (samples.desired[:1], samples.desired_velocity[:1], actual[None, :], command[None, :])
-            self._values.append(rows)
-
-    def add_block(self, block: Block, start: int, samples: Samples, actual: Columns, command: Columns) -> None:
-        """Record a block from `start` on; `actual` and `command` are columns of its states and commands."""
-        rows = self._due(block.times_ns[start:]) + start
-        if len(rows):
-            self._stamps.append(block.times_ns[rows])
-            values = (
-                samples.desired[rows],
-                samples.desired_velocity[rows],
-                block.state[np.ix_(rows, actual)],
-                block.command[np.ix_(rows, command)],
+    def _keep(
+        self, times_ns: Times, samples: Samples, rows: Columns, state: Array, command: Array, factor: float
+    ) -> None:
+        places = self._interfaces.states
+        desired, actual = samples.desired[rows], state[:, places["position"]]
+        velocity = state[:, places["velocity"]] if "velocity" in places else np.full(actual.shape, np.nan)
+        self._kept.append(
+            Recording(
+                stamps_ns=times_ns,
+                joints=self._interfaces.joints,
+                desired=desired,
+                desired_velocity=samples.desired_velocity[rows],
+                actual=actual,
+                actual_velocity=velocity,
+                error=self._interfaces.difference(desired, actual),
+                command=command,
+                scaling=np.full(len(times_ns), factor),
             )
-            self._values.append(values)
-
-    def recording(self) -> Recording:
-        """Everything recorded so far."""
-        if not self._stamps:
-            empty = np.empty((0, len(self._joints)))
-            return Recording(np.empty(0, dtype=np.int64), self._joints, empty, empty, empty, empty)
-        columns = [np.concatenate([values[index] for values in self._values]) for index in range(4)]
-        return Recording(np.concatenate(self._stamps), self._joints, *columns)
+        )
