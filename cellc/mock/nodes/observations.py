@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from cellc.contract.contract import ContractInterface
 from cellc.mock.bus.subscription import Subscription
 from cellc.mock.bus.topic import Topic
@@ -38,6 +40,11 @@ class ObservationInbox:
         self._clock = clock
         self._simulation = simulation
         self._subscription: Subscription[ObjectPose] | None = None
+        self._listeners: list[Callable[[ObjectPose], None]] = []
+
+    def listen(self, listener: Callable[[ObjectPose], None]) -> None:
+        """Call ``listener`` with every pose that reaches the task."""
+        self._listeners.append(listener)
 
     def subscribe(self, topic: Topic[ObjectPose], node: str) -> None:
         """Subscribe as a node of the contract."""
@@ -72,6 +79,8 @@ class ObservationInbox:
         """Take note of a pose that has reached the task."""
         self.newest = pose
         self.arrived.fire(self._simulation.now_ns)
+        for listener in self._listeners:
+            listener(pose)
 
     def _receive(self) -> None:
         received = None if self._subscription is None else self._subscription.take(self._simulation.now_ns)

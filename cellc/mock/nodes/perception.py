@@ -27,6 +27,10 @@ class ObjectPose:
     pose: Pose
 
 
+PoseListener = Callable[[ObjectPose, bool], None]
+"""Takes a published pose, and whether it was published as a transform too."""
+
+
 class Perception:
     """Finds one object in the images of one camera.
 
@@ -63,6 +67,11 @@ class Perception:
         self._world = world
         self._clock = clock
         self._simulation = simulation
+        self._listeners: list[PoseListener] = []
+
+    def listen(self, listener: PoseListener) -> None:
+        """Call ``listener`` with every pose that is published, and whether its transform is too."""
+        self._listeners.append(listener)
 
     def start(self, rate_hz: float) -> None:
         """Take an image at every tick from now on."""
@@ -86,4 +95,7 @@ class Perception:
         pose = camera.inverse() @ self._world.object_pose(self._name, image.taken_ns)
         if self.publishes_transform:
             self._transform.insert(image.stamp_ns, pose)
-        self._publish_pose(ObjectPose(image.stamp_ns, self._frame.parent, pose))
+        published = ObjectPose(image.stamp_ns, self._frame.parent, pose)
+        self._publish_pose(published)
+        for listener in self._listeners:
+            listener(published, self.publishes_transform)
