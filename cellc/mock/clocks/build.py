@@ -2,21 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
-from cellc.contract.contract import Contract, ContractClock
+from cellc.contract.contract import ContractClock
 from cellc.mock.clocks.clock import Clock, Segment
 from cellc.mock.clocks.clocks import Clocks
 
 
-def build_clocks(contract: Contract, now_ns: Callable[[], int]) -> Clocks:
-    """Return the clocks of a cell as they are when it is switched on."""
-    clocks = {name: _clock(name, entry) for name, entry in contract.clocks.items()}
-    known = {node: clock for node, clock in contract.clock_of.items() if clock in clocks}
-    return Clocks(clocks, known, now_ns)
+def build_clocks(
+    declared: Mapping[str, ContractClock], clock_of: Mapping[str, str], now_ns: Callable[[], int]
+) -> Clocks:
+    """Return the clocks of a cell as they are when it is switched on.
+
+    Args:
+        declared: clocks of the contract by name.
+        clock_of: clock of each node, controller and device; one that is not declared counts as not stated.
+        now_ns: the simulated time.
+    """
+    clocks = {name: clock_from(name, entry) for name, entry in declared.items()}
+    return Clocks(clocks, {node: clock for node, clock in clock_of.items() if clock in clocks}, now_ns)
 
 
-def _clock(name: str, entry: ContractClock) -> Clock:
+def clock_from(name: str, entry: ContractClock) -> Clock:
     """Return a clock that starts at its offset and drifts; one that is disciplined drifts no further than its bound.
 
     A stated offset beyond the bound stays: that is a discipline that failed before the rehearsal began.
