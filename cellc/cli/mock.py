@@ -10,12 +10,42 @@ import click
 @click.option(
     "--rehearsal", "names", multiple=True, metavar="NAME", help="Run only this one; may be given several times."
 )
+@click.option("--campaign", is_flag=True, help="Run every fault at every step, and print the matrix.")
+@click.option("--pairs", default=0, metavar="N", help="With --campaign: N runs more, with two faults each.")
+@click.option("--jobs", type=int, metavar="N", help="With --campaign: processes; as many as cores by default.")
+@click.option("--list", "list_only", is_flag=True, help="Print the runs of the campaign, and run none.")
+@click.option(
+    "--replay", "replayed", multiple=True, metavar="RUN", help="Run one run of the campaign alone; repeatable."
+)
 @click.option("--json", "as_json", is_flag=True, help="Write the results as JSON.")
 @click.option("--records", type=click.Path(path_type=str, dir_okay=False), help="Write attempt records as JSON lines.")
-@click.option("--seed", default=0, show_default=True, help="Seed of planning and of seeded faults.")
-def mock(folder: str, names: tuple[str, ...], as_json: bool, records: str | None, seed: int) -> None:
+@click.option("--seed", default=0, show_default=True, help="Seed of planning, of seeded faults and of pairs.")
+def mock(
+    folder: str,
+    names: tuple[str, ...],
+    campaign: bool,
+    pairs: int,
+    jobs: int | None,
+    list_only: bool,
+    replayed: tuple[str, ...],
+    as_json: bool,
+    records: str | None,
+    seed: int,
+) -> None:
     """Execute the rehearsals of the generated FOLDER; exit 1 where one does not end as it should."""
     # Planning libraries load only for this command.
+    from cellc.mock.campaign.command import CampaignOptions, list_runs, replay_runs, run_campaign
     from cellc.mock.command import run_command
 
-    raise click.exceptions.Exit(run_command(folder, names=names, as_json=as_json, records=records, seed=seed))
+    if names and (campaign or list_only or replayed):
+        raise click.UsageError("--rehearsal runs declared rehearsals; it does not go with the options of the campaign.")
+    options = CampaignOptions(seed=seed, jobs=jobs, pairs=pairs, as_json=as_json, records=records)
+    if list_only:
+        code = list_runs(folder, options)
+    elif replayed:
+        code = replay_runs(folder, replayed, options)
+    elif campaign:
+        code = run_campaign(folder, options)
+    else:
+        code = run_command(folder, names=names, as_json=as_json, records=records, seed=seed)
+    raise click.exceptions.Exit(code)

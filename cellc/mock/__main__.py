@@ -14,6 +14,13 @@ def main() -> int:
         prog="python -m cellc.mock", description="Run the rehearsals of a generated folder."
     )
     parser.add_argument("folder", help="folder that `cellc build` wrote")
+    parser.add_argument("--campaign", action="store_true", help="run every fault at every step, and print the matrix")
+    parser.add_argument("--pairs", type=int, default=0, metavar="N", help="with --campaign: runs with two faults each")
+    parser.add_argument("--jobs", type=int, metavar="N", help="with --campaign: processes, as many as cores by default")
+    parser.add_argument("--list", action="store_true", help="print the runs of the campaign, and run none")
+    parser.add_argument(
+        "--replay", action="append", default=[], metavar="RUN", help="run this run of the campaign alone; repeatable"
+    )
     parser.add_argument("--json", action="store_true", help="print a JSON summary")
     parser.add_argument(
         "--rehearsal", action="append", default=[], metavar="NAME", help="run this one only; repeatable"
@@ -21,12 +28,37 @@ def main() -> int:
     parser.add_argument("--records", metavar="FILE", help="write the attempt records as JSON lines")
     parser.add_argument("--seed", type=int, default=0, help="seed of everything drawn (default 0)")
     options = parser.parse_args()
+    in_campaign = options.campaign or options.list or options.replay
+    if options.rehearsal and in_campaign:
+        parser.error("--rehearsal runs declared rehearsals; it does not go with the options of the campaign")
     # Imported here, so that Ctrl-C while the planning libraries load ends without a traceback too.
+    return _run_campaign(options) if in_campaign else _run_rehearsals(options)
+
+
+def _run_rehearsals(options: argparse.Namespace) -> int:
     from cellc.mock.command import run_command
 
     return run_command(
         options.folder, names=options.rehearsal, as_json=options.json, records=options.records, seed=options.seed
     )
+
+
+def _run_campaign(options: argparse.Namespace) -> int:
+    from cellc.mock.campaign.command import CampaignOptions, list_runs, replay_runs, run_campaign
+
+    asked = CampaignOptions(
+        program="python -m cellc.mock",
+        seed=options.seed,
+        jobs=options.jobs,
+        pairs=options.pairs,
+        as_json=options.json,
+        records=options.records,
+    )
+    if options.list:
+        return list_runs(options.folder, asked)
+    if options.replay:
+        return replay_runs(options.folder, options.replay, asked)
+    return run_campaign(options.folder, asked)
 
 
 def _discard_output() -> None:

@@ -24,6 +24,11 @@ class MockCell:
         self._memory = memory
 
     @property
+    def folder(self) -> GeneratedFolder:
+        """What was read of the generated folder."""
+        return self._folder
+
+    @property
     def contract(self) -> Contract:
         """The contract of the cell."""
         return self._folder.contract
@@ -70,9 +75,17 @@ def load(folder: Path) -> MockCell:
     Raises:
         MockError: the folder cannot be executed; names the file and the reason.
     """
-    read = read_folder(folder)
-    links = read_links(read.urdf, read.contract.files.urdf_mock)
-    return MockCell(read, PlanMemory(build_motion_model(read.contract, read.urdf, links)))
+    return cell_of(read_folder(folder))
+
+
+def cell_of(folder: GeneratedFolder) -> MockCell:
+    """Make a folder that was read ready to be executed.
+
+    Raises:
+        MockError: its parts do not fit together.
+    """
+    links = read_links(folder.urdf, folder.contract.files.urdf_mock)
+    return MockCell(folder, PlanMemory(build_motion_model(folder.contract, folder.urdf, links)))
 
 
 def run_all(cell: MockCell, *, seed: int = 0) -> tuple[RehearsalResult, ...]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -12,6 +11,7 @@ from cellc.mock.cell import MockCell, load
 from cellc.mock.errors import MockError
 from cellc.mock.record import to_json_lines
 from cellc.mock.summary import TimedResult, to_lines, to_summary_json
+from cellc.mock.write_text import write_text
 
 
 def run_command(
@@ -34,7 +34,7 @@ def run_command(
         cell = load(Path(folder))
         timed = _run(cell, tuple(names) or cell.rehearsals, seed)
         if records is not None:
-            _write(Path(records), to_json_lines(record for each in timed for record in each.result.attempts))
+            write_text(Path(records), to_json_lines(record for each in timed for record in each.result.attempts))
     except MockError as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
@@ -60,23 +60,3 @@ def _run(cell: MockCell, names: Sequence[str], seed: int) -> list[TimedResult]:
     if on_terminal:
         print("\r\x1b[K", end="", file=sys.stderr, flush=True)
     return timed
-
-
-def _write(path: Path, text: str) -> None:
-    """Write a file whole or not at all; a pipe or a device such as ``/dev/stdout`` is written to, not replaced."""
-    try:
-        if path.exists() and not path.is_file():
-            path.write_bytes(text.encode())
-        else:
-            _replace(Path(os.path.realpath(path)), text)
-    except OSError as error:
-        raise MockError(path.as_posix(), f"cannot be written: {(error.strerror or 'unknown reason').lower()}") from None
-
-
-def _replace(path: Path, text: str) -> None:
-    part = path.with_name(f".{path.name}.part")
-    try:
-        part.write_bytes(text.encode())
-        os.replace(part, path)
-    finally:
-        part.unlink(missing_ok=True)

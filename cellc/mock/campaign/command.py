@@ -1,0 +1,159 @@
+"""The command behind ``--campaign``, ``--list`` and ``--replay``: plan, run, report, and say how it went."""
+
+from __future__ import annotations
+
+import shlex
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+from time import perf_counter
+
+from cellc.diagnostics import nearest
+from cellc.mock.campaign.campaign import Campaign, conduct, make_plan
+from cellc.mock.campaign.plan import CampaignPlan
+from cellc.mock.campaign.run import CampaignRun
+from cellc.mock.campaign.text import campaign_lines, end_lines
+from cellc.mock.campaign.to_json import campaign_json
+from cellc.mock.campaign.workers import usable_cores
+from cellc.mock.cell import MockCell, load
+from cellc.mock.errors import MockError
+from cellc.mock.faults.possible import possible_faults
+from cellc.mock.record import to_json_lines
+from cellc.mock.write_text import write_text
+
+
+@dataclass(frozen=True, slots=True)
+class CampaignOptions:
+    """What the command line asks for.
+
+    Attributes:
+        program: how the command was called, for the commands that replay a run.
+        seed: of planning, of seeded faults, and of the choice of pairs.
+        jobs: processes; None for as many as there are cores.
+        pairs: number of runs with two faults.
+        records: file that the attempt records of all runs are written to, as JSON lines.
+    """
+
+    program: str = "cellc mock"
+    seed: int = 0
+    jobs: int | None = None
+    pairs: int = 0
+    as_json: bool = False
+    records: str | None = None
+
+
+Choice = Callable[[CampaignPlan], Sequence[CampaignRun]]
+
+
+def run_campaign(folder: str, options: CampaignOptions) -> int:
+    """Run every fault at every step, and pairs; print the matrix.
+
+    Returns:
+        0 where every run ended in a named outcome within bounds and limits, 1 where one did not, 2 where the folder or
+        an option is unusable.
+    """
+
+    def all_runs(plan: CampaignPlan) -> Sequence[CampaignRun]:
+        return (*plan.singles(), *plan.pairs(options.pairs, options.seed))
+
+    try:
+        cell = _load(folder, options)
+        campaign = _conduct(cell, all_runs, options)
+    except (MockError, KeyboardInterrupt) as stop:
+        return _stopped(stop)
+    replay = partial(_replay_command, folder, options)
+    if options.as_json:
+        print(campaign_json(campaign, cell.notes, replay))
+    else:
+        print("\n".join((*(f"note: {note}" for note in cell.notes), *campaign_lines(campaign, replay))))
+    return 0 if campaign.passed else 1
+
+
+def replay_runs(folder: str, identifiers: Sequence[str], options: CampaignOptions) -> int:
+    """Run some runs of a campaign alone; they end as they did in it, to the last bit."""
+
+    def named_runs(plan: CampaignPlan) -> Sequence[CampaignRun]:
+        return [_found(plan, identifier) for identifier in identifiers]
+
+    try:
+        cell = _load(folder, options)
+        campaign = _conduct(cell, named_runs, replace(options, jobs=1))
+    except (MockError, KeyboardInterrupt) as stop:
+        return _stopped(stop)
+    replay = partial(_replay_command, folder, options)
+    if options.as_json:
+        print(campaign_json(replace(campaign, baselines=()), cell.notes, replay))
+    else:
+        print("\n".join(line for end in campaign.ends for line in end_lines(end, replay(end.run.identifier))))
+    return 0 if all(end.passed for end in campaign.ends) else 1
+
+
+def list_runs(folder: str, options: CampaignOptions) -> int:
+    """Print the identifiers of the runs of a campaign; only the rehearsals without faults are run."""
+    try:
+        cell = _load(folder, options)
+        plan, _ = make_plan(cell, possible_faults(cell.contract), options.seed)
+    except (MockError, KeyboardInterrupt) as stop:
+        return _stopped(stop)
+    for run in (*plan.singles(), *plan.pairs(options.pairs, options.seed)):
+        print(run.identifier)
+    return 0
+
+
+def _load(folder: str, options: CampaignOptions) -> MockCell:
+    for name, value, least in (
+        ("seed", options.seed, 0),
+        ("number of pairs", options.pairs, 0),
+        ("jobs", options.jobs, 1),
+    ):
+        if value is not None and value < least:
+            raise MockError("", f"the {name} is {value}; it must be {least} or greater")
+    return load(Path(folder))
+
+
+def _conduct(cell: MockCell, choose: Choice, options: CampaignOptions) -> Campaign:
+    begun = perf_counter()
+    plan, baselines = make_plan(cell, possible_faults(cell.contract), options.seed)
+    runs = choose(plan)
+    jobs = usable_cores() if options.jobs is None else options.jobs
+    campaign = conduct(cell, runs, baselines, seed=options.seed, jobs=jobs, progress=_tell_progress)
+    if options.records is not None:
+        attempts = (record for end in campaign.all_ends for record in end.result.attempts)
+        write_text(Path(options.records), to_json_lines(attempts))
+    _end_progress(f"{len(runs)} runs in {perf_counter() - begun:.1f} s, {jobs} processes")
+    return campaign
+
+
+def _found(plan: CampaignPlan, identifier: str) -> CampaignRun:
+    run = plan.find(identifier)
+    if run is not None:
+        return run
+    known = [run.identifier for run in plan.singles()]
+    close = ", ".join(f"`{name}`" for name in nearest(identifier, known))
+    hint = f"; the nearest are {close}" if close else "; --list prints all"
+    raise MockError("", f"there is no run `{identifier}`{hint}")
+
+
+def _replay_command(folder: str, options: CampaignOptions, identifier: str) -> str:
+    seed = f" --seed {options.seed}" if options.seed else ""
+    return f"{options.program} {shlex.quote(folder)} --replay {shlex.quote(identifier)}{seed}"
+
+
+def _tell_progress(done: int, total: int, failed: int) -> None:
+    if sys.stderr.isatty():
+        text = f"run {done} of {total}" + (f", {failed} failed" if failed else "")
+        print(f"\r\x1b[K{text}", end="", file=sys.stderr, flush=True)
+
+
+def _end_progress(text: str) -> None:
+    if sys.stderr.isatty():
+        print(f"\r\x1b[K{text}", file=sys.stderr, flush=True)
+
+
+def _stopped(stop: BaseException) -> int:
+    text = "interrupted; no records were written" if isinstance(stop, KeyboardInterrupt) else str(stop)
+    _end_progress("")
+    print(f"error: {text}", file=sys.stderr)
+    return 2

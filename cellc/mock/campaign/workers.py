@@ -1,0 +1,133 @@
+"""Spreads runs over processes; what comes out does not depend on how many there are."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import signal
+import sys
+import threading
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from multiprocessing.connection import Connection, wait
+from multiprocessing.process import BaseProcess
+
+from cellc.mock.campaign.execute import execute
+from cellc.mock.campaign.run import CampaignRun, RunEnd
+from cellc.mock.cell import MockCell, cell_of
+from cellc.mock.errors import MockError
+from cellc.mock.folder import GeneratedFolder
+
+Numbered = tuple[int, RunEnd]
+
+
+@dataclass(frozen=True, slots=True)
+class Assignment:
+    """What every worker knows before the first run."""
+
+    folder: GeneratedFolder
+    runs: tuple[CampaignRun, ...]
+    seed: int
+
+
+def usable_cores() -> int:
+    """Return how many cores this process may use."""
+    if sys.platform == "linux":
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def run_here(cell: MockCell, assignment: Assignment) -> Iterator[Numbered]:
+    """Execute the runs in this process, in order."""
+    for number, run in enumerate(assignment.runs):
+        yield number, execute(cell, run, assignment.seed)
+
+
+def run_in_workers(assignment: Assignment, jobs: int) -> Iterator[Numbered]:
+    """Execute the runs in so many processes; yields numbered ends as they come, every run once.
+
+    Each worker is told its next run when it has ended one. Workers end when this generator does, however it does.
+
+    Raises:
+        MockError: a run cannot be executed, or a worker ended by itself.
+    """
+    workers = [_start(assignment) for _ in range(min(jobs, len(assignment.runs)))]
+    try:
+        yield from _deal(workers, assignment)
+    finally:
+        for process, connection in workers:
+            connection.close()
+            process.terminate()
+        for process, _ in workers:
+            process.join()
+
+
+def _deal(workers: Sequence[tuple[BaseProcess, Connection]], assignment: Assignment) -> Iterator[Numbered]:
+    busy: dict[Connection, int] = {}
+    waiting = iter(range(len(assignment.runs)))
+    for _, connection in workers:
+        busy[connection] = next(waiting)
+        connection.send(busy[connection])
+    while busy:
+        for ready in wait(list(busy)):
+            assert isinstance(ready, Connection)  # nothing else is waited for
+            number = busy.pop(ready)
+            end = _received(ready, assignment.runs[number])
+            following = next(waiting, None)
+            if following is not None:
+                busy[ready] = following
+                ready.send(following)
+            yield number, end
+
+
+def _received(connection: Connection, run: CampaignRun) -> RunEnd:
+    try:
+        answer = connection.recv()
+    except (EOFError, OSError):
+        raise MockError("", f"the process that ran `{run.identifier}` ended by itself") from None
+    if isinstance(answer, tuple):
+        raise MockError(*answer)
+    assert isinstance(answer, RunEnd)  # a worker sends one of the two
+    return answer
+
+
+def _start(assignment: Assignment) -> tuple[BaseProcess, Connection]:
+    """Start a worker in a fresh interpreter, so that it has nothing from this one on any platform."""
+    context = multiprocessing.get_context("spawn")
+    here, there = context.Pipe()
+    process = context.Process(target=_work, args=(there, assignment), daemon=True)
+    with _deaf_to_interrupts():
+        process.start()
+    there.close()
+    return process, here
+
+
+@contextmanager
+def _deaf_to_interrupts() -> Iterator[None]:
+    """Let a child that is started meanwhile ignore Ctrl-C from its first instruction; its parent ends it.
+
+    Only the main thread may change what a signal does; a child of another thread learns it in ``_work``.
+    """
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def _work(connection: Connection, assignment: Assignment) -> None:
+    """Execute the runs whose numbers arrive until the connection closes."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        cell = cell_of(assignment.folder)
+        while True:
+            number = connection.recv()
+            connection.send(execute(cell, assignment.runs[number], assignment.seed))
+    except MockError as error:
+        connection.send((error.file, error.reason))
+    except (EOFError, OSError):
+        pass  # nobody listens any more
