@@ -43,7 +43,7 @@ def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int) -> Plant:
     control = ControlStack(_managers(folder), contract.managers, horizon_s)
     simulation = Simulation(control)
     task = task_node(contract)
-    clocks = build_clocks(contract, lambda: simulation.now_ns)
+    clocks = build_clocks(contract.clocks, contract.clock_of, lambda: simulation.now_ns)
     heard_by_publisher = _heard(contract, control, ROBOT_STATE_PUBLISHER)
     published = RobotStatePublisher(memory.model.links, heard_by_publisher, PUBLISH_FREQUENCY_HZ, horizon_s, clocks)
     plant = Plant(
