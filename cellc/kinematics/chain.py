@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import math
 from dataclasses import dataclass
 
@@ -12,6 +13,7 @@ from cellc.kinematics.limits import Array, PlanningGroup
 from cellc.kinematics.mimic import Mimic
 from cellc.kinematics.model import PinTransform, RobotModel
 from cellc.kinematics.scene import CollisionScene
+from cellc.kinematics.sweep import sweep_rates
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,11 +55,11 @@ class GroupChain:
     def __init__(self, group: PlanningGroup, scene: CollisionScene) -> None:
         """Bind a group to a scene; ModelError where a joint or link of the group does not exist."""
         model = scene.model
-        self.scene = scene
         self.turning = np.array([model.is_turning(joint) for joint in group.joints])
         self._model = model.kinematics
         self._data = model.kinematics.createData()
-        self._tip = model.frame_of(group.tip_link)
+        self._joints = group.joints
+        self._base, self._tip = model.frame_of(group.base_link), model.frame_of(group.tip_link)
         driven = _driven_joints(model, group)
         plain = [joint for joint in driven if joint.width == 1]
         self._plain_from = np.array([joint.column for joint in plain], dtype=np.intp)
@@ -69,9 +71,22 @@ class GroupChain:
         self._speeds = np.zeros((self._model.nv, len(group.joints)))
         for joint in driven:
             self._speeds[joint.row, joint.column] = joint.multiplier
+        self._shape_rates = sweep_rates(model, group.joints, model.geometry.geometryObjects)
+        self._bind(scene)
+
+    def _bind(self, scene: CollisionScene) -> None:
+        self.scene = scene
         self._rest = scene.rest_configuration()
         pinocchio.framesForwardKinematics(self._model, self._data, self._rest)
-        self.transform_base_to_world: PinTransform = self._data.oMf[model.frame_of(group.base_link)].copy()
+        self.transform_base_to_world: PinTransform = self._data.oMf[self._base].copy()
+        box_rates = sweep_rates(scene.model, self._joints, scene.box_shapes())
+        self._rates = np.vstack((self._shape_rates, box_rates))
+
+    def in_scene(self, scene: CollisionScene) -> GroupChain:
+        """Return the chain of the same group in another scene of the same model."""
+        chain = copy.copy(self)  # what is computed in the shared data is never kept
+        chain._bind(scene)
+        return chain
 
     def full(self, configuration: Array) -> Array:
         """Return pinocchio's configuration of the whole cell for one of the group."""
@@ -81,6 +96,10 @@ class GroupChain:
             angle = joint.multiplier * configuration[joint.column] + joint.offset
             vector[joint.place], vector[joint.place + 1] = math.cos(angle), math.sin(angle)
         return vector
+
+    def sweep_m(self, difference: Array) -> float:
+        """Bound how far any point of the cell moves while the group moves by a difference of configurations."""
+        return float(np.max(self._rates @ np.abs(difference), initial=0.0))
 
     def tip(self, configuration: Array) -> PinTransform:
         """Return the transform of the tip to the world."""

@@ -10,20 +10,20 @@ import numpy as np
 from cellc.kinematics.chain import GroupChain
 from cellc.kinematics.limits import Array
 
-# Largest step of any joint between two checked configurations: turned alone, a joint moves a tip 1 m away by 10 mm from
-# one check to the next, so that no point is farther than 5 mm from a place where it was checked.
-EDGE_RESOLUTION_RAD = 0.01
+# No point of the cell moves farther between two checked configurations, so none is farther than half of it from a place
+# where it was checked.
+EDGE_RESOLUTION_M = 0.01
+# Where a bound is as large as the axis of a transport unit, the checks are no closer than this.
+_LEAST_STEP_RAD = 0.001
 
 
-def edge_is_free(chain: GroupChain, start: Array, goal: Array, resolution: float = EDGE_RESOLUTION_RAD) -> bool:
-    """Tell whether the inside and the goal of an edge are free of collision; the start is taken as checked.
-
-    Args:
-        resolution: largest step of any joint between two checks, rad or metres.
-    """
-    count = max(1, math.ceil(float(np.max(np.abs(goal - start))) / resolution))
-    difference = (goal - start) / count
-    return not any(chain.collides(start + step * difference) for step in _coarse_first(count))
+def edge_is_free(chain: GroupChain, start: Array, goal: Array) -> bool:
+    """Tell whether the inside and the goal of an edge are free of collision; the start is taken as checked."""
+    difference = goal - start
+    wanted = chain.sweep_m(difference) / EDGE_RESOLUTION_M
+    count = max(1, math.ceil(min(wanted, float(np.max(np.abs(difference))) / _LEAST_STEP_RAD)))
+    step = difference / count
+    return not any(chain.collides(start + index * step) for index in _coarse_first(count))
 
 
 def _coarse_first(count: int) -> Iterator[int]:

@@ -21,6 +21,7 @@ PinModel = Any
 PinData = Any
 PinGeometry = Any
 PinTransform = Any
+PinShape = Any
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Sequence
 from itertools import pairwise
 
@@ -47,13 +48,18 @@ class Planner:
         self.model = model
         self.group = group
         self.limits = limits
-        self.scene = CollisionScene(model) if scene is None else scene
-        self._chain = GroupChain(group, self.scene)
-        self._base_in_world = to_pose(self._chain.transform_base_to_world)
+        self._bind(GroupChain(group, CollisionScene(model) if scene is None else scene))
+
+    def _bind(self, chain: GroupChain) -> None:
+        self.scene = chain.scene
+        self._chain = chain
+        self._base_in_world = to_pose(chain.transform_base_to_world)
 
     def in_scene(self, scene: CollisionScene) -> Planner:
-        """Return the planner of the same group in another scene."""
-        return Planner(self.model, self.group, self.limits, scene)
+        """Return the planner of the same group in another scene of the same model."""
+        planner = copy.copy(self)
+        planner._bind(self._chain.in_scene(scene))
+        return planner
 
     def tip_pose(self, configuration: Sequence[float]) -> Pose:
         """Return the pose of the tip link in the frame of the group's base link."""
@@ -89,7 +95,7 @@ class Planner:
     ) -> JointPath | PlanFailure:
         """Plan by the straight edge in joint space where it is free, else by RRT-Connect and shortcuts.
 
-        Edges are checked every 0.01 rad of the joint that moves farthest.
+        Edges are checked so often that no point of the cell moves farther than 10 mm between two checks.
         """
         first, last = _array(start), _array(goal)
         failure = self._refuse_ends(first, last)

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
 import pinocchio
 
 from cellc.kinematics.failure import ModelError
 from cellc.kinematics.limits import Array
-from cellc.kinematics.model import RobotModel
+from cellc.kinematics.model import PinShape, RobotModel
 from cellc.kinematics.shapes import Box, LinkPair, movable_pairs, ordered, with_boxes
 from cellc.transforms import Pose, Vector3
+
+# Up to so many shapes comparing all bounding boxes with each other takes less time than keeping a tree of them.
+_FEW_SHAPES = 64
 
 
 class CollisionScene:
@@ -49,10 +52,13 @@ class CollisionScene:
         self._geometry.setCollisionPairs(movable_pairs(self._geometry, self._names, self.disabled_collisions))
         self._data = model.kinematics.createData()
         self._geometry_data = self._geometry.createData()
-        # A tree of bounding boxes leaves only neighbours to be compared shape by shape.
-        self._tree = pinocchio.BroadPhaseManager_DynamicAABBTreeCollisionManager(
-            model.kinematics, self._geometry, self._geometry_data
+        # Bounding boxes leave only neighbours to be compared shape by shape.
+        manager = (
+            pinocchio.BroadPhaseManager_NaiveCollisionManager
+            if len(self._names) <= _FEW_SHAPES
+            else pinocchio.BroadPhaseManager_DynamicAABBTreeCollisionManager
         )
+        self._boxes_around = manager(model.kinematics, self._geometry, self._geometry_data)
         self._rest = model.configuration(self.other_positions)
 
     def attach(self, name: str, link: str, size: Vector3, pose_in_link: Pose) -> CollisionScene:
@@ -87,9 +93,16 @@ class CollisionScene:
         rest: Array = self._rest.copy()
         return rest
 
+    def box_shapes(self) -> Iterator[PinShape]:
+        """Yield pinocchio's shape of each box."""
+        shapes = self._geometry.geometryObjects
+        yield from (shapes[index] for index in range(len(shapes) - len(self.boxes), len(shapes)))
+
     def collides(self, configuration: Array) -> bool:
         """Tell whether any checked pair touches at a configuration of pinocchio."""
-        return bool(pinocchio.computeCollisions(self.model.kinematics, self._data, self._tree, configuration, True))
+        return bool(
+            pinocchio.computeCollisions(self.model.kinematics, self._data, self._boxes_around, configuration, True)
+        )
 
     def touching(self, box: Box, configuration: Array) -> tuple[str, ...]:
         """Return the names of links and boxes that another box would touch at a configuration of pinocchio, sorted.

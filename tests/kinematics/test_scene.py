@@ -93,7 +93,9 @@ def test_other_positions_of_one_scene_do_not_move_another(scene: CollisionScene)
     assert not scene.collides(scene.rest_configuration())
 
 
-def test_tree_of_bounding_boxes_finds_what_all_pairs_do() -> None:
+@pytest.mark.parametrize("few", [0, 64])
+def test_bounding_boxes_hide_no_contact(few: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("cellc.kinematics.scene._FEW_SHAPES", few)
     model = RobotModel.from_urdf(arm_urdf())
     scene = CollisionScene(model, disabled_collisions=ADJACENT).attach("part", "tool", (0.1, 0.1, 0.1), _at((0, 0, 0)))
     configurations = draw_configurations(model, samples=400, rng_seed=3)
