@@ -11,9 +11,12 @@ def main() -> None:
     # A tenth of a short command went into collecting garbage while models are built: collect far less often.
     gc.set_threshold(70_000, 20, 20)
     try:
+        from cellc.cache.program import program_mark
+
+        program = program_mark()
         from cellc.cli.main import main as run
 
-        run()
+        run(program=program)
     except KeyboardInterrupt:
         print("error: interrupted; nothing was left half-written", file=sys.stderr)
         sys.exit(1)

@@ -7,11 +7,12 @@ on an error, so that one mistake does not cascade; rules all run.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from cellc.artifact import Artifact
-from cellc.diagnostics import Diagnostic, Outcome, Severity
+from cellc.diagnostics import Diagnostic, Outcome
+from cellc.diagnostics.findings import Findings
 from cellc.diagnostics.page import CodePage
 from cellc.graph.cell_graph import CellGraph, build_graph
 from cellc.link.link import link
@@ -24,17 +25,20 @@ from cellc.spec.parse import parse
 
 @dataclass(frozen=True, slots=True)
 class Checked:
-    """What checking one spec gave: the graph where the stages before it found no error, and all findings."""
+    """What checking one spec gave: all findings, and the graph where the stages before it found no error."""
 
-    file: str
-    texts: Mapping[str, str]
+    findings: Findings
     graph: CellGraph | None
-    diagnostics: tuple[Diagnostic, ...]
+
+    @property
+    def diagnostics(self) -> tuple[Diagnostic, ...]:
+        """The findings alone."""
+        return self.findings.diagnostics
 
     @property
     def ok(self) -> bool:
         """Whether artifacts may be written: no finding is an error."""
-        return self.graph is not None and all(d.severity is not Severity.ERROR for d in self.diagnostics)
+        return self.graph is not None and self.findings.ok
 
 
 def check(path: str | Path) -> Checked:
@@ -43,19 +47,20 @@ def check(path: str | Path) -> Checked:
     source = read(path)
     if source.value is None or not source.ok:
         texts = {} if source.value is None else source.value.texts
-        return Checked(file, texts, None, source.diagnostics)
+        return Checked(Findings(file, texts, source.diagnostics), None)
+    texts = source.value.texts
     found = list(source.diagnostics)
     spec = parse(source.value)
     found += spec.diagnostics
     if spec.value is None or not spec.ok:
-        return Checked(file, source.value.texts, None, _unexcused(found, source.value.texts))
+        return Checked(Findings(file, texts, _unexcused(found, texts)), None)
     cell = link(spec.value, source.value)
     found += cell.diagnostics
     if cell.value is None or not cell.ok:
-        return Checked(file, source.value.texts, None, _unexcused(found, source.value.texts))
+        return Checked(Findings(file, texts, _unexcused(found, texts)), None)
     graph = build_graph(cell.value)
     found += run_rules(graph)
-    return Checked(file, source.value.texts, graph, _excused(found, source.value.texts))
+    return Checked(Findings(file, texts, _excused(found, texts)), graph)
 
 
 def compile_cell(checked: Checked) -> Outcome[tuple[Artifact, ...]]:
@@ -79,11 +84,6 @@ def compile_cell(checked: Checked) -> Outcome[tuple[Artifact, ...]]:
         version_tuple=version_tuple(cell),
     )
     return Outcome(artifacts, verify(artifacts, checked.graph))
-
-
-def with_findings(checked: Checked, found: tuple[Diagnostic, ...]) -> Checked:
-    """Return the check with findings of later stages added."""
-    return replace(checked, diagnostics=_sorted([*checked.diagnostics, *found]))
 
 
 def _excused(found: list[Diagnostic], texts: Mapping[str, str]) -> tuple[Diagnostic, ...]:

@@ -2,19 +2,12 @@
 
 from __future__ import annotations
 
-import os
-import tempfile
 from collections.abc import Callable
-from pathlib import Path
 from typing import TypeVar
-
-from pydantic import TypeAdapter, ValidationError
 
 from cellc.cache.folder import cache_folder
 from cellc.cache.key import entry_name
-
-MAX_BYTES = 10_000_000
-"""A larger entry is not one that cellc wrote."""
+from cellc.cache.store import read_entry, write_entry
 
 _Answer = TypeVar("_Answer")
 
@@ -29,37 +22,19 @@ def recall(kind: str, question: str, answer: type[_Answer], compute: Callable[[]
         question: everything that the answer depends on, apart from the program.
         answer: a type that pydantic reads and writes, such as a dataclass.
     """
-    folder = cache_folder()
-    if folder is None:
+    if cache_folder() is None:
         return compute()
+    # Whoever uses the other parts of the cache does not pay for pydantic.
+    from pydantic import TypeAdapter, ValidationError
+
     adapter = TypeAdapter(answer)
-    file = folder / entry_name(kind, question)
-    kept = _read(file, adapter)
-    if kept is None:
-        kept = compute()
-        _write(file, adapter.dump_json(kept))
-    return kept
-
-
-def _read(file: Path, adapter: TypeAdapter[_Answer]) -> _Answer | None:
-    try:
-        if file.stat().st_size > MAX_BYTES:
-            return None
-        return adapter.validate_json(file.read_bytes())
-    except (OSError, ValidationError):
-        return None
-
-
-def _write(file: Path, content: bytes) -> None:
-    """Put the entry in place in one step, so that no other process reads half of it."""
-    try:
-        file.parent.mkdir(parents=True, exist_ok=True)
-        handle, name = tempfile.mkstemp(dir=file.parent, prefix=".", suffix=".part")
-    except OSError:
-        return
-    try:
-        with os.fdopen(handle, "wb") as part:
-            part.write(content)
-        os.replace(name, file)
-    except OSError:
-        Path(name).unlink(missing_ok=True)
+    name = entry_name(kind, question)
+    content = read_entry(name)
+    if content is not None:
+        try:
+            return adapter.validate_json(content)
+        except ValidationError:
+            pass  # of another release whose code looked the same
+    computed = compute()
+    write_entry(name, adapter.dump_json(computed))
+    return computed

@@ -18,7 +18,7 @@ def audit(file: str) -> None:
     """
     checked = check(file)
     if checked.graph is None:
-        show_findings([checked], "text")
+        show_findings([checked.findings], "text")
         raise click.exceptions.Exit(1)
     from cellc.emit.audit.audit import emit
     from cellc.formats.configuration import configuration_id, configuration_inputs

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import click
 
 from cellc.artifact import Artifact
+from cellc.batch.answer import Answer
+from cellc.batch.answered import answered
 from cellc.cli.findings import FAIL_ON, FORMAT, finish, number_hidden, show_findings
 from cellc.cli.selecting import IGNORE, SELECT, read_selection, selected_and_errors
 from cellc.diagnostics import Span
+from cellc.diagnostics.findings import Findings
 from cellc.output.compare import Difference, compare
 from cellc.output.shared import shared_output
 from cellc.output.write import WriteReport, write
-from cellc.pipeline import Checked, compile_cell, with_findings
-from cellc.pipeline import check as check_cell
 from cellc.report.differences import render_difference
 from cellc.report.progress import progress
 
@@ -37,7 +39,9 @@ from cellc.report.progress import progress
 @IGNORE
 @FORMAT
 @FAIL_ON
+@click.pass_obj
 def build(
+    program: str | None,
     files: tuple[str, ...],
     output: Path,
     only_compare: bool,
@@ -53,24 +57,26 @@ def build(
     put beside the generated ones stay. No option hides an error.
     """
     wanted = read_selection(select, ignore)
-    built: list[Checked] = []
+    built: list[Findings] = []
     places: dict[str, Span] = {}
     told: list[str] = []
     differs = False
     with progress("building") as update:
+        answers = answered("compile", files, program)
         for file in files:
             update(file)
-            checked, artifacts = _compiled(file, places)
-            if artifacts is not None and checked.graph is not None:
-                folder = output / checked.graph.cell.name
+            answer = _unless_shared(next(answers), places)
+            findings = answer.findings
+            if answer.artifacts is not None and answer.cell is not None:
+                folder = output / answer.cell.name
                 if only_compare:
-                    differences = compare(artifacts, folder)
+                    differences = compare(answer.artifacts, folder)
                     differs = differs or bool(differences)
                     told += _differences(differences, folder)
                 else:
-                    checked, report = _written(checked, artifacts, folder, force)
+                    findings, report = _written(findings, answer.artifacts, folder, force)
                     told += [] if report is None else [_told(report, folder)]
-            built.append(checked)
+            built.append(findings)
     shown = [selected_and_errors(one, wanted) for one in built]
     show_findings(shown, output_format, hidden=number_hidden(built, shown))
     if output_format == "text" and told:
@@ -80,23 +86,22 @@ def build(
     finish(shown, fail_on)
 
 
-def _compiled(file: str, places: dict[str, Span]) -> tuple[Checked, tuple[Artifact, ...] | None]:
-    """Check and compile a cell; ``places`` holds where the cells of this call are named, and takes this one's."""
-    checked = check_cell(file)
-    if checked.graph is not None:
-        cell = checked.graph.cell
-        here = cell.locate("cell")
-        if shared := shared_output(cell.name, here, places.setdefault(cell.name, here)):
-            return with_findings(checked, (shared,)), None
-    artifacts = compile_cell(checked)
-    return with_findings(checked, artifacts.diagnostics), artifacts.value if artifacts.ok else None
+def _unless_shared(answer: Answer, places: dict[str, Span]) -> Answer:
+    """Take the artifacts from a cell whose folder is made already; ``places`` holds where the cells are named."""
+    if answer.cell is None:
+        return answer
+    here = answer.cell.span
+    shared = shared_output(answer.cell.name, here, places.setdefault(answer.cell.name, here))
+    if shared is None:
+        return answer
+    return replace(answer, findings=answer.findings.with_more((shared,)), artifacts=None)
 
 
 def _written(
-    checked: Checked, artifacts: tuple[Artifact, ...], folder: Path, force: bool
-) -> tuple[Checked, WriteReport | None]:
+    findings: Findings, artifacts: tuple[Artifact, ...], folder: Path, force: bool
+) -> tuple[Findings, WriteReport | None]:
     outcome = write(artifacts, folder, force=force)
-    return with_findings(checked, outcome.diagnostics), outcome.value
+    return findings.with_more(outcome.diagnostics), outcome.value
 
 
 def _told(report: WriteReport, folder: Path) -> str:

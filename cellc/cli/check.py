@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import click
 
+from cellc.batch.answered import answered
 from cellc.cli.findings import FAIL_ON, FORMAT, finish, number_hidden, show_findings
 from cellc.cli.fixing import FIX, fix_file
 from cellc.cli.selecting import IGNORE, SELECT, read_selection, selected
-from cellc.pipeline import check as check_cell
 from cellc.report.progress import progress
 
 
@@ -18,7 +18,9 @@ from cellc.report.progress import progress
 @IGNORE
 @FORMAT
 @FAIL_ON
+@click.pass_obj
 def check(
+    program: str | None,
     files: tuple[str, ...],
     fix: bool,
     select: tuple[str, ...],
@@ -28,13 +30,15 @@ def check(
 ) -> None:
     """Check each cell in FILES and point at what is wrong."""
     wanted = read_selection(select, ignore)
-    checked = []
+    found = []
     with progress("checking") as update:
+        for file in files if fix else ():
+            update(file)
+            fix_file(file)
+        answers = answered("check", files, program)
         for file in files:
             update(file)
-            if fix:
-                fix_file(file)
-            checked.append(check_cell(file))
-    shown = [selected(one, wanted) for one in checked]
-    show_findings(shown, output_format, hidden=number_hidden(checked, shown))
+            found.append(next(answers).findings)
+    shown = [selected(one, wanted) for one in found]
+    show_findings(shown, output_format, hidden=number_hidden(found, shown))
     finish(shown, fail_on)

@@ -41,6 +41,6 @@ def _cell(file: str | None) -> Cell | None:
 
     checked = check(file)
     if checked.graph is None:
-        show_findings([checked], "text")
+        show_findings([checked.findings], "text")
         raise click.exceptions.Exit(1)
     return checked.graph.cell

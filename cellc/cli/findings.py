@@ -10,7 +10,7 @@ from pathlib import Path
 import click
 
 from cellc.diagnostics import Diagnostic, Severity
-from cellc.pipeline import Checked
+from cellc.diagnostics.findings import Findings
 from cellc.report.colour import wants_colour
 from cellc.report.summary import summary
 from cellc.report.text_report import render_text
@@ -34,17 +34,18 @@ FAIL_ON = click.option(
 _RANK = {Severity.ERROR: 0, Severity.BLOCKER: 1, Severity.WARNING: 2, Severity.AUDIT: 3}
 
 
-def show_findings(checked: Sequence[Checked], output_format: str, *, hidden: int = 0) -> None:
+def show_findings(found: Sequence[Findings], output_format: str, *, hidden: int = 0) -> None:
     """Write the findings of all cells to standard output.
 
     Args:
+        found: one for each cell.
         hidden: findings that options left out; people are told how many.
     """
     if output_format != "text":
-        click.echo(_renderer(output_format)([d for one in checked for d in one.diagnostics]), nl=False)
+        click.echo(_renderer(output_format)([d for one in found for d in one.diagnostics]), nl=False)
         return
     colour = wants_colour(sys.stdout, os.environ)
-    for one in checked:
+    for one in found:
         if one.diagnostics:
             click.echo(render_text(one.diagnostics, one.texts, colour=colour), color=colour)
         click.echo(summary(one.diagnostics, [one.file], colour=colour), color=colour)
@@ -52,15 +53,15 @@ def show_findings(checked: Sequence[Checked], output_format: str, *, hidden: int
         click.echo(f"{hidden} hidden by --select or --ignore")
 
 
-def number_hidden(checked: Sequence[Checked], shown: Sequence[Checked]) -> int:
+def number_hidden(found: Sequence[Findings], shown: Sequence[Findings]) -> int:
     """Return how many findings options left out."""
-    return sum(len(one.diagnostics) for one in checked) - sum(len(one.diagnostics) for one in shown)
+    return sum(len(one.diagnostics) for one in found) - sum(len(one.diagnostics) for one in shown)
 
 
-def finish(checked: Sequence[Checked], fail_on: str) -> None:
+def finish(found: Sequence[Findings], fail_on: str) -> None:
     """Leave with 1 where a finding is as severe as ``fail_on``."""
     limit = _RANK[Severity(fail_on)]
-    if any(_RANK[d.severity] <= limit for one in checked for d in one.diagnostics):
+    if any(_RANK[d.severity] <= limit for one in found for d in one.diagnostics):
         raise click.exceptions.Exit(1)
 
 

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import groupby
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
-from cellc.fix.edit import Edit
-from cellc.pipeline import check
 from cellc.report.escape import escape
+
+if TYPE_CHECKING:
+    from cellc.fix.edit import Edit
 
 FIX = click.option(
     "--fix",
@@ -26,6 +28,7 @@ def fix_file(file: str) -> None:
     from cellc.fix.keys import misspelt_keys
     from cellc.fix.modeline import missing_modeline
     from cellc.fix.units import misspelt_units
+    from cellc.pipeline import check
     from cellc.source import read
 
     for _ in range(_PASSES):

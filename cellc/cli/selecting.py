@@ -8,7 +8,7 @@ from dataclasses import replace
 import click
 
 from cellc.diagnostics import Severity
-from cellc.pipeline import Checked
+from cellc.diagnostics.findings import Findings
 from cellc.report.selection import Selection
 
 SELECT = click.option(
@@ -31,15 +31,15 @@ def read_selection(select: Sequence[str], ignore: Sequence[str]) -> Selection:
         raise click.UsageError(str(problem)) from problem
 
 
-def selected(checked: Checked, wanted: Selection) -> Checked:
-    """Return a check with the findings that were asked for."""
-    return replace(checked, diagnostics=tuple(one for one in checked.diagnostics if wanted.shows(one)))
+def selected(findings: Findings, wanted: Selection) -> Findings:
+    """Return the findings that were asked for."""
+    return replace(findings, diagnostics=tuple(one for one in findings.diagnostics if wanted.shows(one)))
 
 
-def selected_and_errors(checked: Checked, wanted: Selection) -> Checked:
-    """Return a check with the findings that were asked for and every error, for a command that errors stop."""
-    shown = (one for one in checked.diagnostics if one.severity is Severity.ERROR or wanted.shows(one))
-    return replace(checked, diagnostics=tuple(shown))
+def selected_and_errors(findings: Findings, wanted: Selection) -> Findings:
+    """Return the findings that were asked for and every error, for a command that errors stop."""
+    shown = (one for one in findings.diagnostics if one.severity is Severity.ERROR or wanted.shows(one))
+    return replace(findings, diagnostics=tuple(shown))
 
 
 def _names(given: Sequence[str]) -> list[str]:

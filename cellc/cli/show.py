@@ -25,7 +25,7 @@ def show(file: str, path: str) -> None:
     path = path.rstrip(".")
     checked = check(file)
     if checked.graph is None:
-        show_findings([checked], "text")
+        show_findings([checked.findings], "text")
         raise click.exceptions.Exit(1)
     tree = resolved_tree(checked.graph.cell)
     if not path:

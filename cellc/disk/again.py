@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 
 from cellc.disk.questions import ASK
 from cellc.disk.record import Question, recorded
@@ -17,9 +18,6 @@ def _mark_of(question: Question) -> str | None:
     what, path, limit = question
     if what not in ASK:
         return None
-    with recorded() as record:
-        try:
-            ASK[what](path, limit)
-        except (OSError, ValueError):
-            pass  # the record has it
+    with recorded() as record, suppress(OSError, ValueError):  # the record has it
+        ASK[what](path, limit)
     return record.marks[question]

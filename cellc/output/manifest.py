@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Mapping, Sequence
-
-from pydantic import ValidationError
 
 from cellc import __version__
 from cellc.artifact import Artifact
 from cellc.contract.manifest import ConfigurationInputs, Manifest
 from cellc.formats.json_text import render
-
-MANIFEST = "manifest.json"
+from cellc.output.hashes import MANIFEST, sha256
 
 
 def with_manifest(
@@ -41,18 +37,3 @@ def with_manifest(
         files={artifact.path: sha256(artifact.text.encode()) for artifact in ordered},
     )
     return (*ordered, Artifact(MANIFEST, render(manifest)))
-
-
-def sha256(content: bytes) -> str:
-    """Return the digest of a file's bytes as hexadecimal digits."""
-    return hashlib.sha256(content).hexdigest()
-
-
-def hashes_in(content: bytes | None) -> dict[str, str]:
-    """Return the hashes of the files that a manifest lists; none where it is absent or not a manifest."""
-    if content is None:
-        return {}
-    try:
-        return dict(Manifest.model_validate_json(content).files)
-    except ValidationError:
-        return {}

@@ -10,7 +10,7 @@ from pathlib import Path
 from cellc.artifact import Artifact
 from cellc.diagnostics import Diagnostic
 from cellc.output.finding import finding
-from cellc.output.manifest import MANIFEST, hashes_in, sha256
+from cellc.output.hashes import MANIFEST, hashes_in, sha256
 
 
 @dataclass(frozen=True, slots=True)

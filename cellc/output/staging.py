@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from cellc.artifact import Artifact
-from cellc.output.manifest import MANIFEST, hashes_in
+from cellc.output.hashes import MANIFEST, hashes_in
 from cellc.output.plan import content_of
 
 
