@@ -62,7 +62,7 @@ def _of_controller(contract: Contract, samples: CommandSamples, interruptions: S
     unchecked = (*other, *(f"{joint}/{quantity}" for joint in joints for quantity in QUANTITIES[len(quantities) :]))
     return LimitsReport(
         peaks=tuple(each.peak() for each in compared[1:]),
-        excesses=tuple(excess for each in compared for excess in each.excesses()),
+        excesses=tuple(excess for each in compared if (excess := each.worst()) is not None),
         steps=tuple(_steps(commands, own)) if trajectories else (),
         unchecked=unchecked,
     )
@@ -116,17 +116,20 @@ class _Compared:
         """Return the largest share of a limit."""
         return Peak(QUANTITIES[self._order], float(self._shares.max(initial=0.0)))
 
-    def excesses(self) -> Iterator[LimitExcess]:
-        """Yield the worst excess of each joint."""
+    def worst(self) -> LimitExcess | None:
+        """Return the worst excess; None where no limit is exceeded."""
+        if not self._shares.max(initial=0.0) > 1.0:
+            return None
         commands = self._commands
-        for joint, name in enumerate(commands.joints):
-            shares = self._shares[:, joint]
-            if shares.max(initial=0.0) > 1.0:
-                row = int(shares.argmax())
-                value = float(self._values[row, joint])
-                stamp_ns = int(commands.stamps_ns[row + self._order])
-                limit = commands.limit(self._order, joint, value)
-                yield LimitExcess(commands.controller, name, QUANTITIES[self._order], stamp_ns, value, limit)
+        row, joint = divmod(int(self._shares.argmax()), len(commands.joints))
+        return LimitExcess(
+            controller=commands.controller,
+            joint=commands.joints[joint],
+            quantity=QUANTITIES[self._order],
+            stamp_ns=int(commands.stamps_ns[row + self._order]),
+            value=float(self._values[row, joint]),
+            limit=commands.limit(self._order, joint, float(self._values[row, joint])),
+        )
 
 
 def _derivative(positions: Array, stamps_ns: NDArray[np.int64], order: int) -> Array:
@@ -154,4 +157,5 @@ def _steps(commands: _Commands, interruptions: Sequence[Interruption]) -> Iterat
             steps = np.nan_to_num(commands.positions[row] - commands.positions[row - 1])
             joint = int(np.abs(steps).argmax())
             name, cause = commands.joints[joint], interruption.cause.value
-            yield CommandStep(commands.controller, name, cause, interruption.stamp_ns, float(steps[joint]))
+            if steps[joint] != 0.0:
+                yield CommandStep(commands.controller, name, cause, interruption.stamp_ns, float(steps[joint]))

@@ -19,8 +19,8 @@ class LimitExcess:
 
     def __str__(self) -> str:
         return (
-            f"joint `{self.joint}` was commanded a {self.quantity} of {self.value:.6g} at {self.stamp_ns / 1e9:.3f} s "
-            f"by `{self.controller}`; its limit is {self.limit:.6g}"
+            f"`{self.controller}` commanded joint `{self.joint}` to {self.quantity} {self.value:.6g} at "
+            f"{self.stamp_ns / 1e9:.3f} s; its limit is {self.limit:.6g}"
         )
 
 
@@ -49,8 +49,8 @@ class LimitsReport:
 
     Attributes:
         peaks: by quantity, position left out.
-        excesses: the worst of each controller, joint and quantity of each run.
-        steps: at interruptions.
+        excesses: the worst of each controller and quantity of each run.
+        steps: at interruptions, that of the joint which stepped farthest.
         unchecked: interfaces or quantities of joints that commands say nothing of.
     """
 

@@ -12,6 +12,8 @@ from cellc.mock.record import PacketStep
 from cellc.mock.result import RehearsalResult
 
 _JOINED = "+"
+_ACT_ON_ASKING = ("unreachable", "reject")
+"""Kinds that act as a goal is made or accepted: the step that moves already is past them."""
 
 
 class CampaignPlan:
@@ -28,10 +30,10 @@ class CampaignPlan:
         self._hits = {each.run.rehearsal: tuple(self._of_rehearsal(each.run.entry, each.result)) for each in baselines}
 
     def _of_rehearsal(self, entry: RehearsalEntry, result: RehearsalResult) -> Iterator[Hit]:
-        for fault in self._cases:
+        for fault, case in self._cases.items():
             for number in range(1, len(entry.steps) + 1):
                 yield Hit(fault, number, "started")
-                if _moves(result, number):
+                if _moves(result, number) and case.entry.kind not in _ACT_ON_ASKING:
                     yield Hit(fault, number, "moving")
 
     def singles(self) -> Iterator[CampaignRun]:

@@ -65,8 +65,8 @@ def failure_lines(end: RunEnd, command: str) -> Iterator[str]:
 def limit_lines(limits: LimitsReport) -> Iterator[str]:
     """Yield how near commands came to their limits, and where they stepped."""
     peaks = ", ".join(f"{peak.quantity} {peak.share:.1%}" for peak in limits.peaks)
-    held = "held" if limits.held else f"EXCEEDED {len(limits.excesses)} times"
-    yield f"limits: {held} by every commanded trajectory; largest share: {peaks or 'nothing was commanded'}"
+    held = "held by every commanded trajectory" if limits.held else f"EXCEEDED {len(limits.excesses)} times"
+    yield f"limits: {held}; largest share: {peaks or 'nothing was commanded'}"
     for cause in sorted({step.cause for step in limits.steps}):
         steps = [step for step in limits.steps if step.cause == cause]
         largest = max(steps, key=_size)

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 class Cause(str, Enum):
     """Why a controller's command may step; each is what the real controller does too."""
 
+    UNWRITTEN = "unwritten"  # no command in the update in which a tolerance is violated
     HOLD = "hold"  # a plain hold of the measured position, on cancel, abort or activation
     DECELERATION = "deceleration"  # constrained stop on cancel: its acceleration begins and ends at once
     REPLACED = "replaced"  # a trajectory takes over from one that was moving

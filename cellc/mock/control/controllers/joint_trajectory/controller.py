@@ -32,6 +32,7 @@ from cellc.mock.control.controllers.joint_trajectory.stopping import stop_points
 from cellc.mock.control.controllers.joint_trajectory.tolerances import default_tolerances
 from cellc.mock.control.controllers.joint_trajectory.validation import AcceptanceRules
 from cellc.mock.control.controllers.joint_trajectory.verdict import decide_failure, judge, tell_violation
+from cellc.mock.control.journal import Cause
 from cellc.mock.control.messages import Trajectory, TrajectoryStateResponse
 from cellc.mock.control.parameters import ParameterValue
 
@@ -211,6 +212,7 @@ class JointTrajectoryController(QuietController):
             error = self.interfaces.difference(samples.desired[0], self.last.measured.position)
             tell_violation(context, error, goals, verdict)
             decide_failure(context, goals, verdict, cycle.time_ns)
+            context.table.journal.note(cycle.time_ns, context.name, Cause.UNWRITTEN)
             self.stop()
         if verdict.reached and goals.running:
             goals.succeed(cycle.time_ns)
