@@ -11,8 +11,9 @@ from cellc.diagnostics import Diagnostic, Outcome
 from cellc.output.finding import finding
 from cellc.output.paths import check_paths
 from cellc.output.plan import Plan, check_places, plan
-from cellc.output.staging import discard, fill, hashes_of_interrupted, is_alive, others, staging_of
-from cellc.output.swap import Swap
+from cellc.output.staging import fill, hashes_of_interrupted
+from cellc.replacement.staging import discard, is_alive, others, staging_of
+from cellc.replacement.swap import Swap
 
 
 @dataclass(frozen=True, slots=True)
