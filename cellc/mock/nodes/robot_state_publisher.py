@@ -174,12 +174,23 @@ class RobotStatePublisher:
             for stamp_ns in refused if source.published is published else ():
                 self._warnings.old_data(child, NODE, stamp_ns)
 
+    def moved_by(self, history: JointStateHistory) -> tuple[LinkJoint, ...]:
+        """Return the edges whose transforms come from the joint states of one broadcaster."""
+        return tuple(
+            joint
+            for joint in self.links.joints.values()
+            if joint.moves and (published := self._published_of(joint)) and published.history is history
+        )
+
     def _source_of(self, joint: LinkJoint) -> StaticSource | JointSource | None:
         if not joint.moves:
             return StaticSource(joint.parent, NODE, joint.origin)
+        published = self._published_of(joint)
+        if published is None:
+            return None
+        self._moving[joint.child] = JointSource(joint, published)
+        return self._moving[joint.child]
+
+    def _published_of(self, joint: LinkJoint) -> PublishedStates | None:
         followed = joint.follows or joint.name
-        for published in self._published:
-            if followed in published.history.names:
-                self._moving[joint.child] = JointSource(joint, published)
-                return self._moving[joint.child]
-        return None
+        return next((each for each in self._published if followed in each.history.names), None)

@@ -87,15 +87,18 @@ class JointStateHistory:
 
     def arrived(self, now_ns: int) -> int:
         """Return how many of the kept messages have arrived by ``now_ns``, late ones not counted."""
-        stamps = self.stamps
         if not self.late:
-            return int(np.searchsorted(stamps, now_ns, side="right"))
-        arrivals = stamps.copy()
+            return int(np.searchsorted(self.stamps, now_ns, side="right"))
+        here = np.flatnonzero(self.arrivals(self.stamps) <= now_ns)
+        return int(here[-1]) + 1 if here.size else 0
+
+    def arrivals(self, stamps_ns: IntArray) -> IntArray:
+        """Return when messages arrive that were published at ``stamps_ns``."""
+        arrivals = stamps_ns.copy()
         for late in self.late:
             until = np.iinfo(np.int64).max if late.until_ns is None else late.until_ns
-            arrivals[(stamps >= late.from_ns) & (stamps < until)] += late.delay_ns
-        here = np.flatnonzero(arrivals <= now_ns)
-        return int(here[-1]) + 1 if here.size else 0
+            arrivals[(stamps_ns >= late.from_ns) & (stamps_ns < until)] += late.delay_ns
+        return arrivals
 
     def missed_until(self, now_ns: int) -> int:
         """Return how many messages were due by ``now_ns`` and never published: update cycles that were missed."""
