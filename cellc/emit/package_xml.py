@@ -22,7 +22,8 @@ from cellc.graph.cell_graph import CellGraph
 
 _ALWAYS = ("ros2launch", "xacro")
 _MERGED_BY = "joint_state_publisher"
-_SPAWNED_BY = "controller_manager"
+_CONTROL = ("controller_manager", "hardware_interface", "ros2controlcli")
+_WAITED_WITH = ("ros2cli_common_extensions", "tf2_ros")  # what the steps of the bring-up ask with
 _PLANNING = (
     "moveit_kinematics",
     "moveit_planners_ompl",
@@ -66,7 +67,7 @@ def _dependencies(cell: Cell) -> tuple[str, ...]:
     if len(cell.managers) > 1:
         names.add(_MERGED_BY)
     if cell.managers:
-        names |= {_SPAWNED_BY, "hardware_interface"}
+        names |= {*_CONTROL, *_WAITED_WITH}
     return tuple(sorted(names))
 
 

@@ -20,3 +20,8 @@ def manager_enclave(cell: Cell, manager: ControllerManager) -> str:
 def spawner_enclave(cell: Cell, manager: ControllerManager) -> str:
     """Return the enclave of the processes that load and activate a manager's controllers."""
     return f"/{cell.name}{manager.namespace}/spawner"
+
+
+def bring_up_enclave(cell: Cell) -> str:
+    """Return the enclave of the command-line tools with which the bring-up waits, configures and activates."""
+    return f"/{cell.name}/bring_up"

@@ -12,7 +12,8 @@ from xml.etree.ElementTree import Element, fromstring
 
 from tests.consumers.launch_text import LaunchError, World, condition, expand
 
-_NODE = {"pkg", "exec", "name", "namespace", "output", "args", "ros_args", "respawn", "if", "unless"}
+_NODE = {"pkg", "exec", "name", "namespace", "output", "args", "ros_args", "respawn", "launch-prefix", "if", "unless"}
+_EXECUTABLE = {"name", "cmd", "output", "if", "unless"}
 _OUTPUTS = {"screen", "log", "both", "own_log", "full"}
 
 
@@ -37,6 +38,15 @@ class Process:
     values: Mapping[str, tuple[str, str]]
     remaps: Mapping[str, str]
     respawn: bool
+    prefix: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    """A program that is no node."""
+
+    name: str
+    words: tuple[str, ...]
 
 
 @dataclass(slots=True)
@@ -49,6 +59,7 @@ class Launch:
     configurations: dict[str, str] = field(default_factory=dict)
     namespace: str = ""
     processes: list[Process] = field(default_factory=list)
+    commands: list[Command] = field(default_factory=list)
     descriptions: dict[str, str] = field(default_factory=dict)
 
     def run(self, path: str) -> Launch:
@@ -70,6 +81,7 @@ class Launch:
             "include": self._include,
             "push_ros_namespace": self._push,
             "node": self._node,
+            "executable": self._executable,
         }
         if action.tag not in known:
             raise LaunchError(f"unknown action <{action.tag}>")
@@ -125,9 +137,15 @@ class Launch:
 
     def _include(self, action: Element) -> None:
         # An include is not scoped: what it sets stays set.
-        for argument in action.findall("arg"):
-            self.configurations[argument.attrib["name"]] = self._text(argument.attrib["value"])
-        self.run(self._file(self._text(action.attrib["file"])))
+        path = self._file(self._text(action.attrib["file"]))
+        given = {one.attrib["name"]: self._text(one.attrib["value"]) for one in action.findall("arg")}
+        # IncludeLaunchDescription.execute looks at what the include itself is given, not at its parent's arguments.
+        for argument in fromstring(self.texts[path]).findall("arg"):
+            if "default" not in argument.attrib and argument.attrib["name"] not in given:
+                name = argument.attrib["name"]
+                raise LaunchError(f"included launch description missing required argument '{name}'")
+        self.configurations |= given
+        self.run(path)
 
     def _push(self, action: Element) -> None:
         self.namespace = self._in(self._text(action.attrib["namespace"]))
@@ -158,5 +176,19 @@ class Launch:
                 },
                 remaps={one.attrib["from"]: self._text(one.attrib["to"]) for one in action.findall("remap")},
                 respawn=condition(self._text(action.get("respawn", "false"))),
+                prefix=self._words(action.get("launch-prefix", "")),
             )
         )
+
+    def _executable(self, action: Element) -> None:
+        if unknown := set(action.attrib) - _EXECUTABLE | {child.tag for child in action}:
+            raise LaunchError(f"<executable> has unknown {sorted(unknown)}")
+        if action.get("output", "log") not in _OUTPUTS:
+            raise LaunchError(f"unknown output {action.get('output')}")
+        self.commands.append(Command(self._text(action.attrib["name"]), self._words(action.attrib["cmd"])))
+
+    def _words(self, line: str) -> tuple[str, ...]:
+        """Return the words of a command; a file of the package by its path in it."""
+        share = f"/share/{self.package}/"
+        words = shlex.split(self._text(line))
+        return tuple(self._file(word) if word.startswith(share) else word for word in words)

@@ -2,29 +2,60 @@
 
 from __future__ import annotations
 
+import re
 from functools import lru_cache
 from typing import Any
+from xml.etree.ElementTree import fromstring
 
 import yaml
 
-from tests.consumers.launch_interpreter import Launch, Process
+from tests.consumers.launch_interpreter import Command, Launch, Process
 from tests.consumers.matrix import SPECS, Build, build
 
 CONFIRMED = {"target": "real", "confirm_real": "I_HAVE_PASSED_GATES_G0_TO_G2"}
+MOTION_CONFIRMED = {"target": "real", "confirm_motion": "I_HAVE_PASSED_GATES_G0_TO_G6"}
 # What a program calls its node where launching gives no name: ros2_control_node.cpp, spawner.py.
 OWN_NAMES = {"ros2_control_node": "controller_manager"}
 
 
-def launched(built: Build, **given: str) -> Launch:
-    """Launch the cell with arguments."""
-    return Launch(built.cell, built.texts, given).run("launch/cell.launch.xml")
+def launched(built: Build, file: str = "cell", **given: str) -> Launch:
+    """Launch a file of the cell with arguments."""
+    return Launch(built.cell, built.texts, given).run(f"launch/{file}.launch.xml")
+
+
+def hosts(built: Build) -> list[str]:
+    """Return the choices of the argument `host` but for the whole cell; none where it has no such argument."""
+    (argument, *_) = [*fromstring(built.texts["launch/cell.launch.xml"]).findall("arg[@name='host']"), None]
+    choices = [] if argument is None else [choice.attrib["value"] for choice in argument.findall("choice")]
+    return [choice for choice in choices if choice != "all"]
+
+
+def bring_ups(built: Build, target: str) -> list[Launch]:
+    """Launch the cell: the mock in one place, the real target on each of its hosts with its confirmation."""
+    if target == "mock":
+        return [launched(built)]
+    places = [{"host": host} for host in hosts(built)] or [{}]
+    return [launched(built, **CONFIRMED, **place) for place in places]
+
+
+def moves(built: Build, target: str) -> list[Process]:
+    """Return what the second launch file starts, the one with what asks for motion."""
+    if "launch/move.launch.xml" not in built.texts:
+        return []
+    return launched(built, "move", **(MOTION_CONFIRMED if target == "real" else {})).processes
 
 
 @lru_cache(maxsize=64)
 def processes(cell: str, distro: str, target: str) -> tuple[Process, ...]:
-    """Return what launching a target starts, the real one with its confirmation."""
-    given = CONFIRMED if target == "real" else {}
-    return tuple(launched(build(cell, distro), **given).processes)
+    """Return what launching a target starts, the real one with its confirmations, and then what asks for motion."""
+    built = build(cell, distro)
+    return (*(one for launch in bring_ups(built, target) for one in launch.processes), *moves(built, target))
+
+
+@lru_cache(maxsize=64)
+def commands(cell: str, distro: str, target: str) -> tuple[Command, ...]:
+    """Return the steps of the bring-up that launching a target starts."""
+    return tuple(one for launch in bring_ups(build(cell, distro), target) for one in launch.commands)
 
 
 def node_name(process: Process) -> str:
@@ -47,3 +78,12 @@ def written_managers(cell: str) -> list[tuple[str, Any]]:
     spec = written(cell)
     managers = list(spec.get("managers", {}).values()) or [spec["control"]]
     return [(manager.get("namespace", ""), manager) for manager in managers]
+
+
+def activated(cell: str, distro: str, target: str, manager: str) -> list[str]:
+    """Return the controllers that the steps of a target activate, by the full name of their manager."""
+    text = build(cell, distro).texts["launch/bring_up.bash"]
+    steps = dict(re.findall(r"^  (\w+)\) # .*\n((?:    (?!;;).*\n)+)", text, re.MULTILINE))
+    bodies = "\n".join(steps.get(one.name, "") for one in commands(cell, distro, target))
+    lines = re.findall(rf"--activate (.*) --strict -c {manager}$", bodies, re.MULTILINE)
+    return [name for line in lines for name in line.split()]

@@ -84,7 +84,7 @@ _CHECKS: tuple[Callable[[str, str], None], ...] = (
     test_xsd.test_launch_files_follow_their_grammar,
 )
 _CHECKS_OF_TARGETS: tuple[Callable[[str, str, str], None], ...] = (
-    test_launch.test_spawners_follow_the_spec_and_leave_alternates_inactive,
+    test_launch.test_spawners_follow_the_spec_and_activate_nothing,
     test_refusals.test_no_emitted_description_is_refused_or_dangerous,
     test_refusals.test_no_emitted_parameter_file_is_refused_or_dangerous,
 )

@@ -12,7 +12,18 @@ from tests.consumers.launch_text import LaunchError
 from tests.consumers.matrix import SPECS, build, every_build, every_cell
 from tests.consumers.parameter_files import told
 from tests.consumers.refused_parameters import claimed, interfaces
-from tests.consumers.starting import CONFIRMED, launched, node_name, processes, spawners, written_managers
+from tests.consumers.starting import (
+    CONFIRMED,
+    bring_ups,
+    hosts,
+    launched,
+    moves,
+    node_name,
+    processes,
+    spawners,
+    written,
+    written_managers,
+)
 
 TARGETS = ("mock", "real")
 # ros2_control.md 4: where the plugin's name does not begin with its package's.
@@ -33,9 +44,40 @@ def _told(process: Process, texts: dict[str, str]) -> str:
 def test_real_target_is_refused_without_its_confirmation(cell: str, distro: str) -> None:
     built = build(cell, distro)
     for given in ({"target": "real"}, {"target": "real", "confirm_real": "yes"}, {"target": "reel"}):
-        with pytest.raises(LaunchError, match=r"confirm_real|target"):
-            launched(built, **given)
-    assert launched(built, **CONFIRMED).processes
+        for file in ("cell", *hosts(built)):
+            with pytest.raises(LaunchError, match=r"confirm_real|target"):
+                launched(built, file, **given)
+    assert all(one.processes for one in bring_ups(built, "real"))
+
+
+@every_build
+def test_real_target_is_not_started_from_one_computer_where_it_has_several(cell: str, distro: str) -> None:
+    built = build(cell, distro)
+    started = [[node_name(one) for one in launch.processes] for launch in bring_ups(built, "real")]
+    assert len(started) == max(1, len(hosts(built)))
+    if hosts(built):
+        with pytest.raises(LaunchError, match="'host' is 'all'"):
+            launched(built, **CONFIRMED)
+        # Each process once, and on the mock the same ones in one place.
+        names = [name for names in started for name in names if not name.endswith("spawner")]
+        assert len(set(names)) == len(names)
+
+
+@every_build
+def test_nothing_asks_for_motion_before_a_person_releases_it(cell: str, distro: str) -> None:
+    built = build(cell, distro)
+    clients = {
+        name for name, node in written(cell).get("nodes", {}).items() if node["run"].split("/")[0] == "cell_tasks"
+    }
+    for target in TARGETS:
+        started = {node_name(one) for launch in bring_ups(built, target) for one in launch.processes}
+        assert not started & {f"/{name}" for name in clients}
+        assert {node_name(one) for one in moves(built, target)} == {f"/{name}" for name in clients}
+        assert all(one.prefix[2] == f"move_{target}" for one in moves(built, target))
+    if clients:
+        for given in ({"target": "real"}, {"target": "real", "confirm_motion": "yes"}):
+            with pytest.raises(LaunchError, match="confirm_motion"):
+                launched(built, "move", **given)
 
 
 @every_build
@@ -64,8 +106,8 @@ def test_real_target_has_no_mock_hardware_and_the_mock_has_no_driver(cell: str, 
 def test_processes_of_the_pick_cell_start_in_this_order(target: str) -> None:
     drivers = ["/arm_dashboard_client", "/arm_state_helper", "/camera"] if target == "real" else []
     names = [node_name(process) for process in processes("ur5e_pick", "jazzy", target)]
-    nodes = ["/perception", "/task", "/move_group"]
-    assert names == ["/robot_state_publisher", "/controller_manager", "/spawner", *nodes, *drivers]
+    nodes = ["/perception", "/move_group"]
+    assert names == ["/robot_state_publisher", "/controller_manager", *nodes, *drivers, "/spawner", "/task"]
 
 
 @every_build
@@ -91,22 +133,15 @@ def test_static_transforms_have_one_authority(cell: str, distro: str) -> None:
 
 @every_build
 @pytest.mark.parametrize("target", TARGETS)
-def test_spawners_follow_the_spec_and_leave_alternates_inactive(cell: str, distro: str, target: str) -> None:
+def test_spawners_follow_the_spec_and_activate_nothing(cell: str, distro: str, target: str) -> None:
     spawned = [process.arguments for process in spawners(cell, distro, target)]
     for namespace, manager in written_managers(cell):
         flag = ("-c", f"{namespace}/controller_manager")
         own = [line for line in spawned if line[line.index("-c") :][:2] == flag]
-        for inactive in (False, True):
-            lines = [line for line in own if ("--inactive" in line) is inactive]
-            names = [name for line in lines for name in line[: line.index("-c")]]
-            wanted = [
-                name
-                for name, one in manager["controllers"].items()
-                if one.get("active", True) is not inactive
-                and _has_hardware(cell, distro, target, f"{namespace}/{name}")
-            ]
-            assert names == wanted
-    assert all(line[line.index("-c") + 2 :] in ((), ("--inactive",)) for line in spawned)
+        names = [name for line in own for name in line[: line.index("-c")]]
+        written_ = manager["controllers"]
+        assert names == [name for name in written_ if _has_hardware(cell, distro, target, f"{namespace}/{name}")]
+    assert all(line[line.index("-c") + 2 :] == ("--inactive",) for line in spawned)
 
 
 def _has_hardware(cell: str, distro: str, target: str, node: str) -> bool:
@@ -161,6 +196,8 @@ def test_what_is_launched_or_found_is_a_dependency_and_is_installed(cell: str, d
     texts = build(cell, distro).texts
     depends = {tag.text for tag in fromstring(texts["package.xml"]).findall("exec_depend")}
     launch = {process.package for process in processes(cell, distro, "real")}
+    # The packages that bring `ros2 control`, the other commands, and tf2_echo.
+    launch |= {"ros2controlcli", "ros2cli_common_extensions", "tf2_ros"}
     found = {package for text in texts.values() for package in re.findall(r"\$\(find ([^)]+)\)", text)}
     assert launch | found <= depends
     installed = set(re.findall(r"^  ([a-z_.]+)$", texts["CMakeLists.txt"], re.MULTILINE))
@@ -186,4 +223,5 @@ def test_plugins_are_of_packages_that_the_manifest_names(cell: str, distro: str)
 
 @every_cell
 def test_arguments_are_described(cell: str) -> None:
-    assert all(launched(build(cell, "jazzy"), **CONFIRMED).descriptions.values())
+    for launch in bring_ups(build(cell, "jazzy"), "real"):
+        assert all(launch.descriptions.values())

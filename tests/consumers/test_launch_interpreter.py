@@ -38,9 +38,13 @@ def test_namespaces_add_up_and_end_with_their_group() -> None:
     [
         ('<arg name="a"/>', "required launch argument"),
         ('<arg name="a" default="c"><choice value="b"/></arg>', "not one of"),
-        ('<include file="$(find-pkg-share pkg)/b.launch.xml"/>', "required launch argument 'b'"),
+        ('<include file="$(find-pkg-share pkg)/b.launch.xml"/>', "missing required argument 'b'"),
         ('<include file="$(find-pkg-share pkg)/c.launch.xml"/>', "there is no file"),
         ('<include file="$(find-pkg-share other)/b.launch.xml"/>', "there is no file"),
+        (
+            '<arg name="b" default="1"/><include file="$(find-pkg-share pkg)/b.launch.xml"/>',
+            "missing required argument 'b'",
+        ),
         ('<node pkg="p" exec="e" if="yes"/>', "neither true nor false"),
         ('<node pkg="p" exec="e" name="$(var x)"/>', "does not exist"),
         ('<node pkg="p" exec="e" nam="x"/>', "unknown"),
@@ -51,11 +55,28 @@ def test_namespaces_add_up_and_end_with_their_group() -> None:
         ('<node pkg="p" exec="$(eval \'__import__(1)\')"/>', "cannot evaluate"),
         ('<node pkg="p" exec="$(var x"/>', "not closed"),
         ("<nod/>", "unknown action"),
+        ('<executable name="a" command="b"/>', "unknown"),
+        ('<executable name="a" cmd="bash $(find-pkg-share pkg)/none.bash"/>', "there is no file"),
     ],
 )
 def test_what_launch_refuses_is_refused(actions: str, message: str) -> None:
     with pytest.raises(LaunchError, match=message):
         launched(actions)
+
+
+def test_include_takes_what_it_is_given_and_holds_it_against_the_choices() -> None:
+    include = '<include file="$(find-pkg-share pkg)/b.launch.xml"><arg name="b" value="$(var a)"/></include>'
+    assert launched('<arg name="a" default="1"/>' + include).configurations["b"] == "1"
+
+
+def test_commands_and_prefixes_are_split_into_words() -> None:
+    actions = (
+        '<executable name="a" cmd="bash $(find-pkg-share pkg)/file.yaml step" output="both"/>'
+        '<node pkg="p" exec="e" launch-prefix="bash $(find-pkg-share pkg)/file.yaml other"/>'
+    )
+    run = launched(actions)
+    assert [(one.name, one.words) for one in run.commands] == [("a", ("bash", "file.yaml", "step"))]
+    assert run.processes[0].prefix == ("bash", "file.yaml", "other")
 
 
 def test_parameters_remaps_and_arguments_are_listed() -> None:

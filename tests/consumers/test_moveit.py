@@ -8,7 +8,7 @@ from xml.etree.ElementTree import Element, fromstring
 from tests.consumers.matrix import build, every_build
 from tests.consumers.parameter_files import told
 from tests.consumers.refused_parameters import claimed
-from tests.consumers.starting import node_name, processes
+from tests.consumers.starting import activated, node_name, processes
 
 # launch_moveit.md 5.3; request and response adapters of default_planning_*_adapters, Jazzy and later.
 _REQUEST = {"ResolveConstraintFrames", "ValidateWorkspaceBounds", "CheckStartStateBounds", "CheckStartStateCollision"}
@@ -56,15 +56,11 @@ def _commanded(cell: str, distro: str) -> dict[str, list[str]]:
     texts, found = build(cell, distro).texts, {}
     for manager in (one for one in processes(cell, distro, "mock") if one.executable == "ros2_control_node"):
         types = told(texts, manager.files, node_name(manager))
-        for spawner in (one for one in processes(cell, distro, "mock") if one.executable == "spawner"):
-            line = spawner.arguments
-            if line[line.index("-c") + 1] != node_name(manager) or "--inactive" in line:
-                continue
-            for name in line[: line.index("-c")]:
-                values = told(texts, manager.files, f"{manager.namespace}/{name}")
-                joints = [one.rpartition("/")[0] for one in claimed(values)]
-                if joints and types[f"{name}.type"] != "forward_command_controller/ForwardCommandController":
-                    found[f"{manager.namespace}/{name}".removeprefix("/")] = joints
+        for name in activated(cell, distro, "mock", node_name(manager)):
+            values = told(texts, manager.files, f"{manager.namespace}/{name}")
+            joints = [one.rpartition("/")[0] for one in claimed(values)]
+            if joints and types[f"{name}.type"] != "forward_command_controller/ForwardCommandController":
+                found[f"{manager.namespace}/{name}".removeprefix("/")] = joints
     return found
 
 

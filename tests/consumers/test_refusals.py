@@ -10,7 +10,7 @@ import yaml
 from tests.consumers.matrix import ORACLES, build, every_build, needs_oracles
 from tests.consumers.refused_description import description_faults
 from tests.consumers.refused_parameters import parameter_faults
-from tests.consumers.starting import processes
+from tests.consumers.starting import activated, processes
 
 pytestmark = needs_oracles
 
@@ -86,9 +86,10 @@ def test_no_emitted_parameter_file_is_refused_or_dangerous(cell: str, distro: st
     }
     spawned = [process.arguments for process in started if process.executable == "spawner"]
     for manager in (process for process in started if process.executable == "ros2_control_node"):
-        own = [line for line in spawned if line[line.index("-c") + 1] == f"{manager.namespace}/controller_manager"]
-        active = tuple(name for line in own if "--inactive" not in line for name in line[: line.index("-c")])
-        inactive = tuple(name for line in own if "--inactive" in line for name in line[: line.index("-c")])
+        name = f"{manager.namespace}/controller_manager"
+        own = [one for line in spawned if line[line.index("-c") + 1] == name for one in line[: line.index("-c")]]
+        active = tuple(activated(cell, distro, target, name))
+        inactive = tuple(one for one in own if one not in active)
         text = build(cell, distro).texts[manager.files[0]]
         topic = manager.remaps["~/robot_description"]
         assert active

@@ -69,7 +69,7 @@ def _take_newer_away(action: Element) -> None:
         action.text = None
     if action.tag == "param":
         assert action.attrib.pop("type", "str") in {"str", "int", "float", "bool"}
-    if action.tag == "node":
+    if action.tag in ("node", "executable"):
         assert action.attrib.pop("output", "both") == "both"
         action.attrib.pop("ros_args", None)
 

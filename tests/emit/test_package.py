@@ -61,7 +61,7 @@ def test_artifacts_are_the_same_under_any_hash_seed() -> None:
 def test_launch_refers_to_files_of_the_package(cell: str) -> None:
     artifacts = artifacts_of(cell)
     text = artifacts["launch/cell.launch.xml"]
-    paths = set(re.findall(rf"\$\(find-pkg-share {cell}\)/((?:\$\(var target\)|[^\"')])+)", text))
+    paths = set(re.findall(rf"\$\(find-pkg-share {cell}\)/((?:\$\(var target\)|[^\"') ])+)", text))
     assert paths
     for path in paths:
         for target in ("mock", "real"):
@@ -85,24 +85,24 @@ def test_mock_target_starts_no_driver_and_real_target_needs_a_person() -> None:
 def test_launch_arguments_are_described_and_target_is_mock_by_default() -> None:
     launch = ElementTree.fromstring(artifacts_of("ur5e_pick")["launch/cell.launch.xml"])
     arguments = {argument.attrib["name"]: argument for argument in launch.findall("arg")}
-    assert sorted(arguments) == ["arm_address", "target"]
+    assert sorted(arguments) == ["arm_address", "confirm_real", "target"]
     assert all(argument.get("description") for argument in arguments.values())
     assert arguments["target"].get("default") == "mock"
     assert [choice.get("value") for choice in arguments["target"].findall("choice")] == ["mock", "real"]
 
 
-def test_alternates_are_spawned_inactive_and_apart(tmp_path: Path) -> None:
-    # Observed: the first failure in a spawner's list stops the rest, and a second claimant fails.
+def test_alternates_are_configured_and_not_activated(tmp_path: Path) -> None:
+    # Observed: a second claimant fails.
     text = spec_text("minimal").replace(
         "    gripper_action:",
         "    arm_forward: {type: forward_command, device: arm, active: false}\n    gripper_action:",
     )
-    launch = ElementTree.fromstring(emitted(tmp_path, text)["launch/cell.launch.xml"])
+    artifacts = emitted(tmp_path, text)
+    launch = ElementTree.fromstring(artifacts["launch/cell.launch.xml"])
     spawners = [node.get("args") for node in launch.findall("node") if node.get("exec") == "spawner"]
-    assert spawners == [
-        "joint_states arm_trajectory gripper_action -c /controller_manager",
-        "arm_forward -c /controller_manager --inactive",
-    ]
+    assert spawners == ["joint_states arm_trajectory arm_forward gripper_action -c /controller_manager --inactive"]
+    activated = re.findall(r"--activate (.*) --strict", artifacts["launch/bring_up.bash"])
+    assert activated == ["joint_states", "arm_trajectory gripper_action"]
 
 
 @pytest.mark.parametrize("cell", CELLS)

@@ -23,13 +23,12 @@ _TOPIC = "robot_description"
 
 
 def control(cell: Cell, manager: ControllerManager) -> Iterator[Element]:
-    """Yield what one update loop needs: its description where it has its own, its process, its controllers."""
+    """Yield the processes of one update loop: one for its description where it has its own, and the loop."""
     namespace = ""
     if len(cell.managers) > 1:
         namespace = manager.namespace or f"/{manager.name}"
         yield _description_publisher(cell, manager, namespace)
     yield _manager(cell, manager, f"{namespace}/{_TOPIC}")
-    yield from _spawners(cell, manager)
 
 
 def joint_state_merger(cell: Cell) -> Element:
@@ -95,15 +94,18 @@ def _manager(cell: Cell, manager: ControllerManager, topic: str) -> Element:
     )
 
 
-def _spawners(cell: Cell, manager: ControllerManager) -> Iterator[Element]:
+def spawners(cell: Cell, manager: ControllerManager) -> Iterator[Element]:
+    """Yield what loads and configures a manager's controllers; it waits for the manager, and activates nothing.
+
+    One process for all: several of them race for a controller that the manager has found in its file (Humble 2.54).
+    """
     for one in spawnings(cell, manager):
-        flags = ["--inactive"] if one.inactive else []
         yield element(
             "node",
             {
                 "pkg": "controller_manager",
                 "exec": "spawner",
-                "args": " ".join([*one.controllers, "-c", f"{manager.namespace}/controller_manager", *flags]),
+                "args": " ".join([*one.controllers, "-c", f"{manager.namespace}/controller_manager", "--inactive"]),
                 "output": "both",
                 **enclave(spawner_enclave(cell, manager)),
                 **({"unless": ON_REAL} if one.mock_alone else {}),

@@ -8,9 +8,12 @@ from xml.etree.ElementTree import Element
 from cellc.cell.cell import Cell
 from cellc.cell.interface import Node, NodeSource
 from cellc.emit.launch.elements import description_parameter, enclave, remap
-from cellc.emit.launch.substitutions import ON_REAL, TARGET, share
+from cellc.emit.launch.substitutions import ON_REAL, TARGET, on_host, share
 from cellc.formats.enclaves import enclave_of
+from cellc.formats.hosts import host_of, launch_hosts
+from cellc.formats.interface_label import TF_RATE_HZ
 from cellc.formats.moveit_files import PARAMETER_FILES, is_planner, semantic_file
+from cellc.formats.numbers import decimal
 from cellc.formats.package_files import QOS_OVERRIDES, description_file, node_file
 from cellc.formats.qos_parameters import qos_parameters
 from cellc.formats.xml_text import element
@@ -28,7 +31,9 @@ def robot_state_publisher(cell: Cell) -> Element:
     # It listens in the root namespace; the one manager elsewhere publishes its joint states there.
     namespaces = [manager.namespace for manager in cell.managers]
     remaps = [remap("joint_states", f"{namespaces[0]}/joint_states")] if len(namespaces) == 1 and namespaces[0] else []
-    return element("node", attributes, [_description(cell), *remaps])
+    # Said though it is the default: what reads /tf is promised this rate.
+    rate = element("param", {"name": "publish_frequency", "value": decimal(TF_RATE_HZ)})
+    return element("node", attributes, [_description(cell), rate, *remaps])
 
 
 def cell_node(cell: Cell, node: Node) -> Element:
@@ -40,6 +45,13 @@ def driver_node(cell: Cell, node: Node) -> Element:
     """Return a node of a device's driver; one for real hardware alone stays away from the mock."""
     condition = {"if": ON_REAL} if node.real_only else {}
     return element("node", _identity(cell, node) | condition, _parameters(cell, node))
+
+
+def moving_node(cell: Cell, node: Node, prefix: str) -> Element:
+    """Return a node that asks for motion, behind a prefix that waits until everything is ready for it."""
+    hosts = launch_hosts(cell)
+    place = {"if": on_host(host_of(cell, node))} if hosts else {}
+    return element("node", _identity(cell, node) | {"launch-prefix": prefix} | place, _parameters(cell, node))
 
 
 def _identity(cell: Cell, node: Node) -> dict[str, str]:

@@ -6,8 +6,15 @@ from cellc.cell.cell import Cell
 
 TARGET = "$(var target)"
 
+HOST = "$(var host)"
+
 ON_REAL = f"$(eval \"'{TARGET}' == 'real'\")"
 """True on the real target; `eval` because Humble has no `equals`, harmless because the argument has choices."""
+
+
+def on_host(host: str) -> str:
+    """Return what is true where a host's part is to be started."""
+    return f"$(eval \"'{HOST}' == 'all' or '{HOST}' == '{host}'\")"
 
 
 def share(cell: Cell, path: str) -> str:

@@ -1,9 +1,9 @@
 """``security/policy.xml``: who may publish, subscribe, serve and call; everything else is denied.
 
 SROS2 policy 0.2.0, read by ``ros2 security create_permission``. One enclave a node, one for the controller manager's
-process with its controllers and hardware nodes, one for the spawners. Only the clients that the spec declares may call
-an action and only its sources may publish a topic. Left out: keys and certificates, which belong into no repository,
-and what people type at a shell, which needs an enclave of their own.
+process with its controllers and hardware nodes, one for the spawners, one for the tools of the bring-up. Only the
+clients that the spec declares may call an action and only its sources may publish a topic. Left out: keys and
+certificates, which belong into no repository, and what people type at a shell, which needs an enclave of their own.
 """
 
 from __future__ import annotations
@@ -15,10 +15,11 @@ from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
 from cellc.cell.control import ControllerManager
 from cellc.cell.interface import NodeSource
+from cellc.emit.security.bring_up import bring_up_profiles
 from cellc.emit.security.profile import Profile, profile_element
 from cellc.emit.security.rights import common_profile, manager_client, manager_process, node_profile
 from cellc.emit.security.several_managers import description_publisher, joint_state_merger
-from cellc.formats.enclaves import enclave_of, manager_enclave, spawner_enclave
+from cellc.formats.enclaves import bring_up_enclave, enclave_of, manager_enclave, spawner_enclave
 from cellc.formats.header import Header
 from cellc.formats.spawning import spawnings
 from cellc.formats.xml_text import element, render
@@ -40,6 +41,7 @@ def _enclaves(cell: Cell) -> Iterator[Element]:
     for manager in cell.managers:
         yield _enclave(manager_enclave(cell, manager), manager_process(cell, manager))
         yield _enclave(spawner_enclave(cell, manager), _spawners(cell, manager))
+    yield _enclave(bring_up_enclave(cell), [*bring_up_profiles(cell)])
     if len(cell.managers) > 1:
         common = common_profile(cell)
         publishers = (description_publisher(manager, common) for manager in cell.managers)

@@ -1,0 +1,140 @@
+"""Bring-up by readiness: what each step does, and the state, interface or transform that must show before it.
+
+Stages of chapter 4, section 6: discover, configure, observe, claim; enable and move are taken by people. Starting the
+processes is discovery; what follows here waits for proof, whatever order the processes came up in.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from cellc.cell.cell import Cell
+from cellc.cell.control import ControllerManager
+from cellc.cell.frame import WORLD, FrameKind
+from cellc.cell.interface import InterfaceKind, Node
+from cellc.formats.hosts import host_of, host_of_manager
+from cellc.formats.movers import is_mover, movers
+from cellc.formats.spawning import Spawning, on_the_mock_alone, spawnings
+
+MOVE = "move"
+"""Begins the name of the steps that wait for everything and then become the program behind them, one a target."""
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One step of the launch file.
+
+    Args:
+        stage: ``configure``, ``observe`` or ``claim``.
+        name: name of the step, a word of a shell.
+        waits_for: conditions, each a kind and its arguments: ``topic /joint_states``.
+        command: what is done then.
+        mock_alone: only on the mock.
+    """
+
+    stage: str
+    name: str
+    host: str
+    waits_for: tuple[str, ...]
+    command: str
+    mock_alone: bool = False
+
+
+def steps(cell: Cell) -> tuple[Step, ...]:
+    """Return the steps in the order of their stages; each waits for its conditions, none for the one before it."""
+    managed = [node for node in cell.nodes if node.lifecycle]
+    spawned = [(manager, one) for manager in cell.managers for one in spawnings(cell, manager)]
+    return (
+        *(_configure(cell, node) for node in managed),
+        *(_observe(cell, manager, one) for manager, one in spawned if one.observing),
+        *(_activate(cell, node) for node in managed if not is_mover(cell, node)),
+        *(_claim(cell, manager, one) for manager, one in spawned if one.claiming),
+    )
+
+
+def ready_to_move(cell: Cell, target: str) -> tuple[str, ...]:
+    """Return what must show before a node that asks for motion is started: claims, actions, states.
+
+    For the mock that nothing but the mock runs: its argument is a word, and the description is what moves.
+    """
+    alone = {one.name for one in cell.controllers if on_the_mock_alone(cell, one)}
+    asking = {node.name for node in movers(cell)}
+    claimed = (
+        f"controller {_node(manager)} {name} active"
+        for manager in cell.managers
+        for one in spawnings(cell, manager)
+        for name in (() if one.mock_alone else one.claiming)
+    )
+    actions = (
+        f"action {one.name}"
+        for one in cell.interfaces
+        if one.kind is InterfaceKind.ACTION
+        and any(end.node in asking for end in one.sinks)
+        and not any(end.node in alone for end in one.sources)
+    )
+    return (*(("mocked",) if target == "mock" else ()), *claimed, *actions, *_states(cell))
+
+
+def activation(node: Node) -> str:
+    """Return the command with which a person activates a managed node that asks for motion."""
+    return f"ros2 lifecycle set {node.full_name} activate"
+
+
+def _configure(cell: Cell, node: Node) -> Step:
+    command = f"ros2 lifecycle set {node.full_name} configure"
+    return Step("configure", f"configure_{node.name}", host_of(cell, node), (f"node {node.full_name}",), command)
+
+
+def _activate(cell: Cell, node: Node) -> Step:
+    parents = dict.fromkeys(
+        frame.parent for frame in cell.frames if frame.kind is FrameKind.DYNAMIC and frame.authority == node.name
+    )
+    waits_for = (f"lifecycle {node.full_name} inactive", *(f"transform {WORLD} {parent}" for parent in parents))
+    return Step("observe", f"activate_{node.name}", host_of(cell, node), waits_for, activation(node))
+
+
+def _observe(cell: Cell, manager: ControllerManager, spawned: Spawning) -> Step:
+    waits_for = tuple(f"controller {_node(manager)} {name} inactive" for name in spawned.controllers)
+    name = f"observe_{manager.name}" + ("_mock" if spawned.mock_alone else "")
+    return _switch(cell, manager, "observe", name, waits_for, spawned.observing, spawned.mock_alone)
+
+
+def _claim(cell: Cell, manager: ControllerManager, spawned: Spawning) -> Step:
+    waits_for = (
+        *(f"controller {_node(manager)} {name} inactive" for name in spawned.claiming),
+        *(f"topic {name}" for name in _joint_states(cell, manager)),
+        *(f"transform {group.base_link} {group.tip_frame}" for group in cell.groups),
+        *_states(cell),
+    )
+    name = f"claim_{manager.name}" + ("_mock" if spawned.mock_alone else "")
+    return _switch(cell, manager, "claim", name, waits_for, spawned.claiming, spawned.mock_alone)
+
+
+def _switch(
+    cell: Cell,
+    manager: ControllerManager,
+    stage: str,
+    name: str,
+    waits_for: tuple[str, ...],
+    controllers: tuple[str, ...],
+    mock_alone: bool,
+) -> Step:
+    # Strict: all of them or none, so that a cell is never half claimed.
+    command = f"ros2 control switch_controllers --activate {' '.join(controllers)} --strict -c {_node(manager)}"
+    return Step(stage, name, host_of_manager(cell, manager), waits_for, command, mock_alone)
+
+
+def _joint_states(cell: Cell, manager: ControllerManager) -> Iterator[str]:
+    name = f"{manager.namespace}/joint_states"
+    return (interface.name for interface in cell.interfaces if interface.name == name)
+
+
+def _states(cell: Cell) -> Iterator[str]:
+    for node in cell.nodes:
+        if node.lifecycle and not is_mover(cell, node):
+            yield f"lifecycle {node.full_name} active"
+
+
+def _node(manager: ControllerManager) -> str:
+    return f"{manager.namespace}/controller_manager"
