@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,11 +27,13 @@ class Descent:
     Attributes:
         position_error: distance of the tip from the target in metres.
         rotation_error: angle between tip and target in radians.
+        jacobian: of the tip there, 6 rows (m, rad).
     """
 
     configuration: Array
     position_error: float
     rotation_error: float
+    jacobian: Array
 
     @property
     def reached(self) -> bool:
@@ -48,22 +51,23 @@ def descend(chain: GroupChain, target_to_world: PinTransform, seed: Array, limit
         target_to_world: transform of the wanted tip to the world.
         limits: position limits held at every step; None lets the joints leave them.
     """
+    lower, upper = (None, None) if limits is None else (np.array(limits.lower), np.array(limits.upper))
     configuration = seed.astype(np.float64)
-    best, least = configuration, np.full(6, np.inf)
+    best, least, least_squared, there = configuration, np.full(6, np.inf), math.inf, np.empty((6, 0))
     for _ in range(_MAX_ITERATIONS):
         tip, jacobian = chain.tip_and_jacobian(configuration)
-        error = np.asarray(pinocchio.log6(tip.actInv(target_to_world)).vector)
+        error = pinocchio.log6(tip.actInv(target_to_world)).vector
         squared = float(error @ error)
-        if squared >= float(least @ least) and float(least @ least) < POSITION_TOLERANCE_M**2:
+        if squared >= least_squared and least_squared < POSITION_TOLERANCE_M**2:
             break  # rounding has stopped the descent
-        if squared < float(least @ least):
-            best, least = configuration, error
+        if squared < least_squared:
+            best, least, least_squared, there = configuration, error, squared, jacobian
         if squared < _CONVERGED**2:
             break
-        configuration = configuration + _step(jacobian, error)
-        if limits is not None:
-            configuration = np.clip(configuration, limits.lower, limits.upper)
-    return Descent(best, float(np.linalg.norm(least[:3])), float(np.linalg.norm(least[3:])))
+        configuration = configuration + _step(jacobian, error, squared)
+        if lower is not None and upper is not None:
+            configuration = np.minimum(np.maximum(configuration, lower), upper)
+    return Descent(best, float(np.linalg.norm(least[:3])), float(np.linalg.norm(least[3:])), there)
 
 
 def singular_values(chain: GroupChain, configuration: Array) -> Array:
@@ -72,9 +76,11 @@ def singular_values(chain: GroupChain, configuration: Array) -> Array:
     return np.asarray(np.linalg.svd(jacobian, compute_uv=False), dtype=np.float64)
 
 
-def _step(jacobian: Array, error: Array) -> Array:
+def _step(jacobian: Array, error: Array, squared: float) -> Array:
+    normal = jacobian.T @ jacobian
     # The bias keeps the system regular where the arm is redundant or singular.
-    damping = 0.5 * float(error @ error) + 1e-9
-    normal = jacobian.T @ jacobian + damping * np.eye(jacobian.shape[1])
+    normal.flat[:: len(normal) + 1] += 0.5 * squared + 1e-9
     step = np.asarray(np.linalg.solve(normal, jacobian.T @ error), dtype=np.float64)
+    if float(step @ step) <= _MAX_STEP_RAD**2:  # no joint goes farther than all of them together
+        return step
     return step * min(1.0, _MAX_STEP_RAD / max(_MAX_STEP_RAD, float(np.max(np.abs(step)))))

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -17,7 +19,10 @@ from cellc.kinematics import (
     Planner,
     RobotModel,
 )
+from cellc.kinematics.chain import GroupChain
 from cellc.kinematics.inverse import undo_turns
+from cellc.kinematics.model import from_pose
+from cellc.kinematics.solve import Descent, descend
 from cellc.transforms import Pose, from_xyz_rpy
 
 from .arm import ADJACENT, GROUP, HOME, JOINTS, LIMITS, arm_urdf, dh_tool_to_base
@@ -147,3 +152,52 @@ def test_manipulability_is_the_product_of_singular_values_of_a_numeric_jacobian(
     values = np.linalg.svd(np.array(columns).T, compute_uv=False)
     assert solution.min_singular_value == pytest.approx(values[-1], abs=1e-6)
     assert solution.manipulability == pytest.approx(np.prod(values), abs=1e-6)
+
+
+def _counting(calls: list[int]) -> Callable[..., Descent]:
+    def counted(*arguments: Any) -> Descent:
+        calls.append(1)
+        return descend(*arguments)
+
+    return counted
+
+
+def _nearest_of_many(planner: Planner, target: Pose, current: npt.NDArray[np.float64]) -> float:
+    """Return the distance to the nearest free solution that 40 descents find, without the search that is tested."""
+    chain = GroupChain(GROUP, planner.scene)
+    wanted = from_pose(target)  # the base link of this arm stands in the origin of the world
+    drawn = np.random.default_rng(7).uniform(-math.pi, math.pi, size=(39, 6))
+    descents = [descend(chain, wanted, seed, LIMITS) for seed in (current, *drawn)]
+    near = [undo_turns(each.configuration, current, LIMITS, chain.turning) for each in descents if each.reached]
+    return min(float(np.linalg.norm(each - current)) for each in near if not chain.collides(each))
+
+
+def test_search_that_ends_early_ends_at_the_nearest_solution(planner: Planner, monkeypatch: pytest.MonkeyPatch) -> None:
+    calls: list[int] = []
+    monkeypatch.setattr("cellc.kinematics.inverse.descend", _counting(calls))
+    early = 0
+    generator = np.random.default_rng(6)
+    for _ in range(60):
+        current = np.array(HOME) + generator.normal(0.0, 0.5, 6)
+        wanted = current + generator.normal(0.0, [0.4, 0.4, 0.4, 0.4, 0.4, 1.5])
+        if GroupChain(GROUP, planner.scene).collides(wanted):
+            continue
+        calls.clear()
+        solution = planner.inverse_kinematics(planner.tip_pose(wanted.tolist()), current.tolist())
+        if not isinstance(solution, IkSolution) or len(calls) > 1:
+            continue
+        early += 1
+        distance = float(np.linalg.norm(np.array(solution.configuration) - current))
+        assert distance <= _nearest_of_many(planner, planner.tip_pose(wanted.tolist()), current) + 1e-6
+    assert early >= 15
+
+
+def test_solution_on_another_branch_does_not_end_the_search(planner: Planner, monkeypatch: pytest.MonkeyPatch) -> None:
+    calls: list[int] = []
+    monkeypatch.setattr("cellc.kinematics.inverse.descend", _counting(calls))
+    # Close to the wrist's singularity (wrist_2 at zero) the nearest solution lies on its other side.
+    current, wanted = np.array([0.0, -1.2, 1.4, -1.0, -0.1, 0.0]), np.array([0.05, -1.2, 1.4, -1.0, 0.1, 0.0])
+    solution = planner.inverse_kinematics(planner.tip_pose(wanted.tolist()), current.tolist())
+    assert isinstance(solution, IkSolution)
+    assert len(calls) == 8
+    np.testing.assert_allclose(solution.configuration, wanted, atol=1e-6)
