@@ -106,7 +106,7 @@ def _load(folder: str, options: CampaignOptions) -> MockCell:
     for name, value, least in (
         ("seed", options.seed, 0),
         ("number of pairs", options.pairs, 0),
-        ("jobs", options.jobs, 1),
+        ("number of jobs", options.jobs, 1),
     ):
         if value is not None and value < least:
             raise MockError("", f"the {name} is {value}; it must be {least} or greater")

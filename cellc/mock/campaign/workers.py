@@ -6,10 +6,10 @@ import multiprocessing
 import os
 import signal
 import sys
-import threading
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from multiprocessing import resource_tracker
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 
@@ -52,9 +52,14 @@ def run_in_workers(assignment: Assignment, jobs: int) -> Iterator[Numbered]:
     Raises:
         MockError: a run cannot be executed, or a worker ended by itself.
     """
-    workers = [_start(assignment) for _ in range(min(jobs, len(assignment.runs)))]
+    resource_tracker.ensure_running()  # it would open the ears of the first worker
+    workers: list[tuple[BaseProcess, Connection]] = []
     try:
-        yield from _deal(workers, assignment)
+        with _interrupts_held_back():
+            workers += [_start() for _ in range(min(jobs, len(assignment.runs)))]
+        for _, connection in workers:
+            connection.send(assignment)
+        yield from _deal([connection for _, connection in workers], assignment)
     finally:
         for process, connection in workers:
             connection.close()
@@ -63,10 +68,10 @@ def run_in_workers(assignment: Assignment, jobs: int) -> Iterator[Numbered]:
             process.join()
 
 
-def _deal(workers: Sequence[tuple[BaseProcess, Connection]], assignment: Assignment) -> Iterator[Numbered]:
+def _deal(connections: Sequence[Connection], assignment: Assignment) -> Iterator[Numbered]:
     busy: dict[Connection, int] = {}
     waiting = iter(range(len(assignment.runs)))
-    for _, connection in workers:
+    for connection in connections:
         busy[connection] = next(waiting)
         connection.send(busy[connection])
     while busy:
@@ -92,37 +97,38 @@ def _received(connection: Connection, run: CampaignRun) -> RunEnd:
     return answer
 
 
-def _start(assignment: Assignment) -> tuple[BaseProcess, Connection]:
+def _start() -> tuple[BaseProcess, Connection]:
     """Start a worker in a fresh interpreter, so that it has nothing from this one on any platform."""
     context = multiprocessing.get_context("spawn")
     here, there = context.Pipe()
-    process = context.Process(target=_work, args=(there, assignment), daemon=True)
-    with _deaf_to_interrupts():
-        process.start()
+    process = context.Process(target=_work, args=(there,), daemon=True)
+    process.start()
     there.close()
     return process, here
 
 
 @contextmanager
-def _deaf_to_interrupts() -> Iterator[None]:
-    """Let a child that is started meanwhile ignore Ctrl-C from its first instruction; its parent ends it.
+def _interrupts_held_back() -> Iterator[None]:
+    """Let children that are started meanwhile be deaf to Ctrl-C from their first instruction; their parent ends them.
 
-    Only the main thread may change what a signal does; a child of another thread learns it in ``_work``.
+    They inherit the mask for good. Here a Ctrl-C that comes meanwhile is delivered afterwards. Where there are no
+    masks, children learn it in ``_work``.
     """
-    if threading.current_thread() is not threading.main_thread():
+    if sys.platform == "win32":
         yield
         return
-    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield
     finally:
-        signal.signal(signal.SIGINT, before)
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _work(connection: Connection, assignment: Assignment) -> None:
+def _work(connection: Connection) -> None:
     """Execute the runs whose numbers arrive until the connection closes."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
+        assignment: Assignment = connection.recv()
         cell = cell_of(assignment.folder)
         while True:
             number = connection.recv()

@@ -1,0 +1,40 @@
+"""The example cells, built once, and their campaigns."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from cellc.mock import MockCell, load
+from cellc.mock.campaign.campaign import make_plan
+from cellc.mock.campaign.plan import CampaignPlan
+from cellc.mock.faults.possible import possible_faults
+from cellc.output.write import write
+from cellc.pipeline import check, compile_cell
+
+ROOT = Path(__file__).resolve().parents[3]
+
+
+@pytest.fixture(scope="session")
+def folders(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    """Generated folders of all example cells by name; never changed."""
+    output = tmp_path_factory.mktemp("campaign")
+    built: dict[str, Path] = {}
+    for source in sorted((ROOT / "cells").glob("*/cell.yaml")):
+        artifacts = compile_cell(check(source)).value
+        assert artifacts is not None
+        built[source.parent.name] = output / source.parent.name
+        assert write(artifacts, built[source.parent.name]).ok
+    return built
+
+
+@pytest.fixture(scope="session")
+def cells(folders: dict[str, Path]) -> dict[str, MockCell]:
+    """The loaded cells by name."""
+    return {name: load(folder) for name, folder in folders.items()}
+
+
+def plan_of(cell: MockCell) -> CampaignPlan:
+    """Plan a campaign of everything that the cell can meet."""
+    return make_plan(cell, possible_faults(cell.contract), seed=0)[0]

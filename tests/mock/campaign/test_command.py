@@ -1,0 +1,136 @@
+"""The campaign on the command line: matrix, JSON, replay, and a clean end on Ctrl-C."""
+
+from __future__ import annotations
+
+import json
+import os
+import shlex
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from cellc.mock.task.context import TaskContext
+from tests.cli.refused import assert_refused, process
+from tests.cli.run import ROOT, run
+
+
+def test_matrix_names_every_fault_and_step(folders: dict[str, Path]) -> None:
+    ran = run("mock", str(folders["minimal"]), "--campaign", "--jobs", "1")
+    assert ran.code == 0, ran.out
+    lines = ran.out.splitlines()
+    assert lines[0] == "ready: 1 move ready, 2 grip close gripper, 3 grip open gripper"
+    assert lines[1].split() == ["fault", "1", "2", "3"]
+    stop = next(line for line in lines if line.startswith("protective_stop:arm"))
+    assert stop.split() == ["protective_stop:arm", "stop", "stop", "stop"]
+    assert lines[-1].startswith("passed: ")
+
+
+def test_json_names_every_run_with_its_bound_digest_and_replay(folders: dict[str, Path], tmp_path: Path) -> None:
+    folder = str(folders["minimal"])
+    records = tmp_path / "all.jsonl"
+    ran = process("mock", folder, "--campaign", "--json", "--jobs", "2", "--records", str(records))
+    assert ran.code == 0, ran.err
+    told = json.loads(ran.out)
+    assert told["passed"] is True
+    assert told["seed"] == 0
+    attempts = [json.loads(line) for line in records.read_text(encoding="utf-8").splitlines()]
+    assert {attempt["rehearsal"] for attempt in attempts} == {one["id"] for one in told["runs"]}
+    one = told["runs"][-1]
+    command = shlex.split(one["replay"])
+    assert command[:2] == ["cellc", "mock"]
+    again = json.loads(run(*command[1:], "--json").out)
+    assert [(again["runs"][0][key]) for key in ("id", "outcome", "digest")] == [
+        one[key] for key in ("id", "outcome", "digest")
+    ]
+
+
+def test_list_prints_what_replay_takes(folders: dict[str, Path]) -> None:
+    folder = str(folders["minimal"])
+    names = run("mock", folder, "--list", "--pairs", "2").out.splitlines()
+    assert "ready/skip_cycles@1" in names
+    assert sum("+" in name for name in names) == 2
+    ran = run("mock", folder, "--replay", names[-1], "--replay", "skip_cycles@2")
+    assert [line.split(":")[0] for line in ran.out.splitlines() if line.startswith("passed")] == [
+        f"passed  {names[-1].split(':')[0]}",
+        "passed  ready/skip_cycles@2",
+    ]
+
+
+def test_unknown_run_names_the_nearest(folders: dict[str, Path]) -> None:
+    ran = run("mock", str(folders["minimal"]), "--replay", "ready/skip_cycle@1")
+    assert_refused(ran, "the nearest are `ready/skip_cycles@1`")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--campaign", "--jobs", "0"], "the number of jobs is 0; it must be 1 or greater"),
+        (["--campaign", "--pairs", "-1"], "the number of pairs is -1; it must be 0 or greater"),
+        (["--campaign", "--seed", "-1"], "the seed is -1; it must be 0 or greater"),
+        (["--campaign", "--rehearsal", "ready"], "--rehearsal runs declared rehearsals"),
+    ],
+)
+def test_unusable_options_are_refused(folders: dict[str, Path], arguments: list[str], words: str) -> None:
+    assert_refused(run("mock", str(folders["minimal"]), *arguments), words)
+
+
+def test_mock_runs_a_campaign_without_the_compiler(folders: dict[str, Path]) -> None:
+    ran = process(str(folders["minimal"]), "--replay", "skip_cycles@1", module="cellc.mock")
+    assert ran.code == 0, ran.err
+    assert ran.out.startswith("passed  ready/skip_cycles@1: succeeded")
+
+
+@pytest.mark.skipif(os.name != "posix", reason="needs signals of POSIX")
+def test_ctrl_c_ends_all_processes_with_one_line(folders: dict[str, Path]) -> None:
+    command = [sys.executable, "-m", "cellc", "mock", str(folders["fr3_hand"]), "--campaign", "--jobs", "2"]
+    child = subprocess.Popen(
+        command,
+        cwd=ROOT,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,  # so that the signal reaches the workers too, as from a terminal
+    )
+    deadline = time.monotonic() + 30
+    while len(_group(child.pid)) < 3 and time.monotonic() < deadline:
+        time.sleep(0.05)
+    os.killpg(child.pid, signal.SIGINT)
+    out, err = child.communicate(timeout=30)
+    assert child.returncode == 2, err
+    assert (out, err) == ("", "error: interrupted; no records were written\n")
+    while _group(child.pid) and time.monotonic() < deadline:
+        time.sleep(0.05)  # the tracker of multiprocessing ends when it sees that its parent is gone
+    assert _group(child.pid) == []
+
+
+def _group(leader: int) -> list[int]:
+    """Return the processes of a process group that are still there."""
+    found = []
+    for entry in Path("/proc").glob("[0-9]*"):
+        try:
+            fields = (entry / "stat").read_text().rpartition(")")[2].split()
+        except OSError:
+            continue
+        if int(fields[2]) == leader and fields[0] != "Z":
+            found.append(int(entry.name))
+    return found
+
+
+def test_failing_run_is_told_with_the_command_that_replays_it(
+    folders: dict[str, Path], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(TaskContext, "check_cell", lambda self: None)
+    ran = run("mock", str(folders["minimal"]), "--campaign", "--jobs", "1", "--seed", "7")
+    assert ran.code == 1
+    lines = ran.out.splitlines()
+    failed = lines.index("FAILED  ready/protective_stop:gripper@3: succeeded")
+    assert lines[failed + 1] == "        expected: protective_stop"
+    folder = shlex.quote(str(folders["minimal"]))
+    assert lines[failed + 2] == f"        replay: cellc mock {folder} --replay ready/protective_stop:gripper@3 --seed 7"
+    assert lines[-1].startswith("FAILED: ")
+    matrix = next(line for line in lines if line.startswith("protective_stop:gripper"))
+    assert "!" in matrix
