@@ -19,6 +19,7 @@ import click
 )
 @click.option("--json", "as_json", is_flag=True, help="Write the results as JSON.")
 @click.option("--records", type=click.Path(path_type=str, dir_okay=False), help="Write attempt records as JSON lines.")
+@click.option("--evidence", type=click.Path(path_type=str, file_okay=False), help="Write bags, figures and a report.")
 @click.option("--seed", default=0, show_default=True, help="Seed of planning, of seeded faults and of pairs.")
 def mock(
     folder: str,
@@ -30,6 +31,7 @@ def mock(
     replayed: tuple[str, ...],
     as_json: bool,
     records: str | None,
+    evidence: str | None,
     seed: int,
 ) -> None:
     """Execute the rehearsals of the generated FOLDER; exit 1 where one does not end as it should."""
@@ -39,6 +41,8 @@ def mock(
 
     if names and (campaign or list_only or replayed):
         raise click.UsageError("--rehearsal runs declared rehearsals; it does not go with the options of the campaign.")
+    if evidence is not None and (campaign or list_only or replayed):
+        raise click.UsageError("--evidence is of declared rehearsals; it does not go with the options of the campaign.")
     options = CampaignOptions(seed=seed, jobs=jobs, pairs=pairs, as_json=as_json, records=records)
     if list_only:
         code = list_runs(folder, options)
@@ -47,5 +51,5 @@ def mock(
     elif campaign:
         code = run_campaign(folder, options)
     else:
-        code = run_command(folder, names=names, as_json=as_json, records=records, seed=seed)
+        code = run_command(folder, names=names, as_json=as_json, records=records, evidence=evidence, seed=seed)
     raise click.exceptions.Exit(code)

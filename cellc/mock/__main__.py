@@ -26,11 +26,14 @@ def main() -> int:
         "--rehearsal", action="append", default=[], metavar="NAME", help="run this one only; repeatable"
     )
     parser.add_argument("--records", metavar="FILE", help="write the attempt records as JSON lines")
+    parser.add_argument("--evidence", metavar="FOLDER", help="write bags, figures and a report")
     parser.add_argument("--seed", type=int, default=0, help="seed of everything drawn (default 0)")
     options = parser.parse_args()
     in_campaign = options.campaign or options.list or options.replay
     if options.rehearsal and in_campaign:
         parser.error("--rehearsal runs declared rehearsals; it does not go with the options of the campaign")
+    if options.evidence and in_campaign:
+        parser.error("--evidence is of declared rehearsals; it does not go with the options of the campaign")
     # Imported here, so that Ctrl-C while the planning libraries load ends without a traceback too.
     return _run_campaign(options) if in_campaign else _run_rehearsals(options)
 
@@ -39,7 +42,12 @@ def _run_rehearsals(options: argparse.Namespace) -> int:
     from cellc.mock.command import run_command
 
     return run_command(
-        options.folder, names=options.rehearsal, as_json=options.json, records=options.records, seed=options.seed
+        options.folder,
+        names=options.rehearsal,
+        as_json=options.json,
+        records=options.records,
+        evidence=options.evidence,
+        seed=options.seed,
     )
 
 

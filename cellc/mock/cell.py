@@ -48,17 +48,25 @@ class MockCell:
         """What is odd about the folder but no reason to stop, such as files edited by hand."""
         return self._folder.notes
 
+    def entry(self, rehearsal: str) -> RehearsalEntry:
+        """Return a rehearsal of the folder.
+
+        Raises:
+            MockError: there is none of this name.
+        """
+        for entry in self.entries:
+            if entry.name == rehearsal:
+                return entry
+        known = ", ".join(f"`{name}`" for name in self.rehearsals) or "none"
+        raise MockError(self.contract.files.rehearsals, f"has no rehearsal `{rehearsal}`; it has {known}")
+
     def run(self, rehearsal: str, *, seed: int = 0) -> RehearsalResult:
         """Run one rehearsal; the same folder and seed give the same result to the last bit.
 
         Raises:
             MockError: there is no rehearsal of this name, or it names what the contract does not have.
         """
-        for entry in self.entries:
-            if entry.name == rehearsal:
-                return self.rehearse(entry, seed=seed)
-        known = ", ".join(f"`{name}`" for name in self.rehearsals) or "none"
-        raise MockError(self.contract.files.rehearsals, f"has no rehearsal `{rehearsal}`; it has {known}")
+        return self.rehearse(self.entry(rehearsal), seed=seed)
 
     def rehearse(self, entry: RehearsalEntry, *, seed: int = 0, watch: Watch | None = None) -> RehearsalResult:
         """Run a rehearsal that need not stand in the folder; ``watch`` sees the plant before anything runs.

@@ -94,7 +94,7 @@ class JointStateHistory:
 
     def arrivals(self, stamps_ns: IntArray) -> IntArray:
         """Return when messages arrive that were published at ``stamps_ns``."""
-        arrivals = stamps_ns.copy()
+        arrivals: IntArray = stamps_ns.copy()
         for late in self.late:
             until = np.iinfo(np.int64).max if late.until_ns is None else late.until_ns
             arrivals[(stamps_ns >= late.from_ns) & (stamps_ns < until)] += late.delay_ns

@@ -1,0 +1,114 @@
+"""Runs rehearsals and writes their evidence: a bag, records and figures of each, and one report over all."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from types import TracebackType
+
+from cellc.contract.rehearsals import RehearsalEntry
+from cellc.mock.cell import MockCell
+from cellc.mock.evidence.bag.bag import Bag
+from cellc.mock.evidence.file_names import file_names
+from cellc.mock.evidence.folder import EvidenceFolder
+from cellc.mock.evidence.kpis import Kpi, kpis, to_kpi_json
+from cellc.mock.evidence.onlooker import Onlooker
+from cellc.mock.evidence.run_bag import RunBag
+from cellc.mock.evidence.trace.run_trace import RunTrace, TraceResult
+from cellc.mock.plant import Plant
+from cellc.mock.record import to_json_lines
+from cellc.mock.result import RehearsalResult
+from cellc.mock.task.bounds import joint_state_age_s
+
+REPORT = "report.html"
+
+
+@dataclass(frozen=True, slots=True)
+class RunEvidence:
+    """What the report knows of one rehearsal; the trace is None where the controller managers never came up."""
+
+    entry: RehearsalEntry
+    result: RehearsalResult
+    trace: TraceResult | None
+    kpis: tuple[Kpi, ...]
+
+
+class EvidenceCollector:
+    """Runs rehearsals of one call; used as a context, so that nothing half done is left behind."""
+
+    def __init__(self, cell: MockCell, folder: Path, names: Sequence[str], seed: int) -> None:
+        """Make ready to run rehearsals by name.
+
+        Raises:
+            MockError: the folder cannot take the evidence.
+        """
+        self.runs: list[RunEvidence] = []
+        self._cell = cell
+        self._seed = seed
+        self._stems = file_names(names)
+        self._folder = EvidenceFolder(folder)
+        self._folder.refuse_edited([REPORT, *(name for stem in self._stems.values() for name in _files(stem))])
+
+    def __enter__(self) -> EvidenceCollector:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        self._folder.discard()
+
+    def run(self, name: str) -> RehearsalResult:
+        """Run a rehearsal, and keep its evidence.
+
+        Raises:
+            MockError: it names what the contract does not have.
+        """
+        entry = self._cell.entry(name)
+        bag_file, records_file, kpis_file = _files(self._stems[entry.name])
+        watched: list[tuple[Onlooker, RunTrace, Plant]] = []
+        with self._folder.open(bag_file) as file:
+            bag = Bag(file, self._cell.contract.distro, self._identity(entry))
+
+            def watch(plant: Plant) -> None:
+                writer, trace = RunBag(bag, plant), RunTrace(plant)
+                writer.begin(self._cell.folder.urdf)
+                watched.append((Onlooker(plant, writer, trace), trace, plant))
+
+            result = self._cell.rehearse(entry, seed=self._seed, watch=watch)
+            for onlooker, _, _ in watched:
+                onlooker.end(result.attempts)
+            bag.finish()
+        trace = watched[0][1].result() if watched else None
+        figures = () if trace is None else self._figures(result, trace)
+        self._folder.write(records_file, to_json_lines(result.attempts))
+        self._folder.write(kpis_file, to_kpi_json(entry, result, figures))
+        self.runs.append(RunEvidence(entry, result, trace, figures))
+        return result
+
+    def settle(self) -> None:
+        """Write the report and put everything in its place.
+
+        Raises:
+            MockError: the folder cannot take it.
+        """
+        contract = self._cell.contract
+        self._folder.settle({"cell": contract.cell, "configuration_id": contract.configuration_id, "seed": self._seed})
+
+    def _figures(self, result: RehearsalResult, trace: TraceResult) -> tuple[Kpi, ...]:
+        contract = self._cell.contract
+        return kpis(contract.kpis, result, trace, joint_state_age_s(contract))
+
+    def _identity(self, entry: RehearsalEntry) -> dict[str, str]:
+        contract = self._cell.contract
+        return {
+            "cell": contract.cell,
+            "configuration_id": contract.configuration_id,
+            "rehearsal": entry.name,
+            "seed": str(self._seed),
+            **{f"version.{part}": version for part, version in sorted(contract.version_tuple.items())},
+        }
+
+
+def _files(stem: str) -> tuple[str, str, str]:
+    return f"{stem}.mcap", f"{stem}.records.jsonl", f"{stem}.kpis.json"

@@ -1,0 +1,129 @@
+"""The evidence folder: made ready beside its place, then put there all at once; files of others stay."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import BinaryIO
+
+from cellc.mock.errors import MockError
+from cellc.replacement.staging import discard, is_alive, others, staging_of
+from cellc.replacement.swap import Swap
+
+INDEX = "evidence.json"
+"""Names every file of the folder with its hash, by which the next call tells its own files from those of others."""
+_PIECE = 1 << 20
+
+
+class EvidenceFolder:
+    """Takes files one by one; none is in its place before `settle`."""
+
+    def __init__(self, folder: Path) -> None:
+        """Make ready.
+
+        Raises:
+            MockError: something stands in the way, or another run writes the same folder.
+        """
+        self._folder = folder
+        self._staging = staging_of(folder)
+        self._names: list[str] = []
+        if folder.is_symlink() or (folder.exists() and not folder.is_dir()):
+            raise MockError(folder.as_posix(), "is no folder that evidence can be written to")
+        self._stale = others(folder)
+        if any(is_alive(staging) for staging in self._stale):
+            raise MockError(folder.as_posix(), "another run is writing its evidence there")
+        try:
+            folder.parent.mkdir(parents=True, exist_ok=True)
+            (self._staging / "new").mkdir(parents=True)
+        except OSError as error:
+            raise self._unwritable(error) from None
+
+    def refuse_edited(self, names: Sequence[str]) -> None:
+        """Raise MockError where a file stands that would be replaced and that cellc did not write."""
+        known = [_hashes(self._folder), *(_hashes(staging / "new") for staging in self._stale)]
+        for name in sorted({*names, *(name for hashes in known for name in hashes)} - {INDEX}):
+            path = self._folder / name
+            if path.is_symlink() or (path.exists() and not path.is_file()):
+                raise MockError(path.as_posix(), "stands where a file of the evidence is due")
+            if path.exists() and all(hashes.get(name) != _sha256(path) for hashes in known):
+                raise MockError(path.as_posix(), "is not as cellc wrote it; move it away, or name another folder")
+
+    def open(self, name: str) -> BinaryIO:
+        """Open a new file of the folder for writing; a name of one part, as `file_names` gives them."""
+        self._names.append(name)
+        return (self._staging / "new" / name).open("wb")
+
+    def write(self, name: str, text: str) -> None:
+        """Write a whole file."""
+        with self.open(name) as file:
+            file.write(text.encode())
+
+    def settle(self, identity: Mapping[str, str | int]) -> None:
+        """Put all files in their place, the index last, and remove what an earlier call wrote and this one did not.
+
+        Args:
+            identity: stands in the index before the hashes.
+
+        Raises:
+            MockError: a file was edited meanwhile, or the disk refused; the folder is as it was before.
+        """
+        self.refuse_edited(self._names)
+        new = self._staging / "new"
+        hashes = {name: _sha256(new / name) for name in sorted(self._names)}
+        self.write(INDEX, json.dumps({"format": 1, **identity, "files": hashes}, ensure_ascii=False, indent=2) + "\n")
+        former = {*_hashes(self._folder), *(name for staging in self._stale for name in _hashes(staging / "new"))}
+        try:
+            self._swap(sorted(former - set(hashes) - {INDEX}), [*hashes, INDEX])
+        except OSError as error:
+            raise self._unwritable(error) from None
+        for staging in self._stale:
+            discard(staging)
+
+    def discard(self) -> None:
+        """Remove what is in no place yet."""
+        discard(self._staging)
+
+    def _swap(self, removed: Sequence[str], put: Sequence[str]) -> None:
+        swap = Swap(self._folder, self._staging)
+        try:
+            for name in put:
+                _flush(self._staging / "new" / name)
+            swap.make_folder(self._folder)
+            for name in removed:
+                if (self._folder / name).is_file():
+                    swap.remove(name)
+            for name in put:
+                swap.put(name)
+            swap.settle()
+        except BaseException:  # Ctrl-C too: what was replaced is put back
+            swap.undo()
+            raise
+
+    def _unwritable(self, error: OSError) -> MockError:
+        reason = (error.strerror or type(error).__name__).lower()
+        return MockError(self._folder.as_posix(), f"cannot be written: {reason}")
+
+
+def _hashes(folder: Path) -> dict[str, str]:
+    """Return the hashes of an index; an index is data that others may have written, so that it names no other place."""
+    try:
+        files = json.loads((folder / INDEX).read_bytes())["files"]
+        return {str(name): str(sha256) for name, sha256 in files.items() if Path(str(name)).name == name}
+    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+        return {}
+
+
+def _sha256(path: Path) -> str:
+    digest = hashlib.sha256()
+    with path.open("rb") as file:
+        while piece := file.read(_PIECE):
+            digest.update(piece)
+    return digest.hexdigest()
+
+
+def _flush(path: Path) -> None:
+    with path.open("rb") as file:
+        os.fsync(file.fileno())

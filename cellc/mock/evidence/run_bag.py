@@ -1,0 +1,152 @@
+"""The bag of one rehearsal: every topic of the cell that a recorder beside it would have heard."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from cellc.contract.contract import ContractController
+from cellc.mock.control import GripperGoal, JointStateBlock, Recording
+from cellc.mock.engine.watcher import GoalSent
+from cellc.mock.evidence.bag import messages
+from cellc.mock.evidence.bag.bag import Bag
+from cellc.mock.evidence.bag.rows import MessageRows
+from cellc.mock.evidence.bag.shapes import Point, controller_state_rows, joint_state_shape
+from cellc.mock.evidence.diagnostics import diagnose
+from cellc.mock.evidence.topics import (
+    ATTEMPTS,
+    DIAGNOSTICS,
+    TRAJECTORY_BEHAVIOURS,
+    BagTopic,
+    controller_state_topic,
+    description_topic,
+    goal_topic,
+    joint_states_topic,
+    pose_topic,
+    static_transforms_topic,
+    transforms_topic,
+)
+from cellc.mock.evidence.transform_stream import TransformMessage, static_transforms
+from cellc.mock.nodes.perception import ObjectPose
+from cellc.mock.plant import Plant
+from cellc.mock.record import AttemptRecord, to_json_line
+
+_FIELD_OF = {
+    "position": "positions",
+    "velocity": "velocities",
+    "acceleration": "accelerations",
+    "effort": "effort",
+}
+"""Field of a trajectory point by kind of interface."""
+
+
+class RunBag:
+    """Writes what happens in a plant; all topics are declared first, in the order of the contract."""
+
+    def __init__(self, bag: Bag, plant: Plant) -> None:
+        """Declare the topics of a plant."""
+        self._bag = bag
+        self._plant = plant
+        self._shapes: dict[tuple[str, ...], MessageRows] = {}
+        contract = plant.contract
+        self._description = self._declare(description_topic(contract))
+        self._static = self._declare(static_transforms_topic(contract))
+        self._transforms = self._declare(transforms_topic(contract))
+        self._joint_states = {key: self._declare(joint_states_topic(contract, *key)) for key in plant.control.histories}
+        self._states: dict[str, int] = {}
+        self._goals: dict[str, int] = {}
+        for name, manager in contract.managers.items():
+            for controller, facts in manager.controllers.items():
+                if facts.behaviour in TRAJECTORY_BEHAVIOURS:
+                    self._states[controller] = self._declare(controller_state_topic(contract, name, controller))
+                if facts.action is not None:
+                    topic = goal_topic(controller, gripper=facts.behaviour not in TRAJECTORY_BEHAVIOURS)
+                    self._goals[controller] = self._declare(topic)
+        topics = {frame: pose_topic(contract, frame) for frame in plant.perceptions}
+        self._poses = {frame: self._declare(topic) for frame, topic in topics.items() if topic is not None}
+        self._diagnostics = self._declare(DIAGNOSTICS)
+        self._attempts = self._declare(ATTEMPTS)
+
+    def begin(self, urdf: str) -> None:
+        """Write what robot_state_publisher latches when it starts."""
+        now_ns = self._plant.now_ns
+        self._bag.write(self._description, messages.string(urdf), now_ns)
+        self._bag.write(self._static, messages.transforms(static_transforms(self._plant)), now_ns)
+
+    def joint_states(self, manager: str, broadcaster: str, block: JointStateBlock) -> None:
+        """Write joint states, each logged when it arrives."""
+        history = self._plant.control.histories[(manager, broadcaster)]
+        columns = [block.names.index(name) for name in history.names]
+        clock = self._plant.clocks.of(broadcaster)
+        stamps = np.array([clock.read(stamp) for stamp in block.stamps_ns.tolist()], dtype=np.int64)
+        shape = self._shapes.setdefault(history.names, joint_state_shape(history.names))
+        numbers = [values[:, columns] for values in (block.positions, block.velocities, block.efforts)]
+        arrivals = history.arrivals(block.stamps_ns).tolist()
+        for data, published_ns, arrived_ns in zip(
+            shape.encode(stamps, numbers), block.stamps_ns.tolist(), arrivals, strict=True
+        ):
+            self._bag.write(self._joint_states[(manager, broadcaster)], data, published_ns, arrived_ns)
+
+    def controller_states(self, controller: str, recording: Recording) -> None:
+        """Write the states of a trajectory controller."""
+        clock = self._plant.clocks.of(controller)
+        stamps = np.array([clock.read(stamp) for stamp in recording.stamps_ns.tolist()], dtype=np.int64)
+        points = _points(recording, self._first_command(controller))
+        shape, numbers = controller_state_rows(recording.joints, points, recording.scaling, self._plant.contract.distro)
+        for data, stamp_ns in zip(shape.encode(stamps, numbers), recording.stamps_ns.tolist(), strict=True):
+            self._bag.write(self._states[controller], data, stamp_ns)
+
+    def transforms(self, message: TransformMessage) -> None:
+        """Write moving edges."""
+        self._bag.write(self._transforms, messages.transforms(message.transforms), message.published_ns)
+
+    def goal(self, sent: GoalSent) -> None:
+        """Write a goal as it was sent, whatever the answer was."""
+        if sent.controller not in self._goals:
+            return
+        if isinstance(sent.goal, GripperGoal):
+            joints = sent.goal.joint_names or self._facts(sent.controller).joints
+            data = messages.gripper_command(sent.stamp_ns, joints, sent.goal)
+        else:
+            data = messages.joint_trajectory(sent.goal.trajectory())
+        self._bag.write(self._goals[sent.controller], data, sent.stamp_ns)
+
+    def pose(self, frame: str, published: ObjectPose, as_transform: bool) -> None:
+        """Write an object pose, and its transform where that was published too."""
+        now_ns = self._plant.now_ns
+        if frame in self._poses:
+            data = messages.pose_stamped(published.stamp_ns, published.frame, published.pose)
+            self._bag.write(self._poses[frame], data, now_ns)
+        if as_transform:
+            stamped = messages.StampedTransform(published.stamp_ns, published.frame, frame, published.pose)
+            self._bag.write(self._transforms, messages.transforms((stamped,)), now_ns)
+
+    def diagnostics(self, now_ns: int) -> None:
+        """Write the present diagnostics."""
+        data = messages.diagnostics(now_ns, diagnose(self._plant, now_ns))
+        self._bag.write(self._diagnostics, data, now_ns)
+
+    def attempt(self, record: AttemptRecord) -> None:
+        """Write an attempt record when it ended."""
+        self._bag.write(self._attempts, messages.string(to_json_line(record)), record.ended_ns)
+
+    def _declare(self, topic: BagTopic) -> int:
+        return self._bag.declare(topic.name, topic.kind, topic.qos)
+
+    def _facts(self, controller: str) -> ContractController:
+        managers = self._plant.contract.managers.values()
+        return next(manager.controllers[controller] for manager in managers if controller in manager.controllers)
+
+    def _first_command(self, controller: str) -> str:
+        interfaces = self._facts(controller).command_interfaces
+        return interfaces[0].rpartition("/")[2] if interfaces else "position"
+
+
+def _points(recording: Recording, command: str) -> tuple[Point, ...]:
+    """Return reference, feedback, error and output with the fields that the controller knows."""
+    reference = {"positions": recording.desired, "velocities": recording.desired_velocity}
+    feedback, error = {"positions": recording.actual}, {"positions": recording.error}
+    if not np.isnan(recording.actual_velocity).all():
+        feedback["velocities"] = recording.actual_velocity
+        error["velocities"] = recording.desired_velocity - recording.actual_velocity
+    output = {_FIELD_OF.get(command, "positions"): recording.command}
+    return reference, feedback, error, output

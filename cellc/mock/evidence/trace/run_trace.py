@@ -1,0 +1,136 @@
+"""What is kept of one rehearsal for its report, in memory that does not grow with its length."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from cellc.mock.control import ControllerChanged, HardwareChanged, JointStateBlock, Recording
+from cellc.mock.evidence.trace.age_builder import AgeBuilder, AgeTrace
+from cellc.mock.evidence.trace.claims import Claim, ClaimBook, StateChange
+from cellc.mock.evidence.trace.envelope import Array, Envelope, EnvelopeBuilder
+from cellc.mock.evidence.transform_stream import TransformMessage
+from cellc.mock.nodes.perception import ObjectPose
+from cellc.mock.plant import Plant
+from cellc.mock.task.bounds import joint_state_age_s
+
+
+@dataclass(frozen=True, slots=True)
+class JointTrace:
+    """Signals of one joint of a trajectory controller; each is an envelope of one signal, rad or m.
+
+    Attributes:
+        worst_error: greatest magnitude of desired - actual.
+    """
+
+    joint: str
+    controller: str
+    desired: Envelope
+    actual: Envelope
+    command: Envelope
+    error: Envelope
+    worst_error: float
+
+
+@dataclass(frozen=True, slots=True)
+class TraceResult:
+    """All that was kept of a run, to its end at ``ended_ns``."""
+
+    joints: tuple[JointTrace, ...]
+    ages: tuple[AgeTrace, ...]
+    claims: tuple[Claim, ...]
+    changes: tuple[StateChange, ...]
+    missed_cycles: int
+    ended_ns: int
+
+
+class RunTrace:
+    """Collects envelopes, ages, claims and changes of a plant."""
+
+    def __init__(self, plant: Plant) -> None:
+        """Bind the trace to a plant in which nothing has run yet."""
+        self._plant = plant
+        self._book = ClaimBook(plant)
+        self._changes: list[StateChange] = []
+        self._signals: dict[tuple[str, str], EnvelopeBuilder] = {}
+        self._ages: dict[str, AgeBuilder] = {}
+        self._claims: tuple[Claim, ...] = ()
+        self._ended_ns = 0
+        self._missed = 0
+
+    def joint_states(self, manager: str, broadcaster: str, block: JointStateBlock) -> None:
+        """Take joint states as the task receives them."""
+        history = self._plant.control.histories[(manager, broadcaster)]
+        ages = self._age(f"joint states of {broadcaster}", joint_state_age_s(self._plant.contract))
+        clock = self._plant.clocks.of(broadcaster)
+        for taken_ns, arrived_ns in zip(
+            block.stamps_ns.tolist(), history.arrivals(block.stamps_ns).tolist(), strict=True
+        ):
+            ages.arrived(arrived_ns, clock.read(taken_ns))
+
+    def transforms(self, message: TransformMessage) -> None:
+        """Take moving edges as a listener receives them."""
+        self._age("transforms of moving links", None).arrived(message.published_ns, message.transforms[0].stamp_ns)
+
+    def observation(self, frame: str, pose: ObjectPose) -> None:
+        """Take an observation that has reached the task."""
+        max_age_s = self._plant.inboxes[frame].max_age_s
+        self._age(f"observations of {frame}", max_age_s).arrived(self._plant.now_ns, pose.stamp_ns)
+
+    def controller_states(self, controller: str, recording: Recording) -> None:
+        """Take states of a trajectory controller."""
+        for column, joint in enumerate(recording.joints):
+            signals = (recording.desired, recording.actual, recording.command, recording.error)
+            values = np.stack([_column(signal, column) for signal in signals], axis=1)
+            builder = self._signals.setdefault((controller, joint), EnvelopeBuilder(len(signals)))
+            builder.add(recording.stamps_ns, values)
+
+    def changed(self, event: ControllerChanged | HardwareChanged) -> None:
+        """Take a change of a controller or of a hardware component."""
+        if isinstance(event, ControllerChanged):
+            change = StateChange(event.stamp_ns, "controller", event.controller, event.state, event.reason)
+        else:
+            change = StateChange(event.stamp_ns, "hardware component", event.component, event.state, event.reason)
+        self._changes.append(change)
+        self._book.look(event.stamp_ns)
+
+    def end(self, now_ns: int) -> None:
+        """Close what is open."""
+        for ages in self._ages.values():
+            ages.look(now_ns)
+        self._missed = sum(history.missed_until(now_ns) for history in self._plant.control.histories.values())
+        self._claims = self._book.claims(now_ns)
+        self._ended_ns = now_ns
+
+    def result(self) -> TraceResult:
+        """Return everything; the run must have ended."""
+        return TraceResult(
+            joints=tuple(_joint(*key, builder.envelope()) for key, builder in self._signals.items()),
+            ages=tuple(ages.trace() for ages in self._ages.values()),
+            claims=self._claims,
+            changes=tuple(self._changes),
+            missed_cycles=self._missed,
+            ended_ns=self._ended_ns,
+        )
+
+    def _age(self, source: str, max_age_s: float | None) -> AgeBuilder:
+        if source not in self._ages:
+            task = self._plant.task
+            self._ages[source] = AgeBuilder(source, task, self._plant.clocks.of(task), max_age_s)
+        return self._ages[source]
+
+
+def _column(signal: Array, column: int) -> Array:
+    """Return a column; NaN where the controller commands fewer joints than it measures."""
+    return signal[:, column] if column < signal.shape[1] else np.full(len(signal), np.nan)
+
+
+def _joint(controller: str, joint: str, envelope: Envelope) -> JointTrace:
+    desired, actual, command, error = (
+        Envelope(envelope.width_ns, envelope.starts_ns, envelope.lowest[:, [index]], envelope.highest[:, [index]])
+        for index in range(4)
+    )
+    extremes = np.abs(np.concatenate([error.lowest, error.highest]))
+    worst = float(np.nanmax(extremes)) if np.isfinite(extremes).any() else 0.0
+    return JointTrace(joint, controller, desired, actual, command, error, worst)
