@@ -89,17 +89,24 @@ class GroupChain:
         return chain
 
     def full(self, configuration: Array) -> Array:
-        """Return pinocchio's configuration of the whole cell for one of the group."""
-        vector: Array = self._rest.copy()
-        vector[self._plain_to] = configuration[self._plain_from] * self._plain_factors + self._plain_offsets
+        """Return pinocchio's configuration of the whole cell for one of the group, or one in each row for many."""
+        vector: Array = np.empty((*configuration.shape[:-1], len(self._rest)))
+        vector[...] = self._rest
+        vector[..., self._plain_to] = configuration[..., self._plain_from] * self._plain_factors + self._plain_offsets
         for joint in self._circle:
-            angle = joint.multiplier * configuration[joint.column] + joint.offset
-            vector[joint.place], vector[joint.place + 1] = math.cos(angle), math.sin(angle)
+            angles = (joint.multiplier * configuration[..., joint.column] + joint.offset).ravel().tolist()
+            turned = np.array([(math.cos(angle), math.sin(angle)) for angle in angles])
+            vector[..., joint.place : joint.place + 2] = turned.reshape(*configuration.shape[:-1], 2)
         return vector
 
     def sweep_m(self, difference: Array) -> float:
         """Bound how far any point of the cell moves while the group moves by a difference of configurations."""
         return float(np.max(self._rates @ np.abs(difference), initial=0.0))
+
+    def first_collision(self, configurations: Array) -> int | None:
+        """Return the first row of several configurations at which the cell is in collision; None where it never is."""
+        scene = self.scene
+        return next((row for row, full in enumerate(self.full(configurations)) if scene.collides(full)), None)
 
     def tip(self, configuration: Array) -> PinTransform:
         """Return the transform of the tip to the world."""

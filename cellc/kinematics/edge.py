@@ -19,11 +19,15 @@ _LEAST_STEP_RAD = 0.001
 
 def edge_is_free(chain: GroupChain, start: Array, goal: Array) -> bool:
     """Tell whether the inside and the goal of an edge are free of collision; the start is taken as checked."""
-    difference = goal - start
+    count = check_count(chain, goal - start)
+    order = np.fromiter(_coarse_first(count), dtype=np.float64, count=count)
+    return chain.first_collision(start + order[:, np.newaxis] * ((goal - start) / count)) is None
+
+
+def check_count(chain: GroupChain, difference: Array) -> int:
+    """Return into how many parts an edge is cut by its checks; a difference of configurations tells its length."""
     wanted = chain.sweep_m(difference) / EDGE_RESOLUTION_M
-    count = max(1, math.ceil(min(wanted, float(np.max(np.abs(difference))) / _LEAST_STEP_RAD)))
-    step = difference / count
-    return not any(chain.collides(start + index * step) for index in _coarse_first(count))
+    return max(1, math.ceil(min(wanted, float(np.max(np.abs(difference))) / _LEAST_STEP_RAD)))
 
 
 def _coarse_first(count: int) -> Iterator[int]:

@@ -123,6 +123,18 @@ def test_line_into_the_table_has_no_path(planner: Planner) -> None:
     assert _refused(planner.plan_cartesian(start, Pose((-0.45, -0.35, -0.1), DOWN))) is FailureReason.NO_PATH
 
 
+@pytest.mark.parametrize(("depth", "steps"), [(-0.098, 70), (-1.248, 300)])
+def test_line_is_refused_for_what_it_meets_first(planner: Planner, depth: float, steps: int) -> None:
+    # The flange ends where the tip is: from 0.25 m up it meets the table within the step that passes z = 0. The longer
+    # line would leave the reach of the arm later on.
+    result = planner.plan_cartesian(_configuration(planner, LEFT), Pose((-0.45, -0.35, depth), DOWN))
+    assert isinstance(result, PlanFailure)
+    step = math.ceil(0.25 / ((0.25 - depth) / steps))
+    assert result == PlanFailure(
+        FailureReason.NO_PATH, f"at {step / steps:.0%} of the line: `link_6` and `table` touch"
+    )
+
+
 def test_line_out_of_reach_leaves_the_line_or_meets_the_stretched_arm(planner: Planner) -> None:
     start = _configuration(planner, LEFT)
     reason = _refused(planner.plan_cartesian(start, Pose((-1.4, -0.35, 0.25), DOWN)))
