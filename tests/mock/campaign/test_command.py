@@ -127,10 +127,10 @@ def test_failing_run_is_told_with_the_command_that_replays_it(
     ran = run("mock", str(folders["minimal"]), "--campaign", "--jobs", "1", "--seed", "7")
     assert ran.code == 1
     lines = ran.out.splitlines()
-    failed = lines.index("FAILED  ready/protective_stop:gripper@3: succeeded")
+    failed = lines.index("FAILED  ready/protective_stop:arm@3: succeeded")
     assert lines[failed + 1] == "        expected: protective_stop"
     folder = shlex.quote(str(folders["minimal"]))
-    assert lines[failed + 2] == f"        replay: cellc mock {folder} --replay ready/protective_stop:gripper@3 --seed 7"
+    assert lines[failed + 2] == f"        replay: cellc mock {folder} --replay ready/protective_stop:arm@3 --seed 7"
     assert lines[-1].startswith("FAILED: ")
-    matrix = next(line for line in lines if line.startswith("protective_stop:gripper"))
+    matrix = next(line for line in lines if line.startswith("protective_stop:arm"))
     assert "!" in matrix
