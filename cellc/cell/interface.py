@@ -81,6 +81,16 @@ class Endpoint:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class SimulatedNetwork:
+    """What the mock's network does to each sample: seconds, and shares from 0 to 1."""
+
+    latency_s: float
+    jitter_s: float
+    loss: float
+    reordering: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Interface(Entity):
     """A topic, service or action under its fully qualified name.
 
@@ -106,3 +116,4 @@ class Interface(Entity):
     on_timeout: str | None = None
     on_error: str | None = None
     cancel_within_s: float | None = None
+    simulated: SimulatedNetwork | None = None

@@ -65,6 +65,15 @@ class ContractEndpoint(ContractModel):
     qos: ContractQos = Field(description="Its profile.")
 
 
+class ContractNetwork(ContractModel):
+    """What the mock's network does to each sample of a topic."""
+
+    latency_s: float = Field(0.0, description="Shortest time from publishing to arrival.")
+    jitter_s: float = Field(0.0, description="Up to so much more.")
+    loss: float = Field(0.0, description="Share of samples lost on their way, 0 to 1.")
+    reordering: float = Field(0.0, description="Share of samples overtaken by the next one, 0 to 1.")
+
+
 class ContractInterface(ContractModel):
     """A topic, service or action with what its users may rely on."""
 
@@ -85,6 +94,7 @@ class ContractInterface(ContractModel):
     on_timeout: str | None = Field(description="What the client does then.")
     on_error: str | None = Field(description="How an error is told.")
     cancel_within_s: float | None = Field(description="Bound from cancel to hold.")
+    simulated: ContractNetwork | None = Field(None, description="How the mock carries it; null for at once.")
 
 
 class ContractController(ContractModel):

@@ -5,14 +5,22 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from cellc.cell.interface import Endpoint, Interface, InterfaceKind, Qos
+from cellc.cell.interface import Endpoint, Interface, InterfaceKind, Qos, SimulatedNetwork
 from cellc.diagnostics import Diagnostic, Outcome, YamlPath
 from cellc.link.frame_names import FrameNames
 from cellc.link.qos import DEFAULT, with_changes
 from cellc.link.unknown import unknown_name
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
-from cellc.spec.interfaces import ActionSpec, Endpoints, InterfaceFields, QosSpec, ServiceSpec, TopicSpec
+from cellc.spec.interfaces import (
+    ActionSpec,
+    Endpoints,
+    InterfaceFields,
+    QosSpec,
+    ServiceSpec,
+    SimulatedNetworkSpec,
+    TopicSpec,
+)
 from cellc.spec.quantity import Quantity
 
 
@@ -99,6 +107,18 @@ def _topic(common: _Common, written: TopicSpec) -> Interface:
         max_age_s=_si(written.max_age),
         transport_s=_si(written.transport),
         on_stale=written.on_stale,
+        simulated=_simulated(written.simulated),
+    )
+
+
+def _simulated(written: SimulatedNetworkSpec | None) -> SimulatedNetwork | None:
+    if written is None:
+        return None
+    return SimulatedNetwork(
+        latency_s=_si(written.latency) or 0.0,
+        jitter_s=_si(written.jitter) or 0.0,
+        loss=_si(written.loss) or 0.0,
+        reordering=_si(written.reordering) or 0.0,
     )
 
 

@@ -7,6 +7,7 @@ from functools import partial
 
 from cellc.contract.contract import Contract, ContractFrame, ContractInterface
 from cellc.mock.bus.matching import hears, task_node
+from cellc.mock.bus.network import Network
 from cellc.mock.bus.topic import Topic
 from cellc.mock.clocks import TimeJump, build_clocks
 from cellc.mock.control import ControllerManager
@@ -55,6 +56,7 @@ def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int) -> Plant:
         robot_state_publisher=published,
         planner=MotionPlanner(memory, seed),
         clocks=clocks,
+        network=Network(contract.interfaces, simulation, seed),
         task=task,
         heard_histories=_heard(contract, control, task),
         cameras={},
@@ -113,10 +115,12 @@ def _add_cameras(plant: Plant) -> dict[str, Topic[Image]]:
         if facts.camera is None or facts.camera.topic not in plant.contract.interfaces:
             continue
         interface = plant.contract.interfaces[facts.camera.topic]
-        topic = topics.setdefault(facts.camera.topic, Topic[Image](facts.camera.topic, interface))
+        topic = topics.setdefault(facts.camera.topic, Topic[Image](facts.camera.topic, interface, plant.network))
         source = interface.sources[0].node if interface.sources else device
+        # Where the network is simulated the edge brings the latency; else the stated budget stands for it.
+        transport_s = interface.transport_s if interface.simulated is None else 0.0
         plant.cameras[device] = Camera(
-            source, facts.camera, topic, interface.transport_s, plant.clocks.of(device), plant.simulation
+            source, facts.camera, topic, transport_s, plant.clocks.of(device), plant.simulation
         )
     return topics
 
@@ -132,7 +136,7 @@ def _add_object(plant: Plant, name: str, frame: ContractFrame, images: Mapping[s
     )
     if hears(plant.contract, "/tf", frame.authority, plant.task):
         plant.buffer.add(name, transform)
-    topic, interface = _pose_topic(plant.contract, frame)
+    topic, interface = _pose_topic(plant, frame)
     inbox = ObservationInbox(interface, plant.clocks.of(plant.task), plant.simulation)
     plant.inboxes[name] = inbox
     if topic is not None and interface is not None and interface.sinks:
@@ -142,10 +146,10 @@ def _add_object(plant: Plant, name: str, frame: ContractFrame, images: Mapping[s
         if topic is None:
             inbox.accept(sample)  # the task hears of the frame through /tf alone
         else:
-            topic.publish(frame.authority, sample, plant.now_ns)
+            topic.publish(frame.authority, sample)
 
     for image_topic, stream in images.items():
-        subscription = stream.subscribe(frame.authority, 0)
+        subscription = stream.subscribe(frame.authority)
         if subscription is not None:
             max_age_s = plant.contract.interfaces[image_topic].max_age_s
             clock = plant.clocks.of(frame.authority)
@@ -155,12 +159,12 @@ def _add_object(plant: Plant, name: str, frame: ContractFrame, images: Mapping[s
             break
 
 
-def _pose_topic(contract: Contract, frame: ContractFrame) -> tuple[Topic[ObjectPose] | None, ContractInterface | None]:
+def _pose_topic(plant: Plant, frame: ContractFrame) -> tuple[Topic[ObjectPose] | None, ContractInterface | None]:
     """Return the topic on which a dynamic frame's publisher states its pose in the frame's parent."""
-    for name, interface in sorted(contract.interfaces.items()):
+    for name, interface in sorted(plant.contract.interfaces.items()):
         sources = [source.node for source in interface.sources]
         if interface.type == POSE_TYPE and interface.frame == frame.parent and frame.authority in sources:
-            return Topic[ObjectPose](name, interface), interface
+            return Topic[ObjectPose](name, interface, plant.network), interface
     return None, None
 
 

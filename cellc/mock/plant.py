@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from cellc.contract.contract import Contract
+from cellc.mock.bus.network import Network
 from cellc.mock.clocks import Clocks
 from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.engine.process import Signal
@@ -58,6 +59,7 @@ class Plant:
     robot_state_publisher: RobotStatePublisher
     planner: MotionPlanner
     clocks: Clocks
+    network: Network
     task: str
     heard_histories: tuple[JointStateHistory, ...]
     cameras: dict[str, Camera]

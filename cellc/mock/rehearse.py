@@ -103,4 +103,9 @@ def _not_up(
 
 def _findings(plant: Plant) -> tuple[str, ...]:
     contract: Contract = plant.contract
-    return (*unmatched_pairs(contract), *plant.buffer.conflicts)
+    return (
+        *unmatched_pairs(contract),
+        *plant.network.events.lines(),
+        *plant.buffer.conflicts,
+        *plant.buffer.warnings.lines(),
+    )

@@ -7,7 +7,7 @@ from typing import Annotated, Literal, Union
 from pydantic import Discriminator, Field, Tag
 
 from cellc.spec.base import FrameReference, InterfaceType, Name, ParameterValue, SpecModel, Text, shape_of
-from cellc.spec.quantity import Duration, Frequency
+from cellc.spec.quantity import Duration, Frequency, Ratio
 
 OnStale = Literal["reject_goal", "stop_and_hold", "ignore_sample", "continue"]
 OnTimeout = Literal["cancel_and_hold", "error", "continue"]
@@ -80,6 +80,17 @@ class InterfaceFields(SpecModel):
     )
 
 
+class SimulatedNetworkSpec(SpecModel):
+    """What the mock's network does to each sample of a topic, drawn from the seed of the run."""
+
+    latency: Duration | None = Field(None, description="Shortest time from publishing to arrival.", examples=["2 ms"])
+    jitter: Duration | None = Field(None, description="Up to so much more, evenly spread.", examples=["1 ms"])
+    loss: Ratio | None = Field(None, description="Share of samples lost on their way.", examples=["0.5 %"])
+    reordering: Ratio | None = Field(
+        None, description="Share of samples that the next one overtakes.", examples=["0.1 %"]
+    )
+
+
 class TopicSpec(InterfaceFields):
     """A stream."""
 
@@ -95,6 +106,9 @@ class TopicSpec(InterfaceFields):
     max_age: Duration | None = Field(None, description="Oldest sample that may be used.", examples=["100 ms"])
     transport: Duration | None = Field(None, description="Budget from publishing to use.", examples=["10 ms"])
     on_stale: OnStale | None = Field(None, description="What happens on an older sample.", examples=["reject_goal"])
+    simulated: SimulatedNetworkSpec | None = Field(
+        None, description="How the mock carries it; at once and without loss if absent.", examples=[{"latency": "2 ms"}]
+    )
 
 
 class ServiceSpec(InterfaceFields):

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
+
 from cellc.cell.cell import Cell
 from cellc.cell.interface import Endpoint, Interface, Qos
-from cellc.contract.contract import ContractEndpoint, ContractInterface, ContractQos
+from cellc.contract.contract import ContractEndpoint, ContractInterface, ContractNetwork, ContractQos
 
 
 def interfaces(cell: Cell) -> dict[str, ContractInterface]:
@@ -31,6 +33,7 @@ def _interface(interface: Interface) -> ContractInterface:
         on_timeout=interface.on_timeout,
         on_error=interface.on_error,
         cancel_within_s=interface.cancel_within_s,
+        simulated=None if interface.simulated is None else ContractNetwork(**asdict(interface.simulated)),
     )
 
 

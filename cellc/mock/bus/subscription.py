@@ -28,11 +28,13 @@ class Subscription(Generic[Sample]):
         endpoint: who subscribes, and the profile that it requests.
         arrived: number of samples that arrived.
         dropped: number of samples that the queue had no room for.
-        expired: number of samples that outlived their lifespan in the queue.
+        expired: number of samples that outlived their lifespan on their way or in the queue.
+        lost: number of samples that never arrived, as far as the subscription knows.
     """
 
     def __init__(self, endpoint: ContractEndpoint, on_sample: Callable[[], None] | None = None) -> None:
         """Bind the subscription; ``on_sample`` is called after each arrival."""
+        self.lost = 0
         self.endpoint = endpoint
         self.arrived = 0
         self.dropped = 0
@@ -43,7 +45,10 @@ class Subscription(Generic[Sample]):
         self._on_sample = on_sample
 
     def deliver(self, sample: Sample, now_ns: int, expires_ns: int | None) -> None:
-        """Put an arriving sample at the end of the queue."""
+        """Put an arriving sample at the end of the queue, unless its lifespan is over."""
+        if expires_ns is not None and now_ns >= expires_ns:
+            self.expired += 1
+            return
         self.arrived += 1
         if self._depth is not None and len(self._queue) >= self._depth:
             self._queue.popleft()

@@ -2,30 +2,37 @@
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Callable
 from typing import Generic
 
 from cellc.contract.contract import ContractEndpoint, ContractInterface
+from cellc.mock.bus.edge import Sample
+from cellc.mock.bus.events import QosEvent, QosEventKind
+from cellc.mock.bus.match import Match
+from cellc.mock.bus.network import Network
 from cellc.mock.bus.qos import incompatibilities
-from cellc.mock.bus.subscription import Sample, Subscription
+from cellc.mock.bus.reader import Reader
+from cellc.mock.bus.subscription import Subscription
+from cellc.mock.bus.writer import Writer
 
 
 class Topic(Generic[Sample]):
     """Publishers and subscriptions of one name; only compatible pairs are connected."""
 
-    def __init__(self, name: str, interface: ContractInterface) -> None:
-        """Bind a topic of the contract."""
+    def __init__(self, name: str, interface: ContractInterface, network: Network) -> None:
+        """Bind a topic of the contract to the network that carries it."""
         self.name = name
-        self.published = 0
         self.mismatches: list[str] = []
         self._interface = interface
-        self._subscriptions: list[Subscription[Sample]] = []
-        self._latched: dict[str, deque[tuple[Sample, int | None]]] = {}
+        self._network = network
+        self._writers = {source.node: Writer[Sample](name, source, network) for source in interface.sources}
 
-    def subscribe(
-        self, node: str, now_ns: int, on_sample: Callable[[], None] | None = None
-    ) -> Subscription[Sample] | None:
+    @property
+    def published(self) -> int:
+        """Number of samples that were published, all sources together."""
+        return sum(writer.published for writer in self._writers.values())
+
+    def subscribe(self, node: str, on_sample: Callable[[], None] | None = None) -> Subscription[Sample] | None:
         """Create the declared subscription of a node; a late joiner receives what is latched for it.
 
         Returns:
@@ -35,34 +42,36 @@ class Topic(Generic[Sample]):
         if endpoint is None:
             return None
         subscription = Subscription[Sample](endpoint, on_sample)
-        self._subscriptions.append(subscription)
+        reader = Reader[Sample](self.name, subscription, self._network)
         for source in self._interface.sources:
-            self._match(source, subscription, now_ns)
+            self._match(source, reader)
         return subscription
 
-    def publish(self, node: str, sample: Sample, now_ns: int) -> None:
-        """Deliver a sample of a declared source to every subscription that it is compatible with."""
-        source = next((source for source in self._interface.sources if source.node == node), None)
-        if source is None:
-            return
-        self.published += 1
-        lifespan = source.qos.lifespan_s
-        expires_ns = None if lifespan is None else now_ns + round(lifespan * 1e9)
-        if source.qos.durability == "transient_local":
-            depth = None if source.qos.history == "keep_all" else max(1, source.qos.depth)
-            self._latched.setdefault(node, deque(maxlen=depth)).append((sample, expires_ns))
-        for subscription in self._subscriptions:
-            if not incompatibilities(source.qos, subscription.endpoint.qos):
-                subscription.deliver(sample, now_ns, expires_ns)
+    def publish(self, node: str, sample: Sample) -> None:
+        """Send a sample of a declared source to every subscription that it is compatible with."""
+        writer = self._writers.get(node)
+        if writer is not None:
+            writer.publish(sample)
 
-    def _match(self, source: ContractEndpoint, subscription: Subscription[Sample], now_ns: int) -> None:
-        found = incompatibilities(source.qos, subscription.endpoint.qos)
-        self.mismatches += [
-            f"`{self.name}` from `{source.node}` to `{subscription.endpoint.node}` is not connected: {problem}"
-            for problem in found
-        ]
-        if found or subscription.endpoint.qos.durability != "transient_local":
+    def assert_liveliness(self, node: str) -> None:
+        """Let a source with manual liveliness say that it is alive, without a sample."""
+        writer = self._writers.get(node)
+        if writer is not None:
+            writer.assert_liveliness()
+
+    def _match(self, source: ContractEndpoint, reader: Reader[Sample]) -> None:
+        sink = reader.endpoint
+        found = incompatibilities(source.qos, sink.qos)
+        if not found:
+            match = Match[Sample](self.name, source, reader, self._network)
+            self._writers[source.node].connect(match, wants_history=sink.qos.durability == "transient_local")
             return
-        for sample, expires_ns in self._latched.get(source.node, ()):
-            if expires_ns is None or now_ns < expires_ns:
-                subscription.deliver(sample, now_ns, expires_ns)
+        self.mismatches += [
+            f"`{self.name}` from `{source.node}` to `{sink.node}` is not connected: {problem}" for problem in found
+        ]
+        now_ns, policies = self._network.timers.now_ns, ", ".join(problem.policy for problem in found)
+        for kind, node in (
+            (QosEventKind.OFFERED_QOS_INCOMPATIBLE, source.node),
+            (QosEventKind.REQUESTED_QOS_INCOMPATIBLE, sink.node),
+        ):
+            self._network.events.note(QosEvent(kind, self.name, node, now_ns, detail=policies))

@@ -70,4 +70,4 @@ class Camera:
     def _deliver(self, image: Image) -> None:
         if not self.frozen or self.last is None:
             self.last = image
-        self._topic.publish(self.device, self.last, self._simulation.now_ns)
+        self._topic.publish(self.device, self.last)

@@ -48,7 +48,7 @@ class ObservationInbox:
 
     def subscribe(self, topic: Topic[ObjectPose], node: str) -> None:
         """Subscribe as a node of the contract."""
-        self._subscription = topic.subscribe(node, self._simulation.now_ns, self._receive)
+        self._subscription = topic.subscribe(node, self._receive)
 
     def age_s(self, stamp_ns: int) -> float:
         """Return the age of a stamp in seconds, negative for one from the future."""
