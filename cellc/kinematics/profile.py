@@ -6,9 +6,11 @@ from collections.abc import Sequence
 from itertools import accumulate
 from typing import Any
 
+import numpy as np
 import ruckig
 
 from cellc.kinematics.failure import LimitsError
+from cellc.kinematics.limits import Array
 
 # ruckig ships no type information: its trajectory is Any, and stays inside this package.
 MotionLaw = Any
@@ -18,6 +20,26 @@ def rest_to_rest(bounds: tuple[float, float, float]) -> MotionLaw:
     """Return the fastest law of one parameter from rest at 0 to rest at 1; bounds on its first three derivatives."""
     velocity, acceleration, jerk = bounds
     return moving((0.0,), (0.0,), (1.0,), (velocity,), (acceleration,), (jerk,))
+
+
+def rest_to_rest_durations(bounds: Array) -> Array:
+    """Return how long the laws of ``rest_to_rest`` take: seven phases of constant jerk, some of them empty.
+
+    Args:
+        bounds: rows of bounds on velocity, acceleration and jerk.
+    """
+    velocity, acceleration, jerk = bounds.T
+    # A ramp takes the acceleration from zero to its bound, or only to what is needed for full speed.
+    ramp = np.where(velocity * jerk < acceleration**2, np.sqrt(velocity / jerk), acceleration / jerk)
+    rise = ramp + velocity / (ramp * jerk)
+    # A way that ends before full speed is rising for its first half, with or without a stretch of full acceleration.
+    full_ramp = acceleration / jerk
+    halfway = np.where(
+        2.0 * acceleration**3 <= jerk**2,
+        full_ramp / 2.0 + np.sqrt(full_ramp**2 / 4.0 + 1.0 / acceleration),
+        2.0 * np.cbrt(0.5 / jerk),
+    )
+    return np.asarray(np.where(velocity * rise <= 1.0, rise + 1.0 / velocity, 2.0 * halfway))
 
 
 def moving(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from math import comb
 
 import numpy as np
@@ -62,6 +63,7 @@ def extremes(coefficients: Array, durations: Array, order: int) -> tuple[Array, 
     return control.min(axis=1), control.max(axis=1)
 
 
+@cache
 def _to_bernstein(degree: int) -> Array:
     rows = [[comb(row, power) / comb(degree, power) for power in range(degree + 1)] for row in range(degree + 1)]
     return np.array(rows)

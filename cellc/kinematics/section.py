@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -82,6 +83,7 @@ def _spaced(changes: list[float], crossings: list[float]) -> list[int]:
     kept = [0, max(end, _LEAST_SPACING_NS)]
     for instant in (*changes, *crossings):
         time = round(instant * 1e9)
-        if all(abs(time - other) >= _LEAST_SPACING_NS for other in kept):
-            kept.append(time)
-    return sorted(kept)
+        place = bisect_left(kept, time)
+        if all(abs(time - other) >= _LEAST_SPACING_NS for other in kept[max(0, place - 1) : place + 1]):
+            kept.insert(place, time)
+    return kept

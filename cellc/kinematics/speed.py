@@ -7,13 +7,14 @@ from itertools import count
 import numpy as np
 
 from cellc.kinematics.limits import Array, JointLimits
-from cellc.kinematics.profile import rest_to_rest
+from cellc.kinematics.profile import rest_to_rest_durations
 from cellc.kinematics.spline import SectionCurve
 
 ParameterBounds = tuple[float, float, float]
 
 _SPEED_RATIO = 0.8
 _ACCELERATION_SHARES = (1.0, 0.5, 0.25)
+_SPEEDS_AT_ONCE = 24
 
 
 def fastest_bounds(curve: SectionCurve, limits: JointLimits) -> ParameterBounds:
@@ -22,38 +23,40 @@ def fastest_bounds(curve: SectionCurve, limits: JointLimits) -> ParameterBounds:
     By the chain rule a joint's acceleration is ``q's'' + q''s'²`` and its jerk ``q's''' + 3q''s's'' + q'''s'³``: on a
     curve, speed is paid for with acceleration and jerk, so ever lower speeds are tried until they can shorten nothing.
     """
-    steepness = _without_standing_joints(curve.steepest())
+    slope, bend, twist = curve.steepest()
+    # A joint that stands still bounds nothing; the floor keeps its quotient finite.
+    steepness = (np.maximum(slope, 1e-12), bend, twist)
     highest = float(np.min(np.array(limits.velocity) / steepness[0]))
-    if not np.any(steepness[1]):
-        bounds = _bounds_at(highest, 1.0, steepness, limits)
-        assert bounds is not None  # without curvature there is always room
-        return bounds
-    best: ParameterBounds | None = None
-    shortest = float("inf")
-    for attempt in count():
-        velocity = highest * _SPEED_RATIO**attempt
-        if best is not None and 1.0 / velocity > shortest:  # even at this speed throughout it takes longer
+    if not np.any(bend):  # without curvature there is always room
+        return _row(_bounds_at([highest], steepness, limits)[0])
+    best, shortest = (highest, 0.0, 0.0), float("inf")
+    for first in count(0, _SPEEDS_AT_ONCE):
+        speeds = [highest * _SPEED_RATIO**attempt for attempt in range(first, first + _SPEEDS_AT_ONCE)]
+        bounds = _bounds_at(speeds, steepness, limits)
+        durations = rest_to_rest_durations(bounds)
+        if durations.size and float(np.min(durations)) < shortest:
+            best, shortest = _row(bounds[np.argmin(durations)]), float(np.min(durations))
+        if 1.0 / speeds[-1] > shortest:  # even at this speed throughout it takes longer
             return best
-        for share in _ACCELERATION_SHARES:
-            bounds = _bounds_at(velocity, share, steepness, limits)
-            duration = float("inf") if bounds is None else float(rest_to_rest(bounds).duration)
-            if duration < shortest:
-                best, shortest = bounds, duration
     raise AssertionError("the count of attempts has no end")
 
 
-def _without_standing_joints(steepness: tuple[Array, Array, Array]) -> tuple[Array, Array, Array]:
-    # A joint that stands still bounds nothing; the floor keeps its quotient finite.
-    return np.maximum(steepness[0], 1e-12), steepness[1], steepness[2]
+def _bounds_at(speeds: list[float], steepness: tuple[Array, Array, Array], limits: JointLimits) -> Array:
+    """Return bounds that keep the limits, in rows of velocity, acceleration and jerk.
 
-
-def _bounds_at(
-    velocity: float, share: float, steepness: tuple[Array, Array, Array], limits: JointLimits
-) -> ParameterBounds | None:
+    One row for each share of the acceleration at each speed, the highest first, where the limits leave room for it.
+    """
     slope, bend, twist = steepness
-    room = np.array(limits.acceleration) - bend * velocity**2
-    if np.any(room <= 0.0):
-        return None
-    acceleration = share * float(np.min(room / slope))
-    room = np.array(limits.jerk) - twist * velocity**3 - 3.0 * bend * velocity * acceleration
-    return None if np.any(room <= 0.0) else (velocity, acceleration, float(np.min(room / slope)))
+    velocity, square, cube = (np.array([[speed**power] for speed in speeds]) for power in (1, 2, 3))
+    room = np.array(limits.acceleration) - bend * square
+    acceleration = np.min(room / slope, axis=1, keepdims=True) * np.array(_ACCELERATION_SHARES)
+    spent = np.array(limits.jerk) - twist * cube, 3.0 * bend * velocity
+    left = spent[0][:, np.newaxis] - spent[1][:, np.newaxis] * acceleration[:, :, np.newaxis]
+    jerk = np.min(left / slope, axis=2)
+    usable = np.all(room > 0.0, axis=1, keepdims=True) & np.all(left > 0.0, axis=2)
+    return np.asarray(np.stack((np.broadcast_to(velocity, jerk.shape), acceleration, jerk), axis=2)[usable])
+
+
+def _row(bounds: Array) -> ParameterBounds:
+    velocity, acceleration, jerk = bounds.tolist()
+    return velocity, acceleration, jerk

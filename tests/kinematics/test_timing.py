@@ -18,6 +18,7 @@ from cellc.kinematics import (
     TimedTrajectory,
     time_parameterize,
 )
+from cellc.kinematics.profile import rest_to_rest, rest_to_rest_durations
 from cellc.transforms import Pose
 
 from .arm import ADJACENT, GROUP, HOME, JOINTS, LIMITS, arm_urdf
@@ -192,3 +193,10 @@ def test_limit_that_ruckig_would_refuse_is_reported_by_joint(kind: str, bad: flo
     values[kind] = (*values[kind][:5], bad)
     with pytest.raises(LimitsError, match=f"joint `wrist_3` has the {kind} limit"):
         JointLimits(JOINTS, LIMITS.lower, LIMITS.upper, values["velocity"], values["acceleration"], values["jerk"])
+
+
+def test_closed_form_of_a_duration_is_that_of_ruckig() -> None:
+    # Over five decades each, so that every kind of law occurs: with and without full speed and full acceleration.
+    bounds = 10.0 ** np.random.default_rng(8).uniform(-2.0, 3.0, size=(500, 3))
+    expected = [rest_to_rest((velocity, acceleration, jerk)).duration for velocity, acceleration, jerk in bounds]
+    np.testing.assert_allclose(rest_to_rest_durations(bounds), expected, rtol=1e-12)
