@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from cellc.batch.answer import Answer, NamedCell
+from cellc.batch.answer import Answer
 from cellc.disk import Record, recorded
 
 Kind = Literal["check", "compile"]
@@ -19,20 +19,20 @@ def compute(kind: Kind, file: str) -> tuple[Answer, Record]:
 
 def _checked(file: str) -> Answer:
     # The compiler is loaded by the first answer that has to be computed.
+    from cellc.fleet.presence_of import presence_of
     from cellc.pipeline import check
 
-    return Answer(check(file).findings)
+    checked = check(file)
+    return Answer(checked.findings, None if checked.graph is None else presence_of(checked.graph))
 
 
 def _compiled(file: str) -> Answer:
+    from cellc.fleet.presence_of import presence_of
     from cellc.pipeline import check, compile_cell
 
     checked = check(file)
     if checked.graph is None:
         return Answer(checked.findings)
     compiled = compile_cell(checked)
-    cell = checked.graph.cell
     artifacts = compiled.value if compiled.ok else None
-    return Answer(
-        checked.findings.with_more(compiled.diagnostics), NamedCell(cell.name, cell.locate("cell")), artifacts
-    )
+    return Answer(checked.findings.with_more(compiled.diagnostics), presence_of(checked.graph), artifacts)

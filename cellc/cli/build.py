@@ -90,7 +90,7 @@ def _unless_shared(answer: Answer, places: dict[str, Span]) -> Answer:
     """Take the artifacts from a cell whose folder is made already; ``places`` holds where the cells are named."""
     if answer.cell is None:
         return answer
-    here = answer.cell.span
+    here = answer.cell.named_at
     shared = shared_output(answer.cell.name, here, places.setdefault(answer.cell.name, here))
     if shared is None:
         return answer

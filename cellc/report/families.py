@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from cellc.catalog.codes import CODES as CATALOG_CODES
 from cellc.diagnostics.page import CodePage
+from cellc.fleet.codes import CODES as FLEET_CODES
 from cellc.link.codes import CODES as LINK_CODES
 from cellc.output.codes import CODES as OUTPUT_CODES
 from cellc.rules.all_rules import ALL_RULES
@@ -21,6 +22,7 @@ STAGES: dict[str, tuple[CodePage, ...]] = {
     "catalog": CATALOG_CODES,
     "link": LINK_CODES,
     "ignores": IGNORE_CODES,
+    "fleet": FLEET_CODES,
     "verify": VERIFY_CODES,
     "output": OUTPUT_CODES,
 }

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from cellc.catalog.codes import CODES as CATALOG_CODES
+from cellc.fleet.codes import CODES as FLEET_CODES
 from cellc.link.codes import CODES as LINK_CODES
 from cellc.pipeline import check, compile_cell
 from cellc.rules.all_rules import ALL_RULES
@@ -26,7 +27,7 @@ RULE_CODES = {rule.code for rule in ALL_RULES}
 
 
 def test_every_code_that_is_named_exists() -> None:
-    pages = (*CATALOG_CODES, *LINK_CODES, *SOURCE_CODES, *SPEC_CODES)
+    pages = (*CATALOG_CODES, *FLEET_CODES, *LINK_CODES, *SOURCE_CODES, *SPEC_CODES)
     codes = {name for name in NAMED if re.fullmatch(r"[a-z0-9]+(-[a-z0-9]+)+", name)}
     assert codes <= RULE_CODES | {page.code for page in pages}
 

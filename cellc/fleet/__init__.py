@@ -1,0 +1,1 @@
+"""What the cells of one call have against each other."""
