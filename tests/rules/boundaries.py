@@ -1,0 +1,147 @@
+"""Figures that lie on, just inside and just outside the bound of a rule."""
+
+from __future__ import annotations
+
+from tests.rules.examples import Example
+
+_SERVO = """
+nodes:
+  follower: {{run: cell_tasks/follower, host: control_pc, owner: integration, language: python}}
+interfaces:
+  /arm_forward/commands: {{topic: std_msgs/msg/Float64MultiArray, from: {{follower: {{depth: 1}}}},
+                          to: {{arm_forward: {{depth: 1}}}}, unit: rad, wants: newest, rate: {value}, max_age: 20 ms,
+                          on_stale: stop_and_hold}}
+control:
+  controllers:
+    arm_forward: {{type: forward_command, device: arm, client: follower, active: false,
+                  parameters: {{interface_name: position}}}}
+  switches:
+    to_forward: {{activate: [arm_forward], deactivate: [arm_trajectory]}}
+"""
+_LIMIT = (
+    '<joint name="turn" type="revolute"><parent link="base"/> <child link="arm"/> <axis xyz="0 0 1"/>'
+    '<limit lower="{value}" upper="1" velocity="1" effort="10"/></joint>'
+)
+_STAMP = "{{source: hardware, clock: camera, exposure: 8 ms, synchronised_by: global_time, max_offset: {value}}}"
+_TOPIC = "{{from: {{perception: {{reliability: reliable, depth: 1, {value}}}}}}}"
+_FIRST = (
+    "{{joint: arm/joint_6, direction: +, max_delta: {delta}, velocity: {velocity}, timeout: 5 s, stop_if: [overshoot]}}"
+)
+
+
+def _yaml(template: str, **values: str) -> Example:
+    return Example("yaml", template.format(**values))
+
+
+def _spec(code: str, template: str, accepted: tuple[str, ...], reported: tuple[str, ...]) -> list[Case]:
+    cases = [(code, _yaml(template, value=value), False) for value in accepted]
+    return cases + [(code, _yaml(template, value=value), True) for value in reported]
+
+
+def _named(kind: str, length: int) -> Example:
+    name = "/" + "a" * (length - 1)
+    texts = {
+        "topic": "{topic: std_msgs/msg/String, from: perception, to: task}",
+        "service": "{service: std_srvs/srv/Trigger, server: perception, client: task}",
+        "action": "{action: moveit_msgs/action/MoveGroup, server: move_group, client: task}",
+    }
+    return Example("yaml", f"interfaces: {{{name}: {texts[kind]}}}")
+
+
+def _first(delta: str, velocity: str) -> Example:
+    return Example("yaml", "bringup: {first_motion: " + _FIRST.format(delta=delta, velocity=velocity) + "}")
+
+
+Case = tuple[str, Example, bool]
+
+BOUNDARIES: list[Case] = [
+    *_spec(
+        "implausible-distance", "frames: {{fixture_A: {{xyz: {value}}}}}", ("20 0 0 m",), ("20.001 0 0 m", "0 0 21 m")
+    ),
+    *_spec("short-transform-buffer", "frames: {{object: {{buffer: {value}}}}}", ("200 ms",), ("199 ms",)),
+    *_spec(
+        "too-few-reference-points",
+        "frames: {{jig: {{parent: world, xyz: 1 0 0 m, calibration: fixture_a, reference_points: {value}}}}}",
+        ("3",),
+        ("1", "2"),
+    ),
+    *_spec(
+        "clock-offset-beyond-age", "devices: {{camera: {{stamp: " + _STAMP + "}}}}", ("99 ms",), ("100 ms", "101 ms")
+    ),
+    *_spec(
+        "max-age-beyond-timeout",
+        "interfaces: {{/object_pose: {{max_age: {value}}}}}",
+        ("20 s", "1 s"),
+        ("20.001 s", "21 s"),
+    ),
+    *_spec(
+        "mixed-clocks",
+        "targets: {{sim: {{clock: {value}}}}}\nnodes: {{perception: {{clock: wall}}}}",
+        ("wall",),
+        ("sim",),
+    ),
+    ("mixed-clocks", Example("yaml", "targets: {sim: {}}\nnodes: {perception: {clock: wall}}"), True),
+    ("mixed-clocks", Example("yaml", "targets: {real: {}}\nnodes: {perception: {clock: wall}}"), False),
+    *_spec(
+        "backlog-of-newest",
+        "interfaces: {{/object_pose: {{to: {{task: {{reliability: reliable, depth: {value}}}}}}}}}",
+        ("1",),
+        ("2",),
+    ),
+    *_spec(
+        "deadline-below-period",
+        "interfaces: {{/object_pose: " + _TOPIC + "}}",
+        ("deadline: 100 ms", "deadline: 101 ms"),
+        ("deadline: 99 ms",),
+    ),
+    *_spec("scripted-servo-loop", _SERVO, ("99 Hz", "99.9 Hz"), ("100 Hz", "101 Hz")),
+    *_spec(
+        "unusable-address",
+        "hosts: {{control_pc: {{nics: {{bulk: {{address: {value}}}}}}}}}",
+        ("10.10.0.0/31", "10.10.0.1/31", "10.10.0.0/32", "10.10.0.1/30"),
+        ("10.10.0.0/30", "10.10.0.3/30"),
+    ),
+    *_spec(
+        "firmware-outside-matrix",
+        "devices: {{arm: {{firmware: controller {value}}}}}",
+        ("5.9.4", "9.99.99"),
+        ("5.9.3", "10.0.0", "10.0.1", "10"),
+    ),
+    *_spec(
+        "parameter-out-of-range",
+        "control: {{controllers: {{arm_trajectory: {{parameters: {{action_monitor_rate: {value}}}}}}}}}",
+        ("0.1",),
+        ("0.09",),
+    ),
+    *_spec(
+        "uneven-update-rate",
+        "control: {{controllers: {{arm_trajectory: {{update_rate: {value}}}}}}}",
+        ("500 Hz", "250 Hz", "100 Hz"),
+        ("499 Hz", "200 Hz", "333 Hz"),
+    ),
+    *_spec(
+        "pose-outside-limits",
+        "motion: {{poses: {{home: {{manipulator: 0 -1.5 1.5 -1.5 -1.5 {value} rad}}}}}}",
+        ("6.2831853", "-6.2831853"),
+        ("6.2831854", "-6.2831854"),
+    ),
+    *[
+        ("illegal-ros-name", _named(kind, longest), False)
+        for kind, longest in (("topic", 247), ("service", 240), ("action", 221))
+    ],
+    *[
+        ("illegal-ros-name", _named(kind, longest + 1), True)
+        for kind, longest in (("topic", 247), ("service", 240), ("action", 221))
+    ],
+    ("first-motion-too-large", _first("15 deg", "15 deg/s"), False),
+    ("first-motion-too-large", _first("15.01 deg", "5 deg/s"), True),
+    ("first-motion-too-large", _first("5 deg", "15.01 deg/s"), True),
+    ("first-motion-too-large", _first("16 deg", "5 deg/s"), True),
+    ("first-motion-cannot-end", _first("5 deg", "1 rad/s"), False),
+    ("first-motion-cannot-end", _first("5 deg", "0.9 deg/s"), True),  # 5.6 s in a timeout of 5 s
+    ("first-motion-cannot-end", _first("5 deg", "1 deg/s"), False),  # just 5 s
+    ("degrees-as-radians", Example("xml", _LIMIT.format(value="-25.13")), False),  # 8 pi is 25.1327
+    ("degrees-as-radians", Example("xml", _LIMIT.format(value="-25.14")), True),
+    ("degrees-as-radians", Example("xml", _LIMIT.format(value="-30")), True),
+]
+"""Code, fragment, and whether the rule reports it."""
