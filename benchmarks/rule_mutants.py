@@ -26,7 +26,7 @@ from cellc.rule import Rule  # noqa: E402
 from cellc.rules.all_rules import ALL_RULES  # noqa: E402
 from cellc.source.read import read  # noqa: E402
 from cellc.spec.parse import parse  # noqa: E402
-from tests.rules import examples  # noqa: E402
+from tests.rules import boundaries, examples  # noqa: E402
 
 _WORDING = {"message", "advice", "names", "related", "due", "way", "chain", "allowed", "turns", "faults"}
 _WORDING |= {"least", "most", "queue", "legal", "per", "deadline", "period", "even"}
@@ -113,12 +113,15 @@ def _mark(node: ast.AST) -> None:
 
 
 def graphs(folder: Path) -> Iterator[CellGraph]:
-    """Yield the graph of every case of the corpus and of every example of a page that links."""
+    """Yield the graph of every case of the corpus, every example of a page and every boundary that links."""
     files = [*(ROOT / "tests/corpus/invalid").glob("*.yaml"), *(ROOT / "tests/corpus/valid").glob("*.yaml")]
     for rule in ALL_RULES:
         for number, example in enumerate(examples.examples(rule)):
             examples.diagnose_example(example, folder / rule.code / str(number))
             files.append(folder / rule.code / str(number) / "cell.yaml")
+    for number, (code, fragment, _) in enumerate(boundaries.BOUNDARIES):
+        examples.diagnose_example(fragment, folder / code / f"boundary_{number}")
+        files.append(folder / code / f"boundary_{number}" / "cell.yaml")
     for file in files:
         document = read(file).value
         spec = None if document is None else parse(document).value
