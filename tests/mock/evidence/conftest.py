@@ -1,0 +1,81 @@
+"""Evidence of the real cell, written once, and ways to read it with libraries that did not write it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from cellc.mock import MockCell, load
+from cellc.mock.evidence.begin import begin_evidence
+from cellc.mock.result import RehearsalResult
+from cellc.output.write import write
+from cellc.pipeline import check, compile_cell
+
+ROOT = Path(__file__).resolve().parents[3]
+
+
+@dataclass(frozen=True)
+class Written:
+    """An evidence folder with the results that the runs returned."""
+
+    folder: Path
+    results: dict[str, RehearsalResult]
+
+    def bag(self, rehearsal: str) -> Path:
+        return self.folder / f"{rehearsal}.mcap"
+
+
+@dataclass(frozen=True)
+class Received:
+    """A message as an independent reader decoded it."""
+
+    log_ns: int
+    message: Any
+
+
+@pytest.fixture(scope="session")
+def generated(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of cells/ur5e_pick; never changed."""
+    artifacts = compile_cell(check(ROOT / "cells" / "ur5e_pick" / "cell.yaml")).value
+    assert artifacts is not None
+    folder = tmp_path_factory.mktemp("generated") / "ur5e_pick"
+    assert write(artifacts, folder).ok
+    return folder
+
+
+@pytest.fixture(scope="session")
+def cell(generated: Path) -> MockCell:
+    return load(generated)
+
+
+def write_evidence(cell: MockCell, folder: Path, *names: str, seed: int = 0) -> Written:
+    chosen = names or cell.rehearsals
+    with begin_evidence(cell, folder, chosen, seed) as collector:
+        results = {name: collector.run(name) for name in chosen}
+        collector.settle()
+    return Written(folder, results)
+
+
+@pytest.fixture(scope="session")
+def written(cell: MockCell, tmp_path_factory: pytest.TempPathFactory) -> Written:
+    """Evidence of every rehearsal of the cell; never changed."""
+    return write_evidence(cell, tmp_path_factory.mktemp("evidence") / "runs")
+
+
+def received(bag: Path, topic: str) -> Iterator[Received]:
+    """Read a topic with rosbags, which knows the types from the definitions in the bag alone."""
+    from rosbags.highlevel import AnyReader
+
+    with AnyReader([bag]) as reader:
+        connections = [connection for connection in reader.connections if connection.topic == topic]
+        assert connections, f"{topic} is not in the bag"
+        for connection, log_ns, data in reader.messages(connections):
+            yield Received(log_ns, reader.deserialize(data, connection.msgtype))
+
+
+def stamp_ns(header: Any) -> int:
+    return int(header.stamp.sec) * 1_000_000_000 + int(header.stamp.nanosec)
