@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
+import yaml
 
 from cellc.mock.control.parameters import Parameter, ParameterError, ParameterFile, ParameterFileError, ParameterSet
 
@@ -102,3 +103,23 @@ def test_empty_list_counts_as_not_set() -> None:
     with pytest.raises(ParameterError) as refused:
         ParameterSet({"x": []}).declare([Parameter("x", "string_array", [])])
     assert "No parameter value set" in refused.value.reason
+
+
+_STYLES = (
+    'n:\n  ros__parameters: {plain: 1, single: \'1\', double: "1", list: [1.0, .5], "quoted key": true, block: {a: x}}'
+)
+_BROKEN = ("n: [", "n:\n  ros__parameters: {x: *y}", "n: {x: 1, x}: 2]", "\x01", "a: b: c")
+
+
+@pytest.mark.skipif(not hasattr(yaml, "CSafeLoader"), reason="PyYAML was built without libyaml")
+@pytest.mark.parametrize("text", [_STYLES, *_BROKEN])
+def test_file_is_read_alike_with_and_without_libyaml(text: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    def read() -> object:
+        try:
+            return ParameterFile(text).of_node("n", "")
+        except ParameterFileError as error:
+            return error.reason
+
+    with_libyaml = read()
+    monkeypatch.delattr(yaml, "CSafeLoader")
+    assert read() == with_libyaml

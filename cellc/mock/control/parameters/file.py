@@ -6,7 +6,7 @@ PyYAML is used for the grammar alone: its nodes are typed here, since its own re
 from __future__ import annotations
 
 import re
-from typing import cast
+from typing import TypeAlias, cast
 
 import yaml
 
@@ -29,9 +29,25 @@ _MAX_DEPTH = 64
 """Deeper files would exhaust the stack; no controller has parameters of a tenth of it."""
 
 
-def _refuse_aliases_and_depth(text: str) -> None:
+_Loader: TypeAlias = "type[yaml.SafeLoader | yaml.CSafeLoader]"
+
+
+def _compose(text: str) -> yaml.Node | None:
+    """Return the root of the file; libyaml reads it where it is there, as in rcl, and says less of an error."""
+    try:
+        return _compose_with(text, getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+    except yaml.YAMLError:
+        return _compose_with(text, yaml.SafeLoader)
+
+
+def _compose_with(text: str, loader: _Loader) -> yaml.Node | None:
+    _refuse_aliases_and_depth(text, loader)
+    return yaml.compose(text, Loader=loader)
+
+
+def _refuse_aliases_and_depth(text: str, loader: _Loader) -> None:
     depth = 0
-    for event in yaml.parse(text, Loader=yaml.SafeLoader):
+    for event in yaml.parse(text, Loader=loader):
         line = 1 if event.start_mark is None else event.start_mark.line + 1
         if isinstance(event, yaml.AliasEvent):
             raise ParameterFileError(f"Will not support aliasing at line {line}")
@@ -52,7 +68,7 @@ def _sequence(node: yaml.SequenceNode) -> ParameterValue:
     for item in node.value:
         if not isinstance(item, yaml.ScalarNode):
             raise ParameterFileError(f"Sequences can not be nested. Error at line {_line(item)}")
-        values.append(scalar(item.value, item.style is not None))
+        values.append(scalar(item.value, bool(item.style)))
     if len({type(value) for value in values}) > 1:
         raise ParameterFileError(f"Sequence should be of same type. Value type at line_num {_line(node)}")
     return cast("ParameterValue", values)  # the items were just seen to be of one type
@@ -66,10 +82,10 @@ def _parameters(node: yaml.MappingNode, prefix: str) -> dict[str, ParameterValue
             found.update(_parameters(value, f"{name}."))
         elif isinstance(value, yaml.SequenceNode):
             found[name] = _sequence(value)
-        elif value.value == "" and value.style is None:
+        elif value.value == "" and not value.style:
             raise ParameterFileError(f"No value at line {_line(value)}")
         else:
-            found[name] = scalar(value.value, value.style is not None)
+            found[name] = scalar(value.value, bool(value.style))
     return found
 
 
@@ -113,8 +129,7 @@ class ParameterFile:
         if any("\t" in line[: len(line) - len(line.lstrip())] for line in text.splitlines()):
             raise ParameterFileError("found character that cannot start any token (tab)")
         try:
-            _refuse_aliases_and_depth(text)
-            root = yaml.compose(text, Loader=yaml.SafeLoader)
+            root = _compose(text)
         except yaml.MarkedYAMLError as error:
             line = 1 if error.problem_mark is None else error.problem_mark.line + 1
             raise ParameterFileError(f"Error parsing a event near line {line}: {error.problem}") from None
