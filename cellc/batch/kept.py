@@ -31,7 +31,7 @@ def recall_answer(kind: Kind, file: str, program: str) -> Answer | None:
         if entry["program"] != program or not still_says(Record.from_plain(entry["asked"]).marks):
             return None
         return answer_of(entry["answer"])
-    except (KeyError, TypeError, ValueError):
+    except (KeyError, TypeError, ValueError, RecursionError):
         return None  # not what this program writes
 
 

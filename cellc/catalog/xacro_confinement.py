@@ -40,6 +40,7 @@ class Confinement:
         self.failure: BaseException | None = None
         self.place: Span | None = None
         self._touched: Any = None
+        self._packages: set[str] = set()
 
     @contextmanager
     def installed(self) -> Iterator[None]:
@@ -87,7 +88,7 @@ class Confinement:
         """Yield the files of one ``<xacro:include>``, wildcards in sorted order."""
         if len(xacro.filestack) > MAX_INCLUDE_DEPTH:
             raise XacroRefusedError("xacro-too-large", f"includes are nested deeper than {MAX_INCLUDE_DEPTH} files")
-        path = xacro.abs_filename_spec(str(xacro.eval_text(specification, symbols)))
+        path = self.path_of(str(xacro.eval_text(specification, symbols)))
         if not re.search(r"[*?\[]", path):
             yield path
             return
@@ -129,7 +130,16 @@ class Confinement:
             raise XacroRefusedError(
                 "xacro-package-not-found", f"package `{name}` is not found", f"put it in one of {places}"
             )
+        self._packages.add(folder)
         return folder
+
+    def path_of(self, name: str) -> str:
+        """Return where a file lies that a description names: beside the file that does, or in a package it found.
+
+        Where the root is a relative path, so is that of a package, and both count from the current folder.
+        """
+        in_package = any(name.startswith(f"{folder}/") for folder in self._packages)
+        return name if in_package else str(xacro.abs_filename_spec(name))
 
     def _xacro_functions(self) -> dict[str, Any]:
         def fatal(*texts: object) -> None:
@@ -141,8 +151,8 @@ class Confinement:
 
         return {
             "arg": self.argument,
-            "load_yaml": lambda name: self.files.load_yaml(xacro.abs_filename_spec(name)),
-            "abs_filename": lambda name: self.files.checked(xacro.abs_filename_spec(name)),
+            "load_yaml": lambda name: self.files.load_yaml(self.path_of(name)),
+            "abs_filename": lambda name: self.files.checked(self.path_of(name)),
             "dotify": lambda value: value,
             "fatal": fatal,
             "warning": tell,

@@ -147,6 +147,18 @@ def test_plain_urdf_outside_the_root_is_refused(tmp_path: Path) -> None:
     assert found.code == "xacro-outside-root"
 
 
+def test_a_package_is_found_from_a_relative_root(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "shapes").mkdir()
+    (tmp_path / "shapes/shape.xacro").write_text('<robot><link name="found"/></robot>')
+    (tmp_path / "arm").mkdir()
+    _write(tmp_path / "arm", '<xacro:include filename="$(find shapes)/shape.xacro"/>')
+    monkeypatch.chdir(tmp_path)
+    (file,) = (tmp_path / "arm").iterdir()
+    expanded = expand_here(f"arm/{file.name}", {}, ".")
+    assert expanded.value is not None, expanded.diagnostics
+    assert expanded.value.origins["link", "found"].file == "shapes/shape.xacro"
+
+
 def test_every_reported_code_has_one_page() -> None:
     codes = [page.code for page in CODES]
     assert codes == sorted(set(codes))
