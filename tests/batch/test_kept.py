@@ -32,6 +32,11 @@ def _written(name: str, text: str) -> Change:
     return change
 
 
+def _becomes_folder(file: Path) -> None:
+    file.unlink()
+    file.mkdir()
+
+
 _EMPTY = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro"/>\n'
 
 CHANGES: dict[str, Change] = {
@@ -48,7 +53,7 @@ CHANGES: dict[str, Change] = {
     "a nearer folder of a package comes to be": _written("shapes/shape.xacro", _EMPTY),
     "the spec is gone": lambda folder: (folder / "cell.yaml").unlink(),
     "an include is gone": lambda folder: (folder / "more.yaml").unlink(),
-    "an include has become a folder": lambda folder: ((folder / "more.yaml").unlink(), (folder / "more.yaml").mkdir()),
+    "an include has become a folder": lambda folder: _becomes_folder(folder / "more.yaml"),
     "the folder of a device is gone": lambda folder: (folder / "my_robot").rename(folder / "elsewhere"),
 }
 

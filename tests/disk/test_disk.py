@@ -28,7 +28,7 @@ STATES: dict[str, Callable[[Path], object]] = {
     "a file": lambda path: path.write_text("one"),
     "another file": lambda path: path.write_text("another"),
     "an empty folder": lambda path: path.mkdir(),
-    "a folder": lambda path: (path.mkdir(), (path / "inside").write_text("")),
+    "a folder": lambda path: _folder_with_a_file(path),
     "a link": lambda path: path.symlink_to("elsewhere"),
     "a link to itself": lambda path: path.symlink_to(path.name),
 }
@@ -75,6 +75,11 @@ def test_every_change_shows(question: str, before: str, after: str, tmp_path: Pa
         (tmp_path / "now").symlink_to("after")
     alike = before == after or any({before, after} <= group for group in ALIKE[question])
     assert still_says(marks) == alike
+
+
+def _folder_with_a_file(path: Path) -> None:
+    path.mkdir()
+    (path / "inside").write_text("")
 
 
 def _remove(path: Path) -> None:
