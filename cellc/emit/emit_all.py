@@ -9,6 +9,7 @@ from cellc.emit import (
     cmake,
     controllers,
     frames,
+    gates,
     joint_limits,
     node_parameters,
     package_xml,
@@ -21,7 +22,6 @@ from cellc.emit import (
 )
 from cellc.emit.audit import audit
 from cellc.emit.contract import contract
-from cellc.emit.gates import gates
 from cellc.emit.launch import launch
 from cellc.emit.middleware import middleware
 from cellc.emit.moveit import moveit

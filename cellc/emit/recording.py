@@ -10,54 +10,21 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cellc.artifact import Artifact
-from cellc.cell.cell import Cell
-from cellc.cell.interface import Interface, InterfaceKind, Qos
+from cellc.cell.interface import Qos
 from cellc.formats.header import Header
+from cellc.formats.package_files import RECORDING
+from cellc.formats.recorded_topics import record_command, recorded_topics
 from cellc.formats.yaml_text import Tree, render
 from cellc.graph.cell_graph import CellGraph
-
-_FILE = "config/recording_qos.yaml"
 
 
 def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
     """Yield the override file."""
-    topics = _topics(graph.cell)
-    command = [
-        "ros2 bag record --storage mcap --include-hidden-topics",
-        f"--qos-profile-overrides-path {_FILE}",
-        "--output evidence/<attempt_id>/bag",
-        *(() if graph.cell.distro == "humble" else ("--topics",)),
-        *topics,
-    ]
-    head = header.commented("#") + "# " + " \\\n#   ".join(command) + "\n\n"
-    yield Artifact(_FILE, head + render({name: _profile(qos) for name, qos in topics.items()}))
-
-
-def _topics(cell: Cell) -> dict[str, Qos]:
-    found = {interface.name: _offered(interface) for interface in cell.interfaces if _on_the_path(interface)}
-    # Goals and results of actions are hidden services; feedback and status tell what became of them.
-    for action in (i for i in cell.interfaces if i.kind is InterfaceKind.ACTION):
-        found[f"{action.name}/_action/feedback"] = Qos()
-        found[f"{action.name}/_action/status"] = Qos(durability="transient_local", depth=1)
-    for name in ("/diagnostics", *cell.spec.recording.topics):
-        found.setdefault(name, Qos())
-    return found
-
-
-def _on_the_path(interface: Interface) -> bool:
-    return interface.kind is InterfaceKind.TOPIC and not interface.type.endswith(("/Image", "/PointCloud2"))
-
-
-def _offered(interface: Interface) -> Qos:
-    """Return a profile that every publisher satisfies: the weakest that one of them offers."""
-    offered = [source.qos for source in interface.sources]
-    weak = any(qos.reliability == "best_effort" for qos in offered)
-    volatile = any(qos.durability == "volatile" for qos in offered) or not offered
-    return Qos(
-        reliability="best_effort" if weak else "reliable",
-        durability="volatile" if volatile else "transient_local",
-        depth=max((qos.depth for qos in offered), default=10),
-    )
+    # As a comment, so that the override file says what it is used with; E is the folder of the attempt.
+    command = "# " + " \\\n#   ".join(record_command(graph.cell, "bag")) + "\n\n"
+    topics = recorded_topics(graph.cell)
+    text = render({name: _profile(qos) for name, qos in topics.items()})
+    yield Artifact(RECORDING, header.commented("#") + command + text)
 
 
 def _profile(qos: Qos) -> Tree:

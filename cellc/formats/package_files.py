@@ -9,6 +9,9 @@ from cellc.cell.interface import Node
 REHEARSALS = "rehearsals.json"
 """What the mock executes."""
 
+RECORDING = "config/recording_qos.yaml"
+"""QoS with which an attempt is recorded."""
+
 QOS_OVERRIDES = "config/qos_overrides.yaml"
 """QoS of the nodes that the spec names."""
 

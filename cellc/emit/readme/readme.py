@@ -1,6 +1,8 @@
-"""``README.md`` of the generated package: what it is, how to try it, and what stands between it and real hardware.
+"""``README.md`` of the generated package: the way from power-off to a trajectory, and what stands in the folder.
 
-Markdown for people. Left out: everything that another file of the package says better; the page names that file.
+Markdown for people who see the cell for the first time. The gates come first, because they are what everybody needs;
+``gates/`` holds the same as checklists to tick for one attempt. Left out: what another file of the package says better;
+the page names that file.
 """
 
 from __future__ import annotations
@@ -10,22 +12,28 @@ from collections.abc import Iterator
 from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
 from cellc.emit.readme.sentence import bringup_sentence
-from cellc.formats.confirmation import CONFIRMATION
+from cellc.emit.readme.walk import fenced, overview, shell_of, walk
+from cellc.formats.gates.releases import start_mock
 from cellc.formats.header import Header
+from cellc.formats.movers import movers
 from cellc.formats.open_questions import open_questions
 from cellc.formats.parameter_file import spec_path
 from cellc.graph.cell_graph import CellGraph
 
+_OPEN = "Before real hardware"
+_ANCHOR = "before-real-hardware"
 _FILES = (
     ("urdf/", "the description for the mock and for real hardware"),
     ("config/", "parameters of controller managers and nodes, joint limits, the frame tree with its calibrations"),
     ("middleware/", "environment and profile for each host, sourced before anything is started there"),
     ("security/policy.xml", "who may publish, serve and call; everything else is denied"),
     ("launch/cell.launch.xml", "starts the cell; on real hardware it stops where a person takes over"),
+    ("launch/move.launch.xml", "starts what asks for motion; on real hardware only after a person releases it"),
+    ("launch/bring_up.bash", "what each step of the bring-up waits for before it acts"),
     ("contract.json", "what the interfaces promise: type, QoS, rate, age, owner, failure behaviour"),
     ("rehearsals.json", "what the mock executes, and the outcome that each run must end in"),
-    ("graph/responsibility.mmd", "who tells what to whom, and who answers for it"),
-    ("gates/promotion.md", "gates G0 to G7: commands, evidence, reasons to stop; `gates/network.md` holds L1 to L6"),
+    ("graph/responsibility.svg", "who tells what to whom, and who answers for it; `.mmd` is the same for Mermaid"),
+    ("gates/promotion.md", "gates G0 to G7 as a checklist for one attempt; `gates/network.md` holds L1 to L6"),
     ("audit.md", "open questions, version tuple, every command path, what the running cell must show, owners"),
     ("config/recording_qos.yaml", "what an attempt records, and the command that does it"),
     ("manifest.json", "version tuple, hash of every file, configuration id"),
@@ -34,50 +42,64 @@ _FILES = (
 
 def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
     """Yield the page."""
+    cell = graph.cell
     blocks = [
         f"<!--\n{header.text}\n-->",
-        f"# {graph.cell.name}",
-        graph.cell.spec.summary,
-        f"Configuration `{header.configuration_id}`, ROS 2 {graph.cell.distro}. This folder is a ROS 2 package; "
-        "the spec is its only source, so that a change is made there.",
+        f"# {cell.name}",
+        cell.spec.summary,
+        f"Configuration `{header.configuration_id}`, ROS 2 {cell.distro}. This folder is a ROS 2 package; the spec is "
+        "its only source, so that a change is made there.",
+        *_way(graph, header),
+        "## Every shell, once",
+        "From the folder that holds `cells/` and `generated/`, with ROS 2 sourced:",
+        shell_of(cell),
+        "To try it on the mock, in three commands:",
+        fenced((header.command, f"cellc mock generated/{cell.name}", start_mock(cell))),
+        "## The walk",
+        "Commands read; what starts something says so, and nothing here enables a drive. After a stop, the section "
+        "Recovery of `audit.md` has the way back.",
+        *walk(graph, header),
+        *_questions(graph),
         "## The cell in one sentence",
-        bringup_sentence(graph.cell),
-        f"![Every arrow of {graph.cell.name} with its owner](graph/responsibility.svg)",
-        *_use(graph.cell, header),
-        *_real(graph),
-        *_limits_of_the_mock(graph.cell),
+        bringup_sentence(cell),
+        f"![Every arrow of {cell.name} with its owner](graph/responsibility.svg)",
+        *_limits_of_the_mock(cell),
         "## What is here",
-        "\n".join(f"- `{name}`: {text}" for name, text in _FILES),
+        "\n".join(f"- `{name}`: {text}" for name, text in _FILES if _present(cell, name)),
     ]
     yield Artifact("README.md", "\n\n".join(block for block in blocks if block) + "\n")
 
 
-def _use(cell: Cell, header: Header) -> Iterator[str]:
-    yield "## Make it again, try it, launch it"
-    yield _shell(header.command, f"cellc mock generated/{cell.name}", f"ros2 launch {cell.name} cell.launch.xml")
-    yield "The launch file starts the mock unless it is told otherwise, and never enables drives."
+def _way(graph: CellGraph, header: Header) -> Iterator[str]:
+    yield "## From power-off to a trajectory"
+    yield (
+        "Gates are passed from top to bottom, each with its evidence and a signature; one that stops is begun again. "
+        "Enabling drives (G5) and moving (G6, G7) are steps of people at the cell: no file here takes them."
+    )
+    yield overview(graph, header)
+    number = len(open_questions(graph))
+    if number:
+        yield f"**{number} answers are missing in the spec**, and each blocks the real target: [{_OPEN}](#{_ANCHOR})."
 
 
-def _real(graph: CellGraph) -> Iterator[str]:
-    yield "## Before real hardware"
+def _questions(graph: CellGraph) -> Iterator[str]:
     questions = open_questions(graph)
     if questions:
-        yield "Each of these blocks the real target until somebody answers it in the spec:"
+        yield f"## {_OPEN}"
+        yield "Each of these is answered in the spec, where it stands; `audit.md` says whom to ask:"
         yield "\n".join(f"- {question.subject} (`{spec_path(question.path)}`)" for question in questions)
-    yield "With no question open, and after the mock has passed, a person states that the gates have their evidence:"
-    yield _shell(f"ros2 launch {graph.cell.name} cell.launch.xml target:=real confirm_real:={CONFIRMATION}")
-    yield (
-        "This connects to the hardware, reads its state and claims command interfaces. Enabling drives and the first "
-        "motion are steps of the vendor's procedure, taken by a person at the cell."
-    )
 
 
 def _limits_of_the_mock(cell: Cell) -> Iterator[str]:
-    lines = [f"- {device.name}: {text}" for device in cell.devices for text in device.facts.mock_cannot_prove]
-    if lines:
-        yield "## What the mock cannot prove"
-        yield "\n".join(lines)
+    yield "## What the mock cannot prove"
+    yield "By device and vendor; these are shown at the gates, or not at all:"
+    for device in cell.devices:
+        if device.facts.mock_cannot_prove:
+            yield f"**{device.name}** ({device.facts.vendor} {device.facts.model})"
+            yield "\n".join(f"- {text}" for text in device.facts.mock_cannot_prove)
 
 
-def _shell(*commands: str) -> str:
-    return "\n".join(["```sh", *commands, "```"])
+def _present(cell: Cell, name: str) -> bool:
+    if name == "middleware/":
+        return bool(cell.spec.hosts)
+    return name != "launch/move.launch.xml" or bool(movers(cell))

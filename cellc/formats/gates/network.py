@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cellc.cell.cell import Cell
-from cellc.cell.interface import Interface, InterfaceKind
-from cellc.emit.gates.gate import Check, Gate
+from cellc.cell.interface import Endpoint, Interface, InterfaceKind
+from cellc.formats.gates.gate import Check, Gate
+from cellc.formats.gates.releases import start_mock
+from cellc.formats.movers import movers, started_by_a_person
 from cellc.formats.numbers import shortest
 from cellc.graph.cell_graph import CellGraph
 
@@ -24,7 +26,7 @@ def _physical(graph: CellGraph) -> Gate:
     )
     routes = tuple(
         Check(
-            f"{device.device} answers over {device.host}/{device.nic or 'no stated card'}",
+            f"On {device.host}: {device.device} answers over card {device.nic or 'not stated'}",
             (f"ip route get {device.text}", f"ping -c 5 {device.text}"),
         )
         for device in graph.network.devices
@@ -33,6 +35,7 @@ def _physical(graph: CellGraph) -> Gate:
     return Gate(
         code="L1",
         title="Physical",
+        shows="cables, addresses and routes keep control traffic on its own card",
         state="drives off",
         checks=(Check("Links, addresses and routes are saved", ("ip -br addr", "ip route")), *cards, *routes),
         evidence="L1-links.txt",
@@ -51,6 +54,7 @@ def _vendor(cell: Cell) -> Gate:
     return Gate(
         code="L2",
         title="Vendor interface",
+        shows="each device is the one in the spec, and says that it is safe to read",
         state="drives disabled",
         checks=identities,
         evidence="L2-identity.md",
@@ -62,12 +66,13 @@ def _vendor(cell: Cell) -> Gate:
 def _discovery(cell: Cell) -> Gate:
     domain = cell.spec.network.domain_id
     ends = tuple(
-        Check(f"`{interface.name}` has its declared ends: {_ends(interface)}", (_info(interface),))
+        Check(f"`{interface.name}` has its declared ends: {_ends(cell, interface)}", (_info(interface),))
         for interface in cell.interfaces
     )
     return Gate(
         code="L3",
         title="Discovery",
+        shows="every interface has its declared ends, and nobody else",
         state="drives disabled",
         checks=(
             Check(
@@ -86,6 +91,7 @@ def _data(cell: Cell) -> Gate:
     return Gate(
         code="L4",
         title="Topics and QoS",
+        shows="samples arrive at their rate, and none is too old",
         state="drives disabled",
         checks=tuple(_freshness(cell)),
         evidence="L4-age.txt",
@@ -106,20 +112,21 @@ def _freshness(cell: Cell) -> Iterator[Check]:
 
 def _time(cell: Cell) -> Gate:
     clocks = tuple(
-        Check(f"{name} is within {host.clock.max_offset.text} of the others", ("chronyc tracking",))
+        Check(f"On {name}: its clock is within {host.clock.max_offset.text} of the others", ("chronyc tracking",))
         for name, host in cell.spec.hosts.items()
         if host.clock.max_offset is not None
     )
     tips = tuple(
         Check(
             f"{group.tip_frame} is found in {group.base_link}",
-            (f"ros2 run tf2_ros tf2_echo {group.base_link} {group.tip_frame}",),
+            (f"timeout 10 ros2 run tf2_ros tf2_echo {group.base_link} {group.tip_frame}",),
         )
         for group in cell.groups
     )
     return Gate(
         code="L5",
         title="Time and TF",
+        shows="clocks agree, and every frame has one authority",
         state="drives disabled",
         checks=(
             *clocks,
@@ -139,10 +146,12 @@ def _command(cell: Cell) -> Gate:
     return Gate(
         code="L6",
         title="Command path",
+        shows="a goal is taken, cancelled and refused, with no route to a drive",
         state="mock, or drives off",
         checks=(
+            Check("The real target has ended, and the mock runs in its place", (start_mock(cell),)),
             Check(
-                "The launched target is the mock",
+                "Every plugin of the description that runs is a mock",
                 ("ros2 param get /robot_state_publisher robot_description | grep plugin",),
             ),
             Check(
@@ -156,9 +165,13 @@ def _command(cell: Cell) -> Gate:
     )
 
 
-def _ends(interface: Interface) -> str:
-    sources = ", ".join(end.node for end in interface.sources) or "nobody"
-    return f"{sources} → {', '.join(end.node for end in interface.sinks) or 'nobody'}"
+def _ends(cell: Cell, interface: Interface) -> str:
+    late = {node.name for node in movers(cell) if started_by_a_person(cell, node)}
+
+    def names(ends: tuple[Endpoint, ...]) -> str:
+        return ", ".join(end.node + (" (from G7 on)" if end.node in late else "") for end in ends) or "nobody"
+
+    return f"{names(interface.sources)} → {names(interface.sinks)}"
 
 
 def _info(interface: Interface) -> str:

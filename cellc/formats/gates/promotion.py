@@ -5,17 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cellc.cell.cell import Cell
-from cellc.emit.gates.gate import Check, Gate
-from cellc.emit.gates.motion import one_joint, trajectory
-from cellc.formats.confirmation import CONFIRMATION
+from cellc.formats.gates.gate import Check, Gate
+from cellc.formats.gates.manifest import manifest
+from cellc.formats.gates.motion import one_joint, trajectory
+from cellc.formats.gates.releases import move_mock, start_mock, start_real
 from cellc.formats.header import Header
-from cellc.formats.version_tuple import version_tuple
+from cellc.formats.movers import is_mover
 
 
 def promotion_gates(cell: Cell, header: Header) -> tuple[Gate, ...]:
     """Return the gates in order."""
     return (
-        _manifest(cell),
+        manifest(cell),
         _model(cell, header),
         _mock(cell),
         _network(cell),
@@ -26,36 +27,23 @@ def promotion_gates(cell: Cell, header: Header) -> tuple[Gate, ...]:
     )
 
 
-def _manifest(cell: Cell) -> Gate:
-    parts = tuple(
-        Check(f"{name} on the nameplate or in the installed system is `{value}`")
-        for name, value in version_tuple(cell).items()
-    )
-    return Gate(
-        code="G0",
-        title="Manifest",
-        state="power off",
-        checks=(Check("The version tuple is the one of this package", ("cat manifest.json",)), *parts),
-        evidence="G0-inventory.md",
-        owner=cell.spec.owners.approvals.vendor,
-        stop=("an UNKNOWN in the list above", "a part that differs from the list"),
-    )
-
-
 def _model(cell: Cell, header: Header) -> Gate:
     measured = tuple(
         Check(f"Frame {frame.name} agrees with its physical marker (calibration {frame.calibration})")
         for frame in cell.frames
         if frame.calibration is not None
     )
+    description = f"generated/{cell.name}/urdf/{cell.name}.real.urdf"
     return Gate(
         code="G1",
         title="Model",
+        shows="the model is the robot that stands there: axes, limits, TCP, shapes, frames",
         state="offline",
         checks=(
             Check("The package is what the spec makes", (f"{header.command} --check",)),
-            Check("The tree is one tree", (f"xacro urdf/{cell.name}.real.urdf | check_urdf /dev/stdin",)),
-            Check("Axes, limits, TCP and collision shapes agree with drawing and robot"),
+            Check("The tree is one tree", (f"xacro {description} | check_urdf /dev/stdin",)),
+            Check("The hash of the description is kept with the evidence", (f"sha256sum {description}",)),
+            Check("Axes, limits, TCP and collision shapes agree with drawing and robot, each with a screenshot"),
             *measured,
         ),
         evidence="G1-model.md",
@@ -65,17 +53,20 @@ def _model(cell: Cell, header: Header) -> Gate:
 
 
 def _mock(cell: Cell) -> Gate:
-    managers = tuple(f"ros2 control list_controllers -c {m.namespace}/controller_manager" for m in cell.managers)
+    managers = tuple(f"ros2 control list_controllers -v -c {m.namespace}/controller_manager" for m in cell.managers)
     actions = tuple(f"ros2 action info {c.action}" for c in cell.controllers if c.action)
+    moving = move_mock(cell)
     return Gate(
         code="G2",
         title="Mock",
+        shows="the cell comes up, claims once, and a cancel holds, without any hardware",
         state="no hardware connected",
         checks=(
             Check("Every rehearsal ends as declared", (f"cellc mock generated/{cell.name}",)),
-            Check("The cell starts on the mock", (f"ros2 launch {cell.name} cell.launch.xml",)),
-            Check("Controllers claim what the contract says", managers),
-            Check("Each action has one server and the declared clients", actions),
+            Check("The cell starts on the mock", (start_mock(cell),)),
+            *((Check("What asks for motion starts, and moves the mock alone", moving),) * bool(moving)),
+            Check("Controllers are active, alternates inactive, and each claim has one owner", managers),
+            *((Check("Each action has one server and the declared clients", actions),) if actions else ()),
         ),
         evidence="G2-mock.md",
         owner=cell.spec.owners.approvals.controller,
@@ -92,15 +83,17 @@ def _network(cell: Cell) -> Gate:
     return Gate(
         code="G3",
         title="Network",
+        shows="discovery, data, time and transforms hold for ten minutes on the real network",
         state="drives disabled",
         checks=(
-            Check("Layers L1 and L2 of `gates/network.md` have passed"),
+            Check("Layers L1 and L2 have passed"),
             Check(
                 "A person releases the real target; it connects, reads and claims, and enables nothing",
-                (f"ros2 launch {cell.name} cell.launch.xml target:=real confirm_real:={CONFIRMATION}",),
+                start_real(cell),
             ),
-            Check("Layers L3 to L6 of `gates/network.md` have passed"),
+            Check("Layers L3 to L5 have passed"),
             Check("State is fresh for ten minutes", fresh),
+            Check("With the real target ended, layer L6 has passed on the mock"),
         ),
         evidence="G3-freshness.md",
         owner=cell.spec.owners.approvals.network,
@@ -109,17 +102,19 @@ def _network(cell: Cell) -> Gate:
 
 
 def _connected(cell: Cell) -> Gate:
-    managed = tuple(f"ros2 lifecycle get {node.full_name}" for node in cell.nodes if node.lifecycle)
-    hardware = tuple(
-        f"ros2 control list_hardware_components -c {m.namespace}/controller_manager" for m in cell.managers
-    )
+    names = tuple(f"{manager.namespace}/controller_manager" for manager in cell.managers)
+    hardware = tuple(f"ros2 control list_hardware_components -c {name}" for name in names)
+    controllers = tuple(f"ros2 control list_controllers -v -c {name}" for name in names)
     return Gate(
         code="G4",
         title="Connected, idle",
+        shows="vendor state, hardware, controllers and managed nodes are what was declared, and nothing moves",
         state="idle, drives disabled",
         checks=(
+            Check("A person releases the real target once more", start_real(cell)),
             Check("Hardware components are in the state that the vendor's procedure expects", hardware),
-            *((Check("Managed nodes are in their declared state", managed),) if managed else ()),
+            Check("Controllers are active, alternates inactive, and each claim has one owner", controllers),
+            *_managed(cell),
             *_no_stop(cell),
         ),
         evidence="G4-transitions.md",
@@ -138,12 +133,14 @@ def _enabled(cell: Cell) -> Gate:
     return Gate(
         code="G5",
         title="Enabled",
+        shows="the stop works, the area is empty, somebody watches, and the robot knows its load",
         state="reduced mode, enabled by a person through the vendor's procedure",
         checks=(
             Check(f"The stop of {stop.authority} (path: {stop.path}) was tried and the drives went off"),
             Check(f"The observer ({recovery.observer}) stands at the stop and sees the whole area"),
             Check("Nobody and nothing is in the reach of the cell"),
             *payloads,
+            *(Check(f"There is evidence of the stop: {one}") for one in stop.evidence),
         ),
         evidence="G5-enable.md",
         owner=cell.spec.owners.approvals.safety,
@@ -151,9 +148,16 @@ def _enabled(cell: Cell) -> Gate:
     )
 
 
+def _managed(cell: Cell) -> Iterator[Check]:
+    for node in cell.nodes:
+        if node.lifecycle:
+            state = "inactive" if is_mover(cell, node) else "active"
+            yield Check(f"{node.full_name} is {state}", (f"ros2 lifecycle get {node.full_name}",))
+
+
 def _no_stop(cell: Cell) -> Iterator[Check]:
     for device in cell.devices:
         states = () if device.facts.safety is None else device.facts.safety.states
-        stops = [state.name for state in states if state.stops]
+        stops = [f"{state.name} ({state.reported})" for state in states if state.stops]
         if stops:
             yield Check(f"{device.name} reports none of: {', '.join(stops)}")

@@ -10,9 +10,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cellc.artifact import Artifact
-from cellc.emit.gates.gate import Gate, gate_text
-from cellc.emit.gates.network import network_gates
-from cellc.emit.gates.promotion import promotion_gates
+from cellc.formats.gates.gate import Check, Gate
+from cellc.formats.gates.network import network_gates
+from cellc.formats.gates.promotion import promotion_gates
 from cellc.formats.header import Header
 from cellc.graph.cell_graph import CellGraph
 
@@ -37,5 +37,32 @@ def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
 
 
 def _page(header: Header, title: str, text: str, gates: tuple[Gate, ...]) -> str:
-    blocks = [f"<!--\n{header.text}\n-->", f"# {title}", text, *map(gate_text, gates)]
+    where = (
+        "Commands run in the folder that holds `cells/` and `generated/`, with `E` set to the folder of the attempt; "
+        "`README.md` leads through the gates."
+    )
+    blocks = [f"<!--\n{header.text}\n-->", f"# {title}", f"{text} {where}", *map(_gate, gates)]
     return "\n\n".join(blocks) + "\n"
+
+
+def _gate(gate: Gate) -> str:
+    lines = [
+        f"## {gate.code} {gate.title}",
+        "",
+        f"State: {gate.state}. Signed by: {gate.owner}. Evidence: `evidence/<attempt_id>/{gate.evidence}`.",
+        "",
+        *(line for check in gate.checks for line in _check(check)),
+        *([""] if gate.checks and not gate.checks[-1].commands else []),
+        f"**Stop, and do not go on, on:** {'; '.join(gate.stop)}.",
+    ]
+    return "\n".join(lines)
+
+
+def _check(check: Check) -> Iterator[str]:
+    yield f"- [ ] {check.text}"
+    if check.commands:
+        yield ""
+        yield "  ```sh"
+        yield from (f"  {line}" for command in check.commands for line in command.splitlines())
+        yield "  ```"
+        yield ""

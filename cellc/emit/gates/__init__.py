@@ -1,1 +1,0 @@
-"""The gates of bring-up as checklists, part by part."""

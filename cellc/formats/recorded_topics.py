@@ -1,0 +1,50 @@
+"""What an attempt records: the topics of the motion path with the QoS that every publisher offers, and the command."""
+
+from __future__ import annotations
+
+from cellc.cell.cell import Cell
+from cellc.cell.interface import Interface, InterfaceKind, Qos
+from cellc.formats.package_files import RECORDING
+
+
+def record_command(cell: Cell, bag: str) -> tuple[str, ...]:
+    """Return the command that records an attempt, in parts of one line each; it goes on until it is interrupted.
+
+    Args:
+        bag: name of the folder below that of the attempt, ``$E``; there must be none of it yet.
+    """
+    return (
+        "ros2 bag record --storage mcap --include-hidden-topics",
+        f"--qos-profile-overrides-path generated/{cell.name}/{RECORDING}",
+        f'--output "$E/{bag}"',
+        *(() if cell.distro == "humble" else ("--topics",)),
+        *recorded_topics(cell),
+    )
+
+
+def recorded_topics(cell: Cell) -> dict[str, Qos]:
+    """Return every recorded topic with a profile that each of its publishers satisfies."""
+    found = {interface.name: _offered(interface) for interface in cell.interfaces if _on_the_path(interface)}
+    # Goals and results of actions are hidden services; feedback and status tell what became of them.
+    for action in (i for i in cell.interfaces if i.kind is InterfaceKind.ACTION):
+        found[f"{action.name}/_action/feedback"] = Qos()
+        found[f"{action.name}/_action/status"] = Qos(durability="transient_local", depth=1)
+    for name in ("/diagnostics", *cell.spec.recording.topics):
+        found.setdefault(name, Qos())
+    return found
+
+
+def _on_the_path(interface: Interface) -> bool:
+    return interface.kind is InterfaceKind.TOPIC and not interface.type.endswith(("/Image", "/PointCloud2"))
+
+
+def _offered(interface: Interface) -> Qos:
+    """Return a profile that every publisher satisfies: the weakest that one of them offers."""
+    offered = [source.qos for source in interface.sources]
+    weak = any(qos.reliability == "best_effort" for qos in offered)
+    volatile = any(qos.durability == "volatile" for qos in offered) or not offered
+    return Qos(
+        reliability="best_effort" if weak else "reliable",
+        durability="volatile" if volatile else "transient_local",
+        depth=max((qos.depth for qos in offered), default=10),
+    )
