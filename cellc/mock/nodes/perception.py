@@ -91,8 +91,7 @@ class Perception:
 
     def _publish(self, image: Image) -> None:
         """Publish where the object was, seen from the camera, when the image was taken."""
-        camera = self._world.link_pose(image.frame, image.taken_ns)
-        pose = camera.inverse() @ self._world.object_pose(self._name, image.taken_ns)
+        pose = self._world.pose_seen_from(image.frame, self._name, image.taken_ns)
         if self.publishes_transform:
             self._transform.insert(image.stamp_ns, pose)
         published = ObjectPose(image.stamp_ns, self._frame.parent, pose)

@@ -66,12 +66,19 @@ class LinkTree:
 
     def pose(self, link: str, positions: Mapping[str, float]) -> Pose:
         """Return the pose of a link in the root link."""
-        if link not in self._runs:
-            self._runs[link] = self._merge(link)
-        pose, moving = self._runs[link]
+        pose, moving = self._run(link)
         for joint, fixed in moving:
             pose = pose @ joint.displacement(positions) @ fixed
         return pose
+
+    def stands(self, link: str) -> bool:
+        """Tell whether no joint moves a link."""
+        return not self._run(link)[1]
+
+    def _run(self, link: str) -> tuple[Pose, tuple[tuple[LinkJoint, Pose], ...]]:
+        if link not in self._runs:
+            self._runs[link] = self._merge(link)
+        return self._runs[link]
 
     def _merge(self, link: str) -> tuple[Pose, tuple[tuple[LinkJoint, Pose], ...]]:
         """Return what is fixed before the first moving joint, and each moving joint with what is fixed after it."""

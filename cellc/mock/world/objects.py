@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from cellc.mock.world.joint_states import JointStateHistory
@@ -20,6 +20,10 @@ class Placement:
     pose: Pose
 
 
+def _begin_ns(placement: Placement) -> int:
+    return placement.from_ns
+
+
 class World:
     """Where links and objects really are at a time, computed from the recorded joint positions."""
 
@@ -28,6 +32,7 @@ class World:
         self._links = links
         self._histories = tuple(histories)
         self._placements: dict[str, list[Placement]] = {}
+        self._standing: dict[tuple[str, Placement], Pose] = {}
 
     def joint_positions(self, stamp_ns: int) -> dict[str, float]:
         """Return the true positions of all recorded joints at a time."""
@@ -54,10 +59,26 @@ class World:
 
     def object_pose(self, name: str, stamp_ns: int) -> Pose:
         """Return the true pose of an object in the root link at a time."""
-        placements = self._placements[name]
-        index = bisect_right([placement.from_ns for placement in placements], stamp_ns) - 1
-        placement = placements[max(0, index)]
+        placement = self._placement(name, stamp_ns)
         return self.link_pose(placement.link, stamp_ns) @ placement.pose
+
+    def pose_seen_from(self, link: str, name: str, stamp_ns: int) -> Pose:
+        """Return the true pose of an object in the frame of a link at a time."""
+        placement = self._placement(name, stamp_ns)
+        if not (self._links.stands(link) and self._links.stands(placement.link)):
+            return self._relative(link, placement, self.joint_positions(stamp_ns))
+        if (link, placement) not in self._standing:
+            self._standing[link, placement] = self._relative(link, placement, {})
+        return self._standing[link, placement]
+
+    def _placement(self, name: str, stamp_ns: int) -> Placement:
+        placements = self._placements[name]
+        index = bisect_right(placements, stamp_ns, key=_begin_ns) - 1
+        return placements[max(0, index)]
+
+    def _relative(self, link: str, placement: Placement, positions: Mapping[str, float]) -> Pose:
+        in_root = self._links.pose(placement.link, positions) @ placement.pose
+        return self._links.pose(link, positions).inverse() @ in_root
 
     def move(self, name: str, link: str, now_ns: int) -> Pose:
         """Hand an object over to another link without moving it; return its pose in the frame of that link."""

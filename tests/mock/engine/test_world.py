@@ -125,3 +125,16 @@ def test_object_moves_with_the_link_that_took_it(links: LinkTree) -> None:
 def test_empty_world_places_links_at_zero(links: LinkTree) -> None:
     assert World(links, ()).link_pose("base", 0).position == (0.0, 0.0, 1.0)
     assert links.pose("world", {}) == identity()
+
+
+def test_object_is_seen_from_a_link_where_both_are(links: LinkTree) -> None:
+    world = World(links, (history_of([0.01 * index for index in range(100)]),))
+    world.place("part", "world", from_xyz_rpy((1.0, 2.0, 3.0), (0.1, 0.2, 0.3)), 0)
+    world.move("part", "flap", 100 * MS)
+    world.move("part", "base", 150 * MS)
+    for stamp_ns in (10 * MS, 20 * MS, 120 * MS, 140 * MS, 160 * MS, 170 * MS):
+        for link in ("base", "flap"):
+            expected = world.link_pose(link, stamp_ns).inverse() @ world.object_pose("part", stamp_ns)
+            assert world.pose_seen_from(link, "part", stamp_ns) == expected
+    assert world.pose_seen_from("base", "part", 120 * MS) != world.pose_seen_from("base", "part", 140 * MS)
+    assert world.pose_seen_from("base", "part", 10 * MS) != world.pose_seen_from("base", "part", 160 * MS)
