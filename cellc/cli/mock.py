@@ -17,6 +17,7 @@ import click
 @click.option(
     "--replay", "replayed", multiple=True, metavar="RUN", help="Run one run of the campaign alone; repeatable."
 )
+@click.option("--gates", is_flag=True, help="Run rehearsals and campaign, and judge gates L6, G1, G2 by them.")
 @click.option("--json", "as_json", is_flag=True, help="Write the results as JSON.")
 @click.option("--records", type=click.Path(path_type=str, dir_okay=False), help="Write attempt records as JSON lines.")
 @click.option("--evidence", type=click.Path(path_type=str, file_okay=False), help="Write bags, figures and a report.")
@@ -29,6 +30,7 @@ def mock(
     jobs: int | None,
     list_only: bool,
     replayed: tuple[str, ...],
+    gates: bool,
     as_json: bool,
     records: str | None,
     evidence: str | None,
@@ -38,16 +40,19 @@ def mock(
     # Planning libraries load only for this command.
     from cellc.mock.campaign.command import CampaignOptions, list_runs, replay_runs, run_campaign
     from cellc.mock.command import run_command
+    from cellc.mock.gates.command import run_gates
 
-    if names and (campaign or list_only or replayed):
+    if names and (campaign or list_only or replayed or gates):
         raise click.UsageError("--rehearsal runs declared rehearsals; it does not go with the options of the campaign.")
-    if evidence is not None and (campaign or list_only or replayed):
+    if evidence is not None and (campaign or list_only or replayed or gates):
         raise click.UsageError("--evidence is of declared rehearsals; it does not go with the options of the campaign.")
     options = CampaignOptions(seed=seed, jobs=jobs, pairs=pairs, as_json=as_json, records=records)
     if list_only:
         code = list_runs(folder, options)
     elif replayed:
         code = replay_runs(folder, replayed, options)
+    elif gates:
+        code = run_gates(folder, options)
     elif campaign:
         code = run_campaign(folder, options)
     else:

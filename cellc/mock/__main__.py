@@ -21,6 +21,7 @@ def main() -> int:
     parser.add_argument(
         "--replay", action="append", default=[], metavar="RUN", help="run this run of the campaign alone; repeatable"
     )
+    parser.add_argument("--gates", action="store_true", help="run rehearsals and campaign, and judge gates L6, G1, G2")
     parser.add_argument("--json", action="store_true", help="print a JSON summary")
     parser.add_argument(
         "--rehearsal", action="append", default=[], metavar="NAME", help="run this one only; repeatable"
@@ -29,7 +30,7 @@ def main() -> int:
     parser.add_argument("--evidence", metavar="FOLDER", help="write bags, figures and a report")
     parser.add_argument("--seed", type=int, default=0, help="seed of everything drawn (default 0)")
     options = parser.parse_args()
-    in_campaign = options.campaign or options.list or options.replay
+    in_campaign = options.campaign or options.list or options.replay or options.gates
     if options.rehearsal and in_campaign:
         parser.error("--rehearsal runs declared rehearsals; it does not go with the options of the campaign")
     if options.evidence and in_campaign:
@@ -62,6 +63,10 @@ def _run_campaign(options: argparse.Namespace) -> int:
         as_json=options.json,
         records=options.records,
     )
+    if options.gates:
+        from cellc.mock.gates.command import run_gates
+
+        return run_gates(options.folder, asked)
     if options.list:
         return list_runs(options.folder, asked)
     if options.replay:

@@ -55,14 +55,11 @@ def run_campaign(folder: str, options: CampaignOptions) -> int:
         an option is unusable.
     """
 
-    def all_runs(plan: CampaignPlan) -> Sequence[CampaignRun]:
-        return (*plan.singles(), *plan.pairs(options.pairs, options.seed))
-
     try:
-        cell = _load(folder, options)
-        campaign = _conduct(cell, all_runs, options)
+        cell = load_checked(folder, options)
+        campaign = conduct_all(cell, options)
     except (MockError, KeyboardInterrupt) as stop:
-        return _stopped(stop)
+        return stopped(stop)
     replay = partial(_replay_command, folder, options)
     if options.as_json:
         print(campaign_json(campaign, cell.notes, replay))
@@ -78,10 +75,10 @@ def replay_runs(folder: str, identifiers: Sequence[str], options: CampaignOption
         return [_found(plan, identifier) for identifier in identifiers]
 
     try:
-        cell = _load(folder, options)
+        cell = load_checked(folder, options)
         campaign = _conduct(cell, named_runs, replace(options, jobs=1))
     except (MockError, KeyboardInterrupt) as stop:
-        return _stopped(stop)
+        return stopped(stop)
     replay = partial(_replay_command, folder, options)
     if options.as_json:
         print(campaign_json(replace(campaign, baselines=()), cell.notes, replay))
@@ -93,16 +90,17 @@ def replay_runs(folder: str, identifiers: Sequence[str], options: CampaignOption
 def list_runs(folder: str, options: CampaignOptions) -> int:
     """Print the identifiers of the runs of a campaign; only the rehearsals without faults are run."""
     try:
-        cell = _load(folder, options)
+        cell = load_checked(folder, options)
         plan, _ = make_plan(cell, possible_faults(cell.contract), options.seed)
     except (MockError, KeyboardInterrupt) as stop:
-        return _stopped(stop)
+        return stopped(stop)
     for run in (*plan.singles(), *plan.pairs(options.pairs, options.seed)):
         print(run.identifier)
     return 0
 
 
-def _load(folder: str, options: CampaignOptions) -> MockCell:
+def load_checked(folder: str, options: CampaignOptions) -> MockCell:
+    """Load a folder, and check the numbers of the options; raise MockError where either cannot be used."""
     for name, value, least in (
         ("seed", options.seed, 0),
         ("number of pairs", options.pairs, 0),
@@ -111,6 +109,15 @@ def _load(folder: str, options: CampaignOptions) -> MockCell:
         if value is not None and value < least:
             raise MockError("", f"the {name} is {value}; it must be {least} or greater")
     return load(Path(folder))
+
+
+def conduct_all(cell: MockCell, options: CampaignOptions) -> Campaign:
+    """Conduct the whole campaign; raise MockError where a run cannot be executed."""
+
+    def all_runs(plan: CampaignPlan) -> Sequence[CampaignRun]:
+        return (*plan.singles(), *plan.pairs(options.pairs, options.seed))
+
+    return _conduct(cell, all_runs, options)
 
 
 def _conduct(cell: MockCell, choose: Choice, options: CampaignOptions) -> Campaign:
@@ -152,7 +159,8 @@ def _end_progress(text: str) -> None:
         print(f"\r\x1b[K{text}", file=sys.stderr, flush=True)
 
 
-def _stopped(stop: BaseException) -> int:
+def stopped(stop: BaseException) -> int:
+    """Say why nothing came of it; return the exit code."""
     text = "interrupted; no records were written" if isinstance(stop, KeyboardInterrupt) else str(stop)
     _end_progress("")
     print(f"error: {text}", file=sys.stderr)

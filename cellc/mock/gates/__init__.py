@@ -1,0 +1,18 @@
+"""Gates L6, G1 and G2 and the interface checklist, each line judged by the evidence of runs and of the folder.
+
+What the mock cannot show stays UNKNOWN; no line says anything about hardware.
+"""
+
+from cellc.mock.gates.gate import GateCheck, GateResult, Verdict
+from cellc.mock.gates.sign import sign_gates
+from cellc.mock.gates.witness import Witness, campaign_witnesses, rehearsal_witnesses
+
+__all__ = [
+    "GateCheck",
+    "GateResult",
+    "Verdict",
+    "Witness",
+    "campaign_witnesses",
+    "rehearsal_witnesses",
+    "sign_gates",
+]

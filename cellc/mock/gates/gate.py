@@ -1,0 +1,94 @@
+"""A gate with the verdict of each of its lines."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from enum import Enum
+
+_TOLD = 3
+"""Pieces of evidence that a line names; the number of the rest is told."""
+
+
+class Verdict(str, Enum):
+    """What the evidence says of a line, or of a gate."""
+
+    PASSED = "passed"
+    FAILED = "failed"
+    UNKNOWN = "UNKNOWN"
+
+
+@dataclass(frozen=True, slots=True)
+class GateCheck:
+    """One line of a checklist.
+
+    Attributes:
+        text: what has to be so.
+        evidence: runs and facts that it is judged by; where it is UNKNOWN, what would show it.
+    """
+
+    text: str
+    verdict: Verdict
+    evidence: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class GateResult:
+    """A gate as far as the mock can judge it.
+
+    Attributes:
+        gate: its name in the chapter: L6, G1, G2, or S2 for the interface checklist of section 2.
+        state: state of the robot that the gate is for.
+        configuration_id: configuration that was judged.
+        seed: of the runs that are the evidence.
+    """
+
+    gate: str
+    title: str
+    state: str
+    configuration_id: str
+    seed: int
+    checks: tuple[GateCheck, ...]
+
+    @property
+    def verdict(self) -> Verdict:
+        """Failed where a line failed, UNKNOWN where one is, else passed."""
+        verdicts = {check.verdict for check in self.checks}
+        for verdict in (Verdict.FAILED, Verdict.UNKNOWN):
+            if verdict in verdicts or not verdicts:
+                return verdict
+        return Verdict.PASSED
+
+    @property
+    def signature(self) -> str:
+        """A digest over everything the result says: another line, run or configuration gives another one."""
+        text = repr((self.gate, self.title, self.state, self.configuration_id, self.seed, self.checks))
+        return f"sha256:{hashlib.sha256(text.encode()).hexdigest()}"
+
+
+def passed(text: str, evidence: Iterable[str]) -> GateCheck:
+    """Return a line that the evidence confirms."""
+    return GateCheck(text, Verdict.PASSED, _shortened(tuple(evidence)))
+
+
+def failed(text: str, evidence: Iterable[str]) -> GateCheck:
+    """Return a line that the evidence contradicts."""
+    return GateCheck(text, Verdict.FAILED, _shortened(tuple(evidence)))
+
+
+def unknown(text: str, needed: str) -> GateCheck:
+    """Return a line that nothing here can judge, with what would."""
+    return GateCheck(text, Verdict.UNKNOWN, (needed,))
+
+
+def judged(text: str, good: Sequence[str], bad: Sequence[str], needed: str) -> GateCheck:
+    """Return a line that one piece of evidence against it fails, and that needs at least one for it."""
+    if bad:
+        return failed(text, bad)
+    return passed(text, good) if good else unknown(text, needed)
+
+
+def _shortened(evidence: tuple[str, ...]) -> tuple[str, ...]:
+    rest = len(evidence) - _TOLD
+    return evidence if rest <= 1 else (*evidence[:_TOLD], f"and {rest} more")

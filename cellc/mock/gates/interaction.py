@@ -1,0 +1,94 @@
+"""The interface selection checklist of section 2: a late sample, a missing responder, a cancelled goal.
+
+An interface passes where each case that concerns its kind was injected and led to a visible, bounded state: the run
+ended in another outcome than success, by name, within its bound.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.contract.contract import ContractInterface
+from cellc.contract.rehearsals import FaultEntry
+from cellc.mock.gates.gate import GateCheck, judged, unknown
+from cellc.mock.gates.trace import cancel_trace
+from cellc.mock.gates.witness import SUCCEEDED, Testimony, Witness
+
+_IMAGE = "sensor_msgs/msg/Image"
+_JOINT_STATE = "sensor_msgs/msg/JointState"
+_TF = "tf2_msgs/msg/TFMessage"
+_LATE = ("freeze", "delay", "drop_frame", "cut_network")
+_SILENT = ("unresponsive", "reject", "mismatch_qos")
+
+
+def interaction_checks(testimony: Testimony) -> Iterator[GateCheck]:
+    """Yield the lines of each interface of the contract, in its order."""
+    for name, interface in testimony.contract.interfaces.items():
+        if interface.kind == "topic":
+            yield _late_sample(testimony, name, interface)
+            continue
+        yield _missing_responder(testimony, name, interface)
+        if interface.kind == "action":
+            yield _cancelled_goal(testimony, name)
+    yield unknown("A hard servo loop meets its worst-case timing", "a measurement on the real controller")
+
+
+def _late_sample(testimony: Testimony, name: str, interface: ContractInterface) -> GateCheck:
+    text = f"{name} (topic, {interface.wants or 'need not stated'}): a late sample ends in a visible, bounded state"
+    runs = [
+        witness
+        for witness, fault in testimony.with_fault(*_LATE, "mismatch_qos")
+        if _delays(testimony, fault, name, interface)
+    ]
+    return _bounded(text, runs, "a run in which its samples stay away")
+
+
+def _missing_responder(testimony: Testimony, name: str, interface: ContractInterface) -> GateCheck:
+    text = f"{name} ({interface.kind}): a missing responder ends in a visible, bounded state"
+    servers = {source.node for source in interface.sources}
+    servers |= {
+        controller
+        for manager in testimony.contract.managers.values()
+        for controller, facts in manager.controllers.items()
+        if facts.action == name
+    }
+    runs = [witness for witness, fault in testimony.with_fault(*_SILENT) if fault.target in servers | {name}]
+    return _bounded(text, runs, "a run in which its server does not answer")
+
+
+def _cancelled_goal(testimony: Testimony, name: str) -> GateCheck:
+    for manager in testimony.contract.managers.values():
+        for controller, facts in manager.controllers.items():
+            if facts.action == name:
+                return cancel_trace(testimony, controller)
+    return unknown(f"A cancelled goal of {name} is held", "its server, which the mock's task stands in for")
+
+
+def _bounded(text: str, runs: list[Witness], needed: str) -> GateCheck:
+    bad = [f"{run.name}: {run.result.outcome}" for run in runs if not run.passed]
+    good = [f"{run.name}: {run.result.outcome}" for run in runs if run.result.outcome != SUCCEEDED]
+    return judged(text, good, bad, needed)
+
+
+def _delays(testimony: Testimony, fault: FaultEntry, name: str, interface: ContractInterface) -> bool:
+    """Tell whether a fault keeps samples of a topic from arriving in time."""
+    contract = testimony.contract
+    if fault.target == name:
+        return True
+    if fault.kind == "drop_frame":
+        frame = contract.frames.get(fault.target)
+        return frame is not None and name == ("/tf" if frame.pose is None else "/tf_static") and interface.type == _TF
+    device = contract.devices.get(fault.target)
+    if device is None:
+        return False
+    if device.camera is not None:
+        return device.camera.topic == name or _follows(interface, contract.interfaces.get(device.camera.topic))
+    return interface.type == _JOINT_STATE and fault.kind == "delay"
+
+
+def _follows(interface: ContractInterface, images: ContractInterface | None) -> bool:
+    """Tell whether a topic is made of images: its publisher listens to them."""
+    if images is None or images.type != _IMAGE:
+        return False
+    listeners = {sink.node for sink in images.sinks}
+    return interface.type != _TF and any(source.node in listeners for source in interface.sources)

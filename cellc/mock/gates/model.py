@@ -1,0 +1,129 @@
+"""G1 of the staged promotion gates: axis, limit, TCP, collision and frame of the model, offline.
+
+What a drawing, a marker or the robot itself would have to confirm stays UNKNOWN.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator
+
+from cellc.mock.gates.description import DescribedJoint, Description, read_description
+from cellc.mock.gates.gate import GateCheck, failed, judged, passed, unknown
+from cellc.mock.gates.witness import Testimony
+
+_UNIT = 1e-6
+"""By which the length of an axis may differ from 1: URDF has six digits of it."""
+
+
+def model_checks(testimony: Testimony) -> Iterator[GateCheck]:
+    """Yield the lines of G1."""
+    description = read_description(testimony.folder.urdf)
+    yield _generated(testimony)
+    yield _one_tree(description)
+    yield _axes(description)
+    yield unknown("Axes turn as those of the robot do", "a person who compares them with drawing and robot")
+    yield _limits(testimony, description)
+    yield _tool_points(testimony)
+    yield _collision(testimony)
+    yield unknown("Collision shapes enclose the real parts", "a person who compares them with drawing and robot")
+    yield _frames(testimony)
+    for name, frame in testimony.contract.frames.items():
+        if frame.calibration is not None:
+            text = f"Frame {name} agrees with its physical marker (calibration {frame.calibration})"
+            yield unknown(text, "a measurement in the cell")
+
+
+def _generated(testimony: Testimony) -> GateCheck:
+    text = "The package is as it was generated, under one configuration id"
+    if testimony.folder.notes:
+        return failed(text, testimony.folder.notes)
+    digest = hashlib.sha256(testimony.folder.urdf.encode()).hexdigest()
+    name = testimony.contract.files.urdf_mock
+    return passed(
+        text,
+        (f"manifest.json: every hash agrees, {testimony.contract.configuration_id}", f"{name}: sha256 {digest[:16]}"),
+    )
+
+
+def _one_tree(description: Description) -> GateCheck:
+    text = "The robot description is one tree"
+    roots = description.roots()
+    if len(roots) != 1:
+        return failed(text, [f"roots: {', '.join(roots) or 'none'}"])
+    unreached = description.unreached(roots[0])
+    if unreached:
+        return failed(text, [f"link {link} cannot be reached from {roots[0]}" for link in unreached])
+    return passed(text, [f"{len(description.links)} links hang from {roots[0]}"])
+
+
+def _axes(description: Description) -> GateCheck:
+    moving = [joint for joint in description.joints if joint.moves]
+    bad = [
+        f"the axis of joint {joint.name} has the length {joint.axis_length:g}"
+        for joint in moving
+        if abs(joint.axis_length - 1.0) > _UNIT
+    ]
+    good = [f"{len(moving)} moving joints"] if moving else []
+    return judged("Axes are of unit length", good, bad, "a joint that moves")
+
+
+def _limits(testimony: Testimony, description: Description) -> GateCheck:
+    """Compare the limits of the cell with those of the description: never wider, and never reversed."""
+    described = {joint.name: joint for joint in description.joints}
+    limits = testimony.contract.joint_limits
+    bad = [problem for name in limits for problem in _wider(testimony, name, described.get(name))]
+    good = [f"{len(limits)} joints: position and velocity limits of contract and description agree"] if limits else []
+    return judged("Limits of the cell are within those of the description", good, bad, "a joint with limits")
+
+
+def _wider(testimony: Testimony, name: str, described: DescribedJoint | None) -> Iterator[str]:
+    limit = testimony.contract.joint_limits[name]
+    if described is None:
+        yield f"joint {name} is not in the description"
+        return
+    if limit.lower is not None and limit.upper is not None and limit.lower > limit.upper:
+        yield f"joint {name}: lower {limit.lower:g} is above upper {limit.upper:g}"
+    if described.velocity is not None and limit.velocity > described.velocity:
+        yield f"joint {name}: velocity {limit.velocity:g}, {described.velocity:g} in the description"
+    if described.kind == "continuous":
+        return
+    if described.lower is not None and (limit.lower is None or limit.lower < described.lower):
+        yield f"joint {name}: lower {limit.lower}, {described.lower:g} in the description"
+    if described.upper is not None and (limit.upper is None or limit.upper > described.upper):
+        yield f"joint {name}: upper {limit.upper}, {described.upper:g} in the description"
+
+
+def _tool_points(testimony: Testimony) -> GateCheck:
+    good: list[str] = []
+    bad: list[str] = []
+    for name, group in testimony.contract.groups.items():
+        known = group.tip_frame in testimony.contract.frames
+        (good if known else bad).append(f"group {name} places frame {group.tip_frame}" + ("" if known else ", unknown"))
+    return judged("Each group has its TCP in the tree", good, bad, "a planning group")
+
+
+def _collision(testimony: Testimony) -> GateCheck:
+    """Judge by the plans of undisturbed runs, each of which was checked against the scene."""
+    good: list[str] = []
+    bad: list[str] = []
+    for witness in testimony.undisturbed():
+        for attempt in witness.result.attempts:
+            if attempt.plan_result == "success":
+                good.append(f"{witness.name}: {attempt.step}")
+            elif attempt.plan_result is not None:
+                bad.append(f"{witness.name}: {attempt.step}: {attempt.plan_result}")
+    text = "Every motion of the rehearsals is planned free of collision"
+    return judged(text, good, bad, "a rehearsal without faults that moves")
+
+
+def _frames(testimony: Testimony) -> GateCheck:
+    good: list[str] = []
+    bad: list[str] = []
+    for witness in testimony.undisturbed():
+        observe = [stage for stage in witness.result.bringup if stage.stage == "observe"]
+        bad += [f"{witness.name}: {problem}" for stage in observe for problem in stage.problems]
+        bad += [f"{witness.name}: {finding}" for finding in witness.result.findings if "two authorities" in finding]
+        if observe and all(stage.passed for stage in observe):
+            good.append(f"{witness.name}: all fixed frames and links were looked up at bring-up")
+    return judged("Every frame is found and has one authority", good, bad, "a rehearsal without faults")

@@ -1,0 +1,45 @@
+"""Signs the gates by result."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+
+from cellc.mock.folder import GeneratedFolder
+from cellc.mock.gates.command_path import command_path_checks
+from cellc.mock.gates.gate import GateCheck, GateResult
+from cellc.mock.gates.interaction import interaction_checks
+from cellc.mock.gates.mock_run import mock_run_checks
+from cellc.mock.gates.model import model_checks
+from cellc.mock.gates.witness import Testimony, Witness
+
+# Name, title and state of the robot as in sections 2, 5 and 11 of chapter 4.
+_GATES: tuple[tuple[str, str, str, Callable[[Testimony], Iterator[GateCheck]]], ...] = (
+    ("S2", "Interface selection checklist", "no hardware connected", interaction_checks),
+    ("L6", "Command path", "mock, or drives off", command_path_checks),
+    ("G1", "Model", "offline", model_checks),
+    ("G2", "Mock", "no hardware connected", mock_run_checks),
+)
+
+
+def sign_gates(folder: GeneratedFolder, witnesses: Sequence[Witness], seed: int) -> tuple[GateResult, ...]:
+    """Judge every line of the gates that can be judged without hardware.
+
+    Args:
+        folder: what was executed.
+        witnesses: its runs; of two with one name the last counts.
+        seed: of the runs.
+    """
+    testimony = Testimony(folder, tuple({witness.name: witness for witness in witnesses}.values()))
+    return tuple(
+        GateResult(gate, title, state, folder.contract.configuration_id, seed, tuple(_distinct(checks(testimony))))
+        for gate, title, state, checks in _GATES
+    )
+
+
+def _distinct(checks: Iterable[GateCheck]) -> Iterator[GateCheck]:
+    """Leave out a line that stands there already."""
+    seen: set[str] = set()
+    for check in checks:
+        if check.text not in seen:
+            seen.add(check.text)
+            yield check

@@ -1,0 +1,52 @@
+"""The pick-and-place cell with its rehearsals run, as evidence."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from cellc.mock import MockCell, load
+from cellc.mock.folder import GeneratedFolder
+from cellc.mock.gates import GateCheck, GateResult, Witness, rehearsal_witnesses, sign_gates
+from cellc.mock.record import AttemptRecord
+from cellc.output.write import write
+from cellc.pipeline import check, compile_cell
+
+ROOT = Path(__file__).resolve().parents[3]
+
+
+@pytest.fixture(scope="session")
+def pick(tmp_path_factory: pytest.TempPathFactory) -> MockCell:
+    """The loaded cell."""
+    artifacts = compile_cell(check(ROOT / "cells" / "ur5e_pick" / "cell.yaml")).value
+    assert artifacts is not None
+    folder = tmp_path_factory.mktemp("gates") / "ur5e_pick"
+    assert write(artifacts, folder).ok
+    return load(folder)
+
+
+@pytest.fixture(scope="session")
+def rehearsed(pick: MockCell) -> tuple[Witness, ...]:
+    """Its declared rehearsals: one that succeeds, a stale camera, a cancelled goal."""
+    return rehearsal_witnesses(pick.entries, [pick.run(name) for name in pick.rehearsals])
+
+
+def gate(name: str, folder: GeneratedFolder, witnesses: tuple[Witness, ...]) -> GateResult:
+    """Sign the gates, and return one."""
+    return next(each for each in sign_gates(folder, witnesses, 0) if each.gate == name)
+
+
+def line(result: GateResult, words: str) -> GateCheck:
+    """Return the one line of a gate that has some words."""
+    found = [check for check in result.checks if words in check.text]
+    assert len(found) == 1, [check.text for check in result.checks]
+    return found[0]
+
+
+def with_attempt(witness: Witness, step: str, change: Callable[[AttemptRecord], AttemptRecord]) -> Witness:
+    """Return a witness whose attempt of a step is another one."""
+    attempts = tuple(change(attempt) if attempt.step == step else attempt for attempt in witness.result.attempts)
+    return replace(witness, result=replace(witness.result, attempts=attempts))
