@@ -18,15 +18,43 @@ OutcomeName = Literal[
     "tolerance_violation",
     "missed_cycle",
     "protective_stop",
+    "emergency_stop",
+    "hardware_fault",
+    "wrong_owner",
     "timeout",
+]
+
+FaultKind = Literal[
+    "freeze",
+    "delay",
+    "drop_frame",
+    "double_frame",
+    "jump_clock",
+    "mismatch_qos",
+    "unresponsive",
+    "unreachable",
+    "reject",
+    "cancel",
+    "second_commander",
+    "switch",
+    "stick",
+    "slow",
+    "displace",
+    "scale_speed",
+    "skip_cycles",
+    "wrong_payload",
+    "protective_stop",
+    "emergency_stop",
+    "restart_driver",
+    "cut_network",
 ]
 
 
 class StepEntry(ContractModel):
-    """One step; ``target`` is a pose, goal, frame or gripper device."""
+    """One step; ``target`` is a pose, goal, frame, gripper device or who acknowledges; empty for a wait."""
 
-    kind: Literal["move", "detect", "grip", "wait"] = Field(description="What the step does.")
-    target: str = Field(description="Pose, goal, frame or gripper device.")
+    kind: Literal["move", "detect", "grip", "wait", "acknowledge"] = Field(description="What the step does.")
+    target: str = Field(description="Pose, goal, frame, gripper device, or who acknowledges.")
     command: Literal["open", "close"] | None = Field(None, description="What the gripper does.")
     duration_s: float | None = Field(None, description="How long a wait lasts.")
 
@@ -49,15 +77,17 @@ class FaultEntry(ContractModel):
     It begins at ``at_s`` or with ``event``; exactly one of them is given, none in a template.
     """
 
-    kind: Literal[
-        "freeze", "drop_frame", "cancel", "reject", "stick", "skip_cycles", "protective_stop", "unreachable", "delay"
-    ] = Field(description="What fails.")
+    kind: FaultKind = Field(description="What fails.")
     target: str = Field(description="What it hits.")
     at_s: float | None = Field(None, description="Simulated time from the start; null where an event begins it.")
     event: FaultEvent | None = Field(None, description="Event that begins it; null where a time does.")
     lasting_s: float | None = Field(None, description="How long; null to the end.")
     cycles: int | None = Field(None, description="Update cycles missed in a row.")
     delay_s: float | None = Field(None, description="How late samples arrive.")
+    jump_s: float | None = Field(None, description="How far a clock jumps; negative is back.")
+    displacement: float | None = Field(None, description="How far a joint stands beside its command, rad or m.")
+    velocity: float | None = Field(None, description="Speed that a joint does not exceed, rad/s or m/s.")
+    factor: float | None = Field(None, description="Speed scaling, 0 to 1.")
 
 
 class RehearsalEntry(ContractModel):

@@ -22,6 +22,7 @@ from cellc.mock.nodes.robot_state_publisher import NODE as ROBOT_STATE_PUBLISHER
 from cellc.mock.nodes.robot_state_publisher import PUBLISH_FREQUENCY_HZ, RobotStatePublisher
 from cellc.mock.plant import Plant, Requests
 from cellc.mock.progress import Progress
+from cellc.mock.stops import Stops
 from cellc.mock.tf.buffer import DEFAULT_BUFFER_S, TransformBuffer
 from cellc.mock.tf.sources import SampledSource
 from cellc.mock.world.joint_states import JOINT_STATE_TYPE, JointStateHistory
@@ -64,6 +65,7 @@ def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int) -> Plant:
         inboxes={},
         requests=Requests(),
         progress=Progress(),
+        stops=Stops(control),
     )
     clocks.listen(partial(_note_jump, plant))
     images = _add_cameras(plant)

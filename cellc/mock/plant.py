@@ -16,6 +16,7 @@ from cellc.mock.nodes.observations import ObservationInbox
 from cellc.mock.nodes.perception import Perception
 from cellc.mock.nodes.robot_state_publisher import RobotStatePublisher
 from cellc.mock.progress import Progress
+from cellc.mock.stops import Stops
 from cellc.mock.tf.buffer import TransformBuffer
 from cellc.mock.world.joint_states import JointStateHistory
 from cellc.mock.world.objects import World
@@ -29,12 +30,18 @@ class Requests:
         cancel: kinds of step whose next executing goal is to be cancelled.
         executing: controllers that have a goal of the task.
         displaced: goals that are not where they were, by goal: metres along the axes of their frame.
+        unresponsive: servers that answer nothing.
+        foreign_goals: goals that another client sent to a controller, by controller and goal, with the client.
+        findings: what the middleware told of connections that were lost.
         changed: fires when something is asked.
     """
 
     cancel: set[str] = field(default_factory=set)
     executing: set[str] = field(default_factory=set)
     displaced: dict[str, tuple[float, float, float]] = field(default_factory=dict)
+    unresponsive: set[str] = field(default_factory=set)
+    foreign_goals: dict[tuple[str, int], str] = field(default_factory=dict)
+    findings: list[str] = field(default_factory=list)
     changed: Signal = field(default_factory=Signal)
 
 
@@ -49,6 +56,7 @@ class Plant:
         perceptions: by the dynamic frame that they publish.
         inboxes: the task's observations, by dynamic frame.
         progress: how far the steps of the rehearsal have come.
+        stops: of the hardware, until they are acknowledged.
     """
 
     contract: Contract
@@ -67,6 +75,7 @@ class Plant:
     inboxes: dict[str, ObservationInbox]
     requests: Requests
     progress: Progress
+    stops: Stops
 
     @property
     def now_ns(self) -> int:

@@ -35,12 +35,15 @@ class TracePoint:
 
 @dataclass(frozen=True, slots=True)
 class CancelRecord:
-    """A cancel request: ``held_ns`` is the first stamp from which all joints stood still, None where they did not."""
+    """A cancel request: ``held_ns`` is the first stamp from which all joints stood still, None where they did not.
+
+    Without a ``return_code`` nobody has answered it.
+    """
 
     requested_ns: int
     held_ns: int | None
     latency_s: float | None
-    return_code: int
+    return_code: int | None
 
 
 @dataclass(frozen=True, slots=True)

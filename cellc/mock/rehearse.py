@@ -20,6 +20,8 @@ from cellc.mock.result import BRINGUP_FAILURE, RehearsalResult, StageEvidence
 from cellc.mock.task.context import TaskContext
 from cellc.mock.task.task import Task
 
+SUCCEEDED = "succeeded"
+
 Watch = Callable[[Plant], None]
 """Called with the plant before anything runs, so that whoever keeps evidence can listen from the first cycle on."""
 
@@ -77,9 +79,10 @@ def _response_s(injections: Sequence[Injection], records: Sequence[AttemptRecord
     it begins, or when the attempt begins that meets it, and ends with the attempt.
     """
     begun = [injection.begun_ns for injection in injections if injection.begun_ns is not None]
-    if not begun or len(records) < 2:
+    attempts = records[:-1]
+    if not begun or not attempts:
         return None
-    ended = records[-2]
+    ended = next((record for record in attempts if record.outcome != SUCCEEDED), attempts[-1])
     if ended.outcome == "cancelled" and ended.cancel is not None:
         return ended.cancel.latency_s
     return (ended.ended_ns - max(*begun, ended.started_ns)) / 1e9

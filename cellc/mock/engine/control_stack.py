@@ -62,6 +62,12 @@ class ControlStack:
             if joint in manager.joint_positions():
                 yield manager
 
+    def managers_of_component(self, component: str) -> Iterator[ControllerManager]:
+        """Yield the managers that have a hardware component."""
+        for manager in self.managers.values():
+            if any(entry.name == component for entry in manager.list_hardware_components()):
+                yield manager
+
     def listen(self, listener: Callable[[ControlEvent], None]) -> None:
         """Call ``listener`` with every event of every manager, in order."""
         self._listeners.append(listener)

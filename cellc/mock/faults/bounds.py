@@ -46,14 +46,19 @@ class Bounds:
     def observation_s(self, frame: str) -> float:
         """Return the bound of observations that stay away while somebody waits for them or acts on one."""
         period_s = 1.0 / (self.contract.frames[frame].rate_hz or DEFAULT_RATE_HZ)
-        return max(PATIENCE_PERIODS * period_s, self._observation_age_s(frame)) + period_s + self.watched_s()
+        return max(PATIENCE_PERIODS * period_s, self.observation_age_s(frame)) + period_s + self.watched_s()
 
     def execution_s(self, step: CellStep) -> float | None:
         """Return the bound of a goal that makes no progress; None where no action of the contract states one."""
         timeout_s = GRIP_TIMEOUT_S if step.kind == "grip" else action_timeout_s(self.contract)
         return None if timeout_s is None else timeout_s * max(1, len(step.controllers)) + self.asked_s()
 
-    def _observation_age_s(self, frame: str) -> float:
+    def dynamic_frames(self) -> tuple[str, ...]:
+        """Return the frames that somebody has to observe."""
+        return tuple(name for name, frame in self.contract.frames.items() if frame.kind == "dynamic")
+
+    def observation_age_s(self, frame: str) -> float:
+        """Return how old an observation may be."""
         stated = [
             interface.max_age_s
             for interface in self.contract.interfaces.values()

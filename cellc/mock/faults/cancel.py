@@ -44,7 +44,7 @@ def cases(contract: Contract) -> Iterator[FaultCase]:
     for kind in KINDS:
         if kind in kinds:
             entry = FaultEntry(kind="cancel", target=kind)
-            yield fault_case(entry, contract, partial(_ending, kind, cancel_bound_s(contract)))
+            yield fault_case(entry, contract, partial(_ending, kind, cancel_bound_s(contract)), at_once=True)
 
 
 def _ending(kind: str, within_s: float, step: CellStep) -> Ending:

@@ -42,15 +42,19 @@ class FaultCase:
     Attributes:
         entry: kind, target and parameters; neither ``at_s`` nor ``event``.
         endings: by kind and target of a step; every step that a rehearsal of the cell can take is there.
+        at_once: a step that executes already meets the fault just as well as one that has not asked for its goal.
     """
 
     entry: FaultEntry
     endings: Mapping[tuple[str, str], Ending]
+    at_once: bool = False
 
     @property
     def name(self) -> str:
-        """The fault in words: its kind and what it hits."""
-        return " ".join(part for part in (self.entry.kind, self.entry.target) if part)
+        """The fault in words: its kind, what it hits, and which way a clock jumps."""
+        jump_s = self.entry.jump_s
+        direction = "" if jump_s is None else "forwards" if jump_s > 0.0 else "back"
+        return " ".join(part for part in (self.entry.kind, self.entry.target, direction) if part)
 
     def at(self, step: int, when: str = "started", after_s: float = 0.0) -> FaultEntry:
         """Return the fault as it begins with a step; ``when`` is started, accepted or moving."""
@@ -61,32 +65,43 @@ class FaultCase:
         """Return how one step may end that meets the fault."""
         return self.endings.get((step.kind, step.target), BORNE)
 
-    def outcomes(self, steps: Sequence[StepEntry], first: int) -> frozenset[str]:
+    def outcomes(self, steps: Sequence[StepEntry], first: int, when: str = "started") -> frozenset[str]:
         """Return the outcomes of a run whose step ``first``, counted from 1, is the first to meet the fault."""
-        return frozenset(outcome for ending in self._met(steps, first) for outcome in ending.outcomes - {SUCCEEDED}) | (
-            frozenset({SUCCEEDED}) if self._bearable(steps, first) else frozenset()
-        )
+        endings = self._endings(steps, first, when)
+        failures = frozenset(outcome for ending in _met(endings) for outcome in ending.outcomes - {SUCCEEDED})
+        borne = all(SUCCEEDED in ending.outcomes for ending in endings)
+        return failures | {SUCCEEDED} if borne else failures
 
-    def within_s(self, steps: Sequence[StepEntry], first: int) -> float | None:
+    def within_s(self, steps: Sequence[StepEntry], first: int, when: str = "started") -> float | None:
         """Return the bound of the response of such a run; None where only the rehearsal's timeout bounds it."""
-        failing = [ending for ending in self._met(steps, first) if ending.outcomes != BORNE.outcomes]
+        failing = [ending for ending in _met(self._endings(steps, first, when)) if ending.outcomes != BORNE.outcomes]
         bounds = [ending.within_s for ending in failing if ending.within_s is not None]
         return max(bounds) if failing and len(bounds) == len(failing) else None
 
-    def _met(self, steps: Sequence[StepEntry], first: int) -> list[Ending]:
-        """Return the endings up to the first step that cannot bear the fault."""
-        met: list[Ending] = []
-        for step in steps[first - 1 :]:
-            met.append(self.ending(step))
-            if SUCCEEDED not in met[-1].outcomes:
-                break
-        return met
+    def _endings(self, steps: Sequence[StepEntry], first: int, when: str) -> list[Ending]:
+        """Return the endings of a step and of those after it.
 
-    def _bearable(self, steps: Sequence[StepEntry], first: int) -> bool:
-        return all(SUCCEEDED in self.ending(step).outcomes for step in steps[first - 1 :])
+        A step that executes already has done its asking, and may be over before the fault is noticed.
+        """
+        endings = [self.ending(step) for step in steps[first - 1 :]]
+        if endings and when != "started" and not self.at_once:
+            endings[0] = Ending(endings[0].outcomes | {SUCCEEDED}, endings[0].within_s)
+        return endings
 
 
-def fault_case(entry: FaultEntry, contract: Contract, ending: Callable[[CellStep], Ending]) -> FaultCase:
+def _met(endings: Sequence[Ending]) -> list[Ending]:
+    """Return the endings up to the first step that cannot bear the fault."""
+    met: list[Ending] = []
+    for ending in endings:
+        met.append(ending)
+        if SUCCEEDED not in ending.outcomes:
+            break
+    return met
+
+
+def fault_case(
+    entry: FaultEntry, contract: Contract, ending: Callable[[CellStep], Ending], *, at_once: bool = False
+) -> FaultCase:
     """Return the case of a fault; ``ending`` says of each step of the cell how it may end."""
     endings = {(step.kind, step.target): ending(step) for step in cell_steps(contract)}
-    return FaultCase(entry, endings)
+    return FaultCase(entry, endings, at_once)

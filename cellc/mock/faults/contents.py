@@ -38,3 +38,9 @@ def joints_of_device(contract: Contract, device: str) -> tuple[str, ...]:
     """Return the joints that the controllers of a device drive, sorted."""
     facts = controllers(contract).values()
     return tuple(sorted({joint for each in facts if each.device == device for joint in each.joints}))
+
+
+def image_topic(contract: Contract, device: str) -> str | None:
+    """Return the topic of a camera; None for another device."""
+    camera = contract.devices[device].camera if device in contract.devices else None
+    return None if camera is None else camera.topic

@@ -10,20 +10,23 @@ from cellc.mock.faults.cell_steps import CellStep
 from cellc.mock.faults.contents import controllers
 
 
-def ending_off_track(bounds: Bounds, controller: str) -> Callable[[CellStep], Ending]:
+def ending_off_track(bounds: Bounds, controller: str, *more: str) -> Callable[[CellStep], Ending]:
     """Return how steps end when a joint of ``controller`` is off its track.
 
-    A step that leaves the joint where it is bears it. Without a goal time the controller waits for ever, and the client
-    ends the goal.
+    A step that leaves the joint where it is bears it. Without a goal time, as of a gripper, the controller may wait for
+    ever, and the client ends the goal.
+
+    Args:
+        more: outcomes that this fault may have besides.
     """
     facts = controllers(bounds.contract)[controller]
     interface = bounds.contract.interfaces.get(facts.action or "")
     unbounded = interface is None or interface.timeout_s is None
-    patience = ("timeout",) if unbounded and facts.behaviour.endswith("joint_trajectory") else ()
+    patience = ("timeout",) if unbounded else ()
 
     def ending(step: CellStep) -> Ending:
         if controller not in step.controllers:
             return BORNE
-        return ends_in("tolerance_violation", SUCCEEDED, *patience, within_s=bounds.execution_s(step))
+        return ends_in("tolerance_violation", SUCCEEDED, *patience, *more, within_s=bounds.execution_s(step))
 
     return ending

@@ -7,14 +7,27 @@ from collections.abc import Callable, Iterator
 from cellc.contract.contract import Contract
 from cellc.mock.faults import (
     cancel,
+    cut_network,
     delay,
+    displace,
+    double_frame,
     drop_frame,
+    emergency_stop,
     freeze,
+    jump_clock,
+    mismatch_qos,
     protective_stop,
     reject,
+    restart_driver,
+    scale_speed,
+    second_commander,
     skip_cycles,
+    slow,
     stick,
+    switch,
     unreachable,
+    unresponsive,
+    wrong_payload,
 )
 from cellc.mock.faults.case import FaultCase
 
@@ -22,12 +35,25 @@ _KINDS: tuple[Callable[[Contract], Iterator[FaultCase]], ...] = (
     delay.cases,
     freeze.cases,
     drop_frame.cases,
+    double_frame.cases,
+    jump_clock.cases,
+    mismatch_qos.cases,
+    unresponsive.cases,
     unreachable.cases,
     reject.cases,
     cancel.cases,
+    second_commander.cases,
+    switch.cases,
     stick.cases,
+    slow.cases,
+    displace.cases,
+    scale_speed.cases,
     skip_cycles.cases,
+    wrong_payload.cases,
     protective_stop.cases,
+    emergency_stop.cases,
+    restart_driver.cases,
+    cut_network.cases,
 )
 
 

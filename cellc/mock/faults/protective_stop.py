@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 from cellc.contract.contract import Contract
 from cellc.contract.rehearsals import FaultEntry
-from cellc.mock.control import ControllerManager
-from cellc.mock.faults.bounds import Bounds
-from cellc.mock.faults.case import FaultCase, ends_in, fault_case
+from cellc.mock.faults.case import FaultCase
 from cellc.mock.faults.contents import components
+from cellc.mock.faults.stopping import stopping_case
 from cellc.mock.plant import Plant
+from cellc.mock.stops import PROTECTIVE_STOP
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,25 +28,16 @@ class ProtectiveStop:
 
     def begin(self, plant: Plant) -> None:
         """Stop."""
-        for manager in self._managers(plant):
+        plant.stops.enter(self.component, PROTECTIVE_STOP)
+        for manager in plant.control.managers_of_component(self.component):
             manager.disturbances.protective_stop(self.component)
 
     def end(self, plant: Plant) -> None:
-        """Release the device; its controllers stay inactive until someone activates them."""
-        for manager in self._managers(plant):
-            manager.disturbances.release(self.component)
-
-    def _managers(self, plant: Plant) -> list[ControllerManager]:
-        managers = plant.control.managers.values()
-        return [
-            manager
-            for manager in managers
-            if any(component.name == self.component for component in manager.list_hardware_components())
-        ]
+        """Let what stopped it be over; it stays stopped until that is acknowledged."""
+        plant.stops.end_cause(self.component)
 
 
 def cases(contract: Contract) -> Iterator[FaultCase]:
-    """Yield every device with hardware; a stop ends whatever step it meets."""
-    stopped = ends_in("protective_stop", within_s=Bounds(contract).hold_s())
+    """Yield every device with hardware."""
     for device in components(contract):
-        yield fault_case(FaultEntry(kind="protective_stop", target=device), contract, lambda step: stopped)
+        yield stopping_case("protective_stop", device, "protective_stop", contract)

@@ -61,5 +61,6 @@ def _ending(bounds: Bounds, name: str, facts: ContractController, step: CellStep
     if facts.action is None and step.controllers:
         return ends_in("stale_state", within_s=bounds.joint_state_s())
     if name in step.controllers:
-        return ends_in("goal_rejection", within_s=bounds.asked_s())
+        # A goal that is sent in the very cycle of the switch is accepted, and loses its controller at once.
+        return ends_in("goal_rejection", "wrong_owner", within_s=bounds.asked_s())
     return BORNE

@@ -35,6 +35,7 @@ class Attempt:
     controller_name: str | None = None
     action_goal_id: str | None = None
     speed_scaling: float | None = None
+    operator: str | None = None
     cancel: CancelRecord | None = None
     result: ResultRecord | None = None
     trace: list[TracePoint] = field(default_factory=list)
@@ -49,9 +50,9 @@ class Attempt:
         self.trace.append(TracePoint(step, stamp_ns))
 
     def close(
-        self, outcome: Outcome, fault_code: str, safety_state: str, operator_intervention: str, now_ns: int
+        self, outcome: Outcome, fault_code: str, safety_state: str, intervention_due: str, now_ns: int
     ) -> AttemptRecord:
-        """Return the record of the attempt."""
+        """Return the record of the attempt; what a person did in it stands for what a person would have to do."""
         return AttemptRecord(
             attempt_id=self.attempt_id,
             rehearsal=self.identity.rehearsal,
@@ -72,7 +73,7 @@ class Attempt:
             fault_code=fault_code,
             cancel=self.cancel,
             result=self.result,
-            operator_intervention=operator_intervention,
+            operator_intervention=self.operator or intervention_due,
             started_ns=self.started_ns,
             ended_ns=now_ns,
             trace=tuple(sorted(self.trace, key=lambda point: point.step.value)),

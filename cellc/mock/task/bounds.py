@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from cellc.contract.contract import Contract
+from cellc.contract.contract import Contract, ContractInterface
 from cellc.mock.world.joint_states import JOINT_STATE_TYPE
 
 DEFAULT_CANCEL_S = 0.5
@@ -30,10 +30,18 @@ def joint_state_age_s(contract: Contract) -> float:
 
 def action_timeout_s(contract: Contract) -> float | None:
     """Return the bound of the action that plans and executes for the task; a controller's own bound is another one."""
-    actions = {entry.action for manager in contract.managers.values() for entry in manager.controllers.values()}
-    stated = [
-        interface.timeout_s
-        for name, interface in contract.interfaces.items()
-        if interface.kind == "action" and interface.timeout_s is not None and name not in actions
-    ]
-    return max(stated) if stated else None
+    stated = [interface.timeout_s for interface in _task_actions(contract)]
+    return max((timeout_s for timeout_s in stated if timeout_s is not None), default=None)
+
+
+def planning_server(contract: Contract) -> str:
+    """Return the node that plans for the task; empty where the task plans itself."""
+    servers = [source.node for interface in _task_actions(contract) if interface.sinks for source in interface.sources]
+    return servers[0] if servers else ""
+
+
+def _task_actions(contract: Contract) -> list[ContractInterface]:
+    """Return the actions that no controller serves, in the order of their names."""
+    own = {entry.action for manager in contract.managers.values() for entry in manager.controllers.values()}
+    interfaces = sorted(contract.interfaces.items())
+    return [interface for name, interface in interfaces if interface.kind == "action" and name not in own]

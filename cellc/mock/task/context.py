@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from cellc.mock.control import ControlEvent, GripperEnded, TrajectoryEnded
+from cellc.mock.control import ControlEvent, ControllerChanged, GripperEnded, TrajectoryEnded
 from cellc.mock.engine.process import Signal, Wait, Waiting
 from cellc.mock.plant import Plant
+from cellc.mock.stops import EMERGENCY_STOP, FAULT, PROTECTIVE_STOP
 from cellc.mock.task.joint_state import current_state
 from cellc.mock.task.outcome import AttemptError, Outcome
 from cellc.transforms import Pose
 
-NORMAL = "normal"
-PROTECTIVE_STOP = "protective_stop"
 WATCH_S = 0.2
 """The task looks at the state of the cell at least five times a second, whatever it waits for."""
+
+OUTCOME_OF_STOP = {
+    PROTECTIVE_STOP: Outcome.PROTECTIVE_STOP,
+    EMERGENCY_STOP: Outcome.EMERGENCY_STOP,
+    FAULT: Outcome.HARDWARE_FAULT,
+}
 
 GoalEnded = TrajectoryEnded | GripperEnded
 
@@ -31,6 +37,7 @@ class TaskContext:
         held: object in each gripper.
         acting_on: dynamic frame whose observation the present motion rests on; it must keep arriving.
         ended: results that have arrived, by controller and goal.
+        deactivated_ns: when each controller was deactivated last.
     """
 
     plant: Plant
@@ -41,6 +48,7 @@ class TaskContext:
     held: dict[str, str] = field(default_factory=dict)
     acting_on: str | None = None
     ended: dict[tuple[str, int], GoalEnded] = field(default_factory=dict)
+    deactivated_ns: dict[str, int] = field(default_factory=dict)
 
     @property
     def now_ns(self) -> int:
@@ -48,13 +56,12 @@ class TaskContext:
         return self.plant.simulation.now_ns
 
     def hear(self, event: ControlEvent) -> None:
-        """Keep the results of goals."""
-        if isinstance(event, (TrajectoryEnded, GripperEnded)):
+        """Keep the results of goals, unless their server answers nobody, and the states of controllers."""
+        if isinstance(event, ControllerChanged):
+            if event.state != "active":
+                self.deactivated_ns[event.controller] = event.stamp_ns
+        elif isinstance(event, GoalEnded) and event.controller not in self.plant.requests.unresponsive:
             self.ended[(event.controller, event.goal_id)] = event
-
-    def safety_state(self) -> str:
-        """Return ``protective_stop`` while a hardware component refuses commands, else ``normal``."""
-        return PROTECTIVE_STOP if self.plant.control.unready_hardware else NORMAL
 
     def pause(self, until_ns: int, *signals: Signal) -> Waiting[None]:
         """Wait for a signal, an event of the control stack, or ``until_ns``, whatever comes first; may wake early.
@@ -73,17 +80,48 @@ class TaskContext:
         while self.now_ns < until_ns:
             yield Wait(until_ns)
 
+    def rest(self, duration_s: float) -> Waiting[None]:
+        """Let time pass while the cell is watched."""
+        until_ns = self.now_ns + round(duration_s * 1e9)
+        while self.now_ns < until_ns:
+            yield from self.pause(until_ns)
+
+    def stand_by(self, duration_s: float) -> Waiting[None]:
+        """Let time pass while the cell is stopped."""
+        until_ns = min(self.now_ns + round(duration_s * 1e9), self.deadline_ns)
+        while self.now_ns < until_ns:
+            yield Wait(until_ns)
+
     def check_cell(self) -> None:
-        """Raise AttemptError for what ends any attempt: a stop first, then missed cycles, stale observations, time."""
-        for component, state in sorted(self.plant.control.unready_hardware.items()):
-            raise AttemptError(Outcome.PROTECTIVE_STOP, f"hardware component {component} is {state}")
+        """Raise AttemptError for what ends any attempt, a stop first; each of these is a watchdog of the task."""
+        self._check_stops()
+        self._check_owner()
+        self._check_cycles()
+        self._check_states()
+        self._check_observation()
+        self._check_time()
+
+    def _check_stops(self) -> None:
+        for stop in self.plant.stops.present():
+            raise AttemptError(OUTCOME_OF_STOP[stop.state], f"hardware component {stop.component} is {stop.lifecycle}")
+
+    def _check_owner(self) -> None:
+        """Raise AttemptError where another client commands: the status of an action names every goal that it has."""
+        for (controller, _), client in self.plant.requests.foreign_goals.items():
+            raise AttemptError(Outcome.WRONG_OWNER, f"{client} sent a goal to {controller}")
+
+    def _check_cycles(self) -> None:
         missed = sum(history.missed_until(self.now_ns) for history in self.plant.control.histories.values())
         allowed = self.plant.contract.kpis.missed_cycles
         if allowed is not None and missed > allowed:
             raise AttemptError(Outcome.MISSED_CYCLE, f"{missed} update cycles missed, {allowed} allowed")
+
+    def _check_states(self) -> None:
+        """Raise AttemptError where a goal executes and nobody would see where the arm goes."""
         if self.plant.requests.executing:
-            current_state(self.plant)  # nobody would see where the arm goes
-        self._check_observation()
+            current_state(self.plant)
+
+    def _check_time(self) -> None:
         if self.now_ns >= self.deadline_ns:
             raise AttemptError(Outcome.TIMEOUT, "the rehearsal's own timeout passed")
 
@@ -96,7 +134,15 @@ class TaskContext:
 
     def _check_observation(self) -> None:
         """Raise AttemptError where the frame that is acted on is no longer observed: a frozen camera stops the arm."""
+        self.check_authorities(() if self.acting_on is None else (self.acting_on,))
         inbox = None if self.acting_on is None else self.plant.inboxes.get(self.acting_on)
         if inbox is None or (inbox.newest is not None and not inbox.is_stale(inbox.newest.stamp_ns)):
             return
         raise AttemptError(Outcome.STALE_STATE, inbox.describe(self.acting_on or ""))
+
+    def check_authorities(self, frames: Iterable[str]) -> None:
+        """Raise AttemptError where two nodes publish one of the frames: lookups would jump from one to the other."""
+        for frame in frames:
+            if (authorities := self.plant.buffer.authorities(frame))[1:]:
+                names = " and ".join(authorities)
+                raise AttemptError(Outcome.TF_FAILURE, f"frame {frame} is published by {names}")

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import hashlib
+from dataclasses import dataclass
 
 import numpy as np
 
-from cellc.mock.control import GoalStatus, GripperGoal, TrajectoryEnded, TrajectoryGoal
+from cellc.mock.control import GoalStatus, GripperEnded, GripperGoal, TrajectoryEnded, TrajectoryGoal
 from cellc.mock.engine.process import Waiting
 from cellc.mock.plant import Plant
 from cellc.mock.record import PacketStep, ResultRecord
@@ -14,9 +15,22 @@ from cellc.mock.task.attempt import Attempt
 from cellc.mock.task.context import GoalEnded, TaskContext
 from cellc.mock.task.hold import cancel_and_hold
 from cellc.mock.task.outcome import AttemptError, Outcome
+from cellc.mock.task.response import await_response
 
+RESULT_GRACE_NS = 100_000_000
+"""A controller that is deactivated sends the results of its goals at once, or never: nobody waits longer for them."""
 _MOVED = 1e-9
 """rad or m: the least change of a joint that counts as having been driven."""
+
+
+@dataclass(frozen=True, slots=True)
+class SentGoal:
+    """A goal that a controller has accepted, with the joints that it moves."""
+
+    controller: str
+    goal_id: int
+    joints: tuple[str, ...]
+    sent_ns: int
 
 
 def execute(
@@ -40,24 +54,22 @@ def execute(
         AttemptError: the goal was rejected, cancelled or not ended in time, or the cell stopped.
     """
     context.check_cell()
-    goal_id = _send(context, attempt, controller, goal)
-    sent_ns = context.now_ns
-    joints = _joints(context.plant, controller)
+    context.deactivated_ns.pop(controller, None)
+    goal_id = yield from _send(context, attempt, controller, goal)
+    sent = SentGoal(controller, goal_id, _joints(context.plant, controller), context.now_ns)
     context.plant.requests.executing.add(controller)
     context.plant.progress.announce("accepted")
     try:
-        yield from _until_moving(context, kind, controller, goal_id, joints, sent_ns)
-        yield from _result(context, kind, controller, goal_id, timeout_s)
+        yield from _result(context, kind, sent, timeout_s)
     except AttemptError as failure:
-        held = yield from cancel_and_hold(context, attempt, controller, goal_id, joints)
-        _note_result(context, attempt, controller, goal_id, sent_ns, joints)
+        held = yield from cancel_and_hold(context, attempt, controller, goal_id, sent.joints)
         if failure.outcome is Outcome.CANCELLED and not held:
             raise AttemptError(Outcome.TIMEOUT, "cancelled, and the joints did not stand still in time") from None
         raise
     finally:
+        _note_result(context, attempt, sent)
         context.plant.requests.cancel.discard(kind)
         context.plant.requests.executing.discard(controller)
-    _note_result(context, attempt, controller, goal_id, sent_ns, joints)
     return context.ended[(controller, goal_id)]
 
 
@@ -65,23 +77,25 @@ def require_success(ended: GoalEnded, context: TaskContext) -> None:
     """Raise AttemptError for the result of a trajectory that did not succeed."""
     if ended.status is GoalStatus.SUCCEEDED:
         return
+    context.check_cell()
     if ended.status is GoalStatus.CANCELED:
         raise AttemptError(Outcome.CANCELLED, "cancelled by another client")
-    context.check_cell()
     if isinstance(ended, TrajectoryEnded):
         text = f"{ended.error_code}: {ended.error_string}"
         violated = ended.error_code in (-4, -5)  # PATH_ and GOAL_TOLERANCE_VIOLATED of FollowJointTrajectory
-        raise AttemptError(Outcome.TOLERANCE_VIOLATION if violated else Outcome.GOAL_REJECTION, text)
+        # -1, INVALID_GOAL, is what a goal ends in that was replaced, or whose controller was deactivated.
+        raise AttemptError(Outcome.TOLERANCE_VIOLATION if violated else Outcome.WRONG_OWNER, text)
     raise AttemptError(Outcome.TOLERANCE_VIOLATION, "gripper goal aborted before it was reached")
 
 
-def _send(context: TaskContext, attempt: Attempt, controller: str, goal: TrajectoryGoal | GripperGoal) -> int:
+def _send(context: TaskContext, attempt: Attempt, controller: str, goal: TrajectoryGoal | GripperGoal) -> Waiting[int]:
     manager = context.plant.control.manager_of(controller)
     attempt.controller_name = controller
     attempt.speed_scaling = _speed_scaling(context.plant, controller)
     attempt.mark(PacketStep.GOAL_SENT, context.now_ns)
-    response = context.plant.control.send_goal(controller, goal)
     attempt.action_goal_id = _goal_uuid(context.seed, attempt.attempt_id)
+    yield from await_response(context, controller)
+    response = context.plant.control.send_goal(controller, goal)
     if not response.accepted:
         raise AttemptError(Outcome.GOAL_REJECTION, response.log_reason)
     attempt.mark(PacketStep.ACCEPTED, context.now_ns)
@@ -90,47 +104,45 @@ def _send(context: TaskContext, attempt: Attempt, controller: str, goal: Traject
     return response.goal_id
 
 
-def _until_moving(
-    context: TaskContext, kind: str, controller: str, goal_id: int, joints: tuple[str, ...], sent_ns: int
-) -> Waiting[None]:
-    """Look cycle by cycle for the first motion of a goal, where somebody waits for it."""
-    period_ns = context.plant.control.manager_of(controller).period_ns
-    while context.plant.progress.is_expected("moving") and (controller, goal_id) not in context.ended:
-        if _driven_ns(context.plant, joints, sent_ns) is not None:
-            context.plant.progress.announce("moving")
-            return
-        if kind in context.plant.requests.cancel:
-            return
-        yield from context.pause(context.now_ns + period_ns, context.plant.requests.changed)
-
-
-def _result(context: TaskContext, kind: str, controller: str, goal_id: int, timeout_s: float) -> Waiting[None]:
+def _result(context: TaskContext, kind: str, goal: SentGoal, timeout_s: float) -> Waiting[None]:
     """Wait for the result of an accepted goal; raise AttemptError where it has to be cancelled instead."""
     until_ns = context.now_ns + round(timeout_s * 1e9)
-    while (controller, goal_id) not in context.ended:
+    while (goal.controller, goal.goal_id) not in context.ended:
         if kind in context.plant.requests.cancel:
             raise AttemptError(Outcome.CANCELLED, "")
         if context.now_ns >= until_ns:
-            raise AttemptError(Outcome.TIMEOUT, f"no result of {controller} within {timeout_s:g} s")
-        yield from context.pause(until_ns, context.plant.requests.changed)
+            raise AttemptError(Outcome.TIMEOUT, f"no result of {goal.controller} within {timeout_s:g} s")
+        lost_ns = context.deactivated_ns.get(goal.controller)
+        given_up_ns = until_ns if lost_ns is None else lost_ns + RESULT_GRACE_NS
+        if context.now_ns >= given_up_ns:
+            raise AttemptError(Outcome.WRONG_OWNER, f"{goal.controller} was deactivated while its goal executed")
+        look_ns = _look_for_motion(context, goal)
+        yield from context.pause(min(until_ns, given_up_ns, look_ns), context.plant.requests.changed)
 
 
-def _note_result(
-    context: TaskContext, attempt: Attempt, controller: str, goal_id: int, sent_ns: int, joints: tuple[str, ...]
-) -> None:
-    driven_ns = _driven_ns(context.plant, joints, sent_ns)
+def _look_for_motion(context: TaskContext, goal: SentGoal) -> int:
+    """Announce the first motion of a goal where somebody waits for it; return when to look again."""
+    if not context.plant.progress.is_expected("moving"):
+        return context.deadline_ns
+    if _driven_ns(context.plant, goal.joints, goal.sent_ns) is not None:
+        context.plant.progress.announce("moving")
+    return context.now_ns + context.plant.control.manager_of(goal.controller).period_ns
+
+
+def _note_result(context: TaskContext, attempt: Attempt, goal: SentGoal) -> None:
+    driven_ns = _driven_ns(context.plant, goal.joints, goal.sent_ns)
     if driven_ns is not None:
         attempt.mark(PacketStep.DRIVEN, driven_ns)
-    ended = context.ended.get((controller, goal_id))
+    ended = context.ended.get((goal.controller, goal.goal_id))
     if ended is None:
         return
     attempt.mark(PacketStep.RETURNED, ended.stamp_ns)
-    if isinstance(ended, TrajectoryEnded):
-        error_code, error_string = ended.error_code, ended.error_string
-        attempt.result = ResultRecord(ended.status.name.lower(), error_code, error_string, ended.stamp_ns)
-    else:
-        text = "stalled" if ended.stalled else ""
-        attempt.result = ResultRecord(ended.status.name.lower(), None, text, ended.stamp_ns)
+    code, text = (None, "stalled" if ended.stalled else "") if isinstance(ended, GripperEnded) else _error(ended)
+    attempt.result = ResultRecord(ended.status.name.lower(), code, text, ended.stamp_ns)
+
+
+def _error(ended: TrajectoryEnded) -> tuple[int, str]:
+    return ended.error_code, ended.error_string
 
 
 def _driven_ns(plant: Plant, joints: tuple[str, ...], since_ns: int) -> int | None:

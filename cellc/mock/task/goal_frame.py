@@ -98,6 +98,7 @@ def _lookup(context: TaskContext, target: str, source: str, stamp_ns: int) -> Wa
     until_ns = context.now_ns + round(TF_TIMEOUT_S * 1e9)
     while True:
         context.plant.robot_state_publisher.catch_up(context.now_ns)
+        context.check_authorities(context.plant.buffer.path(target, source))
         answer = context.plant.buffer.lookup(target, source, stamp_ns)
         if isinstance(answer, Transform):
             return answer

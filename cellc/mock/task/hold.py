@@ -31,17 +31,27 @@ def cancel_and_hold(
     """
     plant = context.plant
     requested_ns = plant.now_ns
-    response = plant.control.manager_of(controller).cancel_goal(goal_id)
+    return_code = _cancel(plant, controller, goal_id)
     until_ns = requested_ns + round(cancel_bound_s(plant.contract) * 1e9)
     held_ns = held_since(plant, joints, requested_ns)
     while held_ns is None and plant.now_ns < until_ns:
         yield Wait(min(until_ns, plant.now_ns + _LOOK_NS), (plant.control.changed,))
         held_ns = held_since(plant, joints, requested_ns)
     latency_s = None if held_ns is None else (held_ns - requested_ns) / 1e9
-    attempt.cancel = CancelRecord(requested_ns, held_ns, latency_s, response.return_code)
+    attempt.cancel = CancelRecord(requested_ns, held_ns, latency_s, return_code)
     while (controller, goal_id) not in context.ended and plant.now_ns < until_ns:
         yield Wait(min(until_ns, plant.now_ns + _LOOK_NS), (plant.control.changed,))
     return held_ns is not None
+
+
+def _cancel(plant: Plant, controller: str, goal_id: int) -> int | None:
+    """Ask to cancel a goal, or every goal where another client has one too; return the answer, None for no answer."""
+    if controller in plant.requests.unresponsive:
+        return None
+    manager = plant.control.manager_of(controller)
+    if any(name == controller for name, _ in plant.requests.foreign_goals):
+        return manager.cancel_all(controller).return_code
+    return manager.cancel_goal(goal_id).return_code
 
 
 def held_since(plant: Plant, joints: Iterable[str], since_ns: int) -> int | None:

@@ -11,12 +11,13 @@ from cellc.mock.nodes.motion_request import PlannedMotion
 from cellc.mock.record import PacketStep
 from cellc.mock.task.arrival import state_since
 from cellc.mock.task.attempt import Attempt
-from cellc.mock.task.bounds import action_timeout_s
+from cellc.mock.task.bounds import action_timeout_s, planning_server
 from cellc.mock.task.context import TaskContext
 from cellc.mock.task.execute import execute, require_success
 from cellc.mock.task.goal_frame import check_observation, locate_goal
 from cellc.mock.task.joint_state import CurrentState, current_state
 from cellc.mock.task.outcome import AttemptError, Outcome
+from cellc.mock.task.response import await_response
 
 ARRIVAL_TOLERANCE = 0.05
 """rad or m by which a joint may miss the end of a trajectory that its controller calls a success."""
@@ -64,6 +65,7 @@ def _planning_time(
     context: TaskContext, attempt: Attempt, planned: PlannedMotion | PlanFailure
 ) -> Waiting[PlannedMotion]:
     """Let the simulated time of planning pass, then answer."""
+    yield from await_response(context, planning_server(context.plant.contract))
     until_ns = context.now_ns + round(PLANNING_LATENCY_S * 1e9)
     while context.now_ns < until_ns:
         yield from context.pause(until_ns)

@@ -17,6 +17,9 @@ class Outcome(str, Enum):
     TOLERANCE_VIOLATION = "tolerance_violation"
     MISSED_CYCLE = "missed_cycle"
     PROTECTIVE_STOP = "protective_stop"
+    EMERGENCY_STOP = "emergency_stop"
+    HARDWARE_FAULT = "hardware_fault"
+    WRONG_OWNER = "wrong_owner"
     TIMEOUT = "timeout"
 
 

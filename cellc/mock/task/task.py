@@ -5,8 +5,10 @@ from __future__ import annotations
 from cellc.contract.rehearsals import RehearsalEntry, StepEntry
 from cellc.mock.engine.process import Waiting
 from cellc.mock.record import AttemptRecord
+from cellc.mock.stops import NORMAL
+from cellc.mock.task.acknowledge import acknowledge
 from cellc.mock.task.attempt import Attempt, Identity
-from cellc.mock.task.context import NORMAL, TaskContext
+from cellc.mock.task.context import TaskContext
 from cellc.mock.task.detect import detect
 from cellc.mock.task.grip import grip
 from cellc.mock.task.move import move
@@ -20,7 +22,7 @@ class Task:
 
     Attributes:
         records: one for each attempt, and a last one that sums up.
-        outcome: of the first attempt that failed, or succeeded.
+        outcome: of the failure that ended the rehearsal, or succeeded: a stop that was acknowledged is in the records.
     """
 
     def __init__(self, rehearsal: RehearsalEntry, context: TaskContext) -> None:
@@ -34,24 +36,37 @@ class Task:
         context.plant.control.listen(context.hear)
 
     def run(self) -> Waiting[None]:
-        """Run all steps."""
+        """Run the steps, up to the first failure; after a stop they go on, if the rehearsal has it acknowledged."""
         started_ns = self._context.now_ns
-        fault_code = ""
+        failure: AttemptError | None = None
         for number, step in enumerate(self._rehearsal.steps, start=1):
-            attempt = Attempt(self._identity, number, _title(step), self._context.now_ns)
             self._context.plant.progress.step = number
-            try:
-                yield from self._step(attempt, step)
-            except AttemptError as failure:
-                self.outcome, fault_code = failure.outcome, failure.fault_code
-            self._close(attempt, fault_code)
-            if self.outcome is not Outcome.SUCCEEDED:
+            attempt = Attempt(self._identity, number, _title(step), self._context.now_ns)
+            failure = yield from self._attempt(attempt, step, failure)
+            if failure is not None and not self._is_acknowledged_after(number):
                 break
-        self._close(Attempt(self._identity, len(self.records) + 1, END_STEP, started_ns), fault_code)
+        summary = Attempt(self._identity, len(self.records) + 1, END_STEP, started_ns)
+        self.outcome = self._close(summary, failure)
 
-    def _step(self, attempt: Attempt, step: StepEntry) -> Waiting[None]:
+    def _attempt(self, attempt: Attempt, step: StepEntry, before: AttemptError | None) -> Waiting[AttemptError | None]:
+        """Run one step; return why the rehearsal has failed by now, which an acknowledgment alone undoes."""
+        failure: AttemptError | None = None
+        try:
+            yield from self._step(attempt, step, stopped=before is not None)
+        except AttemptError as raised:
+            failure = raised
+        self._close(attempt, failure)
+        return (failure or before) if step.kind != "acknowledge" else failure
+
+    def _step(self, attempt: Attempt, step: StepEntry, *, stopped: bool) -> Waiting[None]:
         if self._context.plant.progress.announce("started"):
             yield from self._context.let_take_effect()
+        if step.kind == "acknowledge":
+            yield from acknowledge(self._context, attempt, step.target)
+            return
+        if step.kind == "wait" and stopped:
+            yield from self._context.stand_by(step.duration_s or 0.0)
+            return
         self._context.check_cell()
         if step.kind == "move":
             yield from move(self._context, attempt, step.target)
@@ -60,15 +75,20 @@ class Task:
         elif step.kind == "grip":
             yield from grip(self._context, attempt, step.target, step.command or "close")
         else:
-            until_ns = self._context.now_ns + round((step.duration_s or 0.0) * 1e9)
-            while self._context.now_ns < until_ns:
-                yield from self._context.pause(until_ns)
+            yield from self._context.rest(step.duration_s or 0.0)
 
-    def _close(self, attempt: Attempt, fault_code: str) -> None:
-        safety_state = self._context.safety_state()
-        safety = self._context.plant.contract.safety
-        intervention = "none" if safety_state == NORMAL else f"required: acknowledge by {safety.acknowledge}"
-        self.records.append(attempt.close(self.outcome, fault_code, safety_state, intervention, self._context.now_ns))
+    def _is_acknowledged_after(self, number: int) -> bool:
+        later = self._rehearsal.steps[number:]
+        return self._context.plant.stops.state() != NORMAL and any(step.kind == "acknowledge" for step in later)
+
+    def _close(self, attempt: Attempt, failure: AttemptError | None) -> Outcome:
+        safety_state = self._context.plant.stops.state()
+        role = self._context.plant.contract.safety.acknowledge
+        due = "none" if safety_state == NORMAL else f"required: acknowledge by {role}"
+        outcome = Outcome.SUCCEEDED if failure is None else failure.outcome
+        fault_code = "" if failure is None else failure.fault_code
+        self.records.append(attempt.close(outcome, fault_code, safety_state, due, self._context.now_ns))
+        return outcome
 
 
 def _title(step: StepEntry) -> str:

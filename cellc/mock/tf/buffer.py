@@ -50,10 +50,12 @@ class TransformBuffer:
         self.conflicts: list[str] = []
         self.warnings = TfWarnings()
         self._sources: dict[str, TransformSource] = {}
+        self._authorities: dict[str, list[str]] = {}
         self._remembered: set[str] = set()
 
     def add(self, child: str, source: TransformSource) -> None:
         """Listen to a publisher of a child frame; a second publisher of one child is a conflict."""
+        self._authorities.setdefault(child, []).append(source.authority)
         present = self._sources.get(child)
         if present is not None:
             self.conflicts.append(
@@ -87,6 +89,10 @@ class TransformBuffer:
         """Return the child frames of all edges between two frames, those that are not published included."""
         from_source, from_target = self._to_root(source), self._to_root(target)
         return tuple(sorted(set(from_source) ^ set(from_target)))
+
+    def authorities(self, child: str) -> tuple[str, ...]:
+        """Return who publishes a frame; more than one is a conflict."""
+        return tuple(self._authorities.get(child, ()))
 
     def latest_ns(self, target: str, source: str) -> int | None:
         """Return the last stamp at which every edge between two frames is known; None where none limits it."""

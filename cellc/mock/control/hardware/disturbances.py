@@ -69,18 +69,25 @@ class Disturbances:
         changed: called before each change.
         skip: called with the number of update cycles that the manager misses.
         set_state: called with component and lifecycle state.
+        stand: called with a component whose commands shall be where its joints are.
     """
 
     def __init__(
-        self, changed: Callable[[], None], skip: Callable[[int], None], set_state: Callable[[str, str], object]
+        self,
+        changed: Callable[[], None],
+        skip: Callable[[int], None],
+        set_state: Callable[[str, str], object],
+        stand: Callable[[str], None],
     ) -> None:
         self._changed = changed
         self._skip = skip
         self._set_state = set_state
+        self._stand = stand
         self._joints: dict[str, JointFault] = {}
         self._deaf: set[str] = set()
         self._failing_read: set[str] = set()
         self._failing_write: set[str] = set()
+        self._lost: set[str] = set()
 
     def fault_of(self, joint: str) -> JointFault | None:
         """The fault of a joint, None for a healthy one."""
@@ -101,6 +108,10 @@ class Disturbances:
         failing = component in self._failing_write
         self._failing_write.discard(component)
         return failing
+
+    def is_lost(self, component: str) -> bool:
+        """Whether the driver of a component has lost its device, and has handled that error itself."""
+        return component in self._lost
 
     def pending(self) -> bool:
         """Whether a read or write is to fail."""
@@ -170,4 +181,20 @@ class Disturbances:
         """End a protective stop: the component is active again and follows commands."""
         self._changed()
         self._deaf.discard(component)
+        self._set_state(component, "active")
+
+    def lose(self, component: str) -> None:
+        """Let a driver lose its device: its next read fails, its error handler leaves it unconfigured."""
+        self._changed()
+        self._deaf.add(component)
+        self._lost.add(component)
+        self._failing_read.add(component)
+
+    def recover(self, component: str) -> None:
+        """Let a stopped or lost component be active again; like any driver it begins from where its joints stand."""
+        self._changed()
+        self._deaf.discard(component)
+        self._lost.discard(component)
+        self._failing_read.discard(component)
+        self._stand(component)
         self._set_state(component, "active")

@@ -69,6 +69,10 @@ class _Late:
         if self.hardware is not None:
             self.hardware.set_state(component, state)
 
+    def stand(self, component: str) -> None:
+        if self.hardware is not None:
+            self.hardware.stand(component)
+
 
 def _load_hardware(
     urdf: str, table: InterfaceTable, disturbances: Disturbances, log: Log, events: list[ControlEvent]
@@ -110,7 +114,7 @@ def assemble(urdf: str, parameters: str, options: NodeOptions, changed: Callable
     file = read_file(parameters)
     settings = read_settings(ParameterSet(file.of_node(NODE_NAME, options.namespace)), options.distro)
     rate, period_ns = settings.update_rate, 1_000_000_000 // settings.update_rate
-    disturbances = Disturbances(changed, late.skip, late.set_state)
+    disturbances = Disturbances(changed, late.skip, late.set_state, late.stand)
     description, hardware, reason = _load_hardware(urdf, table, disturbances, log, events)
     limiter = None
     if hardware is not None:

@@ -133,10 +133,21 @@ class HardwareSet:
         return HardwareStateResponse(True, state)
 
     def fail(self, component: Component, reason: str) -> None:
-        """A read or write returned an error: without an error handler the component is finalized."""
-        component.state = "finalized"
+        """A read or write returned an error: one that is handled leaves the component unconfigured, else finalized."""
+        component.state = "unconfigured" if self._disturbances.is_lost(component.name) else "finalized"
+        component.last_read_ns = None
         self._log.error(_LOGGER, reason)
-        self._events.append(HardwareChanged(self._log.now_ns, component.name, "finalized", reason))
+        self._events.append(HardwareChanged(self._log.now_ns, component.name, component.state, reason))
+
+    def stand(self, name: str) -> None:
+        """Let the position commands of a component be where its joints stand."""
+        component = self.components.get(name)
+        if component is None:
+            return
+        for interface in component.system.command_names:
+            if interface.endswith("/position") and self._table.has_state(interface):
+                position = self._table.state[self._table.state_column(interface)]
+                self._table.command[self._table.command_column(interface)] = position
 
     # -- cycles ------------------------------------------------------------------------------------------------------
 

@@ -1,0 +1,43 @@
+"""A device loses the power of its drives: brakes hold it, its state stays visible, commands are refused."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from cellc.contract.contract import Contract
+from cellc.contract.rehearsals import FaultEntry
+from cellc.mock.faults.case import FaultCase
+from cellc.mock.faults.contents import components
+from cellc.mock.faults.stopping import stopping_case
+from cellc.mock.plant import Plant
+from cellc.mock.stops import EMERGENCY_STOP
+
+
+@dataclass(frozen=True, slots=True)
+class EmergencyStop:
+    """Takes the power from the drives of a device; its own controller stays on, and tells where the joints stand."""
+
+    component: str
+
+    @classmethod
+    def of(cls, entry: FaultEntry, contract: Contract) -> EmergencyStop | None:
+        """Return the fault of an entry; None where its target has no hardware."""
+        component = components(contract).get(entry.target)
+        return None if component is None else cls(component)
+
+    def begin(self, plant: Plant) -> None:
+        """Stop."""
+        plant.stops.enter(self.component, EMERGENCY_STOP)
+        for manager in plant.control.managers_of_component(self.component):
+            manager.disturbances.protective_stop(self.component)
+
+    def end(self, plant: Plant) -> None:
+        """Let what stopped it be over; it stays stopped until that is acknowledged."""
+        plant.stops.end_cause(self.component)
+
+
+def cases(contract: Contract) -> Iterator[FaultCase]:
+    """Yield every device with hardware."""
+    for device in components(contract):
+        yield stopping_case("emergency_stop", device, "emergency_stop", contract)
