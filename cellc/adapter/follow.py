@@ -1,0 +1,116 @@
+"""Follows one trajectory on an adapter: one bounded command each period, and an end that is told apart from others."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from cellc.adapter.device import DeviceAdapter
+from cellc.adapter.messages import DeviceState, JointCommand
+from cellc.adapter.phase import Phase
+from cellc.adapter.trajectory import Trajectory
+
+
+class FollowerStatus(str, Enum):
+    """How a trajectory stands or ended; the last four are terminal."""
+
+    FOLLOWING = "following"
+    HOLDING = "holding"  # cancelled or given up, and not at standstill yet
+    SUCCEEDED = "succeeded"
+    CANCELLED = "cancelled"
+    PATH_TOLERANCE_VIOLATED = "path tolerance violated"
+    STOPPED = "stopped"  # the device stopped or refused
+
+
+@dataclass(frozen=True, slots=True)
+class FollowerResult:
+    """The end of a trajectory, with the reason in words."""
+
+    status: FollowerStatus
+    text: str = ""
+
+
+class TrajectoryFollower:
+    """Streams a trajectory; call ``step`` once each command period until there is a result.
+
+    Attributes:
+        result: None while the trajectory runs.
+    """
+
+    def __init__(
+        self, adapter: DeviceAdapter, trajectory: Trajectory, *, path_tolerance: float, goal_time_s: float
+    ) -> None:
+        """Bind a trajectory that begins where the device stands.
+
+        Args:
+            path_tolerance: rad or m by which a joint may be away from its command.
+            goal_time_s: time after the end within which the joints have to be within ``path_tolerance`` of it.
+        """
+        self.result: FollowerResult | None = None
+        self._adapter = adapter
+        self._trajectory = trajectory
+        self._path_tolerance = path_tolerance
+        self._goal_time_s = goal_time_s
+        self._begun_ns = adapter.now_ns()
+        self._commanded = trajectory.positions(0.0)
+        self._ending: FollowerResult | None = None
+
+    def step(self) -> FollowerResult | None:
+        """Look at the device, send the command that is due, and return the result once there is one."""
+        if self.result is not None:
+            return self.result
+        state = self._adapter.read()
+        if state.phase is not Phase.ACTIVE:
+            self.result = FollowerResult(FollowerStatus.STOPPED, state.fault or f"device is {state.phase.value}")
+        elif self._ending is not None:
+            self.result = self._ending if _stands_still(state) else None
+        else:
+            self._follow(state)
+        return self.result
+
+    def cancel(self) -> None:
+        """Hold; the result comes with standstill."""
+        self._give_up(FollowerResult(FollowerStatus.CANCELLED))
+
+    def _follow(self, state: DeviceState) -> None:
+        away, joint = self._worst(state)
+        if away > self._path_tolerance:
+            name = self._adapter.model.joint_names[joint]
+            self._give_up(
+                FollowerResult(
+                    FollowerStatus.PATH_TOLERANCE_VIOLATED,
+                    f"`{name}` is {away:.4g} away from its command, {self._path_tolerance:g} allowed",
+                )
+            )
+            return
+        now_ns = self._adapter.now_ns()
+        elapsed_s = (now_ns - self._begun_ns) / 1e9
+        if elapsed_s > self._trajectory.duration_s + self._adapter.model.command_period_s and _stands_still(state):
+            self._adapter.hold()
+            self.result = FollowerResult(FollowerStatus.SUCCEEDED)
+            return
+        if elapsed_s > self._trajectory.duration_s + self._goal_time_s:
+            self._give_up(FollowerResult(FollowerStatus.PATH_TOLERANCE_VIOLATED, "not at standstill within goal time"))
+            return
+        positions = self._trajectory.positions(elapsed_s)
+        refusal = self._adapter.command(JointCommand(now_ns, positions))
+        if refusal is None:
+            self._commanded = positions
+        else:
+            self._give_up(FollowerResult(FollowerStatus.STOPPED, refusal.text))
+
+    def _give_up(self, result: FollowerResult) -> None:
+        if self.result is None and self._ending is None:
+            self._adapter.hold()
+            self._ending = result
+
+    def _worst(self, state: DeviceState) -> tuple[float, int]:
+        """Return how far the joint is away that is farthest from its last command, and which one it is."""
+        distances = [abs(at - sent) for at, sent in zip(state.positions, self._commanded, strict=True)]
+        worst = max(range(len(distances)), key=distances.__getitem__)
+        return distances[worst], worst
+
+
+def _stands_still(state: DeviceState, below: float = 1e-3) -> bool:
+    """Tell whether every joint is slower than ``below`` rad/s or m/s."""
+    return all(abs(velocity) < below for velocity in state.velocities)

@@ -1,0 +1,153 @@
+"""The mock's implementation of a device adapter: joints that follow their commands, and stop when nobody commands."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from cellc.adapter import AdapterModel, DeviceState, JointCommand, Phase, Refusal, check_command
+
+WATCHDOG_FAULT = "no command within the watchdog's time"
+
+
+class SimulatedAdapter:
+    """A device in simulated time; joints reach a command one period after it was taken.
+
+    Attributes:
+        stuck: joints that no longer follow, set by a fault.
+    """
+
+    def __init__(self, model: AdapterModel, positions: tuple[float, ...], now_ns: Callable[[], int]) -> None:
+        """Bind the device at its initial positions; ``now_ns`` is its clock."""
+        self.stuck: set[str] = set()
+        self._model = model
+        self._clock = now_ns
+        self._phase = Phase.UNCONFIGURED
+        self._fault = ""
+        self._safety_stop = ""
+        self._from = positions
+        self._to = positions
+        self._commanded = positions
+        self._taken_ns = now_ns()
+        self._streaming = False
+        self._stop_velocity: tuple[float, ...] | None = None
+
+    @property
+    def model(self) -> AdapterModel:
+        """Joints, units, bounds, rates and watchdog."""
+        return self._model
+
+    def now_ns(self) -> int:
+        """Return the device's time."""
+        return self._clock()
+
+    def connect(self) -> None:
+        """Connect: unconfigured to inactive."""
+        if self._phase is Phase.FINALIZED:
+            raise ConnectionError(f"`{self._model.device}` was disconnected for good")
+        if self._phase is Phase.UNCONFIGURED:
+            self._phase = Phase.INACTIVE
+
+    def activate(self) -> None:
+        """Take commands: inactive to active."""
+        if self._phase is not Phase.INACTIVE:
+            raise RuntimeError(f"`{self._model.device}` is {self._phase.value}, not inactive")
+        self._phase = Phase.ACTIVE
+
+    def deactivate(self) -> None:
+        """Hold and refuse commands: active to inactive."""
+        self.hold()
+        if self._phase is Phase.ACTIVE:
+            self._phase = Phase.INACTIVE
+
+    def acknowledge(self) -> None:
+        """Leave a stop: stopped to inactive."""
+        self._watch()
+        if self._phase is not Phase.STOPPED:
+            raise RuntimeError(f"`{self._model.device}` is {self._phase.value}, not stopped")
+        if self._safety_stop:
+            raise RuntimeError(f"`{self._model.device}` still has reason to stop: {self._safety_stop}")
+        self._phase, self._fault = Phase.INACTIVE, ""
+
+    def disconnect(self) -> None:
+        """Hold and disconnect: finalized."""
+        self.hold()
+        self._phase = Phase.FINALIZED
+
+    def read(self) -> DeviceState:
+        """Return the state now."""
+        if self._phase in (Phase.UNCONFIGURED, Phase.FINALIZED):
+            raise ConnectionError(f"`{self._model.device}` is {self._phase.value}")
+        self._watch()
+        now_ns = self.now_ns()
+        positions, velocities = self._motion(now_ns)
+        return DeviceState(now_ns, positions, velocities, (), self._phase, self._fault)
+
+    def command(self, command: JointCommand) -> Refusal | None:
+        """Go towards a command, or refuse it."""
+        self._watch()
+        now_ns = self.now_ns()
+        at = self._motion(now_ns)[0]
+        last = self._commanded if self._streaming else at
+        refusal = check_command(self._model, command, phase=self._phase, last=last, now_ns=now_ns)
+        if refusal is None:
+            self._from, self._to, self._taken_ns = at, self._reachable(command.positions, at), now_ns
+            self._commanded, self._streaming, self._stop_velocity = command.positions, True, None
+        return refusal
+
+    def hold(self) -> None:
+        """End the stream and come to a standstill."""
+        self._watch()
+        if self._streaming:
+            self._brake(self.now_ns())
+
+    def trip(self, reason: str) -> None:
+        """Let the vendor's safety stop the device until ``release``."""
+        self._safety_stop = reason
+        self._stop(self.now_ns(), reason)
+
+    def release(self) -> None:
+        """Take the reason for a safety stop away; the device stays stopped until it is acknowledged."""
+        self._safety_stop = ""
+
+    def _watch(self) -> None:
+        """Stop where the stream was silent for too long; the stop began when its time was over."""
+        limit_ns = self._taken_ns + round(self._model.command_timeout_s * 1e9)
+        if self._streaming and self.now_ns() > limit_ns:
+            self._stop(limit_ns, WATCHDOG_FAULT)
+
+    def _stop(self, at_ns: int, fault: str) -> None:
+        if self._streaming:
+            self._brake(at_ns)
+        if self._phase in (Phase.ACTIVE, Phase.INACTIVE):
+            self._phase, self._fault = Phase.STOPPED, fault
+
+    def _brake(self, at_ns: int) -> None:
+        """Slow down evenly to standstill within the stop time, from the motion at an instant."""
+        positions, velocities = self._motion(at_ns)
+        self._streaming = False
+        self._from, self._taken_ns, self._stop_velocity = positions, at_ns, velocities
+
+    def _reachable(self, wanted: tuple[float, ...], at: tuple[float, ...]) -> tuple[float, ...]:
+        if not self.stuck:
+            return wanted
+        names = self._model.joint_names
+        return tuple(here if name in self.stuck else there for name, here, there in zip(names, at, wanted, strict=True))
+
+    def _motion(self, at_ns: int) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """Return positions and velocities at an instant since the last command or brake."""
+        elapsed_s = max(0, at_ns - self._taken_ns) / 1e9
+        zero = (0.0,) * len(self._from)
+        if self._stop_velocity is not None:
+            stop_s = self._model.stop_time_s
+            spent_s = min(elapsed_s, stop_s)
+            path_s = spent_s - spent_s * spent_s / (2.0 * stop_s)
+            positions = tuple(a + v * path_s for a, v in zip(self._from, self._stop_velocity, strict=True))
+            return positions, tuple(v * (1.0 - spent_s / stop_s) for v in self._stop_velocity)
+        period_s = self._model.command_period_s
+        if not self._streaming:
+            return self._from, zero
+        if elapsed_s > period_s:
+            return self._to, zero
+        share = elapsed_s / period_s
+        positions = tuple(a + (b - a) * share for a, b in zip(self._from, self._to, strict=True))
+        return positions, tuple((b - a) / period_s for a, b in zip(self._from, self._to, strict=True))
