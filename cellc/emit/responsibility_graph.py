@@ -14,6 +14,7 @@ from collections.abc import Iterator
 from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
 from cellc.cell.interface import Endpoint, Interface, InterfaceKind
+from cellc.formats.claim_label import claim_facts, stop_facts
 from cellc.formats.header import Header
 from cellc.formats.interface_label import interface_facts
 from cellc.graph.cell_graph import CellGraph
@@ -65,7 +66,8 @@ def _physical_safety(cell: Cell) -> Iterator[str]:
     yield "end"
     for device in cell.devices:
         if device.hardware is not None:
-            yield f'{_id("stop", stop.authority)} == "stops, whatever software says" ==> {_id("device", device.name)}'
+            label = _text("<br/>".join(["stops, whatever software says", *stop_facts(cell)]))
+            yield f'{_id("stop", stop.authority)} == "{label}" ==> {_id("device", device.name)}'
 
 
 def _arrows(interface: Interface, devices: set[str]) -> Iterator[str]:
@@ -88,11 +90,12 @@ def _qos(end: Endpoint) -> str:
 
 
 def _claims(cell: Cell) -> Iterator[str]:
-    for controller in cell.controllers:
-        if controller.device is not None and controller.command_interfaces:
-            label = _text("<br/>".join(["claims", *controller.command_interfaces]))
-            arrow = "-->" if controller.active else "-.->"
-            yield f'{_id("node", controller.name)} {arrow} |"{label}"| {_id("device", controller.device)}'
+    for manager in cell.managers:
+        for controller in manager.controllers:
+            if controller.device is not None and controller.command_interfaces:
+                label = _text("<br/>".join(["claims", *claim_facts(cell, manager, controller)]))
+                arrow = "-->" if controller.active else "-.->"
+                yield f'{_id("node", controller.name)} {arrow} |"{label}"| {_id("device", controller.device)}'
 
 
 def _end(end: Endpoint, devices: set[str]) -> str:

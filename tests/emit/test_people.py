@@ -102,9 +102,10 @@ def test_sentence_names_everyone_on_the_way_to_the_drives() -> None:
     assert places == sorted(places)
 
 
-@pytest.mark.parametrize("cell", CELLS)
-def test_picture_labels_every_arrow_and_keeps_its_text_inside(cell: str) -> None:
-    text = artifacts_of(cell)["graph/responsibility.svg"]
+@pytest.mark.parametrize("cell", [*CELLS, "fr3_hand"])
+@pytest.mark.parametrize("sheet", ["responsibility.svg", "responsibility.phone.svg"])
+def test_picture_labels_every_arrow_and_keeps_its_text_inside(cell: str, sheet: str) -> None:
+    text = artifacts_of(cell)[f"graph/{sheet}"]
     picture = ElementTree.fromstring(text)
     space = "{http://www.w3.org/2000/svg}"
     said = [entry.text or "" for entry in picture.iter(f"{space}text")]
@@ -113,16 +114,40 @@ def test_picture_labels_every_arrow_and_keeps_its_text_inside(cell: str) -> None
     assert set(contract["interfaces"]) <= set(said)
     claiming = [c for m in contract["managers"].values() for c in m["controllers"].values() if c["command_interfaces"]]
     assert arrows == len(contract["interfaces"]) + len(claiming) + 1  # and the physical stop
-    assert sum(entry.startswith("owner ") for entry in said) == len(contract["interfaces"])
+    assert sum(entry.startswith("owner ") for entry in said) == arrows
     width, height = (float(value) for value in picture.attrib["viewBox"].split()[2:])
+    letter = 8.0 * float(picture.attrib["font-size"]) / 13.0
     for entry in picture.iter(f"{space}text"):
         # 8 units a character of 13 is wider than any sans-serif sets on average.
-        assert float(entry.attrib["x"]) + 8.0 * len(entry.text or "") <= width
+        assert float(entry.attrib["x"]) + letter * len(entry.text or "") <= width
         assert float(entry.attrib["y"]) <= height
     bold = [rect for rect in picture.iter(f"{space}rect") if rect.get("stroke-width") == "5"]
     assert len(bold) == 2
     assert "<script" not in text
     assert "href" not in text
+
+
+def test_sheets_and_diagram_say_the_same_of_every_arrow() -> None:
+    artifacts = artifacts_of("ur5e_pick")
+    space = "{http://www.w3.org/2000/svg}"
+    sheets = [
+        " ".join(entry.text or "" for entry in ElementTree.fromstring(artifacts[f"graph/{name}"]).iter(f"{space}text"))
+        for name in ("responsibility.svg", "responsibility.phone.svg")
+    ]
+    labels = re.findall(r'"([^"]+)"', artifacts["graph/responsibility.mmd"].split("  end\n")[-1])
+    facts = [fact for label in labels if label.count("<br/>") > 1 for fact in label.split("<br/>")]
+    assert len(facts) > 30
+    for fact in facts:
+        assert all(fact in sheet for sheet in sheets), fact
+
+
+@pytest.mark.parametrize("cell", [*CELLS, "fr3_hand"])
+def test_nothing_that_is_known_of_an_arrow_is_called_not_stated(cell: str) -> None:
+    diagram = artifacts_of(cell)["graph/responsibility.mmd"]
+    for name in ("/tf", "/tf_static", "/robot_description", "/joint_states"):
+        (label,) = re.findall(rf'"({name}<br/>[^"]+)"', diagram)
+        assert "not stated" not in label.replace("owner not stated", ""), label
+    assert "/tf<br/>topic tf2_msgs/msg/TFMessage, 20 Hz" in diagram
 
 
 @pytest.mark.parametrize("cell", CELLS)

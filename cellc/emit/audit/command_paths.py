@@ -8,18 +8,12 @@ from cellc.cell.cell import Cell
 from cellc.cell.control import Controller, ControllerManager
 from cellc.cell.interface import Endpoint, Interface, InterfaceKind
 from cellc.emit.audit.table import table
-from cellc.formats.interface_label import interface_facts
+from cellc.formats.claim_label import units, watchdog
+from cellc.formats.interface_label import frame_label, interface_facts
 from cellc.formats.numbers import shortest
 from cellc.graph.cell_graph import CellGraph
 
 _NOT_STATED = "not stated"
-# REP-103: SI and radians; by the joint's type.
-_UNITS = {
-    "position": ("rad", "m"),
-    "velocity": ("rad/s", "m/s"),
-    "acceleration": ("rad/s^2", "m/s^2"),
-    "effort": ("Nm", "N"),
-}
 
 
 def owners_section(graph: CellGraph) -> str:
@@ -51,7 +45,7 @@ def _requests(cell: Cell) -> Iterator[tuple[str, ...]]:
             qos = _qos((*one.sinks, *one.sources))
             yield (
                 ends,
-                one.frame or _NOT_STATED,
+                frame_label(one),
                 one.unit or "as the type",
                 "on request",
                 time,
@@ -74,29 +68,19 @@ def _controller(
 ) -> tuple[str, ...]:
     device = next((one for one in cell.devices if one.name == controller.device), None)
     hardware = "its hardware" if device is None or device.hardware is None else device.hardware.name
-    safety = None if device is None else device.facts.safety
     rate = controller.update_rate_hz or manager.update_rate_hz
     behaviour = "" if action is None else f"; {_failure(action)}"
     name = controller.action or f"{manager.namespace}/{controller.name}"
     return (
         f"{controller.client or 'nobody'} → `{name}` → {controller.name} → {hardware}",
         (action.frame if action is not None else None) or "joints",
-        _units(cell, controller),
+        units(cell, controller),
         f"{shortest(rate)} Hz",
         (action.time_source if action is not None else None) or f"clock of {manager.host or 'its host'}",
         _NOT_STATED if action is None else _qos((*action.sinks, *action.sources)),
-        (safety.watchdog if safety is not None else None) or _NOT_STATED,
+        watchdog(cell, controller),
         f"on violation {controller.on_violation}{behaviour}",
     )
-
-
-def _units(cell: Cell, controller: Controller) -> str:
-    types = {joint.name: joint.type for device in cell.devices for joint in device.joints}
-    units = (
-        _UNITS[kind][types[joint] == "prismatic"] if joint in types and kind in _UNITS else f"as {kind} of the device"
-        for joint, _, kind in (name.rpartition("/") for name in controller.command_interfaces)
-    )
-    return ", ".join(dict.fromkeys(units))
 
 
 def _failure(interface: Interface) -> str:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from cellc.cell.cell import Cell
 from cellc.cell.interface import Interface, InterfaceKind
+from cellc.formats.claim_label import claim_facts, stop_facts
 from cellc.formats.interface_label import interface_facts
 
 
@@ -48,24 +49,14 @@ def _exchange(interface: Interface) -> Row:
 
 
 def _claims(cell: Cell) -> Iterator[Row]:
-    for controller in cell.controllers:
-        if controller.device is not None and controller.command_interfaces:
-            device = cell.device(controller.device)
-            state = "from start-up" if controller.active else "as an alternate, inactive at start-up"
-            facts = (
-                ", ".join(controller.command_interfaces),
-                f"through {device.hardware.plugins['real'] if device.hardware else 'no hardware'}; {state}",
-                f"on a violation: {controller.on_violation}; architecture: {device.spec.architecture}",
-            )
-            yield Row((controller.name,), "claims", facts, (device.name,))
+    for manager in cell.managers:
+        for controller in manager.controllers:
+            if controller.device is not None and controller.command_interfaces:
+                facts = tuple(claim_facts(cell, manager, controller))
+                yield Row((controller.name,), "claims", facts, (controller.device,))
 
 
 def _stops(cell: Cell) -> Iterator[Row]:
-    stop, recovery = cell.spec.safety.stop, cell.spec.safety.recovery
     devices = tuple(device.name for device in cell.devices if device.hardware is not None)
     if devices:
-        facts = (
-            f"path {stop.path}, independent of {', '.join(stop.independent_of) or 'nothing stated'}",
-            f"recovery acknowledged by {recovery.acknowledge}, owner {recovery.owner}",
-        )
-        yield Row((stop.authority,), "stops, whatever software says", facts, devices)
+        yield Row((cell.spec.safety.stop.authority,), "stops, whatever software says", tuple(stop_facts(cell)), devices)
