@@ -104,6 +104,9 @@ class Controller(Protocol):
     def update(self, cycle: Cycle) -> None:
         """Do one cycle. Raises UpdateError."""
 
+    def expected_updates(self) -> int | None:
+        """Updates up to the next one that is likely to decide something; None where none is, or nobody knows."""
+
     def preview(self, block: Block) -> int:
         """Write the commands of a block of this controller's cycles; return how many leading cycles are regular."""
 
@@ -165,6 +168,10 @@ class QuietController:
 
     def update(self, cycle: Cycle) -> None:
         """Nothing to command."""
+
+    def expected_updates(self) -> int | None:
+        """None: it decides nothing."""
+        return None
 
     def preview(self, block: Block) -> int:
         """Command nothing in any cycle."""

@@ -19,6 +19,9 @@ from cellc.mock.control.manager.switching import Switcher
 
 _SHORTEST_BLOCK = 64
 _LONGEST_BLOCK = 2048
+_GROWTH = 4
+# Cycles after the one in which a decision is expected: a block that contains it ends right before it.
+_BEYOND_DECISION = 2
 
 
 class CycleRunner:
@@ -58,6 +61,7 @@ class CycleRunner:
         self._period_ns = period_ns
         self._rate = rate
         self._length = _SHORTEST_BLOCK
+        self._next_alone = False
         self._pending: Switch | None = None
         self._skipped = 0
         self.next_ns = 0
@@ -88,6 +92,7 @@ class CycleRunner:
 
     def discard(self) -> None:
         """Void what was computed ahead, since something was asked from outside."""
+        self._next_alone = False
         if self._ahead.remaining:
             self._ahead.discard()
             self._length = max(self._length // 2, _SHORTEST_BLOCK)
@@ -98,16 +103,24 @@ class CycleRunner:
         Returns:
             The time of the last one.
         """
-        if not self._ahead.remaining and self._blocks_allowed():
-            active = [loaded for loaded in self._registry.in_update_order() if loaded.state == "active"]
-            self._ahead.compute(active, self.next_ns, self._length)
-            self._length = min(self._length * 2, _LONGEST_BLOCK)
+        if not self._ahead.remaining and not self._next_alone and self._blocks_allowed():
+            self._compute_ahead()
         if self._ahead.remaining:
             time_ns = self._ahead.adopt(cycles, self._log)
             self.next_ns = time_ns + self._period_ns
             return time_ns
         self._length = _SHORTEST_BLOCK
+        self._next_alone = False
         return self._run_single()
+
+    def _compute_ahead(self) -> None:
+        """Compute a block, not much longer than until a controller expects to decide something."""
+        active = [loaded for loaded in self._registry.in_update_order() if loaded.state == "active"]
+        expected = [loaded.controller.expected_updates() for loaded in active]
+        length = min([self._length, *(updates + _BEYOND_DECISION for updates in expected if updates is not None)])
+        self._ahead.compute(active, self.next_ns, length)
+        self._next_alone = self._ahead.remaining < length
+        self._length = min(self._length * _GROWTH, _LONGEST_BLOCK)
 
     def _blocks_allowed(self) -> bool:
         return (

@@ -232,6 +232,12 @@ class JointTrajectoryController(QuietController):
 
     # -- blocks ------------------------------------------------------------------------------------------------------
 
+    def expected_updates(self) -> int | None:
+        """Updates up to the end of the trajectory that is executed."""
+        if self._motion is None or self._pending is not None:
+            return None
+        return self._motion.updates_left(self.scaling.factor)
+
     def preview(self, block: Block) -> int:
         """Sample the trajectory for all cycles of the block."""
         motion = self._motion
@@ -265,15 +271,8 @@ class JointTrajectoryController(QuietController):
         assert samples is not None
         row = len(block) - 1
         motion.time_ns = int(samples.times_ns[row])
-        places, state = self.interfaces.states, block.state[row]
         time_ns = int(block.times_ns[row])
-        measured = StartState(
-            time_ns,
-            state[places["position"]],
-            state[places["velocity"]] if "velocity" in places else None,
-            state[places["acceleration"]] if "acceleration" in places else None,
-        )
-        self.last = LastUpdate(time_ns, measured, samples, row)
+        self.last = LastUpdate(time_ns, self.interfaces.read_states(time_ns, block.state[row]), samples, row)
         self._remember_command(motion, samples, row)
         if self.recorder is not None:
             self.recorder.add_block(block, start, samples, self._commands.columns(), self._factor)

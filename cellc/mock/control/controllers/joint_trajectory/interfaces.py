@@ -63,9 +63,9 @@ class JointInterfaces:
         """Acceleration errors are known only with both interfaces."""
         return "acceleration" in self.states and "acceleration" in self.commands
 
-    def read_states(self, now_ns: int) -> StartState:
-        """The measured state."""
-        state = self._context.table.state
+    def read_states(self, now_ns: int, state: Array | None = None) -> StartState:
+        """The measured state, from values of all state interfaces: the present ones where none are given."""
+        state = self._context.table.state if state is None else state
         velocity = state[self.states["velocity"]] if "velocity" in self.states else None
         acceleration = state[self.states["acceleration"]] if "acceleration" in self.states else None
         return StartState(now_ns, state[self.states["position"]], velocity, acceleration)

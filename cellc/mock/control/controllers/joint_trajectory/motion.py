@@ -105,6 +105,12 @@ class Motion:
         ahead = (later, later_into, spline.positions(later, later_into))
         return Samples(spline, times_ns, (reached, into), spline.positions(reached, into), ahead)
 
+    def updates_left(self, factor: float) -> int | None:
+        """Return how many updates are left up to the last point, at one speed; None for a hold and beyond the point."""
+        step_ns = int(self._ahead_ns * factor)
+        left_ns = int(self.spline.point_times_ns[-1]) - self.time_ns
+        return None if self.held or step_ns <= 0 or left_ns <= 0 else -(-left_ns // step_ns)
+
     def overtime_s(self, samples: Samples) -> Array:
         """Time since the point that the next sample's segment starts with was due; negative before it is (s)."""
         start = np.maximum(samples.next_reached - 1, 0)
