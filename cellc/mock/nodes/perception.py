@@ -10,6 +10,7 @@ from cellc.mock.bus.subscription import Subscription
 from cellc.mock.clocks import Clock
 from cellc.mock.engine.simulation import Simulation
 from cellc.mock.nodes.camera import Image
+from cellc.mock.tf.deferred import DeferredPose
 from cellc.mock.tf.sources import SampledSource
 from cellc.mock.world.objects import World
 from cellc.transforms import Pose
@@ -24,7 +25,12 @@ class ObjectPose:
 
     stamp_ns: int
     frame: str
-    pose: Pose
+    seen: DeferredPose
+
+    @property
+    def pose(self) -> Pose:
+        """The pose, computed now where nobody has looked at it yet."""
+        return self.seen.get()
 
 
 PoseListener = Callable[[ObjectPose, bool], None]
@@ -91,10 +97,10 @@ class Perception:
 
     def _publish(self, image: Image) -> None:
         """Publish where the object was, seen from the camera, when the image was taken."""
-        pose = self._world.pose_seen_from(image.frame, self._name, image.taken_ns)
+        seen = self._world.sight(image.frame, self._name, image.taken_ns)
         if self.publishes_transform:
-            self._transform.insert(image.stamp_ns, pose)
-        published = ObjectPose(image.stamp_ns, self._frame.parent, pose)
+            self._transform.insert(image.stamp_ns, seen)
+        published = ObjectPose(image.stamp_ns, self._frame.parent, seen)
         self._publish_pose(published)
         for listener in self._listeners:
             listener(published, self.publishes_transform)

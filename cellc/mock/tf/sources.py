@@ -6,8 +6,11 @@ from collections.abc import Sequence
 from typing import Protocol
 
 from cellc.mock.tf.cache import TimeCache
+from cellc.mock.tf.deferred import DeferredPose
 from cellc.mock.tf.warnings import TfWarnings, refusal
-from cellc.transforms import Pose
+from cellc.transforms import Pose, identity
+
+_UNIT = identity()
 
 
 class TransformSource(Protocol):
@@ -67,12 +70,13 @@ class SampledSource:
         self.authority = authority
         self._parent = parent
         self._child = child
-        self._cache = TimeCache[Pose](round(buffer_s * 1e9))
+        self._cache = TimeCache[Pose | DeferredPose](round(buffer_s * 1e9))
         self._warnings = warnings
 
-    def insert(self, stamp_ns: int, pose: Pose) -> None:
+    def insert(self, stamp_ns: int, pose: Pose | DeferredPose) -> None:
         """Store a transform in the order of stamps, or refuse it with a warning."""
-        refused = refusal(self._parent, self._child, self.authority, pose)
+        known = pose.known or _UNIT if isinstance(pose, DeferredPose) else pose
+        refused = refusal(self._parent, self._child, self.authority, known)
         if refused is not None:
             self._warnings.note(refused[0], self._child, self.authority, refused[1])
         elif not self._cache.insert(stamp_ns, pose):
@@ -88,7 +92,8 @@ class SampledSource:
 
     def pose(self, index: int) -> Pose:
         """Return a stored transform."""
-        return self._cache.values[index]
+        stored = self._cache.values[index]
+        return stored.get() if isinstance(stored, DeferredPose) else stored
 
     def clear(self) -> None:
         """Forget what is stored."""

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from bisect import bisect_right
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import partial
 
+from cellc.mock.tf.deferred import DeferredPose
 from cellc.mock.world.joint_states import JointStateHistory
 from cellc.mock.world.links import LinkTree
 from cellc.transforms import Pose
@@ -32,7 +35,7 @@ class World:
         self._links = links
         self._histories = tuple(histories)
         self._placements: dict[str, list[Placement]] = {}
-        self._standing: dict[tuple[str, Placement], Pose] = {}
+        self._standing: dict[tuple[str, Placement], DeferredPose] = {}
 
     def joint_positions(self, stamp_ns: int) -> dict[str, float]:
         """Return the true positions of all recorded joints at a time."""
@@ -62,14 +65,18 @@ class World:
         placement = self._placement(name, stamp_ns)
         return self.link_pose(placement.link, stamp_ns) @ placement.pose
 
-    def pose_seen_from(self, link: str, name: str, stamp_ns: int) -> Pose:
-        """Return the true pose of an object in the frame of a link at a time."""
+    def sight(self, link: str, name: str, stamp_ns: int) -> DeferredPose:
+        """Return the true pose of an object in the frame of a link at a time, from what is recorded by now."""
         placement = self._placement(name, stamp_ns)
-        if not (self._links.stands(link) and self._links.stands(placement.link)):
-            return self._relative(link, placement, self.joint_positions(stamp_ns))
-        if (link, placement) not in self._standing:
-            self._standing[link, placement] = self._relative(link, placement, {})
-        return self._standing[link, placement]
+        if self._links.stands(link) and self._links.stands(placement.link):
+            if (link, placement) not in self._standing:
+                self._standing[link, placement] = DeferredPose(partial(self._relative, link, placement, {}))
+            return self._standing[link, placement]
+        positions = self.joint_positions(stamp_ns)
+        pose = DeferredPose(partial(self._relative, link, placement, positions))
+        if any(map(math.isnan, positions.values())):
+            pose.get()  # so that it is seen to be none
+        return pose
 
     def _placement(self, name: str, stamp_ns: int) -> Placement:
         placements = self._placements[name]

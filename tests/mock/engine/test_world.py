@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import random
 from pathlib import Path
 
@@ -13,10 +14,13 @@ from cellc.mock.clocks import Clocks
 from cellc.mock.control import JointStateBlock
 from cellc.mock.nodes.robot_state_publisher import RobotStatePublisher
 from cellc.mock.tf.buffer import Transform, TransformBuffer
+from cellc.mock.tf.deferred import DeferredPose
+from cellc.mock.tf.sources import SampledSource
+from cellc.mock.tf.warnings import TfWarnings
 from cellc.mock.world.joint_states import JointStateHistory, LateArrival
 from cellc.mock.world.links import LinkTree, read_links
 from cellc.mock.world.objects import World
-from cellc.transforms import from_xyz_rpy, identity
+from cellc.transforms import Pose, from_xyz_rpy, identity
 
 MS = 1_000_000
 
@@ -135,6 +139,33 @@ def test_object_is_seen_from_a_link_where_both_are(links: LinkTree) -> None:
     for stamp_ns in (10 * MS, 20 * MS, 120 * MS, 140 * MS, 160 * MS, 170 * MS):
         for link in ("base", "flap"):
             expected = world.link_pose(link, stamp_ns).inverse() @ world.object_pose("part", stamp_ns)
-            assert world.pose_seen_from(link, "part", stamp_ns) == expected
-    assert world.pose_seen_from("base", "part", 120 * MS) != world.pose_seen_from("base", "part", 140 * MS)
-    assert world.pose_seen_from("base", "part", 10 * MS) != world.pose_seen_from("base", "part", 160 * MS)
+            assert world.sight(link, "part", stamp_ns).get() == expected
+    assert world.sight("base", "part", 120 * MS).get() != world.sight("base", "part", 140 * MS).get()
+    assert world.sight("base", "part", 10 * MS).get() != world.sight("base", "part", 160 * MS).get()
+
+
+def test_object_seen_by_a_joint_without_a_position_is_no_transform(links: LinkTree) -> None:
+    world = World(links, (history_of([0.1, math.nan]),))
+    world.place("part", "cart", identity(), 0)
+    warnings = TfWarnings()
+    source = SampledSource("base", "part", "perception", 10.0, warnings)
+    source.insert(0, world.sight("base", "part", 0))
+    source.insert(2 * MS, world.sight("base", "part", 2 * MS))
+    assert list(source.stamps()) == [0]
+    assert source.pose(0).position == pytest.approx((0.1, 0.0, 0.0))
+    assert "nan value" in warnings.lines()[0]
+
+
+def test_pose_that_nobody_looks_at_is_not_computed() -> None:
+    calls: list[int] = []
+
+    def compute() -> Pose:
+        calls.append(1)
+        return identity()
+
+    pose = DeferredPose(compute)
+    source = SampledSource("base", "part", "perception", 10.0, TfWarnings())
+    source.insert(5, pose)
+    assert not calls
+    assert source.pose(0) is source.pose(0)
+    assert len(calls) == 1
