@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 
@@ -137,14 +138,21 @@ def test_without_a_mark_of_the_program_nothing_is_kept_or_recalled(computed: Cou
     assert len(computed.files) == 3
 
 
-def test_another_current_folder_is_another_question(
+def test_cells_of_one_name_in_two_folders_do_not_displace_each_other(
     folder: Path, computed: Counting, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    shutil.copytree(folder, folder.parent / "other")
+    for name in ("cell", "other", "cell", "other"):
+        monkeypatch.chdir(folder.parent / name)
+        answer("cell.yaml")
+    assert len(computed.files) == 2
+
+
+def test_a_spec_is_told_as_it_was_named(folder: Path, computed: Counting, monkeypatch: pytest.MonkeyPatch) -> None:
     answer("cell.yaml")
     monkeypatch.chdir(folder.parent)
-    answer("cell/cell.yaml")
-    assert computed.files == ["cell.yaml", "cell/cell.yaml"]
     assert answer("cell/cell.yaml").findings.file == "cell/cell.yaml"
+    assert len(computed.files) == 2
 
 
 @pytest.mark.usefixtures("folder")
@@ -217,6 +225,4 @@ def test_an_entry_says_what_was_asked(folder: Path, computed: Counting) -> None:
     asked = json.loads(_entry(folder).read_bytes().partition(b"\n")[2])["asked"]["marks"]
     read = {path for what, path, _, _ in asked if what == "contents"}
     assert {"cell.yaml", "more.yaml", "my_robot/device.yaml", "my_robot/facts.yaml"} <= read
-    # Files of the package belong to the mark of the program.
-    assert not any("catalog" in path for path in read)
     assert computed.files == ["cell.yaml"]

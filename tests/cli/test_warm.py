@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 import subprocess
@@ -75,6 +76,13 @@ def _loaded(arguments: list[str], code: int) -> set[str]:
     heavy = {"pydantic", "numpy", "networkx", "yaml", "xacro", "multiprocessing"}
     stages = {f"cellc.{stage}" for stage in ("pipeline", "rules", "graph", "link", "spec", "source", "emit", "verify")}
     return loaded & (heavy | stages)
+
+
+def test_files_of_the_package_are_not_asked_for_again(home: Path) -> None:
+    process("check", PICK)
+    (entry,) = (home / "check").iterdir()
+    asked = json.loads(entry.read_bytes().partition(b"\n")[2])["asked"]["marks"]
+    assert {path for what, path, _, _ in asked if what == "contents"} == {PICK}
 
 
 def _copied(tmp_path: Path) -> Path:
