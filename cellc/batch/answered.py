@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from cellc.batch.answer import Answer
 from cellc.batch.compute import Kind, compute
+from cellc.batch.cores import number_of_workers
 from cellc.batch.kept import keep_answer, recall_answer
 from cellc.disk import Record
 from cellc.fleet.presence import Presence
@@ -47,10 +48,11 @@ def _among(earlier: list[Presence], answer: Answer) -> Answer:
 
 
 def _computed(kind: Kind, files: Sequence[str]) -> Iterator[tuple[Answer, Record]]:
-    from cellc.batch.workers import in_workers, number_of_workers
-
     number = number_of_workers(kind, len(files))
-    if number > 1:
-        yield from in_workers(kind, files, number)
-    else:
+    if number == 1:
         yield from (compute(kind, file) for file in files)
+        return
+    # Python's machinery of processes takes longer to load than a small cell to check.
+    from cellc.batch.workers import in_workers
+
+    yield from in_workers(kind, files, number)

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import os
 import signal
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures.process import BrokenProcessPool, ProcessPoolExecutor
 from functools import partial
 from multiprocessing import get_context
@@ -14,24 +13,7 @@ from cellc.batch.answer import Answer
 from cellc.batch.compute import Kind, compute
 from cellc.disk import Record
 
-MOST_WORKERS = 8
-
-# A process loads the compiler first, which takes as long as checking so many cells or compiling so many.
-_CELLS_THAT_PAY: Mapping[Kind, int] = {"check": 16, "compile": 3}
-
 _T = TypeVar("_T")
-
-
-def number_of_workers(kind: Kind, cells: int, cores: int | None = None) -> int:
-    """Return how many processes pay for so many cells; 1 is this process."""
-    available = usable_cores() if cores is None else cores
-    return max(1, min(available, cells // _CELLS_THAT_PAY[kind], MOST_WORKERS))
-
-
-def usable_cores() -> int:
-    """Return the number of cores that the system lets this process use."""
-    affinity = getattr(os, "sched_getaffinity", None)
-    return len(affinity(0)) if affinity is not None else os.cpu_count() or 1
 
 
 def in_workers(kind: Kind, files: Sequence[str], number: int) -> Iterator[tuple[Answer, Record]]:

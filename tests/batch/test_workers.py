@@ -12,7 +12,8 @@ import pytest
 from cellc.batch import workers
 from cellc.batch.answer import Answer
 from cellc.batch.compute import compute
-from cellc.batch.workers import in_workers, number_of_workers
+from cellc.batch.cores import number_of_workers
+from cellc.batch.workers import in_workers
 from cellc.disk import Record
 from tests.cli.run import MINIMAL, ROOT
 
