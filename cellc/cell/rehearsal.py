@@ -9,22 +9,42 @@ from cellc.cell.entity import Entity
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Step(Entity):
-    """One step: ``kind`` is move, detect, grip or wait; ``name`` is the pose, goal, frame or device."""
+    """One step: ``kind`` is move, detect, grip, wait or acknowledge.
+
+    ``name`` is the pose, goal, frame or device, or who acknowledges.
+    """
 
     kind: str
     command: str | None = None  # open or close, for grip
     duration_s: float | None = None  # for wait
 
 
+@dataclass(frozen=True, slots=True)
+class StepEvent:
+    """How far a step has come: ``when`` is started, accepted or moving; ``after_s`` is counted from there."""
+
+    step: int  # from 1
+    when: str
+    after_s: float
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Fault(Entity):
-    """One fault: ``kind`` as in the spec, ``name`` the ROS name of what it hits; times in simulated seconds."""
+    """One fault: ``kind`` as in the spec, ``name`` the ROS name of what it hits; times in simulated seconds.
+
+    It begins at ``at_s`` or with ``event``; one of them is None.
+    """
 
     kind: str
-    at_s: float
+    at_s: float | None
+    event: StepEvent | None = None
     lasting_s: float | None = None
     cycles: int | None = None  # for skip_cycles
     delay_s: float | None = None  # for delay
+    jump_s: float | None = None  # for jump_clock
+    displacement: float | None = None  # for displace, rad or m
+    velocity: float | None = None  # for slow, rad/s or m/s
+    factor: float | None = None  # for scale_speed, 0 to 1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

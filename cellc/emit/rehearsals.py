@@ -44,13 +44,19 @@ def _step(step: Step) -> StepEntry:
 
 
 def _fault(fault: Fault) -> FaultEntry:
+    event = fault.event
     return FaultEntry.model_validate(
         {
             "kind": fault.kind,
             "target": fault.name,
             "at_s": fault.at_s,
+            "event": None if event is None else {"step": event.step, "when": event.when, "after_s": event.after_s},
             "lasting_s": fault.lasting_s,
             "cycles": fault.cycles,
             "delay_s": fault.delay_s,
+            "jump_s": fault.jump_s,
+            "displacement": fault.displacement,
+            "velocity": fault.velocity,
+            "factor": fault.factor,
         }
     )

@@ -60,7 +60,7 @@ def _link_with_devices(
     groups = link_groups(spec, document, devices, all_frames, names, controllers)
     poses = link_poses(spec, document, groups.value or ())
     goals = link_goals(spec, document, groups.value or (), names)
-    rehearsals = link_rehearsals(spec, document, devices, controllers, names)
+    rehearsals = link_rehearsals(spec, document, devices, loops, (*written, *derived), names)
     cell = Cell(
         name=spec.cell,
         spec=spec,

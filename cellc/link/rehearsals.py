@@ -1,36 +1,23 @@
-"""Binds the steps and faults of rehearsals to poses, goals, frames, devices and joints."""
+"""Binds rehearsals: whose steps they take, and their steps to poses, goals, frames and devices."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TypeVar
 
-from cellc.cell.control import Controller
+from cellc.cell.control import ControllerManager
 from cellc.cell.device import Device
+from cellc.cell.interface import Interface
 from cellc.cell.rehearsal import Fault, Rehearsal, Step
 from cellc.diagnostics import Diagnostic, Outcome, Severity, YamlPath
+from cellc.link.fault_names import Target, fault_targets
+from cellc.link.faults import link_fault
 from cellc.link.frame_names import FrameNames
 from cellc.link.unknown import unknown_name
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
-from cellc.spec.rehearsals import (
-    CancelFault,
-    DelayFault,
-    DetectStep,
-    DropFrameFault,
-    FaultSpec,
-    FreezeFault,
-    GripStep,
-    MoveStep,
-    ProtectiveStopFault,
-    RehearsalSpec,
-    RejectFault,
-    SkipCyclesFault,
-    StepSpec,
-    StickFault,
-    UnreachableFault,
-)
+from cellc.spec.rehearsals import AcknowledgeStep, DetectStep, GripStep, MoveStep, RehearsalSpec, StepSpec
 
 _Bound = TypeVar("_Bound", Step, Fault)
 
@@ -45,22 +32,26 @@ class _Names:
     poses: tuple[str, ...]
     goals: tuple[str, ...]
     frames: FrameNames
-    sensors: tuple[str, ...]
     grippers: tuple[str, ...]
-    devices: tuple[str, ...]
-    controllers: tuple[str, ...]
-    joints: dict[str, str]
+    faults: Mapping[str, Target]
 
 
 def link_rehearsals(
     spec: CellSpec,
     document: SourceDocument,
     devices: tuple[Device, ...],
-    controllers: tuple[Controller, ...],
+    managers: tuple[ControllerManager, ...],
+    interfaces: tuple[Interface, ...],
     frames: FrameNames,
 ) -> Outcome[tuple[Rehearsal, ...]]:
     """Bind every rehearsal; one that uses another's steps gets a copy of them."""
-    names = _collect(spec, devices, controllers, frames)
+    names = _Names(
+        poses=tuple(spec.motion.poses),
+        goals=tuple(spec.motion.goals),
+        frames=frames,
+        grippers=tuple(device.name for device in devices if device.facts.gripper is not None),
+        faults=fault_targets(spec, devices, managers, interfaces, frames),
+    )
     rehearsals: list[Rehearsal] = []
     problems: list[Diagnostic] = []
     for name, written in spec.rehearsals.items():
@@ -69,22 +60,6 @@ def link_rehearsals(
         if bound.value is not None:
             rehearsals.append(bound.value)
     return Outcome(tuple(rehearsals), tuple(problems))
-
-
-def _collect(
-    spec: CellSpec, devices: tuple[Device, ...], controllers: tuple[Controller, ...], frames: FrameNames
-) -> _Names:
-    joints = {f"{device.name}/{joint.local_name}": joint.name for device in devices for joint in device.joints}
-    return _Names(
-        poses=tuple(spec.motion.poses),
-        goals=tuple(spec.motion.goals),
-        frames=frames,
-        sensors=tuple(device.name for device in devices if device.facts.camera is not None),
-        grippers=tuple(device.name for device in devices if device.facts.gripper is not None),
-        devices=tuple(device.name for device in devices),
-        controllers=tuple(controller.name for controller in controllers),
-        joints=joints,
-    )
 
 
 def _rehearsal(
@@ -100,7 +75,7 @@ def _rehearsal(
     )
     injected = written.inject if isinstance(written.inject, tuple) else (written.inject,)
     faults = _collected(
-        _fault(fault, document, (*path, "inject") if len(injected) == 1 else (*path, "inject", index), names)
+        link_fault(fault, document, _place(written, (*path, "inject"), index), names.faults, steps.value or ())
         for index, fault in enumerate(injected)
     )
     rehearsal = Rehearsal(
@@ -116,6 +91,10 @@ def _rehearsal(
     # A step list shared by `use` is reported where it is written, once.
     step_problems = steps.diagnostics if source.value == name else ()
     return Outcome(rehearsal, (*step_problems, *faults.diagnostics))
+
+
+def _place(written: RehearsalSpec, path: YamlPath, index: int) -> YamlPath:
+    return (*path, index) if isinstance(written.inject, tuple) else path
 
 
 def _collected(outcomes: Iterable[Outcome[_Bound]]) -> Outcome[tuple[_Bound, ...]]:
@@ -167,55 +146,9 @@ def _step(step: StepSpec, document: SourceDocument, path: YamlPath, names: _Name
         at = (*path, "device") if step.device else path
         problem = _missing("unknown-device", gripper, "gripper", names.grippers, document, at)
         return Outcome(Step(name=gripper, path=path, span=span, kind="grip", command=step.grip), problem)
+    if isinstance(step, AcknowledgeStep):
+        return Outcome(Step(name=step.acknowledge, path=path, span=span, kind="acknowledge"))
     return Outcome(Step(name="", path=path, span=span, kind="wait", duration_s=step.wait.si))
-
-
-def _fault(fault: FaultSpec, document: SourceDocument, path: YamlPath, names: _Names) -> Outcome[Fault]:
-    kind, target, problems = _fault_target(fault, document, path, names)
-    bound = Fault(
-        name=target,
-        path=path,
-        span=document.locate(path),
-        kind=kind,
-        at_s=fault.at.si,
-        lasting_s=None if fault.lasting is None else fault.lasting.si,
-        cycles=fault.skip_cycles if isinstance(fault, SkipCyclesFault) else None,
-        delay_s=fault.by.si if isinstance(fault, DelayFault) else None,
-    )
-    return Outcome(bound, problems)
-
-
-def _fault_target(
-    fault: FaultSpec, document: SourceDocument, path: YamlPath, names: _Names
-) -> tuple[str, str, tuple[Diagnostic, ...]]:
-    """Return the kind of a fault, the ROS name that it hits, and what is wrong with the reference."""
-    if isinstance(fault, CancelFault):
-        return "cancel", fault.cancel, ()
-    if isinstance(fault, SkipCyclesFault):
-        return "skip_cycles", "", ()
-    if isinstance(fault, DropFrameFault):
-        frame = names.frames.bind(fault.drop_frame, (*path, "drop_frame"))
-        return "drop_frame", frame.value or fault.drop_frame, frame.diagnostics
-    if isinstance(fault, StickFault):
-        at = (*path, "stick")
-        problems = _missing("unknown-joint", fault.stick, "joint", tuple(names.joints), document, at)
-        return "stick", names.joints.get(fault.stick, fault.stick), problems
-    kind, target, code, noun, known = _plain_target(fault, names)
-    return kind, target, _missing(code, target, noun, known, document, (*path, kind))
-
-
-def _plain_target(
-    fault: FreezeFault | RejectFault | ProtectiveStopFault | UnreachableFault | DelayFault, names: _Names
-) -> tuple[str, str, str, str, tuple[str, ...]]:
-    if isinstance(fault, FreezeFault):
-        return "freeze", fault.freeze, "unknown-device", "sensor", names.sensors
-    if isinstance(fault, RejectFault):
-        return "reject", fault.reject, "unknown-controller", "controller", names.controllers
-    if isinstance(fault, ProtectiveStopFault):
-        return "protective_stop", fault.protective_stop, "unknown-device", "device", names.devices
-    if isinstance(fault, UnreachableFault):
-        return "unreachable", fault.unreachable, "unknown-goal", "goal", names.goals
-    return "delay", fault.delay, "unknown-device", "device", names.devices
 
 
 def _missing(

@@ -1,7 +1,7 @@
 """A rehearsal expects the failure of another layer than the one that it provokes.
 
-A lost transform that ends as stale state, or any fault that ends in a mere timeout, teaches nobody which layer failed.
-The outcomes are kept apart so that each names its cause.
+A lost transform that ends as stale state, or one that ends in a mere timeout, teaches nobody which layer failed. The
+outcomes are kept apart so that each names its cause; a timeout is the outcome of what answers or moves no more.
 
 Example that is reported:
 
@@ -34,22 +34,35 @@ from cellc.rules.define import define
 from cellc.rules.finding import found
 
 _LAYERS = {
-    "freeze": "stale_state",
-    "delay": "stale_state",
-    "drop_frame": "tf_failure",
-    "cancel": "cancelled",
-    "reject": "goal_rejection",
-    "stick": "tolerance_violation",
-    "skip_cycles": "missed_cycle",
-    "protective_stop": "protective_stop",
-    "unreachable": "planning_failure",
+    "freeze": ("stale_state",),
+    "delay": ("stale_state",),
+    "drop_frame": ("tf_failure",),
+    "double_frame": ("tf_failure",),
+    "jump_clock": ("stale_state", "tf_failure"),
+    "mismatch_qos": ("stale_state", "tf_failure", "timeout"),
+    "unresponsive": ("timeout",),
+    "unreachable": ("planning_failure",),
+    "reject": ("goal_rejection",),
+    "cancel": ("cancelled",),
+    "second_commander": ("wrong_owner",),
+    "switch": ("wrong_owner", "goal_rejection"),
+    "stick": ("tolerance_violation",),
+    "slow": ("tolerance_violation",),
+    "displace": ("tolerance_violation",),
+    "scale_speed": ("timeout",),
+    "skip_cycles": ("missed_cycle",),
+    "wrong_payload": ("protective_stop",),
+    "protective_stop": ("protective_stop",),
+    "emergency_stop": ("emergency_stop",),
+    "restart_driver": ("hardware_fault",),
+    "cut_network": ("hardware_fault", "stale_state"),
 }
 
 
 def check(graph: CellGraph) -> Iterator[Finding]:
     """Yield rehearsals that expect a failure which belongs to none of their faults."""
     for rehearsal in graph.cell.rehearsals:
-        layers = [_LAYERS[fault.kind] for fault in rehearsal.faults]
+        layers = [layer for fault in rehearsal.faults for layer in _LAYERS[fault.kind]]
         if layers and rehearsal.expect != "succeeded" and rehearsal.expect not in layers:
             faults = " and ".join(f"`{fault.kind}`" for fault in rehearsal.faults)
             message = f"`{rehearsal.name}` provokes {faults} and expects `{rehearsal.expect}`"

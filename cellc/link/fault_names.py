@@ -1,0 +1,100 @@
+"""Everything that a fault may hit, by the name that the user writes, with the name that the contract has for it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+from cellc.cell.control import ControllerManager
+from cellc.cell.device import Device
+from cellc.cell.entity import Entity
+from cellc.cell.interface import Interface, InterfaceKind
+from cellc.link.frame_names import FrameNames
+from cellc.spec.cell_spec import CellSpec
+
+Names = Mapping[str, str]
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """What one kind of fault may hit: a noun for messages, the code of an unknown one, and the names."""
+
+    noun: str
+    code: str
+    names: Names
+
+
+def fault_targets(
+    spec: CellSpec,
+    devices: tuple[Device, ...],
+    managers: tuple[ControllerManager, ...],
+    interfaces: tuple[Interface, ...],
+    frames: FrameNames,
+) -> Mapping[str, Target]:
+    """Return what each kind of fault may hit; ``cancel`` and ``skip_cycles`` name nothing of the cell."""
+    controllers = [controller for manager in managers for controller in manager.controllers]
+    jointed = [device for device in devices if device.actuated_joints]
+    stoppable = Target("device with hardware", "unknown-device", _named(jointed))
+    streams = Target(
+        "camera or device with joints",
+        "unknown-device",
+        _named(device for device in devices if device.facts.camera is not None or device in jointed),
+    )
+    frame = Target("frame", "unknown-frame", frames.by_reference)
+    joint = Target("joint", "unknown-joint", _joints(devices))
+    controller = Target("controller", "unknown-controller", _named(controllers))
+    commanded = Target(
+        "controller with an action", "unknown-controller", _named(each for each in controllers if each.action)
+    )
+    switches = _named(switch for manager in managers for switch in manager.switches)
+    return {
+        "freeze": streams,
+        "delay": streams,
+        "drop_frame": frame,
+        "double_frame": frame,
+        "jump_clock": Target("clock", "unknown-clock", _clocks(spec)),
+        "mismatch_qos": Target("interface", "unknown-interface", _named(interfaces)),
+        "unresponsive": Target("server", "unknown-node", {**_servers(interfaces), **commanded.names}),
+        "unreachable": Target("goal", "unknown-goal", {name: name for name in spec.motion.goals}),
+        "reject": controller,
+        "second_commander": commanded,
+        "switch": Target("switch or controller", "unknown-controller", {**controller.names, **switches}),
+        "stick": joint,
+        "slow": joint,
+        "displace": joint,
+        "scale_speed": Target(
+            "device with speed scaling",
+            "unknown-device",
+            _named(device for device in jointed if device.facts.speed_scaling is not None),
+        ),
+        "wrong_payload": Target(
+            "arm", "unknown-device", _named(device for device in jointed if device.facts.kind == "arm")
+        ),
+        "protective_stop": stoppable,
+        "emergency_stop": stoppable,
+        "restart_driver": stoppable,
+        "cut_network": streams,
+    }
+
+
+def _named(entities: Iterable[Entity]) -> dict[str, str]:
+    return {entity.name: entity.name for entity in entities}
+
+
+def _joints(devices: Iterable[Device]) -> dict[str, str]:
+    return {f"{device.name}/{joint.local_name}": joint.name for device in devices for joint in device.joints}
+
+
+def _servers(interfaces: Iterable[Interface]) -> dict[str, str]:
+    """Return the nodes that serve an action or a service."""
+    serving = (interface for interface in interfaces if interface.kind is not InterfaceKind.TOPIC)
+    nodes = [source.node for interface in serving for source in interface.sources]
+    return dict(zip(nodes, nodes, strict=True))
+
+
+def _clocks(spec: CellSpec) -> dict[str, str]:
+    """Return hosts, devices that state a clock, and the domains of both."""
+    stamps = {name: device.stamp.clock for name, device in spec.devices.items() if device.stamp is not None}
+    domains = {host.clock.domain for host in spec.hosts.values()} | set(stamps.values())
+    names = ["ros", *spec.hosts, *stamps, *sorted(domains - {"UNKNOWN"})]
+    return dict(zip(names, names, strict=True))

@@ -1,0 +1,126 @@
+"""What a fault hits and what it waits for is bound, and told in one line where it does not exist."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from cellc.cell.rehearsal import Fault, Rehearsal, StepEvent
+from cellc.diagnostics import Diagnostic
+from cellc.link.link import link
+from cellc.source.read import read
+from cellc.spec.parse import parse
+from tests.link.cells import ROOT, linked
+
+CELL = ROOT / "cells" / "ur5e_pick" / "cell.yaml"
+
+
+def _written(folder: Path, rehearsal: str) -> Path:
+    head, rest = CELL.read_text(encoding="utf-8").split("\nrehearsals:", 1)
+    comment, others = rest.split("\n", 1)
+    path = folder / "cell.yaml"
+    path.write_text(f"{head}\nrehearsals:{comment}\n  {rehearsal}\n{others}", encoding="utf-8")
+    return path
+
+
+def bound(folder: Path, rehearsal: str) -> Rehearsal:
+    """Return a rehearsal that is written into the chapter's cell."""
+    return linked(_written(folder, rehearsal)).rehearsals[0]
+
+
+def fault(folder: Path, inject: str) -> Fault:
+    """Return the one fault of a rehearsal."""
+    (found,) = bound(folder, f"odd: {{use: pick_and_place, inject: {inject}, expect: timeout}}").faults
+    return found
+
+
+def refused(folder: Path, inject: str) -> Diagnostic:
+    """Return the one thing that is wrong with a fault."""
+    rehearsals = f"odd: {{use: pick_and_place, inject: {inject}, expect: timeout}}"
+    document = read(_written(folder, rehearsals)).value
+    assert document is not None
+    spec = parse(document)
+    problems = spec.diagnostics if spec.value is None else link(spec.value, document).diagnostics
+    (problem,) = problems
+    return problem
+
+
+@pytest.mark.parametrize(
+    ("inject", "kind", "name", "field", "value"),
+    [
+        ("{jump_clock: control_pc, by: -250 ms, at: 1 s}", "jump_clock", "control_pc", "jump_s", -0.25),
+        ("{jump_clock: camera, by: 1 s, at: 1 s}", "jump_clock", "camera", "jump_s", 1.0),
+        ("{slow: arm/elbow_joint, to: 180 deg/s, at: 1 s}", "slow", "arm_elbow_joint", "velocity", 3.141592653589793),
+        ("{displace: arm/elbow_joint, by: 0.3 rad, at: 1 s}", "displace", "arm_elbow_joint", "displacement", 0.3),
+        ("{scale_speed: arm, to: 25 %, at: 1 s}", "scale_speed", "arm", "factor", 0.25),
+        ("{delay: camera, by: 300 ms, at: 1 s}", "delay", "camera", "delay_s", 0.3),
+        ("{skip_cycles: 7, at: 1 s}", "skip_cycles", "", "cycles", 7),
+        ("{restart_driver: arm, at: 1 s, lasting: 2 s}", "restart_driver", "arm", "lasting_s", 2.0),
+        ("{double_frame: camera/color_optical, at: 1 s}", "double_frame", "camera_color_optical_frame", "at_s", 1.0),
+        ("{mismatch_qos: /tf, at: 0.5 s}", "mismatch_qos", "/tf", "at_s", 0.5),
+    ],
+)
+def test_fault_is_bound_in_si_units_and_names_of_the_graph(
+    tmp_path: Path, inject: str, kind: str, name: str, field: str, value: float
+) -> None:
+    found = fault(tmp_path, inject)
+    assert (found.kind, found.name, getattr(found, field)) == (kind, name, value)
+
+
+def test_event_takes_the_place_of_a_time(tmp_path: Path) -> None:
+    found = fault(tmp_path, "{freeze: camera, at: {step: 3, when: accepted, after: 100 ms}}")
+    assert (found.at_s, found.event) == (None, StepEvent(3, "accepted", 0.1))
+
+
+def test_event_without_more_is_the_start_of_the_step(tmp_path: Path) -> None:
+    assert fault(tmp_path, "{freeze: camera, at: {step: 2}}").event == StepEvent(2, "started", 0.0)
+
+
+def test_acknowledge_step_names_who_acknowledges(tmp_path: Path) -> None:
+    found = bound(tmp_path, "odd: {steps: [move: home, acknowledge: operator]}")
+    assert [(step.kind, step.name) for step in found.steps] == [("move", "home"), ("acknowledge", "operator")]
+
+
+@pytest.mark.parametrize(
+    ("inject", "code", "message", "help_"),
+    [
+        ("{freeze: camra, at: 1 s}", "unknown-device", "there is no camera or device with joints `camra`", "`camera`"),
+        ("{jump_clock: contrl_pc, by: 1 s, at: 1 s}", "unknown-clock", "there is no clock `contrl_pc`", "`control_pc`"),
+        ("{mismatch_qos: /object_pos, at: 1 s}", "unknown-interface", "no interface `/object_pos`", "`/object_pose`"),
+        ("{unresponsive: movegroup, at: 1 s}", "unknown-node", "there is no server `movegroup`", "`move_group`"),
+        ("{second_commander: joint_states, at: 1 s}", "unknown-controller", "no controller with an action", ""),
+        (
+            "{scale_speed: gripper, to: 0 %, at: 1 s}",
+            "unknown-device",
+            "no device with speed scaling `gripper`",
+            "`arm`",
+        ),
+        ("{wrong_payload: gripper, at: 1 s}", "unknown-device", "there is no arm `gripper`", ""),
+        ("{switch: to_efort, at: 1 s}", "unknown-controller", "there is no switch or controller `to_efort`", ""),
+        ("{freeze: camera, at: {step: 8}}", "event-never-comes", "there is no step 8, the rehearsal has 7", "1 to 7"),
+        (
+            "{freeze: camera, at: {step: 2, when: moving}}",
+            "event-never-comes",
+            "step 2 is a `detect`, which sends no goal, so that it is never `moving`",
+            "1, 3, 4, 5, 6, 7",
+        ),
+        (
+            "{freeze: camera, at: {step: 3, when: acepted}}",
+            "not-a-choice",
+            "at.when` is the text `acepted`",
+            "`accepted`",
+        ),
+        ("{freeze: camera, at: {stp: 3}}", "unknown-key", "has no key `stp`", "`step`"),
+        ("{freeze: camera, at: 3}", "missing-unit", "carries no unit", "`s`"),
+        ("{emergncy_stop: arm, at: 1 s}", "fault-kind-missing", "has none of the keys", "`emergency_stop`"),
+        ("{slow: arm/elbow_joint, at: 1 s}", "missing-key", "has no `to`", "its speed"),
+    ],
+)
+def test_fault_that_cannot_happen_is_reported_with_what_can(
+    tmp_path: Path, inject: str, code: str, message: str, help_: str
+) -> None:
+    found = refused(tmp_path, inject)
+    assert found.code == code
+    assert message in found.message
+    assert help_ in found.help
