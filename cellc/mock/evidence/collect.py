@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
 
@@ -15,23 +14,17 @@ from cellc.mock.evidence.folder import EvidenceFolder
 from cellc.mock.evidence.kpis import Kpi, kpis, to_kpi_json
 from cellc.mock.evidence.onlooker import Onlooker
 from cellc.mock.evidence.run_bag import RunBag
+from cellc.mock.evidence.tolerances import path_tolerances
 from cellc.mock.evidence.trace.run_trace import RunTrace, TraceResult
+from cellc.mock.gates import rehearsal_witnesses, sign_gates
 from cellc.mock.plant import Plant
 from cellc.mock.record import to_json_lines
+from cellc.mock.report_page.content import ReportContent, RunEvidence
+from cellc.mock.report_page.page import to_report
 from cellc.mock.result import RehearsalResult
 from cellc.mock.task.bounds import joint_state_age_s
 
 REPORT = "report.html"
-
-
-@dataclass(frozen=True, slots=True)
-class RunEvidence:
-    """What the report knows of one rehearsal; the trace is None where the controller managers never came up."""
-
-    entry: RehearsalEntry
-    result: RehearsalResult
-    trace: TraceResult | None
-    kpis: tuple[Kpi, ...]
 
 
 class EvidenceCollector:
@@ -43,8 +36,9 @@ class EvidenceCollector:
         Raises:
             MockError: the folder cannot take the evidence.
         """
-        self.runs: list[RunEvidence] = []
+        self._runs: list[RunEvidence] = []
         self._cell = cell
+        self._tolerances = path_tolerances(cell.folder)
         self._seed = seed
         self._stems = file_names(names)
         self._folder = EvidenceFolder(folder)
@@ -83,7 +77,8 @@ class EvidenceCollector:
         figures = () if trace is None else self._figures(result, trace)
         self._folder.write(records_file, to_json_lines(result.attempts))
         self._folder.write(kpis_file, to_kpi_json(entry, result, figures))
-        self.runs.append(RunEvidence(entry, result, trace, figures))
+        files = (bag_file, records_file, kpis_file)
+        self._runs.append(RunEvidence(entry, result, trace, figures, self._tolerances, files))
         return result
 
     def settle(self) -> None:
@@ -93,6 +88,10 @@ class EvidenceCollector:
             MockError: the folder cannot take it.
         """
         contract = self._cell.contract
+        witnesses = rehearsal_witnesses(self._cell.entries, [run.result for run in self._runs])
+        gates = sign_gates(self._cell.folder, witnesses, self._seed)
+        content = ReportContent(contract, self._cell.notes, self._seed, tuple(self._runs), gates)
+        self._folder.write(REPORT, to_report(content))
         self._folder.settle({"cell": contract.cell, "configuration_id": contract.configuration_id, "seed": self._seed})
 
     def _figures(self, result: RehearsalResult, trace: TraceResult) -> tuple[Kpi, ...]:

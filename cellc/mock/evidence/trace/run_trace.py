@@ -18,17 +18,20 @@ from cellc.mock.task.bounds import joint_state_age_s
 
 @dataclass(frozen=True, slots=True)
 class JointTrace:
-    """Signals of one joint of a trajectory controller; each is an envelope of one signal, rad or m.
+    """Signals of one joint of a trajectory controller; each is an envelope of one signal.
 
     Attributes:
+        unit: rad or m.
+        command: commanded positions; None where the controller commands something else.
         worst_error: greatest magnitude of desired - actual.
     """
 
     joint: str
     controller: str
+    unit: str
     desired: Envelope
     actual: Envelope
-    command: Envelope
+    command: Envelope | None
     error: Envelope
     worst_error: float
 
@@ -58,6 +61,12 @@ class RunTrace:
         self._claims: tuple[Claim, ...] = ()
         self._ended_ns = 0
         self._missed = 0
+        self._commanded = {
+            interface
+            for manager in plant.contract.managers.values()
+            for controller in manager.controllers.values()
+            for interface in controller.command_interfaces
+        }
 
     def joint_states(self, manager: str, broadcaster: str, block: JointStateBlock) -> None:
         """Take joint states as the task receives them."""
@@ -106,13 +115,26 @@ class RunTrace:
     def result(self) -> TraceResult:
         """Return everything; the run must have ended."""
         return TraceResult(
-            joints=tuple(_joint(*key, builder.envelope()) for key, builder in self._signals.items()),
+            joints=tuple(self._joint(*key, builder.envelope()) for key, builder in self._signals.items()),
             ages=tuple(ages.trace() for ages in self._ages.values()),
             claims=self._claims,
             changes=tuple(self._changes),
             missed_cycles=self._missed,
             ended_ns=self._ended_ns,
         )
+
+    def _joint(self, controller: str, joint: str, envelope: Envelope) -> JointTrace:
+        desired, actual, command, error = (
+            Envelope(envelope.width_ns, envelope.starts_ns, envelope.lowest[:, [index]], envelope.highest[:, [index]])
+            for index in range(4)
+        )
+        extremes = np.abs(np.concatenate([error.lowest, error.highest]))
+        worst = float(np.nanmax(extremes)) if np.isfinite(extremes).any() else 0.0
+        links = self._plant.robot_state_publisher.links.joints.values()
+        slides = any(each.name == joint and each.kind == "prismatic" for each in links)
+        positions = f"{joint}/position" in self._commanded and np.isfinite(command.lowest).any()
+        unit = "m" if slides else "rad"
+        return JointTrace(joint, controller, unit, desired, actual, command if positions else None, error, worst)
 
     def _age(self, source: str, max_age_s: float | None) -> AgeBuilder:
         if source not in self._ages:
@@ -124,13 +146,3 @@ class RunTrace:
 def _column(signal: Array, column: int) -> Array:
     """Return a column; NaN where the controller commands fewer joints than it measures."""
     return signal[:, column] if column < signal.shape[1] else np.full(len(signal), np.nan)
-
-
-def _joint(controller: str, joint: str, envelope: Envelope) -> JointTrace:
-    desired, actual, command, error = (
-        Envelope(envelope.width_ns, envelope.starts_ns, envelope.lowest[:, [index]], envelope.highest[:, [index]])
-        for index in range(4)
-    )
-    extremes = np.abs(np.concatenate([error.lowest, error.highest]))
-    worst = float(np.nanmax(extremes)) if np.isfinite(extremes).any() else 0.0
-    return JointTrace(joint, controller, desired, actual, command, error, worst)

@@ -1,0 +1,104 @@
+"""The top of the page: what was run, how it ended, and the key figures against their targets."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from xml.etree.ElementTree import Element
+
+from cellc.mock.evidence.kpis import Kpi
+from cellc.mock.report_page.content import ReportContent, RunEvidence
+from cellc.mock.report_page.element import tag
+from cellc.mock.report_page.figures import count, plain, seconds
+
+_NAMES = {
+    "plan_to_execute_s": "plan to execute",
+    "cancel_s": "cancel to hold",
+    "missed_cycles": "missed cycles",
+    "stale_state_rejection": "stale state rejected",
+    "protective_stops": "protective stops",
+    "recovery_time_s": "recovery time",
+    "wrong_owner_events": "wrong-owner events",
+}
+
+
+def header(content: ReportContent) -> Element:
+    """Return the title, the verdict and the identity of what was judged."""
+    contract = content.contract
+    passed = sum(run.result.passed for run in content.runs)
+    good = passed == len(content.runs)
+    verdict = tag(
+        "p", _mark(good), f" {passed} of {count(len(content.runs), 'rehearsal')} ended as expected, within the bounds"
+    )
+    facts = [
+        ("configuration", contract.configuration_id),
+        ("ROS 2", contract.distro),
+        ("seed", str(content.seed)),
+        ("simulated", seconds(sum(run.result.sim_time_s for run in content.runs))),
+    ]
+    pairs = [tag("div", tag("dt", name), tag("dd", value)) for name, value in facts]
+    return tag(
+        "header",
+        tag("p", "Rehearsed on the mock", class_="kicker"),
+        tag("h1", contract.cell),
+        tag("p", contract.summary, class_="summary"),
+        verdict,
+        tag("dl", *pairs, class_="facts"),
+        *(tag("p", tag("b", "Note: "), note, class_="note") for note in content.notes),
+    )
+
+
+def outcomes(content: ReportContent) -> Element:
+    """Return the matrix of rehearsals and their ends."""
+    names = ("rehearsal", "verdict", "outcome", "expected", "injected", "response", "bound", "simulated")
+    head = tag("tr", *(tag("th", name) for name in names))
+    rows = [_outcome_row(number, run) for number, run in enumerate(content.runs, start=1)]
+    table = tag("table", tag("thead", head), tag("tbody", *rows))
+    return tag("section", tag("h2", "Outcomes"), tag("div", table, class_="wide"))
+
+
+def _outcome_row(number: int, run: RunEvidence) -> Element:
+    result = run.result
+    faults = ", ".join(f"{fault.kind} {fault.target}" for fault in run.entry.faults) or "nothing"
+    cells = [result.outcome, result.expected, faults]
+    numbers = [seconds(result.response_s), seconds(result.within_s), seconds(result.sim_time_s)]
+    return tag(
+        "tr",
+        tag("td", tag("a", result.name, href=f"#run-{number}")),
+        tag("td", _mark(result.passed)),
+        *(tag("td", cell) for cell in cells),
+        *(tag("td", cell, class_="number") for cell in numbers),
+    )
+
+
+def key_figures(content: ReportContent) -> Element:
+    """Return the seven figures of the checkpoint, one row each, with one column a rehearsal."""
+    runs = [run for run in content.runs if run.kpis]
+    head = tag("tr", tag("th", "figure"), tag("th", "target"), *(tag("th", run.result.name) for run in runs))
+    rows = [tag("tr", *_figure_row(index, runs)) for index in range(len(runs[0].kpis) if runs else 0)]
+    table = tag("table", tag("thead", head), tag("tbody", *rows))
+    hint = (
+        "A target is for the cell in service. Where a rehearsal injects a fault, a missed target tells what the fault "
+        "did, and is set in brackets; the rehearsal itself is judged above. – is what a run never came to."
+    )
+    return tag("section", tag("h2", "Key figures"), tag("p", hint, class_="hint"), tag("div", table, class_="wide"))
+
+
+def _figure_row(index: int, runs: list[RunEvidence]) -> Iterator[Element]:
+    first = runs[0].kpis[index]
+    comparison = "≥" if first.name == "stale_state_rejection" else "≤"
+    target = "none set" if first.target is None else f"{comparison} {plain(first.target, first.unit)}"
+    yield tag("td", _NAMES.get(first.name, first.name), tag("small", first.basis))
+    yield tag("td", target, class_="number")
+    for run in runs:
+        yield _figure(run.kpis[index], injected=bool(run.entry.faults))
+
+
+def _figure(figure: Kpi, *, injected: bool) -> Element:
+    text = "not held" if figure.value is None and figure.met is False else plain(figure.value, figure.unit)
+    if figure.met is not False:
+        return tag("td", text, class_="number")
+    return tag("td", f"({text})", class_="number") if injected else tag("td", f"{text} ✗", class_="number bad")
+
+
+def _mark(good: bool) -> Element:
+    return tag("span", "✓ passed" if good else "✗ FAILED", class_="good" if good else "bad")
