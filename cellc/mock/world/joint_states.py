@@ -55,6 +55,8 @@ class JointStateHistory:
         self._missed = 0
         self._resumed = False
         self._spacing_ns: int | None = None
+        self._published: tuple[str, ...] = ()
+        self._columns: list[int] = []
         self._stamps: IntArray = np.empty(0, dtype=np.int64)
         self._positions: FloatArray = np.empty((0, 0))
         self._count = 0
@@ -64,13 +66,16 @@ class JointStateHistory:
         size = len(block.stamps_ns)
         if size == 0:
             return
-        columns = [index for index, name in enumerate(block.names) if name not in self._foreign]
-        names = tuple(block.names[index] for index in columns)
-        if names != self.names:
-            self._restart(names)
+        if block.names != self._published:
+            self._published = block.names
+            self._columns = [index for index, name in enumerate(block.names) if name not in self._foreign]
+            names = tuple(block.names[index] for index in self._columns)
+            if names != self.names:
+                self._restart(names)
         self._make_room(size)
         self._stamps[self._count : self._count + size] = block.stamps_ns
-        self._positions[self._count : self._count + size] = block.positions[:, columns]
+        own = block.positions if len(self._columns) == len(block.names) else block.positions[:, self._columns]
+        self._positions[self._count : self._count + size] = own
         self._count_missed(max(0, self._count - 1), self._count + size)
         self._resumed = False
         self._count += size
@@ -143,9 +148,11 @@ class JointStateHistory:
         self._stamps, self._positions, self._count = stamps, positions, kept
 
     def _count_missed(self, first: int, last: int) -> None:
-        gaps = np.diff(self._stamps[first + 1 if self._resumed else first : last])
+        stamps = self._stamps[first + 1 if self._resumed else first : last]
+        gaps = stamps[1:] - stamps[:-1]
         if not gaps.size:
             return
         least = int(gaps.min())
         self._spacing_ns = least if self._spacing_ns is None else min(self._spacing_ns, least)
-        self._missed += int(np.sum(np.rint(gaps / self._spacing_ns).astype(np.int64) - 1))
+        if int(gaps.max()) > self._spacing_ns:
+            self._missed += int(np.sum(np.rint(gaps / self._spacing_ns).astype(np.int64) - 1))

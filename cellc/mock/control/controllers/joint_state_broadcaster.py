@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from cellc.mock.control.block import Block
 from cellc.mock.control.controllers.base import Context, Cycle, QuietController
 from cellc.mock.control.interfaces import Array, Times
 from cellc.mock.control.parameters import Parameter
+
+_Number = TypeVar("_Number", np.float64, np.int64)
 
 _KINDS = ("position", "velocity", "effort")
 
@@ -109,6 +113,7 @@ class JointStateBroadcaster(QuietController):
         extra = set(self.context.parameters.texts("extra_joints"))
         self._zero = np.array([name.rpartition("/")[0] in extra for name in wanted])
         self._missing = self._columns < 0
+        self._any_missing = bool(self._missing.any())
 
     def listen(self) -> None:
         """Collect what is published from now on."""
@@ -117,14 +122,14 @@ class JointStateBroadcaster(QuietController):
     def take(self) -> JointStateBlock:
         """Hand over what was collected since the last time."""
         count = len(self._names)
-        rows = np.concatenate(self._rows) if self._rows else np.empty((0, 3 * count))
-        stamps = np.concatenate(self._stamps) if self._stamps else np.empty(0, dtype=np.int64)
+        rows = _joined(self._rows) if self._rows else np.empty((0, 3 * count))
+        stamps = _joined(self._stamps) if self._stamps else np.empty(0, dtype=np.int64)
         self._rows, self._stamps = [], []
         return JointStateBlock(stamps, self._names, rows[:, :count], rows[:, count : 2 * count], rows[:, 2 * count :])
 
     def _collect(self, times_ns: Times, state: Array) -> None:
         rows = state[:, self._columns]
-        if self._missing.any():
+        if self._any_missing:
             rows[:, self._missing] = np.where(self._zero[self._missing], 0.0, np.nan)
         self._stamps.append(times_ns)
         self._rows.append(rows)
@@ -138,3 +143,7 @@ class JointStateBroadcaster(QuietController):
         """Publish all cycles of the block."""
         if self._listened:
             self._collect(block.times_ns[start:].copy(), block.state[start:])
+
+
+def _joined(pieces: list[NDArray[_Number]]) -> NDArray[_Number]:
+    return pieces[0] if len(pieces) == 1 else np.concatenate(pieces)

@@ -36,6 +36,13 @@ class _Part:
     block: Block
     columns: list[int]
 
+    def updates_within(self, cycles: int) -> int:
+        """Return how many of the updates lie in the first cycles of the block."""
+        count = len(self.rows)
+        if count and int(self.rows[-1]) == count - 1:  # every cycle up to there has an update
+            return min(cycles, count)
+        return int(np.searchsorted(self.rows, cycles))
+
 
 class Lookahead:
     """Regular cycles from the present on.
@@ -140,9 +147,9 @@ class Lookahead:
 
     def _seen(self, part: _Part, block: Block, cycles: int) -> Block:
         """The updates of a controller within the first cycles, with their states."""
-        own, rows = part.block, part.rows[part.rows < cycles]
-        count = len(rows)
-        state = block.state[:cycles] if count == cycles else block.state[rows]
+        own = part.block
+        count = part.updates_within(cycles)
+        state = block.state[:cycles] if count == cycles else block.state[part.rows[:count]]
         return Block(own.times_ns[:count], own.period_ns, own.command[:count], state)
 
     def _regular(self, part: _Part, block: Block, cycles: int) -> int:
@@ -170,7 +177,7 @@ class Lookahead:
                 component.system.commit(self._done)
                 component.last_read_ns = int(block.times_ns[last])
         for part in self._parts:
-            start = int(np.searchsorted(part.rows, before))
+            start = part.updates_within(before)
             seen = self._seen(part, block, self._done)
             if start < len(seen):
                 part.loaded.controller.commit(seen, start)

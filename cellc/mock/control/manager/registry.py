@@ -205,6 +205,8 @@ class ControllerRegistry:
     def preceding(self, loaded: LoadedController) -> list[LoadedController]:
         """Controllers that write a controller's references."""
         own = set(loaded.controller.reference_interfaces())
+        if not own:
+            return []
         configured = [c for c in self.controllers.values() if c.state in ("inactive", "active")]
         return [other for other in configured if own & set(other.controller.command_interfaces())]
 
