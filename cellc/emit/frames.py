@@ -19,11 +19,17 @@ from cellc.graph.cell_graph import CellGraph
 
 def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
     """Yield the frame tree."""
-    tree: Tree = {
-        "calibrations": {name: _calibration(graph.cell, name) for name in graph.cell.spec.calibrations},
-        "frames": {frame.name: _frame(frame) for frame in graph.cell.frames},
+    calibrations: Tree = {
+        "calibrations": {name: _calibration(graph.cell, name) for name in graph.cell.spec.calibrations}
     }
-    yield Artifact("config/frames.yaml", header.commented("#") + render(tree))
+    frames: Tree = {"frames": {frame.name: _frame(frame) for frame in graph.cell.frames}}
+    sections = (
+        "# calibrations\n",
+        render(calibrations),
+        "\n# frames, devices with their mounts, scene\n",
+        render(frames),
+    )
+    yield Artifact("config/frames.yaml", header.commented("#") + "".join(sections))
 
 
 def _calibration(cell: Cell, name: str) -> Tree:

@@ -15,9 +15,9 @@ from cellc.catalog.load import load_controller_kind
 from cellc.cell.cell import Cell
 from cellc.cell.control import Controller
 from cellc.formats.header import Header
-from cellc.formats.moveit_files import is_planner
+from cellc.formats.moveit_files import plans
 from cellc.formats.urdf.hardware import share_folders
-from cellc.formats.xml_text import element, render
+from cellc.formats.xml_text import comment, element, render
 from cellc.graph.cell_graph import CellGraph
 
 _ALWAYS = ("ros2launch", "xacro")
@@ -30,7 +30,8 @@ _PLANNING = (
     "moveit_simple_controller_manager",
     "pilz_industrial_motion_planner",
 )
-_EMAIL = "unset@example.com"  # the format demands an address, and the spec names owners, not mailboxes
+# The format demands an address, and the spec names owners, not mailboxes: RFC 2606 keeps this domain from being one.
+_EMAIL = "maintainer@unset.invalid"
 
 
 def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
@@ -46,6 +47,7 @@ def _package(cell: Cell) -> Element:
             element("name", text=cell.name),
             element("version", text="1.0.0"),
             element("description", text=cell.spec.summary or f"Robot cell {cell.name}."),
+            comment("owners.approvals.graph; the spec holds no mailbox, so that mail to this address goes nowhere"),
             element("maintainer", {"email": _EMAIL}, text=cell.spec.owners.approvals.graph),
             element("license", text="Apache-2.0"),
             element("buildtool_depend", text="ament_cmake"),
@@ -62,7 +64,7 @@ def _dependencies(cell: Cell) -> tuple[str, ...]:
     names = {*_ALWAYS, *(node.package for node in cell.nodes)}
     names |= {name for name in (*controllers, *hardware) if name is not None}
     names |= {package for device in cell.devices for package in share_folders(device)}
-    if cell.groups and any(is_planner(node) for node in cell.nodes):
+    if plans(cell):
         names |= set(_PLANNING)
     if len(cell.managers) > 1:
         names.add(_MERGED_BY)

@@ -24,7 +24,8 @@ def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
     command = "# " + " \\\n#   ".join(record_command(graph.cell, "bag")) + "\n\n"
     topics = recorded_topics(graph.cell)
     text = render({name: _profile(qos) for name, qos in topics.items()})
-    yield Artifact(RECORDING, header.commented("#") + command + text)
+    origin = "# interfaces, control.controllers, recording.topics\n"
+    yield Artifact(RECORDING, header.commented("#") + command + origin + text)
 
 
 def _profile(qos: Qos) -> Tree:

@@ -14,7 +14,7 @@ from cellc.artifact import Artifact
 from cellc.cell.device import Device
 from cellc.cell.motion import NamedPose
 from cellc.formats.header import Header
-from cellc.formats.moveit_files import semantic_file
+from cellc.formats.moveit_files import plans, semantic_file
 from cellc.formats.numbers import shortest
 from cellc.formats.xml_text import comment, element, render
 from cellc.geometry import MARGIN_M, RNG_SEED, disabled_links
@@ -22,9 +22,9 @@ from cellc.graph.cell_graph import CellGraph
 
 
 def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
-    """Yield the semantic description of a cell with planning groups."""
+    """Yield the semantic description of a cell that plans."""
     cell = graph.cell
-    if cell.groups:
+    if plans(cell):
         root = element("robot", {"name": cell.name}, _parts(graph))
         yield Artifact(semantic_file(cell), render(root, header.text))
 

@@ -23,6 +23,11 @@ def semantic_file(cell: Cell) -> str:
     return f"config/moveit/{cell.name}.srdf"
 
 
+def plans(cell: Cell) -> bool:
+    """Tell whether the cell has what MoveIt plans for and the node that does it; otherwise nobody reads its files."""
+    return bool(cell.groups) and any(is_planner(node) for node in cell.nodes)
+
+
 def is_planner(node: Node) -> bool:
     """Tell whether a node is MoveIt's move_group, which reads these files."""
     return node.package == "moveit_ros_move_group" and node.executable == "move_group"

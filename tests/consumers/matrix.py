@@ -27,6 +27,10 @@ DISTROS = ("humble", "jazzy", "kilted", "lyrical")
 
 needs_oracles = pytest.mark.skipif(not ORACLES.is_dir(), reason="the oracles are not beside this checkout")
 every_build = pytest.mark.parametrize(("cell", "distro"), [(cell, distro) for cell in SPECS for distro in DISTROS])
+PLANNING = tuple(cell for cell, path in SPECS.items() if "move_group" in path.read_text(encoding="utf-8"))
+every_planning_build = pytest.mark.parametrize(
+    ("cell", "distro"), [(cell, distro) for cell in PLANNING for distro in DISTROS]
+)
 every_cell = pytest.mark.parametrize("cell", list(SPECS))
 
 

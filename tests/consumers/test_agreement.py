@@ -12,7 +12,7 @@ from xml.etree.ElementTree import fromstring
 import pytest
 import yaml
 
-from tests.consumers.matrix import build, every_build, spec_for
+from tests.consumers.matrix import PLANNING, build, every_build, every_planning_build, spec_for
 from tests.consumers.parameter_files import sections, told
 from tests.consumers.starting import node_name, processes, written, written_managers
 
@@ -221,18 +221,25 @@ def test_manifest_has_the_digest_of_every_file(cell: str, distro: str) -> None:
 # spec.md, what `cellc build` writes; the middleware's profile depends on the middleware.
 _PARTS = {
     *("README.md", "audit.md", "CMakeLists.txt", "package.xml", "contract.json", "rehearsals.json", "manifest.json"),
-    *(f"config/{name}.yaml" for name in ("frames", "joint_limits", "recording_qos")),
-    *(f"config/moveit/{name}.yaml" for name in ("kinematics", "controllers", "planning_pipelines")),
+    *(f"config/{name}.yaml" for name in ("frames", "recording_qos")),
     *("gates/promotion.md", "gates/network.md", "graph/responsibility.mmd", "graph/responsibility.svg"),
     *("launch/cell.launch.xml", "launch/real_gate.launch.xml", "security/policy.xml"),
+}
+
+
+_FOR_PLANNING = {
+    "config/joint_limits.yaml",
+    *(f"config/moveit/{name}.yaml" for name in ("kinematics", "controllers", "planning_pipelines")),
 }
 
 
 @every_build
 def test_package_has_every_part(cell: str, distro: str) -> None:
     texts = build(cell, distro).texts
-    assert _PARTS | {f"urdf/{cell}.mock.urdf", f"urdf/{cell}.real.urdf", f"config/moveit/{cell}.srdf"} <= set(texts)
+    assert _PARTS | {f"urdf/{cell}.mock.urdf", f"urdf/{cell}.real.urdf"} <= set(texts)
     spec = yaml.safe_load(spec_for(cell, distro))
+    planning = _FOR_PLANNING | {f"config/moveit/{cell}.srdf"}
+    assert planning & set(texts) == (planning if cell in PLANNING else set())  # nobody reads them where no node plans
     assert {f"middleware/{host}.sh" for host in spec.get("hosts", {})} <= set(texts)
     overridden = any("to" in one or isinstance(one.get("from"), dict) for one in spec.get("interfaces", {}).values())
     assert ("config/qos_overrides.yaml" in texts) is overridden
@@ -252,8 +259,8 @@ def test_targets_differ_in_their_hardware_alone(cell: str, distro: str) -> None:
 @every_build
 def test_contract_has_limits_calibrations_and_pairs_of_the_other_files(cell: str, distro: str) -> None:
     texts, promised = build(cell, distro).texts, contract(cell, distro)
-    limits = sections(texts["config/joint_limits.yaml"])["/**"]
-    for joint, limit in promised["joint_limits"].items():
+    limits = sections(texts["config/joint_limits.yaml"])["/**"] if "config/joint_limits.yaml" in texts else {}
+    for joint, limit in promised["joint_limits"].items() if limits else ():
         for name in ("acceleration", "jerk"):
             assert limits[f"robot_description_planning.joint_limits.{joint}.max_{name}"] == limit[name], joint
     frames = yaml.safe_load(texts["config/frames.yaml"])["frames"]
@@ -266,7 +273,7 @@ def test_contract_has_limits_calibrations_and_pairs_of_the_other_files(cell: str
     assert links - set(publishers) == set()
 
 
-@every_build
+@every_planning_build
 def test_named_states_are_the_poses_of_the_spec(cell: str, distro: str) -> None:
     semantic = fromstring(build(cell, distro).texts[f"config/moveit/{cell}.srdf"])
     states = {(one.attrib["name"], one.attrib["group"]): one for one in semantic.findall("group_state")}
@@ -289,7 +296,7 @@ def test_fast_dds_uses_the_transports_that_it_describes(cell: str, distro: str) 
         assert dds.findall(".//interfaceWhiteList/*")
 
 
-@every_build
+@every_planning_build
 def test_collision_pairs_of_contract_and_semantic_description_are_the_same(cell: str, distro: str) -> None:
     semantic = fromstring(build(cell, distro).texts[f"config/moveit/{cell}.srdf"])
     pairs = [(one.attrib["link1"], one.attrib["link2"]) for one in semantic.findall("disable_collisions")]

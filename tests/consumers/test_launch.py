@@ -9,7 +9,7 @@ import pytest
 
 from tests.consumers.launch_interpreter import Process
 from tests.consumers.launch_text import LaunchError
-from tests.consumers.matrix import SPECS, build, every_build, every_cell
+from tests.consumers.matrix import build, every_build, every_cell
 from tests.consumers.parameter_files import told
 from tests.consumers.refused_parameters import claimed, interfaces
 from tests.consumers.starting import (
@@ -186,8 +186,6 @@ def test_node_names_differ_and_nothing_that_commands_is_started_again(cell: str,
 def test_every_parameter_file_is_read_by_a_process(cell: str, distro: str) -> None:
     texts = build(cell, distro).texts
     parameters = {path for path, text in texts.items() if path.startswith("config/") and "ros__parameters:" in text}
-    if "move_group" not in SPECS[cell].read_text(encoding="utf-8"):
-        parameters = {path for path in parameters if "moveit/" not in path and "joint_limits" not in path}
     assert {file for process in processes(cell, distro, "real") for file in process.files} == parameters
 
 

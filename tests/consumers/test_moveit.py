@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 from xml.etree.ElementTree import Element, fromstring
 
-from tests.consumers.matrix import build, every_build
+from tests.consumers.matrix import build, every_planning_build
 from tests.consumers.parameter_files import told
 from tests.consumers.refused_parameters import claimed
 from tests.consumers.starting import activated, node_name, processes
@@ -104,13 +104,13 @@ def _pipelines(distro: str, groups: list[str]) -> set[str]:
     }
 
 
-@every_build
+@every_planning_build
 def test_move_group_is_told_all_that_it_needs_and_nothing_that_it_does_not_know(cell: str, distro: str) -> None:
     found = _told(cell, distro)
     assert not found or set(found) == _expected(cell, distro)
 
 
-@every_build
+@every_planning_build
 def test_pipelines_name_plugins_and_adapters_that_exist(cell: str, distro: str) -> None:
     found = _told(cell, distro)
     for pipeline, plugin in _PLUGINS.items() if found else ():
@@ -135,7 +135,7 @@ def test_pipelines_name_plugins_and_adapters_that_exist(cell: str, distro: str) 
         assert found["moveit_controller_manager"] == manager
 
 
-@every_build
+@every_planning_build
 def test_controllers_of_moveit_have_the_joints_of_their_controllers(cell: str, distro: str) -> None:
     found, manager = _told(cell, distro), "moveit_simple_controller_manager"
     if not found:
@@ -152,7 +152,7 @@ def test_controllers_of_moveit_have_the_joints_of_their_controllers(cell: str, d
         assert found[f"{manager}.{name}.default"] is True
 
 
-@every_build
+@every_planning_build
 def test_limits_of_moveit_are_those_of_the_description(cell: str, distro: str) -> None:
     found, joints = _told(cell, distro), _joints(cell, distro)
     start = "robot_description_planning.joint_limits."
@@ -167,7 +167,7 @@ def test_limits_of_moveit_are_those_of_the_description(cell: str, distro: str) -
         assert values["max_acceleration"] > 0 < values["max_jerk"]
 
 
-@every_build
+@every_planning_build
 def test_semantic_description_names_what_exists(cell: str, distro: str) -> None:
     robot, joints = fromstring(build(cell, distro).urdf("mock")), _joints(cell, distro)
     links = {link.attrib["name"]: link for link in robot.findall("link")}
@@ -200,7 +200,7 @@ def _link_of(joint: Element, end: str) -> str:
     return found.attrib["link"]
 
 
-@every_build
+@every_planning_build
 def test_named_states_state_every_joint_of_their_group(cell: str, distro: str) -> None:
     semantic, joints = _semantic(cell, distro), _joints(cell, distro)
     parents = {_link_of(one, "child"): one for one in joints.values()}
@@ -218,7 +218,7 @@ def test_named_states_state_every_joint_of_their_group(cell: str, distro: str) -
                 assert {joint.attrib["name"] for joint in state.findall("joint")} == names
 
 
-@every_build
+@every_planning_build
 def test_move_group_gets_both_descriptions(cell: str, distro: str) -> None:
     for process in (one for one in processes(cell, distro, "real") if one.executable == "move_group"):
         texts = build(cell, distro).texts
@@ -226,7 +226,7 @@ def test_move_group_gets_both_descriptions(cell: str, distro: str) -> None:
         assert process.values["robot_description_semantic"] == (texts[f"config/moveit/{cell}.srdf"], "str")
 
 
-@every_build
+@every_planning_build
 def test_values_are_within_what_their_readers_can_use(cell: str, distro: str) -> None:
     solvers = {"kdl_kinematics_plugin/KDLKinematicsPlugin", "lma_kinematics_plugin/LMAKinematicsPlugin"}
     for name, value in _told(cell, distro).items():

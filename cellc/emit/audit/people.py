@@ -48,6 +48,7 @@ def recovery(cell: Cell) -> Iterator[str]:
 
 
 def not_provable(cell: Cell) -> Iterator[str]:
-    """Yield what the catalogue says that no mock shows."""
+    """Yield what the catalogue says that no mock shows, by device and vendor."""
     for device in cell.devices:
-        yield from (f"- {device.name}: {text}" for text in device.facts.mock_cannot_prove)
+        of = f"{device.name} ({device.facts.vendor} {device.facts.model})"
+        yield from (f"- {of}: {text}" for text in device.facts.mock_cannot_prove)

@@ -12,7 +12,7 @@ from cellc.emit.launch.substitutions import ON_REAL, TARGET, on_host, share
 from cellc.formats.enclaves import enclave_of
 from cellc.formats.hosts import host_of, launch_hosts
 from cellc.formats.interface_label import TF_RATE_HZ
-from cellc.formats.moveit_files import PARAMETER_FILES, is_planner, semantic_file
+from cellc.formats.moveit_files import PARAMETER_FILES, is_planner, plans, semantic_file
 from cellc.formats.numbers import decimal
 from cellc.formats.package_files import QOS_OVERRIDES, description_file, node_file
 from cellc.formats.qos_parameters import qos_parameters
@@ -69,7 +69,7 @@ def _identity(cell: Cell, node: Node) -> dict[str, str]:
 
 
 def _parameters(cell: Cell, node: Node) -> Iterator[Element]:
-    if is_planner(node) and cell.groups:
+    if is_planner(node) and plans(cell):
         yield _description(cell)
         semantic = f"$(command 'cat {share(cell, semantic_file(cell))}')"
         yield element("param", {"name": "robot_description_semantic", "value": semantic, "type": "str"})

@@ -40,6 +40,11 @@ def bindings(graph: CellGraph) -> tuple[Binding, ...]:
     return tuple(found)
 
 
+def origins(binding: Binding) -> tuple[str, ...]:
+    """Return the places of the spec that the files of a host come from."""
+    return f"hosts.{binding.host}", "network", "versions.rmw"
+
+
 def _cards(graph: CellGraph, host: str) -> tuple[str, ...]:
     return tuple(
         str(nic.interface.ip)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cellc.cell.cell import Cell
-from cellc.emit.middleware.binding import Binding
+from cellc.emit.middleware.binding import Binding, origins
 from cellc.formats.header import Header
 
 _RANGE = {"multicast": "SUBNET", "unicast": "LOCALHOST", "localhost": "LOCALHOST", "off": "OFF"}
@@ -22,7 +22,8 @@ def environment(cell: Cell, header: Header, binding: Binding, profiles: tuple[st
     """Return a shell file that sets the variables; no secret stands in it."""
     lines = [f'export {name}="{value}"' for name, value in _variables(cell, binding, profiles)]
     share = f'_cell_share="$(ros2 pkg prefix --share {cell.name})"'
-    return header.commented("#") + "\n".join([share, *lines, "unset _cell_share"]) + "\n"
+    origin = f"# {', '.join(origins(binding))}"
+    return header.commented("#") + "\n".join([origin, share, *lines, "unset _cell_share"]) + "\n"
 
 
 def _variables(cell: Cell, binding: Binding, profiles: tuple[str, ...]) -> Iterator[tuple[str, str]]:

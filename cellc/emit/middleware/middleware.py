@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cellc.artifact import Artifact
-from cellc.emit.middleware.binding import Binding, bindings
+from cellc.emit.middleware.binding import Binding, bindings, origins
 from cellc.emit.middleware.cyclone import cyclone_profile
 from cellc.emit.middleware.environment import environment
 from cellc.emit.middleware.fast import fast_profile
@@ -31,11 +31,14 @@ def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
 
 def _profiles(graph: CellGraph, header: Header, binding: Binding) -> Iterator[Artifact]:
     rmw = graph.cell.spec.versions.rmw.split()[0]
-    stem = f"middleware/{binding.host}"
+    stem, head = f"middleware/{binding.host}", f"{header.text}\nFrom {', '.join(origins(binding))}."
     if rmw == "rmw_cyclonedds_cpp":
-        yield Artifact(f"{stem}.cyclonedds.xml", render(cyclone_profile(graph.cell, binding), header.text))
+        yield Artifact(f"{stem}.cyclonedds.xml", render(cyclone_profile(graph.cell, binding), head))
     elif rmw == "rmw_zenoh_cpp":
-        yield Artifact(f"{stem}.zenoh_router.json5", header.commented("//") + zenoh_router(binding))
+        yield Artifact(
+            f"{stem}.zenoh_router.json5",
+            header.commented("//") + f"// {', '.join(origins(binding))}\n" + zenoh_router(binding),
+        )
         yield Artifact(f"{stem}.zenoh_session.json5", header.commented("//") + zenoh_session())
     elif rmw in ("rmw_fastrtps_cpp", "rmw_fastrtps_dynamic_cpp"):
-        yield Artifact(f"{stem}.fastdds.xml", render(fast_profile(graph.cell, binding), header.text))
+        yield Artifact(f"{stem}.fastdds.xml", render(fast_profile(graph.cell, binding), head))

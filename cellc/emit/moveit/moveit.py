@@ -1,8 +1,8 @@
 """``config/moveit/*.yaml``: what move_group is told beyond the description and the joint limits.
 
 ROS parameter files for every node that is started with them, with the keys of MoveIt 2.5 on Humble and of 2.12 and
-later on the others. Only for a cell with planning groups. Left out: ``sensors_3d``, because no sensor of the catalogue
-feeds an occupancy map; and servoing, which is no goal with a result.
+later on the others. Only for a cell with planning groups and a node that reads them. Left out: ``sensors_3d``, because
+no sensor of the catalogue feeds an occupancy map; and servoing, which is no goal with a result.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from cellc.diagnostics import YamlPath
 from cellc.emit.moveit.execution import controllers, planning_scene, trajectory_execution
 from cellc.emit.moveit.pipelines import planning_pipelines
 from cellc.formats.header import Header
+from cellc.formats.moveit_files import plans
 from cellc.formats.parameter_file import ANY_NODE, NodeParameters, parameter_file
 from cellc.graph.cell_graph import CellGraph
 
@@ -26,7 +27,7 @@ _CONTROL: YamlPath = ("control", "controllers")
 def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
     """Yield the parameter files."""
     cell = graph.cell
-    if not cell.groups:
+    if not plans(cell):
         return
     for name, origin, parameters in (
         ("kinematics", _GROUPS, _kinematics(cell)),

@@ -15,6 +15,7 @@ from cellc.emit.readme.sentence import bringup_sentence
 from cellc.emit.readme.walk import fenced, overview, shell_of, walk
 from cellc.formats.gates.releases import start_mock
 from cellc.formats.header import Header
+from cellc.formats.moveit_files import plans
 from cellc.formats.movers import movers
 from cellc.formats.open_questions import open_questions
 from cellc.formats.parameter_file import spec_path
@@ -22,9 +23,14 @@ from cellc.graph.cell_graph import CellGraph
 
 _OPEN = "Before real hardware"
 _ANCHOR = "before-real-hardware"
+_NO_PLANNER = (
+    "No node of this cell plans, so that no MoveIt configuration is here; a `move_group` among the nodes of the spec "
+    "brings it."
+)
 _FILES = (
     ("urdf/", "the description for the mock and for real hardware"),
-    ("config/", "parameters of controller managers and nodes, joint limits, the frame tree with its calibrations"),
+    ("config/", "parameters of controller managers and nodes, the frame tree with its calibrations"),
+    ("config/moveit/", "what move_group is told beyond the description, with `config/joint_limits.yaml`"),
     ("middleware/", "environment and profile for each host, sourced before anything is started there"),
     ("security/policy.xml", "who may publish, serve and call; everything else is denied"),
     ("launch/cell.launch.xml", "starts the cell; on real hardware it stops where a person takes over"),
@@ -70,6 +76,7 @@ def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
         *_limits_of_the_mock(cell),
         "## What is here",
         "\n".join(f"- `{name}`: {text}" for name, text in _FILES if _present(cell, name)),
+        "" if plans(cell) else _NO_PLANNER,
     ]
     yield Artifact("README.md", "\n\n".join(block for block in blocks if block) + "\n")
 
@@ -104,6 +111,8 @@ def _limits_of_the_mock(cell: Cell) -> Iterator[str]:
 
 
 def _present(cell: Cell, name: str) -> bool:
+    if name == "config/moveit/":
+        return plans(cell)
     if name == "middleware/":
         return bool(cell.spec.hosts)
     return name != "launch/move.launch.xml" or bool(movers(cell))
