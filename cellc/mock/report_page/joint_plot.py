@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from xml.etree.ElementTree import Element
@@ -15,8 +14,8 @@ from cellc.mock.evidence.trace.run_trace import JointTrace
 from cellc.mock.report_page.curve import path
 from cellc.mock.report_page.element import svg, tag
 from cellc.mock.report_page.figures import angle, small
-from cellc.mock.report_page.panel import RIGHT, WIDTH, TimeAxis, frame, line, text, time_labels
-from cellc.mock.report_page.scale import Scale, padded, ticks
+from cellc.mock.report_page.panel import LEFT, RIGHT, WIDTH, TimeAxis, frame, line, text, time_labels
+from cellc.mock.report_page.scale import Scale, padded, round_below, ticks
 
 _TOP, _MIDDLE, _LOWER, _BOTTOM, _HEIGHT = 8.0, 112.0, 128.0, 178.0, 196.0
 _LEAST_RANGE, _LEAST_ERROR = 0.02, 1e-6
@@ -59,13 +58,13 @@ def _positions(trace: JointTrace, limits: ContractJointLimits | None, time: Time
     spans = [_range(command), _range(trace.actual)]
     low, high = padded(min(span[0] for span in spans), max(span[1] for span in spans), _LEAST_RANGE)
     y = Scale(low, high, _MIDDLE, _TOP)
-    marks = ticks(low, high, 4)
-    yield from frame(time, y, [(value, _label(value, trace.unit, value == marks[-1])) for value in marks])
+    yield from frame(time, y, [(value, f"{value + 0.0:.6g}") for value in ticks(low, high, 4)])
     for bound in () if limits is None else (limits.lower, limits.upper):
         if bound is not None and low < bound < high:
             yield line("limit", time.scale().start, y.place(bound), time.scale().end, y.place(bound))
     yield tag("path", class_="command", d=path(command, time.scale(), y))
     yield tag("path", class_="state", d=path(trace.actual, time.scale(), y))
+    yield text("label", LEFT + 4.0, _TOP + 10.0, trace.unit)
     if limits is not None and limits.lower is not None and limits.upper is not None:
         yield from _gauge(limits.lower, limits.upper, Reach(*_range(trace.actual)))
 
@@ -82,17 +81,14 @@ def _gauge(lower: float, upper: float, reach: Reach) -> Iterator[Element]:
 
 def _errors(trace: JointTrace, tolerance: float | None, time: TimeAxis) -> Iterator[Element]:
     worst = max(trace.worst_error, _LEAST_ERROR)
-    factor, prefix = next((pair for pair in _PREFIXES if worst * pair[0] >= 1.0), _PREFIXES[-1])
+    step = round_below(1.25 * worst)
+    factor, prefix = next((pair for pair in _PREFIXES if step * pair[0] >= 1.0), _PREFIXES[-1])
     y = Scale(-1.25 * worst, 1.25 * worst, _BOTTOM, _LOWER)
-    nice = ticks(-1.25 * worst, 1.25 * worst, 3)
-    labels = [
-        (value, f"{value * factor:.4g}" + (f" {prefix}{trace.unit}" if value == nice[-1] else "")) for value in nice
-    ]
-    yield from frame(time, y, labels)
+    yield from frame(time, y, [(value, f"{value * factor:.4g}") for value in (-step, 0.0, step)])
     for bound in () if tolerance is None or tolerance > 1.25 * worst else (-tolerance, tolerance):
         yield line("limit", time.scale().start, y.place(bound), time.scale().end, y.place(bound))
     yield tag("path", class_="error", d=path(trace.error, time.scale(), y))
-    yield text("label", RIGHT + 3.0, (_LOWER + _BOTTOM) / 2.0 + 3.0, "err")
+    yield text("label", LEFT + 4.0, _LOWER + 10.0, f"error, {prefix}{trace.unit}")
     yield from time_labels(time, _HEIGHT - 4.0)
 
 
@@ -104,8 +100,3 @@ def _range(envelope: Envelope) -> tuple[float, float]:
 
 def _bound(value: float | None) -> str:
     return "∞" if value is None else f"{value:.4g}"
-
-
-def _label(value: float, unit: str, last: bool) -> str:
-    shown = 0.0 if math.isclose(value, 0.0, abs_tol=1e-12) else value
-    return f"{shown:.6g} {unit}" if last else f"{shown:.6g}"

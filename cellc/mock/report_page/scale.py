@@ -29,6 +29,12 @@ def ticks(low: float, high: float, most: int) -> list[float]:
     return [index * step for index in range(first, last + 1)]
 
 
+def round_below(value: float) -> float:
+    """Return the greatest of 1, 2 and 5 times a power of ten that is not above a value."""
+    magnitude = 10.0 ** math.floor(math.log10(value))
+    return next(factor * magnitude for factor in (5.0, 2.0, 1.0) if factor * magnitude <= value * (1.0 + 1e-9))
+
+
 def padded(low: float, high: float, least: float) -> tuple[float, float]:
     """Return a range with a margin of an eighth, and at least ``least`` wide."""
     half = max((high - low) * 0.625, least / 2.0)
