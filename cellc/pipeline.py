@@ -20,6 +20,7 @@ from cellc.rules.ignore_comment import ignore_comments
 from cellc.rules.ignores import apply_ignores, misused_ignores
 from cellc.rules.run import run_rules
 from cellc.source import read
+from cellc.source.shown import with_shown_texts
 from cellc.spec.parse import parse
 
 
@@ -47,20 +48,20 @@ def check(path: str | Path) -> Checked:
     source = read(path)
     if source.value is None or not source.ok:
         texts = {} if source.value is None else source.value.texts
-        return Checked(Findings(file, texts, source.diagnostics), None)
+        return _checked(file, texts, source.diagnostics)
     texts = source.value.texts
     found = list(source.diagnostics)
     spec = parse(source.value)
     found += spec.diagnostics
     if spec.value is None or not spec.ok:
-        return Checked(Findings(file, texts, _unexcused(found, texts)), None)
+        return _checked(file, texts, _unexcused(found, texts))
     cell = link(spec.value, source.value)
     found += cell.diagnostics
     if cell.value is None or not cell.ok:
-        return Checked(Findings(file, texts, _unexcused(found, texts)), None)
+        return _checked(file, texts, _unexcused(found, texts))
     graph = build_graph(cell.value)
     found += run_rules(graph)
-    return Checked(Findings(file, texts, _excused(found, texts)), graph)
+    return _checked(file, texts, _excused(found, texts), graph)
 
 
 def compile_cell(checked: Checked) -> Outcome[tuple[Artifact, ...]]:
@@ -84,6 +85,12 @@ def compile_cell(checked: Checked) -> Outcome[tuple[Artifact, ...]]:
         version_tuple=version_tuple(cell),
     )
     return Outcome(artifacts, verify(artifacts, checked.graph))
+
+
+def _checked(
+    file: str, texts: Mapping[str, str], found: tuple[Diagnostic, ...], graph: CellGraph | None = None
+) -> Checked:
+    return Checked(Findings(file, with_shown_texts(texts, found), found), graph)
 
 
 def _excused(found: list[Diagnostic], texts: Mapping[str, str]) -> tuple[Diagnostic, ...]:

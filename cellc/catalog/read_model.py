@@ -15,7 +15,9 @@ from cellc.source.text import read_text
 
 ModelT = TypeVar("ModelT", bound=BaseModel)
 _CODE = "catalogue-entry-invalid"
-_WORDINGS = {"extra_forbidden": "there is no key `{}`", "missing": "`{}` is missing"}
+_UNKNOWN_KEY = "extra_forbidden"
+_WORDINGS = {_UNKNOWN_KEY: "there is no key `{}`", "missing": "`{}` is missing"}
+_HELP = {_UNKNOWN_KEY: "check its spelling, or remove it", "missing": "add it"}
 
 
 def read_model(path: Path, shown: str, model: type[ModelT]) -> Outcome[tuple[ModelT, SourceDocument]]:
@@ -58,7 +60,9 @@ def _findings(error: ValidationError, document: SourceDocument) -> Iterator[Diag
         name = format_path(path) or document.file
         wording = _WORDINGS.get(problem["type"])
         message = wording.format(name) if wording else f"`{name}`: {problem['msg'][:1].lower()}{problem['msg'][1:]}"
-        yield Diagnostic(_CODE, Severity.ERROR, message, document.locate(path), path)
+        place = document.locate_key(path) if problem["type"] == _UNKNOWN_KEY else document.locate(path)
+        advice = _HELP.get(problem["type"], "correct the value")
+        yield Diagnostic(_CODE, Severity.ERROR, message, place, path, advice)
 
 
 def _path_in(data: object, location: tuple[int | str, ...]) -> YamlPath:

@@ -39,6 +39,12 @@ def read_text(path: Path, name: str, place: Span) -> Outcome[str]:
     return Outcome(text, () if problem is None else (problem,))
 
 
+def showable(content: bytes) -> str | None:
+    """Return the text of a file of any format for a report; None where it is no text that a terminal may show."""
+    text = _decode(content, "")
+    return None if isinstance(text, Diagnostic) or _FORBIDDEN.search(text) else text
+
+
 def _read_bytes(path: Path, name: str, place: Span) -> bytes | Diagnostic:
     try:
         status = disk.status(path)

@@ -75,3 +75,20 @@ def test_broken_device_folder_is_reported_with_the_line_that_names_it(name: str,
     lines = Path(file).read_text().splitlines()
     number = next(number for number, text in enumerate(lines, 1) if "my_robot" in text)
     assert f"{file}:{number}:12" in ran.out
+
+
+def test_line_of_a_device_and_of_its_description_is_shown(tmp_path: Path) -> None:
+    spec = _cell(tmp_path, _DEVICE + "frobnicate: 3\n", "")
+    for _ in range(2):  # computed, and kept
+        assert "\n12 | frobnicate: 3\n   | ^^^^^^^^^^" in run("check", spec).out
+    (tmp_path / "my_robot/device.yaml").write_text(_DEVICE, encoding="utf-8")
+    link = '<xacro:include filename="none.xacro"/>'
+    (tmp_path / "my_robot/robot.urdf.xacro").write_text(_XACRO.replace("BODY", link), encoding="utf-8")
+    assert f"{link}</robot>\n" in run("check", spec).out
+
+
+def test_line_that_would_steer_a_terminal_is_not_shown(tmp_path: Path) -> None:
+    spec = _cell(tmp_path, _DEVICE, _XACRO.replace("BODY", "<link/>\u202e"))
+    out = run("check", spec).out
+    assert "robot.urdf.xacro" in out
+    assert "\u202e" not in out
