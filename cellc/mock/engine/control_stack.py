@@ -112,7 +112,9 @@ class ControlStack:
         return until_ns
 
     def dispatch(self, now_ns: int) -> None:
-        """Hand what happened to the listeners, then wake who waits for the control stack."""
+        """Hand what happened, and what was asked for just now, to the listeners; then wake who waits for it."""
+        for manager in self.managers.values():
+            self.events += manager.take_events()
         if not self.events:
             return
         events, self.events = self.events, []
