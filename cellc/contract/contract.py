@@ -175,6 +175,20 @@ class ContractDevice(ContractModel):
     camera: ContractCamera | None = Field(description="What a camera adds.")
 
 
+class ContractAdapter(ContractModel):
+    """A device that its vendor's library drives behind an adapter, where no controller does."""
+
+    joints: tuple[str, ...] = Field(description="Joints in the order of states and commands.")
+    units: tuple[Literal["rad", "m"], ...] = Field(description="Unit of each joint's position.")
+    action: str = Field(description="Full name of the action that takes its trajectories.")
+    state_topic: str = Field(description="Full name of the topic of its stamped state.")
+    client: str | None = Field(description="Name of the one node that may command it.")
+    command_period_s: float = Field(description="Time from one command to the next.", gt=0.0)
+    command_timeout_s: float = Field(description="Watchdog: silence after which it stops.", gt=0.0)
+    stop_time_s: float = Field(description="Longest time from a hold to standstill.", gt=0.0)
+    start_positions: tuple[float, ...] = Field(description="Where the mock's joints stand at first, rad or m.")
+
+
 class ContractJointLimits(ContractModel):
     """Limits of the cell for one joint; rad or m."""
 
@@ -191,7 +205,7 @@ class ContractGroup(ContractModel):
     base_link: str = Field(description="First link of the chain.")
     tip_frame: str = Field(description="Frame that goals place.")
     joints: tuple[str, ...] = Field(description="Joints in chain order.")
-    controller: str | None = Field(description="Controller that executes its trajectories.")
+    controller: str | None = Field(description="Controller, or device behind an adapter, that executes trajectories.")
 
 
 class ContractPoseTarget(ContractModel):
@@ -264,6 +278,9 @@ class Contract(ContractModel):
     )
     plugin_behaviours: dict[str, str] = Field(description="Behaviour of each controller plugin.")
     devices: dict[str, ContractDevice] = Field(description="Devices by name.")
+    adapters: dict[str, ContractAdapter] = Field(
+        default_factory=dict, description="Devices behind an adapter, by name."
+    )
     joint_limits: dict[str, ContractJointLimits] = Field(description="Limits by joint.")
     groups: dict[str, ContractGroup] = Field(description="Planning groups by name.")
     poses: dict[str, tuple[ContractPoseTarget, ...]] = Field(description="Named poses.")

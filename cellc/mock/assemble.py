@@ -6,10 +6,11 @@ from collections.abc import Mapping
 from functools import partial
 
 from cellc.contract.contract import Contract, ContractFrame, ContractInterface
+from cellc.mock.adapter.server import AdapterServer
 from cellc.mock.bus.matching import hears, task_node
 from cellc.mock.bus.network import Network
 from cellc.mock.bus.topic import Topic
-from cellc.mock.clocks import TimeJump, build_clocks
+from cellc.mock.clocks import DEFAULT, TimeJump, build_clocks
 from cellc.mock.control import ControllerManager
 from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.engine.simulation import Simulation
@@ -42,7 +43,7 @@ def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int) -> Plant:
     """
     contract = folder.contract
     horizon_s = max([DEFAULT_BUFFER_S, *(frame.buffer_s or 0.0 for frame in contract.frames.values())])
-    control = ControlStack(_managers(folder), contract.managers, horizon_s)
+    control = ControlStack(_managers(folder), contract.managers, horizon_s, _adapters(contract))
     simulation = Simulation(control)
     task = task_node(contract)
     clocks = build_clocks(contract.clocks, contract.clock_of, lambda: simulation.now_ns)
@@ -108,6 +109,14 @@ def _managers(folder: GeneratedFolder) -> Mapping[str, ControllerManager]:
             plugin_behaviours=contract.plugin_behaviours,
         )
         for name, manager in contract.managers.items()
+    }
+
+
+def _adapters(contract: Contract) -> Mapping[str, AdapterServer]:
+    clocks = {device: contract.clocks[name].domain for device, name in contract.clock_of.items()}
+    return {
+        device: AdapterServer(device, facts, contract.joint_limits, clocks.get(device, DEFAULT))
+        for device, facts in contract.adapters.items()
     }
 
 

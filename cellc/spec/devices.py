@@ -76,6 +76,15 @@ class PayloadSpec(SpecModel):
     center_of_mass: Position = Field(..., description="Centre of mass in the arm's tool0.", examples=["0 0 58 mm"])
 
 
+class AdapterSpec(SpecModel):
+    """What guards the commands of a direct SDK: its adapter's own contract."""
+
+    command_timeout: Duration | None = Field(
+        None, description="Watchdog: silence after which the device stops.", examples=["20 ms"]
+    )
+    stop_time: Duration | None = Field(None, description="Longest time from a hold to standstill.", examples=["100 ms"])
+
+
 class DeviceSpec(SpecModel):
     """One device: a catalogue entry, where it is mounted, and the exact thing that stands there."""
 
@@ -98,6 +107,9 @@ class DeviceSpec(SpecModel):
     )
     architecture: Literal["ros2", "direct_sdk", "hybrid"] = Field(
         "ros2", description="Who owns the command path down to the servo loop.", examples=["hybrid"]
+    )
+    adapter: AdapterSpec | None = Field(
+        None, description="Watchdog of a direct SDK.", examples=[{"command_timeout": "20 ms", "stop_time": "100 ms"}]
     )
     revision: Pin = Field("UNKNOWN", description="Hardware revision.", examples=["UNKNOWN"])
     serial: Pin = Field("UNKNOWN", description="Serial number on the nameplate.", examples=["20235500001"])

@@ -13,6 +13,7 @@ from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
 from cellc.cell.frame import WORLD
 from cellc.contract.contract import Contract, ContractFiles, ContractKpis, ContractSafety
+from cellc.emit.contract.adapters import adapters
 from cellc.emit.contract.clocks import clock_of, clocks
 from cellc.emit.contract.control import joint_limits, managers
 from cellc.emit.contract.devices import devices
@@ -52,6 +53,7 @@ def _contract(graph: CellGraph, configuration_id: str) -> Contract:
         clock_of=clock_of(cell),
         plugin_behaviours=dict(cell.behaviours),
         devices=devices(cell),
+        adapters=adapters(cell),
         joint_limits=joint_limits(cell),
         groups=groups(cell),
         poses=poses(cell),

@@ -6,6 +6,7 @@ from cellc.cell.cell import Cell
 from cellc.cell.device import Device
 from cellc.cell.interface import Interface, InterfaceKind
 from cellc.contract.contract import ContractCamera, ContractDevice, ContractGripper
+from cellc.graph.adapters import adapted_devices
 from cellc.link.placeholders import placeholders
 
 
@@ -21,11 +22,16 @@ def _device(cell: Cell, device: Device) -> ContractDevice:
         prefix=device.prefix,
         root_link=device.root_link,
         architecture=device.spec.architecture,
-        hardware_component=None if device.hardware is None else device.hardware.name,
+        hardware_component=None if device.hardware is None or _adapted(cell, device) else device.hardware.name,
         speed_scaling_interface=_speed_scaling(cell, device),
         gripper=_gripper(cell, device),
         camera=_camera(cell, device),
     )
+
+
+def _adapted(cell: Cell, device: Device) -> bool:
+    """Tell whether an adapter drives a device, so that no controller manager ever loads its hardware."""
+    return any(adapted.device.name == device.name for adapted in adapted_devices(cell))
 
 
 def _filled(cell: Cell, device: Device, text: str) -> str:

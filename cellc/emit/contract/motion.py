@@ -7,6 +7,7 @@ from cellc.cell.motion import CartesianGoal, PlanningGroup
 from cellc.contract.contract import ContractDisabledCollision, ContractGoal, ContractGroup, ContractPoseTarget
 from cellc.formats.contract_pose import contract_pose
 from cellc.geometry import disabled_links
+from cellc.graph.adapters import adapter_of_group
 from cellc.graph.cell_graph import CellGraph
 
 
@@ -42,8 +43,12 @@ def disabled_collisions(graph: CellGraph) -> tuple[ContractDisabledCollision, ..
 
 def _group(cell: Cell, group: PlanningGroup) -> ContractGroup:
     active = (c.name for c in cell.controllers if c.name in group.controllers and c.active)
+    adapted = adapter_of_group(cell, group)
     return ContractGroup(
-        base_link=group.base_link, tip_frame=group.tip_frame, joints=group.joints, controller=next(active, None)
+        base_link=group.base_link,
+        tip_frame=group.tip_frame,
+        joints=group.joints,
+        controller=next(active, None if adapted is None else adapted.device.name),
     )
 
 

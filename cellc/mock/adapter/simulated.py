@@ -36,6 +36,11 @@ class SimulatedAdapter:
         """Joints, units, bounds, rates and watchdog."""
         return self._model
 
+    @property
+    def phase(self) -> Phase:
+        """Where the device stands; readable without a connection."""
+        return self._phase
+
     def now_ns(self) -> int:
         """Return the device's time."""
         return self._clock()

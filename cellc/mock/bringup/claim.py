@@ -11,7 +11,7 @@ from cellc.mock.result import StageEvidence
 
 
 def claim(plant: Plant) -> Waiting[StageEvidence]:
-    """Activate the commanding controllers of the contract, and compare their claims with it."""
+    """Activate the commanding controllers and adapters, and compare the claims of controllers with the contract."""
     facts: list[str] = []
     problems: list[str] = []
     for name, entry in plant.contract.managers.items():
@@ -25,6 +25,10 @@ def claim(plant: Plant) -> Waiting[StageEvidence]:
         facts += [f"`{interface}` is claimed by `{owner}`" for interface, owner in sorted(claims.items())]
         if not problems:
             problems += _differences(entry, claims)
+    for device, server in plant.control.adapters.items() if not problems else ():
+        server.adapter.activate()
+        client = plant.contract.adapters[device].client
+        facts.append(f"the adapter of `{device}` is {server.adapter.phase.value}, for `{client or 'nobody'}` alone")
     return StageEvidence("claim", tuple(facts), tuple(problems))
 
 

@@ -9,7 +9,7 @@ from cellc.mock.result import StageEvidence
 
 
 def configure(plant: Plant) -> Waiting[StageEvidence]:
-    """Spawn every controller of the contract as inactive, one by one, with the parameters of its file."""
+    """Spawn every controller as inactive, one by one, with the parameters of its file, and connect every adapter."""
     yield Wait(plant.now_ns)
     facts: list[str] = []
     problems: list[str] = []
@@ -22,6 +22,9 @@ def configure(plant: Plant) -> Waiting[StageEvidence]:
                 facts.append(f"`{controller}` is configured")
             else:
                 problems.append(f"`{controller}` cannot be configured: {mark.reasons() or response.reason}")
+    for device, server in plant.control.adapters.items():
+        server.adapter.connect()
+        facts.append(f"the adapter of `{device}` is connected and {server.adapter.phase.value}")
     if not problems:
         plant.control.subscribe_joint_states()
     return StageEvidence("configure", tuple(facts), tuple(problems))

@@ -2,6 +2,6 @@
 
 from cellc.mock.clocks.build import build_clocks
 from cellc.mock.clocks.clock import Clock, Segment
-from cellc.mock.clocks.clocks import Clocks, TimeJump
+from cellc.mock.clocks.clocks import DEFAULT, Clocks, TimeJump
 
-__all__ = ["Clock", "Clocks", "Segment", "TimeJump", "build_clocks"]
+__all__ = ["DEFAULT", "Clock", "Clocks", "Segment", "TimeJump", "build_clocks"]

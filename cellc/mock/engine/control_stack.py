@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 
 from cellc.contract.contract import ContractManager
+from cellc.mock.adapter.server import AdapterServer
 from cellc.mock.control import (
     ControlEvent,
     ControllerChanged,
@@ -12,12 +13,15 @@ from cellc.mock.control import (
     GoalResponse,
     GripperGoal,
     HardwareChanged,
+    JointStateBlock,
     TrajectoryGoal,
 )
 from cellc.mock.engine.process import Signal
 from cellc.mock.engine.watcher import ControlWatcher, GoalSent
 from cellc.mock.world.joint_states import JointStateHistory
 
+GoalServer = ControllerManager | AdapterServer
+"""What takes goals, runs in simulated time and tells of events."""
 _LOCKSTEP_NS = 10_000_000
 """With several managers none may run ahead of an event of another by more than this."""
 
@@ -27,15 +31,21 @@ class ControlStack:
 
     Attributes:
         managers: by the name they have in the contract.
+        adapters: of devices that no manager drives, by device.
         changed: fires after a manager had something to tell.
         unready_hardware: hardware components that are not active, with their state.
     """
 
     def __init__(
-        self, managers: Mapping[str, ControllerManager], contracts: Mapping[str, ContractManager], horizon_s: float
+        self,
+        managers: Mapping[str, ControllerManager],
+        contracts: Mapping[str, ContractManager],
+        horizon_s: float,
+        adapters: Mapping[str, AdapterServer] | None = None,
     ) -> None:
-        """Bind the managers; ``horizon_s`` bounds the history of joint states."""
+        """Bind the managers and adapters; ``horizon_s`` bounds the history of joint states."""
         self.managers = dict(managers)
+        self.adapters = dict(adapters or {})
         self.changed = Signal()
         self.events: list[ControlEvent] = []
         self.unready_hardware: dict[str, str] = {}
@@ -45,16 +55,25 @@ class ControlStack:
         self._manager_of = {
             controller: name for name, manager in contracts.items() for controller in manager.controllers
         }
+        adapted = {joint for server in self.adapters.values() for joint in server.adapter.model.joint_names}
         for name, manager in contracts.items():
             for controller, facts in manager.controllers.items():
                 if facts.behaviour == "joint_state_broadcaster":
-                    foreign = _joints(entry for other, entry in contracts.items() if other != name)
+                    foreign = _joints(entry for other, entry in contracts.items() if other != name) | adapted
                     history = JointStateHistory(horizon_s, managers[name].period_ns, foreign, controller)
                     self.histories[(name, controller)] = history
+
+        for device, server in self.adapters.items():
+            history = JointStateHistory(horizon_s, server.period_ns, broadcaster=device)
+            self.histories[(device, device)] = history
 
     def manager_of(self, controller: str) -> ControllerManager:
         """Return the manager of a controller of the contract."""
         return self.managers[self._manager_of[controller]]
+
+    def server_of(self, name: str) -> GoalServer:
+        """Return what takes the goals of a controller, or of a device behind an adapter."""
+        return self.adapters[name] if name in self.adapters else self.manager_of(name)
 
     def manager_of_joint(self, joint: str) -> Iterator[ControllerManager]:
         """Yield the managers whose hardware has a joint."""
@@ -78,16 +97,17 @@ class ControlStack:
 
     def send_goal(self, controller: str, goal: TrajectoryGoal | GripperGoal) -> GoalResponse:
         """Send a goal to the action of a controller of the contract."""
-        manager = self.manager_of(controller)
-        response = manager.send_goal(controller, goal)
+        server = self.server_of(controller)
+        response = server.send_goal(controller, goal)
         for watcher in self._watchers:
-            watcher.goal_sent(GoalSent(manager.now_ns, controller, goal, response))
+            watcher.goal_sent(GoalSent(server.now_ns, controller, goal, response))
         return response
 
     def subscribe_joint_states(self) -> None:
         """Collect from now on what the broadcasters publish; they must be configured."""
         for (manager, controller), history in self.histories.items():
-            self.managers[manager].subscribe_joint_states(controller)
+            if manager in self.managers:
+                self.managers[manager].subscribe_joint_states(controller)
             history.subscribed = True
         for watcher in self._watchers:
             watcher.configured()
@@ -95,26 +115,27 @@ class ControlStack:
     def advance(self, until_ns: int) -> int:
         """Advance to ``until_ns`` or to the first event before it; return the time reached.
 
-        A single manager stops at its events. Several go on together in short steps, and are heard after each step.
+        A single manager or adapter stops at its events. Several go on together in short steps, and are heard after
+        each step.
         """
-        managers = tuple(self.managers.values())
-        if len(managers) == 1:
-            managers[0].advance(until_ns)
-            until_ns = managers[0].now_ns
-        elif managers:
-            until_ns = min(until_ns, min(manager.now_ns for manager in managers) + _LOCKSTEP_NS)
-            for manager in managers:
-                while manager.now_ns < until_ns:
-                    manager.advance(until_ns)
-        for manager in managers:
-            self.events += manager.take_events()
+        servers: tuple[GoalServer, ...] = (*self.managers.values(), *self.adapters.values())
+        if len(servers) == 1:
+            servers[0].advance(until_ns)
+            until_ns = servers[0].now_ns
+        elif servers:
+            until_ns = min(until_ns, min(server.now_ns for server in servers) + _LOCKSTEP_NS)
+            for server in servers:
+                while server.now_ns < until_ns:
+                    server.advance(until_ns)
+        for server in servers:
+            self.events += server.take_events()
         self._collect()
         return until_ns
 
     def dispatch(self, now_ns: int) -> None:
         """Hand what happened, and what was asked for just now, to the listeners; then wake who waits for it."""
-        for manager in self.managers.values():
-            self.events += manager.take_events()
+        for server in (*self.managers.values(), *self.adapters.values()):
+            self.events += server.take_events()
         if not self.events:
             return
         events, self.events = self.events, []
@@ -141,10 +162,15 @@ class ControlStack:
     def _collect(self) -> None:
         for (manager, controller), history in self.histories.items():
             if history.subscribed:
-                block = self.managers[manager].take_joint_states(controller)
+                block = self._take_joint_states(manager, controller)
                 history.append(block)
                 for watcher in self._watchers:
                     watcher.joint_states(manager, controller, block)
+
+    def _take_joint_states(self, manager: str, controller: str) -> JointStateBlock:
+        if manager in self.managers:
+            return self.managers[manager].take_joint_states(controller)
+        return self.adapters[manager].take_joint_states()
 
 
 def _joints(managers: Iterable[ContractManager]) -> frozenset[str]:

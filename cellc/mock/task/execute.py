@@ -89,7 +89,7 @@ def require_success(ended: GoalEnded, context: TaskContext) -> None:
 
 
 def _send(context: TaskContext, attempt: Attempt, controller: str, goal: TrajectoryGoal | GripperGoal) -> Waiting[int]:
-    manager = context.plant.control.manager_of(controller)
+    manager = context.plant.control.server_of(controller)
     attempt.controller_name = controller
     attempt.speed_scaling = _speed_scaling(context.plant, controller)
     attempt.mark(PacketStep.GOAL_SENT, context.now_ns)
@@ -126,7 +126,7 @@ def _look_for_motion(context: TaskContext, goal: SentGoal) -> int:
         return context.deadline_ns
     if _driven_ns(context.plant, goal.joints, goal.sent_ns) is not None:
         context.plant.progress.announce("moving")
-    return context.now_ns + context.plant.control.manager_of(goal.controller).period_ns
+    return context.now_ns + context.plant.control.server_of(goal.controller).period_ns
 
 
 def _note_result(context: TaskContext, attempt: Attempt, goal: SentGoal) -> None:
@@ -160,6 +160,8 @@ def _driven_ns(plant: Plant, joints: tuple[str, ...], since_ns: int) -> int | No
 
 
 def _joints(plant: Plant, controller: str) -> tuple[str, ...]:
+    if controller in plant.contract.adapters:
+        return plant.contract.adapters[controller].joints
     for manager in plant.contract.managers.values():
         if controller in manager.controllers:
             return manager.controllers[controller].joints

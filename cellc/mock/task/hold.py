@@ -48,7 +48,7 @@ def _cancel(plant: Plant, controller: str, goal_id: int) -> int | None:
     """Ask to cancel a goal, or every goal where another client has one too; return the answer, None for no answer."""
     if controller in plant.requests.unresponsive:
         return None
-    manager = plant.control.manager_of(controller)
+    manager = plant.control.server_of(controller)
     if any(name == controller for name, _ in plant.requests.foreign_goals):
         return manager.cancel_all(controller).return_code
     return manager.cancel_goal(goal_id).return_code

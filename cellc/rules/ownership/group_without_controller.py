@@ -19,7 +19,7 @@ motion:
     arm_only: {base: arm/base_link, tip: arm/tool0}
 ```
 
-Fix: add a trajectory controller for the joints of the group.
+Fix: add a trajectory controller for the joints of the group, or the FollowJointTrajectory action of its adapter.
 
 Source: chapter 4, section 10: a missing action server prevents execution even if planning succeeds.
 """
@@ -29,6 +29,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cellc.diagnostics import Severity
+from cellc.graph.adapters import adapter_of_group
 from cellc.graph.cell_graph import CellGraph
 from cellc.rule import Finding
 from cellc.rules.define import define
@@ -36,9 +37,9 @@ from cellc.rules.finding import found
 
 
 def check(graph: CellGraph) -> Iterator[Finding]:
-    """Yield groups whose joints no controller with an action moves."""
+    """Yield groups whose joints neither a controller nor an adapter with an action moves."""
     for group in graph.cell.groups:
-        if group.joints and not group.controllers:
+        if group.joints and not group.controllers and adapter_of_group(graph.cell, group) is None:
             message = f"no controller takes trajectories for the joints of group `{group.name}`"
             yield found(graph, group.path, message, "add a trajectory controller for them")
 

@@ -1,0 +1,159 @@
+"""The action of a device behind an adapter: takes one trajectory at a time and streams it as bounded commands."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from cellc.adapter import FollowerResult, FollowerStatus, Phase, TrajectoryFollower
+from cellc.contract.contract import ContractAdapter, ContractJointLimits
+from cellc.mock.adapter.goal import adapter_model, first_refusal, read_goal
+from cellc.mock.adapter.simulated import SimulatedAdapter
+from cellc.mock.control import (
+    CancelResponse,
+    ControlEvent,
+    GoalResponse,
+    GoalStatus,
+    GripperGoal,
+    HardwareChanged,
+    JointStateBlock,
+    TrajectoryEnded,
+    TrajectoryGoal,
+)
+
+PATH_TOLERANCE = 0.05
+"""rad or m by which a joint may be away from its command; nothing in a contract states it for an adapter."""
+GOAL_TIME_S = 0.5
+"""Time after the end of a trajectory within which its joints have to stand still."""
+_ENDINGS = {
+    FollowerStatus.SUCCEEDED: (GoalStatus.SUCCEEDED, 0),
+    FollowerStatus.CANCELLED: (GoalStatus.CANCELED, 0),
+    FollowerStatus.PATH_TOLERANCE_VIOLATED: (GoalStatus.ABORTED, -4),
+    FollowerStatus.STOPPED: (GoalStatus.ABORTED, -4),
+}
+"""Status and error code of FollowJointTrajectory."""
+
+
+class AdapterServer:
+    """Runs a simulated device in simulated time, and offers what the task asks of a controller.
+
+    Attributes:
+        adapter: the device.
+        period_ns: of commands and states.
+        now_ns: time that is reached.
+    """
+
+    def __init__(
+        self, device: str, facts: ContractAdapter, limits: Mapping[str, ContractJointLimits], clock: str
+    ) -> None:
+        """Bind the device, which is not connected yet."""
+        self.now_ns = 0
+        self.period_ns = round(facts.command_period_s * 1e9)
+        model = adapter_model(device, facts, limits, clock)
+        self.adapter = SimulatedAdapter(model, facts.start_positions, lambda: self.now_ns)
+        self._device = device
+        self._next_ns = 0
+        self._events: list[ControlEvent] = []
+        self._goals = 0
+        self._follower: TrajectoryFollower | None = None
+        self._phase = Phase.UNCONFIGURED
+        self._stamps: list[int] = []
+        self._positions: list[tuple[float, ...]] = []
+
+    def send_goal(self, controller: str, goal: TrajectoryGoal | GripperGoal) -> GoalResponse:
+        """Take a trajectory whose every command will be within bounds, or reject it with the reason."""
+        if not isinstance(goal, TrajectoryGoal):
+            return GoalResponse(False, log_reason=f"`{controller}` takes trajectories only")
+        if self._follower is not None:
+            return GoalResponse(False, log_reason=f"`{controller}` executes another goal")
+        if self._phase is not Phase.ACTIVE:
+            return GoalResponse(False, log_reason=f"`{controller}` is {self._phase.value}")
+        model = self.adapter.model
+        try:
+            trajectory = read_goal(goal, model, self.adapter.read())
+        except ValueError as problem:
+            return GoalResponse(False, log_reason=str(problem))
+        refused = first_refusal(trajectory, model)
+        if refused:
+            return GoalResponse(False, log_reason=refused)
+        self._goals += 1
+        self._follower = TrajectoryFollower(
+            self.adapter, trajectory, path_tolerance=PATH_TOLERANCE, goal_time_s=GOAL_TIME_S
+        )
+        return GoalResponse(True, self._goals)
+
+    def cancel_goal(self, goal_id: int) -> CancelResponse:
+        """Cancel a goal; the answer has the codes of action_msgs/srv/CancelGoal."""
+        if not 0 < goal_id <= self._goals:
+            return CancelResponse(2)
+        if self._follower is None or goal_id != self._goals:
+            return CancelResponse(3)
+        self._follower.cancel()
+        return CancelResponse(0, (goal_id,))
+
+    def cancel_all(self, controller: str) -> CancelResponse:
+        """Cancel the goal that executes, if there is one."""
+        return CancelResponse(0) if self._follower is None else self.cancel_goal(self._goals)
+
+    def advance(self, until_ns: int) -> int:
+        """Run the periods up to ``until_ns``, or up to the first that has something to tell."""
+        told = len(self._events)
+        while self._next_ns <= until_ns and len(self._events) == told:
+            if self._follower is None and self.adapter.phase is self._phase:
+                self._rest(until_ns)
+            else:
+                self._tick()
+        if len(self._events) == told:
+            self.now_ns = until_ns
+        return self.now_ns
+
+    def take_events(self) -> tuple[ControlEvent, ...]:
+        """Return what has happened since the last call."""
+        events, self._events = tuple(self._events), []
+        return events
+
+    def take_joint_states(self) -> JointStateBlock:
+        """Return the states that were published since the last call."""
+        stamps, positions = self._stamps, self._positions
+        self._stamps, self._positions = [], []
+        names = self.adapter.model.joint_names
+        values = np.array(positions, dtype=np.float64).reshape(len(stamps), len(names))
+        nothing = np.zeros_like(values)
+        return JointStateBlock(np.array(stamps, dtype=np.int64), names, values, nothing, nothing)
+
+    def _rest(self, until_ns: int) -> None:
+        """Publish the same state in every period: nobody commands, so the joints stand."""
+        count = (until_ns - self._next_ns) // self.period_ns + 1
+        if self._phase not in (Phase.UNCONFIGURED, Phase.FINALIZED):
+            self.now_ns = self._next_ns
+            self._stamps += range(self._next_ns, self._next_ns + count * self.period_ns, self.period_ns)
+            self._positions += [self.adapter.read().positions] * count
+        self._next_ns += count * self.period_ns
+        self.now_ns = self._next_ns - self.period_ns
+
+    def _tick(self) -> None:
+        """Publish the state of one period and send the command that is due."""
+        self.now_ns = self._next_ns
+        self._next_ns += self.period_ns
+        result = None if self._follower is None else self._follower.step()
+        state = self.adapter.read()
+        self._stamps.append(self.now_ns)
+        self._positions.append(state.positions)
+        if state.phase is not self._phase:
+            self._tell_phase(state.phase, state.fault)
+        if result is not None:
+            self._tell_result(result)
+
+    def _tell_phase(self, phase: Phase, fault: str) -> None:
+        stopped = Phase.STOPPED in (phase, self._phase)
+        self._phase = phase
+        if stopped:
+            state = "active" if phase is Phase.ACTIVE else "inactive"
+            self._events.append(HardwareChanged(self.now_ns, self._device, state, fault))
+
+    def _tell_result(self, result: FollowerResult) -> None:
+        self._follower = None
+        status, error_code = _ENDINGS[result.status]
+        ended = TrajectoryEnded(self.now_ns, self.now_ns, self._device, self._goals, status, error_code, result.text)
+        self._events.append(ended)

@@ -1,0 +1,141 @@
+"""A cell whose arm is driven by its own library: compiled, brought up and rehearsed through the adapter."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from cellc.adapter import Phase
+from cellc.contract.rehearsals import FaultEntry, RehearsalEntry, StepEntry
+from cellc.mock import MockCell, RehearsalResult, load
+from cellc.mock.control import GripperGoal, TrajectoryGoal, TrajectoryPoint
+from cellc.mock.plant import Plant
+from cellc.output.write import write
+from cellc.pipeline import check, compile_cell
+
+CELL = Path(__file__).resolve().parents[2] / "corpus" / "valid" / "direct_sdk_arm.yaml"
+SECOND = 1_000_000_000
+REACH = tuple(StepEntry(kind="move", target=pose) for pose in ("home", "aside", "home"))
+
+
+@pytest.fixture(scope="module")
+def cell(tmp_path_factory: pytest.TempPathFactory) -> MockCell:
+    """The cell, compiled and loaded."""
+    artifacts = compile_cell(check(CELL)).value
+    assert artifacts is not None
+    folder = tmp_path_factory.mktemp("generated") / "demo"
+    assert write(artifacts, folder).ok
+    return load(folder)
+
+
+def run(
+    cell: MockCell, *faults: FaultEntry, at_s: float = 1.0, action: Callable[[Plant], None] | None = None
+) -> tuple[RehearsalResult, Plant]:
+    """Rehearse the reach; ``action`` happens at a simulated time after the bring-up began."""
+    plants: list[Plant] = []
+
+    def watch(plant: Plant) -> None:
+        plants.append(plant)
+        if action is not None:
+            plant.simulation.at(round(at_s * 1e9), lambda: action(plant))
+
+    entry = RehearsalEntry(name="reach", steps=REACH, faults=faults, expect="succeeded", within_s=None, timeout_s=60.0)
+    return cell.rehearse(entry, watch=watch), plants[0]
+
+
+def test_cell_states_the_contract_of_the_adapter(cell: MockCell) -> None:
+    adapter = cell.contract.adapters["arm"]
+    assert (adapter.command_period_s, adapter.command_timeout_s, adapter.stop_time_s) == (0.004, 0.04, 0.1)
+    assert adapter.units == ("rad",) * 6
+    assert adapter.action == "/arm/follow_joint_trajectory"
+    assert adapter.client == "move_group"
+    assert cell.contract.groups["manipulator"].controller == "arm"
+    assert cell.contract.devices["arm"].hardware_component is None
+
+
+def test_rehearsal_succeeds_and_ends_where_it_was_sent(cell: MockCell) -> None:
+    result, plant = run(cell)
+    assert result.outcome == "succeeded", result
+    home = cell.contract.poses["home"][0].positions
+    assert plant.control.adapters["arm"].adapter.read().positions == pytest.approx(home, abs=1e-6)
+
+
+def test_bring_up_connects_before_it_observes_and_activates_last(cell: MockCell) -> None:
+    result, _ = run(cell)
+    facts = {stage.stage: stage.facts for stage in result.bringup}
+    assert "the adapter of `arm` is connected and inactive" in facts["configure"]
+    assert "the adapter of `arm` is active, for `move_group` alone" in facts["claim"]
+
+
+def test_no_command_is_faster_than_the_limits_of_the_cell(cell: MockCell) -> None:
+    _, plant = run(cell)
+    history = plant.control.histories[("arm", "arm")]
+    limits = [cell.contract.joint_limits[name].velocity for name in history.names]
+    seconds = (history.stamps[1:] - history.stamps[:-1]) / 1e9
+    speeds = abs(history.positions[1:] - history.positions[:-1]) / seconds[:, None]
+    assert (speeds.max(axis=0) <= [limit * 1.001 for limit in limits]).all()
+    assert speeds.max() > 0.1  # it did move
+
+
+def test_cancel_holds_the_arm_within_its_stop_time(cell: MockCell) -> None:
+    result, _ = run(cell, FaultEntry(kind="cancel", target="move", at_s=0.6))
+    assert result.outcome == "cancelled"
+    cancel = result.attempts[-2].cancel
+    assert cancel is not None
+    assert cancel.latency_s is not None
+    assert 0.0 < cancel.latency_s <= 0.1 + 0.004
+
+
+def test_stop_by_the_vendor_ends_the_rehearsal_as_a_protective_stop(cell: MockCell) -> None:
+    result, plant = run(cell, action=lambda plant: plant.control.adapters["arm"].adapter.trip("torque limit"))
+    assert result.outcome == "protective_stop"
+    assert plant.control.adapters["arm"].adapter.read().phase is Phase.STOPPED
+
+
+def test_arm_that_sticks_is_a_tolerance_violation(cell: MockCell) -> None:
+    def stick(plant: Plant) -> None:
+        adapter = plant.control.adapters["arm"].adapter
+        adapter.stuck.add(adapter.model.joint_names[0])
+
+    result, _ = run(cell, action=stick)
+    assert result.outcome == "tolerance_violation"
+    assert "away from its command" in result.attempts[-2].fault_code
+
+
+def test_runs_are_the_same_to_the_last_bit(cell: MockCell) -> None:
+    assert run(cell)[0] == run(cell)[0]
+
+
+def test_goals_that_no_command_may_follow_are_rejected_with_the_reason(cell: MockCell) -> None:
+    answers: dict[str, str] = {}
+
+    def ask(plant: Plant) -> None:
+        server = plant.control.adapters["arm"]
+        names, zero = server.adapter.model.joint_names, (0.0,) * 6
+        far = tuple(position + 1.0 for position in server.adapter.read().positions)
+
+        def goal(duration_s: float, names: tuple[str, ...] = names, **changes: tuple[float, ...]) -> TrajectoryGoal:
+            fields = {"positions": far, "velocities": zero, "accelerations": zero} | changes
+            point = TrajectoryPoint(time_from_start_ns=round(duration_s * 1e9), **fields)
+            return TrajectoryGoal(names, (point,))
+
+        goals: dict[str, TrajectoryGoal | GripperGoal] = {
+            "fast": goal(0.1),
+            "incomplete": goal(5.0, names=names[:5]),
+            "bare": goal(5.0, velocities=()),
+            "elsewhere": goal(0.0),
+            "gripper": GripperGoal((0.0,)),
+        }
+        for title, each in goals.items():
+            response = server.send_goal("arm", each)
+            assert not response.accepted
+            answers[title] = response.log_reason
+
+    run(cell, at_s=0.53, action=ask)
+    assert "rad/s allowed" in answers["fast"]
+    assert "moves all of its joints" in answers["incomplete"]
+    assert answers["bare"] == "a point lacks positions, velocities or accelerations"
+    assert answers["elsewhere"] == "the trajectory begins 1 away from where the joints stand"
+    assert answers["gripper"] == "`arm` takes trajectories only"
