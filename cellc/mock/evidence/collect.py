@@ -41,8 +41,8 @@ class EvidenceCollector:
         self._tolerances = path_tolerances(cell.folder)
         self._seed = seed
         self._stems = file_names(names)
-        self._folder = EvidenceFolder(folder)
-        self._folder.refuse_edited([REPORT, *(name for stem in self._stems.values() for name in _files(stem))])
+        files = [REPORT, *(name for stem in self._stems.values() for name in _files(stem))]
+        self._folder = EvidenceFolder(folder, files)
 
     def __enter__(self) -> EvidenceCollector:
         return self

@@ -21,8 +21,11 @@ _PIECE = 1 << 20
 class EvidenceFolder:
     """Takes files one by one; none is in its place before `settle`."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, names: Sequence[str]) -> None:
         """Make ready.
+
+        Args:
+            names: of the files that will be written.
 
         Raises:
             MockError: something stands in the way, or another run writes the same folder.
@@ -35,21 +38,12 @@ class EvidenceFolder:
         self._stale = others(folder)
         if any(is_alive(staging) for staging in self._stale):
             raise MockError(folder.as_posix(), "another run is writing its evidence there")
+        self._refuse_edited(names)
         try:
             folder.parent.mkdir(parents=True, exist_ok=True)
             (self._staging / "new").mkdir(parents=True)
         except OSError as error:
             raise self._unwritable(error) from None
-
-    def refuse_edited(self, names: Sequence[str]) -> None:
-        """Raise MockError where a file stands that would be replaced and that cellc did not write."""
-        known = [_hashes(self._folder), *(_hashes(staging / "new") for staging in self._stale)]
-        for name in sorted({*names, *(name for hashes in known for name in hashes)} - {INDEX}):
-            path = self._folder / name
-            if path.is_symlink() or (path.exists() and not path.is_file()):
-                raise MockError(path.as_posix(), "stands where a file of the evidence is due")
-            if path.exists() and all(hashes.get(name) != _sha256(path) for hashes in known):
-                raise MockError(path.as_posix(), "is not as cellc wrote it; move it away, or name another folder")
 
     def open(self, name: str) -> BinaryIO:
         """Open a new file of the folder for writing; a name of one part, as `file_names` gives them."""
@@ -70,7 +64,7 @@ class EvidenceFolder:
         Raises:
             MockError: a file was edited meanwhile, or the disk refused; the folder is as it was before.
         """
-        self.refuse_edited(self._names)
+        self._refuse_edited(self._names)
         new = self._staging / "new"
         hashes = {name: _sha256(new / name) for name in sorted(self._names)}
         self.write(INDEX, json.dumps({"format": 1, **identity, "files": hashes}, ensure_ascii=False, indent=2) + "\n")
@@ -85,6 +79,16 @@ class EvidenceFolder:
     def discard(self) -> None:
         """Remove what is in no place yet."""
         discard(self._staging)
+
+    def _refuse_edited(self, names: Sequence[str]) -> None:
+        """Raise MockError where a file stands that would be replaced and that cellc did not write."""
+        known = [_hashes(self._folder), *(_hashes(staging / "new") for staging in self._stale)]
+        for name in sorted({*names, *(name for hashes in known for name in hashes)} - {INDEX}):
+            path = self._folder / name
+            if path.is_symlink() or (path.exists() and not path.is_file()):
+                raise MockError(path.as_posix(), "stands where a file of the evidence is due")
+            if path.exists() and all(hashes.get(name) != _sha256(path) for hashes in known):
+                raise MockError(path.as_posix(), "is not as cellc wrote it; move it away, or name another folder")
 
     def _swap(self, removed: Sequence[str], put: Sequence[str]) -> None:
         swap = Swap(self._folder, self._staging)

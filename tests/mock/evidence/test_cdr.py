@@ -12,7 +12,7 @@ from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from cellc.mock.control import GripperGoal, Trajectory, TrajectoryPoint
 from cellc.mock.evidence.bag import messages
 from cellc.mock.evidence.bag.definitions import schema
-from cellc.mock.evidence.bag.shapes import CONTROLLER_STATE, controller_state_rows, joint_state_shape
+from cellc.mock.evidence.bag.shapes import CONTROLLER_STATE, Point, controller_state_rows, joint_state_shape
 from cellc.transforms import Pose
 
 ORACLE = Path(__file__).resolve().parents[4] / "shared/oracles/interfaces"
@@ -154,7 +154,12 @@ def test_rows_of_joint_states_are_encoded_as_by_the_peer(peer: Peer) -> None:
 def test_rows_of_controller_states_are_encoded_as_by_the_peer(distro: str) -> None:
     peer = Peer(distro)
     value = np.array([[1.0, 2.0, 3.0]])
-    points = ({"positions": value, "velocities": 2 * value}, {"positions": 3 * value}, {"velocities": 4 * value}, {})
+    points: tuple[Point, ...] = (
+        {"positions": value, "velocities": 2 * value},
+        {"positions": 3 * value},
+        {"velocities": 4 * value},
+        {},
+    )
     shape, numbers = controller_state_rows(("a", "bb", "c"), points, np.array([0.5]), distro)
     (row,) = shape.encode(np.array([11]), numbers)
     theirs = [peer.point(**{name: array[0].tolist() for name, array in point.items()}) for point in points]
