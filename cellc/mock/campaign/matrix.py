@@ -17,6 +17,9 @@ SHORT = {
     "tolerance_violation": "toler",
     "missed_cycle": "missed",
     "protective_stop": "stop",
+    "emergency_stop": "estop",
+    "hardware_fault": "hardware",
+    "wrong_owner": "owner",
     "timeout": "time",
 }
 """Outcomes as the matrix has them; one that is not here stands in full."""

@@ -12,8 +12,6 @@ from cellc.mock.record import PacketStep
 from cellc.mock.result import RehearsalResult
 
 _JOINED = "+"
-_ACT_ON_ASKING = ("unreachable", "reject")
-"""Kinds that act as a goal is made or accepted: the step that moves already is past them."""
 
 
 class CampaignPlan:
@@ -30,10 +28,10 @@ class CampaignPlan:
         self._hits = {each.run.rehearsal: tuple(self._of_rehearsal(each.run.entry, each.result)) for each in baselines}
 
     def _of_rehearsal(self, entry: RehearsalEntry, result: RehearsalResult) -> Iterator[Hit]:
-        for fault, case in self._cases.items():
+        for fault in self._cases:
             for number in range(1, len(entry.steps) + 1):
                 yield Hit(fault, number, "started")
-                if _moves(result, number) and case.entry.kind not in _ACT_ON_ASKING:
+                if _moves(result, number):
                     yield Hit(fault, number, "moving")
 
     def singles(self) -> Iterator[CampaignRun]:
@@ -69,14 +67,15 @@ class CampaignPlan:
 
     def _run(self, entry: RehearsalEntry, hits: tuple[Hit, ...]) -> CampaignRun:
         cases = [self._cases[hit.fault] for hit in hits]
-        outcomes = [case.outcomes(entry.steps, hit.step) for case, hit in zip(cases, hits, strict=True)]
-        bounds = [case.within_s(entry.steps, hit.step) for case, hit in zip(cases, hits, strict=True)]
+        met = [(case, hit.step, hit.when) for case, hit in zip(cases, hits, strict=True)]
+        outcomes = [case.outcomes(entry.steps, step, when) for case, step, when in met]
+        bounds = [case.within_s(entry.steps, step, when) for case, step, when in met]
         stated = [bound for bound in bounds if bound is not None]
         named = tuple(sorted(frozenset().union(*outcomes)))
         within_s = max(stated) if len(stated) == len(bounds) else None
         changed = {
             "name": f"{entry.name}/{_JOINED.join(str(hit) for hit in hits)}",
-            "faults": tuple(case.at(hit.step, hit.when) for case, hit in zip(cases, hits, strict=True)),
+            "faults": tuple(case.at(step, when) for case, step, when in met),
             "expect": named[0],
             "within_s": within_s,
         }

@@ -10,6 +10,14 @@ from cellc.mock.campaign.matrix import legend, matrix_lines
 from cellc.mock.campaign.run import SUCCEEDED, RunEnd
 from cellc.mock.summary import reason
 
+_STEPS = {
+    "hold": "the command goes to where the joint is measured",
+    "deceleration": "a stop begins where the joint is measured",
+    "replaced": "a trajectory takes over from one that was moving",
+    "off_command": "a trajectory starts where the joint is measured, not where it was commanded",
+    "scaling": "the speed scaling changed",
+}
+
 ReplayCommand = Callable[[str], str]
 """Returns the command line that runs one run again, by its identifier."""
 
@@ -71,7 +79,7 @@ def limit_lines(limits: LimitsReport) -> Iterator[str]:
         steps = [step for step in limits.steps if step.cause == cause]
         largest = max(steps, key=_size)
         yield (
-            f"        {len(steps)} x {cause}: the command steps to where the joint is, as the real controller's does; "
+            f"        {len(steps)} x {cause}, where the real controller steps too: {_STEPS.get(cause, cause)}; "
             f"at most {_size(largest):.4f} rad or m (`{largest.joint}`)"
         )
     joints = sorted({name.partition("/")[0] for name in limits.unchecked})

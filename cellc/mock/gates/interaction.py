@@ -83,7 +83,7 @@ def _delays(testimony: Testimony, fault: FaultEntry, name: str, interface: Contr
         return False
     if device.camera is not None:
         return device.camera.topic == name or _follows(interface, contract.interfaces.get(device.camera.topic))
-    return interface.type == _JOINT_STATE and fault.kind == "delay"
+    return interface.type == _JOINT_STATE and fault.kind in ("freeze", "delay")
 
 
 def _follows(interface: ContractInterface, images: ContractInterface | None) -> bool:
