@@ -89,6 +89,11 @@ class Disturbances:
         self._failing_write: set[str] = set()
         self._lost: set[str] = set()
 
+    @property
+    def disturbs_joints(self) -> bool:
+        """Whether any joint has a fault."""
+        return bool(self._joints)
+
     def fault_of(self, joint: str) -> JointFault | None:
         """The fault of a joint, None for a healthy one."""
         return self._joints.get(joint)

@@ -165,7 +165,8 @@ class GenericSystem:
             ("acceleration", motion.acceleration),
         ):
             indices, columns = self._state_columns[kind]
-            state[:, columns] = values[:, indices]
+            if len(indices):
+                state[:, columns] = values[:, indices]
         self._mirror(command, state)
         self._motion = motion
         return cycles
@@ -174,7 +175,7 @@ class GenericSystem:
         """All cycles, or none where they depend on each other in a way that only single cycles can follow."""
         if len(command) == 1:
             return 1
-        if any(
+        if self._disturbances.disturbs_joints and any(
             mode != "position" and self._disturbances.fault_of(name) is not None
             for name, mode in zip(self._names, self._modes, strict=True)
         ):
@@ -186,9 +187,9 @@ class GenericSystem:
             values = command[:, columns]
             if math.isfinite(values.sum()):
                 continue
-            # A command that turns to or from NaN, or is infinite.
-            missing = np.isnan(values)
-            if not np.array_equal(missing.any(0), missing.all(0)) or np.isinf(values).any():
+            # A column is all numbers or all NaN; a command that turns to or from NaN, or is infinite, is neither.
+            suspicious = ~np.isfinite(values.sum(axis=0))
+            if not np.isnan(values[:, suspicious]).all():
                 return 0
         return len(command)
 
@@ -198,14 +199,11 @@ class GenericSystem:
             if self._dynamics and len(indices):
                 chosen = np.array([self._modes[i] == kind for i in indices], dtype=bool)
                 indices, columns = indices[chosen], columns[chosen]
-            if not len(indices):
-                continue
-            values = command[:, columns]
-            given = ~np.isnan(values[0])
+            given = ~np.isnan(command[0, columns])
             if not given.all():
-                indices, values = indices[given], values[:, given]
+                indices, columns = indices[given], columns[given]
             if len(indices):
-                self._move_kind(motion, kind, indices, values, period_s)
+                self._move_kind(motion, kind, indices, command[:, columns], period_s)
 
     def _move_kind(self, motion: Motion, kind: str, indices: NDArray[np.intp], values: Array, period_s: float) -> None:
         if kind == "position":
@@ -234,6 +232,8 @@ class GenericSystem:
 
     def _follow(self, indices: NDArray[np.intp], position: Array, period_s: float, *, moved_by_position: bool) -> None:
         """Apply the faults of the joints in place; an integrated position knows neither offset nor lag."""
+        if not self._disturbances.disturbs_joints:
+            return
         for column, index in enumerate(indices):
             fault = self._disturbances.fault_of(self._names[index])
             if fault is not None:

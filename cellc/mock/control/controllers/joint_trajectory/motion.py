@@ -93,9 +93,10 @@ class Motion:
     def sample(self, times_ns: Times) -> Samples:
         """Sample the trajectory at evenly spaced trajectory times."""
         spline, count = self.spline, len(times_ns)
-        if count > 1 and int(times_ns[1] - times_ns[0]) == self._ahead_ns:
+        if count == 1 or int(times_ns[1] - times_ns[0]) == self._ahead_ns:
             # What is one period ahead now is due in the next update: sample it once.
-            longer = np.append(times_ns, times_ns[-1] + self._ahead_ns)
+            longer = np.empty(count + 1, dtype=np.int64)
+            longer[:-1], longer[-1] = times_ns, times_ns[-1] + self._ahead_ns
             reached, into = spline.locate(longer)
             positions = spline.positions(reached, into)
             now, ahead = (reached[:-1], into[:-1]), (reached[1:], into[1:], positions[1:])
