@@ -6,9 +6,12 @@ from pathlib import Path
 
 import pytest
 
+from cellc.contract.contract import Contract
 from cellc.mock import MockCell, load
+from cellc.mock.campaign import command
 from cellc.mock.campaign.campaign import make_plan
 from cellc.mock.campaign.plan import CampaignPlan
+from cellc.mock.faults.case import FaultCase
 from cellc.mock.faults.possible import possible_faults
 from cellc.output.write import write
 from cellc.pipeline import check, compile_cell
@@ -33,6 +36,18 @@ def folders(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
 def cells(folders: dict[str, Path]) -> dict[str, MockCell]:
     """The loaded cells by name."""
     return {name: load(folder) for name, folder in folders.items()}
+
+
+@pytest.fixture
+def few_faults(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let the command plan with two kinds of fault, where a test is about what it prints."""
+
+    def few(contract: Contract) -> tuple[FaultCase, ...]:
+        return tuple(
+            case for case in possible_faults(contract) if case.entry.kind in ("protective_stop", "skip_cycles")
+        )
+
+    monkeypatch.setattr(command, "possible_faults", few)
 
 
 def plan_of(cell: MockCell) -> CampaignPlan:

@@ -18,6 +18,7 @@ from tests.cli.refused import assert_refused, process
 from tests.cli.run import ROOT, run
 
 
+@pytest.mark.usefixtures("few_faults")
 def test_matrix_names_every_fault_and_step(folders: dict[str, Path]) -> None:
     ran = run("mock", str(folders["minimal"]), "--campaign", "--jobs", "1")
     assert ran.code == 0, ran.out
@@ -120,6 +121,7 @@ def _group(leader: int) -> list[int]:
     return found
 
 
+@pytest.mark.usefixtures("few_faults")
 def test_failing_run_is_told_with_the_command_that_replays_it(
     folders: dict[str, Path], monkeypatch: pytest.MonkeyPatch
 ) -> None:

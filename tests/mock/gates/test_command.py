@@ -7,6 +7,10 @@ from pathlib import Path
 
 import pytest
 
+from cellc.contract.contract import Contract
+from cellc.mock.campaign import command
+from cellc.mock.faults.case import FaultCase
+from cellc.mock.faults.possible import possible_faults
 from cellc.mock.task.context import TaskContext
 from tests.cli.run import MINIMAL, run
 
@@ -16,6 +20,16 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> str:
     output = tmp_path_factory.mktemp("generated")
     assert run("build", MINIMAL, "-o", output.as_posix()).code == 0
     return (Path(output) / "minimal").as_posix()
+
+
+@pytest.fixture(autouse=True)
+def _few_faults(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let the campaign have two kinds of fault: this is about what is printed."""
+
+    def few(contract: Contract) -> tuple[FaultCase, ...]:
+        return tuple(case for case in possible_faults(contract) if case.entry.kind in ("cancel", "protective_stop"))
+
+    monkeypatch.setattr(command, "possible_faults", few)
 
 
 def test_gates_are_printed_and_told_to_programs(folder: str) -> None:
