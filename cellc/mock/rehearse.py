@@ -111,4 +111,5 @@ def _findings(plant: Plant) -> tuple[str, ...]:
         *plant.network.events.lines(),
         *plant.buffer.conflicts,
         *plant.buffer.warnings.lines(),
+        *plant.requests.findings,
     )

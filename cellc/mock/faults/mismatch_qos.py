@@ -12,16 +12,20 @@ from functools import partial
 from cellc.contract.contract import Contract, ContractInterface
 from cellc.contract.rehearsals import FaultEntry
 from cellc.mock.bus.behaviour import SEVERED
+from cellc.mock.bus.matching import served_actions
+from cellc.mock.bus.events import QosEvent, QosEventKind
 from cellc.mock.faults.bounds import POSE_TYPE, Bounds
 from cellc.mock.faults.case import BORNE, SUCCEEDED, Ending, FaultCase, ends_in, fault_case
 from cellc.mock.faults.cell_steps import CellStep
-from cellc.mock.faults.contents import controllers, image_topic
+from cellc.mock.faults.contents import image_topic
 from cellc.mock.faults.observed import cameras, ending_unobserved
 from cellc.mock.faults.silent_states import catch_up, delay, of_broadcasters
 from cellc.mock.plant import Plant
 from cellc.mock.world.joint_states import JOINT_STATE_TYPE
 
 TF = "/tf"
+POLICY = "reliability"
+"""What the endpoint offers less of than its peers request."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,9 +42,9 @@ class MismatchQos:
         return None if interface is None else cls(entry.target, interface)
 
     def begin(self, plant: Plant) -> None:
-        """Come back with another profile; both ends log one line that names the policy."""
+        """Come back with another profile."""
         servers = [source.node for source in self.interface.sources]
-        plant.requests.findings.append(f"`{self.name}` is no longer connected: incompatible QoS, policy reliability")
+        self._tell(plant)
         plant.network.disturb(self.name, SEVERED)
         if self.interface.kind != "topic":
             plant.requests.unresponsive.update(servers)
@@ -60,6 +64,14 @@ class MismatchQos:
         elif self.interface.type == JOINT_STATE_TYPE:
             for history in of_broadcasters(plant, servers):
                 catch_up(history, plant.now_ns)
+
+    def _tell(self, plant: Plant) -> None:
+        """Let the middleware of each end log one line that names the policy."""
+        plant.requests.findings.append(f"`{self.name}` is no longer connected: incompatible QoS, policy {POLICY}")
+        ends = [(QosEventKind.OFFERED_QOS_INCOMPATIBLE, end) for end in self.interface.sources]
+        ends += [(QosEventKind.REQUESTED_QOS_INCOMPATIBLE, end) for end in self.interface.sinks]
+        for kind, end in ends:
+            plant.network.events.note(QosEvent(kind, self.name, end.node, plant.now_ns, detail=POLICY))
 
     def _drop_frames(self, plant: Plant) -> None:
         for perception in plant.perceptions.values():
@@ -98,9 +110,8 @@ def _observed(contract: Contract, name: str, interface: ContractInterface) -> tu
 
 
 def _unanswered(bounds: Bounds, name: str, step: CellStep) -> Ending:
-    actions = {controllers(bounds.contract)[each].action for each in step.controllers}
-    own = {facts.action for facts in controllers(bounds.contract).values()}
-    if name in actions or (name not in own and step.kind == "move"):
+    served = served_actions(bounds.contract)
+    if name in {served[each] for each in step.controllers} or (name not in served.values() and step.kind == "move"):
         return ends_in("timeout", within_s=bounds.execution_s(step))
     return BORNE
 

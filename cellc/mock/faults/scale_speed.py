@@ -60,7 +60,7 @@ def cases(contract: Contract) -> Iterator[FaultCase]:
 
 
 def _ending(bounds: Bounds, device: str, step: CellStep) -> Ending:
-    used = [controllers(bounds.contract)[name] for name in step.controllers]
+    used = [facts for name, facts in controllers(bounds.contract).items() if name in step.controllers]
     if not any(facts.device == device and facts.behaviour == SCALED for facts in used):
         return BORNE
     return ends_in("timeout", SUCCEEDED, within_s=bounds.execution_s(step))  # borne where the arm stands there already

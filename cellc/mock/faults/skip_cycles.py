@@ -17,7 +17,7 @@ BEYOND = 5
 
 @dataclass(frozen=True, slots=True)
 class SkipCycles:
-    """Lets every controller manager miss a number of cycles in a row."""
+    """Lets every controller manager and adapter miss a number of cycles in a row."""
 
     cycles: int
 
@@ -30,6 +30,8 @@ class SkipCycles:
         """Miss them."""
         for manager in plant.control.managers.values():
             manager.disturbances.skip_cycles(self.cycles)
+        for server in plant.control.adapters.values():
+            server.skip_cycles(self.cycles)
 
     def end(self, plant: Plant) -> None:
         """Nothing: a missed cycle stays missed."""

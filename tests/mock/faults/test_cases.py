@@ -10,16 +10,16 @@ from cellc.contract.rehearsals import FaultEntry, FaultEvent, RehearsalEntry, St
 from cellc.mock import MockCell
 from cellc.mock.faults.case import BORNE, FaultCase, ends_in
 from cellc.mock.faults.possible import possible_faults
-from tests.mock.faults.conftest import Run
+from tests.mock.faults.conftest import Rehearse
 
 
 def test_every_fault_at_the_start_of_every_step_ends_as_its_case_says(
-    cell: MockCell, plain: RehearsalEntry, run: Run
+    cell: MockCell, plain: RehearsalEntry, run: Rehearse
 ) -> None:
     wrong = []
     for case in possible_faults(cell.contract):
         for step in range(1, len(plain.steps) + 1):
-            result = run(case.at(step))
+            result = run(case.at(step)).result
             within_s = case.within_s(plain.steps, step)
             late = result.outcome != "succeeded" and within_s is not None and (result.response_s or 0.0) > within_s
             if result.outcome not in case.outcomes(plain.steps, step) or late:
@@ -55,9 +55,9 @@ def test_bound_of_a_run_is_the_longest_of_the_steps_that_it_may_end_in() -> None
 
 
 @pytest.mark.parametrize("when", ["started", "accepted", "moving"])
-def test_fault_begins_with_its_event(cell: MockCell, run: Run, when: str) -> None:
+def test_fault_begins_with_its_event(cell: MockCell, run: Rehearse, when: str) -> None:
     entry = FaultEntry(kind="protective_stop", target="arm", event=FaultEvent(step=3, when=when))
-    failed = run(entry).attempts[-2]
+    failed = run(entry).failed
     assert (failed.step, failed.outcome) == ("move pick", "protective_stop")
     marks = {point.step.name for point in failed.trace}
     assert marks >= {"started": set(), "accepted": {"ACCEPTED"}, "moving": {"ACCEPTED", "DRIVEN"}}[when]
@@ -65,13 +65,15 @@ def test_fault_begins_with_its_event(cell: MockCell, run: Run, when: str) -> Non
     assert ("DRIVEN" in marks) == (when == "moving")
 
 
-def test_offset_of_an_event_is_kept_to_the_nanosecond(run: Run) -> None:
+def test_offset_of_an_event_is_kept_to_the_nanosecond(run: Rehearse) -> None:
     without = run(FaultEntry(kind="protective_stop", target="arm", event=FaultEvent(step=3, when="moving")))
     entry = FaultEntry(kind="protective_stop", target="arm", event=FaultEvent(step=3, when="moving", after_s=0.1))
     later = run(entry)
-    assert later.sim_time_s - without.sim_time_s == pytest.approx(0.1, abs=0.05)  # ends on a tick of the monitor
+    assert later.result.sim_time_s - without.result.sim_time_s == pytest.approx(
+        0.1, abs=0.05
+    )  # ends on a tick of the monitor
 
 
-def test_event_that_never_comes_injects_nothing(run: Run) -> None:
-    result = run(FaultEntry(kind="protective_stop", target="arm", event=FaultEvent(step=2, when="accepted")))
+def test_event_that_never_comes_injects_nothing(run: Rehearse) -> None:
+    result = run(FaultEntry(kind="protective_stop", target="arm", event=FaultEvent(step=2, when="accepted"))).result
     assert (result.outcome, result.response_s) == ("succeeded", None)
