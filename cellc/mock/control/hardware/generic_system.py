@@ -6,7 +6,6 @@ of the cycle before become the states of this one.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
@@ -58,6 +57,7 @@ class GenericSystem:
         self._modes = ["position"] * len(self._names)
         self._mimics = self._find_mimics(joints)
         self._command_columns = {kind: self._columns(kind, True) for kind in _MODES}
+        self._followed = np.concatenate([self._command_columns[kind][1] for kind in _MODES])
         self._state_columns = {kind: self._columns(kind, False) for kind in _MODES}
         self._pairs = self._mirrored()
         self._offset_pairs = self._offset_mirrored()
@@ -180,18 +180,9 @@ class GenericSystem:
             for name, mode in zip(self._names, self._modes, strict=True)
         ):
             return 0
-        for kind in _MODES:
-            columns = self._command_columns[kind][1]
-            if not len(columns):
-                continue
-            values = command[:, columns]
-            if math.isfinite(values.sum()):
-                continue
-            # A column is all numbers or all NaN; a command that turns to or from NaN, or is infinite, is neither.
-            suspicious = ~np.isfinite(values.sum(axis=0))
-            if not np.isnan(values[:, suspicious]).all():
-                return 0
-        return len(command)
+        # A column is all numbers or all NaN; a command that turns to or from NaN, or is infinite, is neither.
+        suspicious = self._followed[~np.isfinite(command.sum(axis=0)[self._followed])]
+        return 0 if suspicious.size and not np.isnan(command[:, suspicious]).all() else len(command)
 
     def _move(self, motion: Motion, command: Array, period_s: float) -> None:
         for kind in _MODES:
