@@ -40,7 +40,7 @@ def _filled(cell: Cell, device: Device, text: str) -> str:
 
 def _speed_scaling(cell: Cell, device: Device) -> str | None:
     scaling = device.facts.speed_scaling
-    return None if scaling is None else _filled(cell, device, scaling.state_interface)
+    return None if scaling is None or _adapted(cell, device) else _filled(cell, device, scaling.state_interface)
 
 
 def _gripper(cell: Cell, device: Device) -> ContractGripper | None:

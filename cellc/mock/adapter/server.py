@@ -108,6 +108,10 @@ class AdapterServer:
             self.now_ns = until_ns
         return self.now_ns
 
+    def skip_cycles(self, count: int) -> None:
+        """Neither read nor command the device for a number of periods."""
+        self._next_ns += count * self.period_ns
+
     def take_events(self) -> tuple[ControlEvent, ...]:
         """Return what has happened since the last call."""
         events, self._events = tuple(self._events), []

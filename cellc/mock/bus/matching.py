@@ -28,14 +28,22 @@ def hears(contract: Contract, topic: str, source: str, sink: str) -> bool:
 def task_node(contract: Contract) -> str:
     """Return the node that the mock's task stands for: the client of the action that plans and executes.
 
-    Where there is no such action it is the client of a controller.
+    Where there is no such action it is the client of a controller or an adapter.
     """
-    controllers = [entry for manager in contract.managers.values() for entry in manager.controllers.values()]
-    own_actions = {entry.action for entry in controllers}
+    own_actions = served_actions(contract).values()
     for name, interface in sorted(contract.interfaces.items()):
         if interface.kind == "action" and name not in own_actions and interface.sinks:
             return interface.sinks[0].node
-    return next((entry.client for entry in controllers if entry.client is not None), "task")
+    controllers = [entry for manager in contract.managers.values() for entry in manager.controllers.values()]
+    clients = [*(entry.client for entry in controllers), *(entry.client for entry in contract.adapters.values())]
+    return next((client for client in clients if client is not None), "task")
+
+
+def served_actions(contract: Contract) -> dict[str, str | None]:
+    """Return the action of every controller, and of every device behind an adapter."""
+    controllers = {name: entry for manager in contract.managers.values() for name, entry in manager.controllers.items()}
+    served: dict[str, str | None] = {name: entry.action for name, entry in controllers.items()}
+    return served | {name: entry.action for name, entry in contract.adapters.items()}
 
 
 def _unmatched(contract: Contract) -> Iterator[str]:

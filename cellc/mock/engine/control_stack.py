@@ -118,7 +118,7 @@ class ControlStack:
         A single manager or adapter stops at its events. Several go on together in short steps, and are heard after
         each step.
         """
-        servers: tuple[GoalServer, ...] = (*self.managers.values(), *self.adapters.values())
+        servers = self._servers()
         if len(servers) == 1:
             servers[0].advance(until_ns)
             until_ns = servers[0].now_ns
@@ -134,7 +134,7 @@ class ControlStack:
 
     def dispatch(self, now_ns: int) -> None:
         """Hand what happened, and what was asked for just now, to the listeners; then wake who waits for it."""
-        for server in (*self.managers.values(), *self.adapters.values()):
+        for server in self._servers():
             self.events += server.take_events()
         if not self.events:
             return
@@ -166,6 +166,9 @@ class ControlStack:
                 history.append(block)
                 for watcher in self._watchers:
                     watcher.joint_states(manager, controller, block)
+
+    def _servers(self) -> tuple[GoalServer, ...]:
+        return (*self.managers.values(), *self.adapters.values())
 
     def _take_joint_states(self, manager: str, controller: str) -> JointStateBlock:
         if manager in self.managers:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from cellc.contract.contract import Contract, ContractInterface
+from cellc.mock.bus.matching import served_actions
 from cellc.mock.world.joint_states import JOINT_STATE_TYPE
 
 DEFAULT_CANCEL_S = 0.5
@@ -41,7 +42,7 @@ def planning_server(contract: Contract) -> str:
 
 
 def _task_actions(contract: Contract) -> list[ContractInterface]:
-    """Return the actions that no controller serves, in the order of their names."""
-    own = {entry.action for manager in contract.managers.values() for entry in manager.controllers.values()}
+    """Return the actions that neither a controller nor an adapter serves, in the order of their names."""
+    own = served_actions(contract).values()
     interfaces = sorted(contract.interfaces.items())
     return [interface for name, interface in interfaces if interface.kind == "action" and name not in own]

@@ -11,6 +11,7 @@ from cellc.adapter import Phase
 from cellc.contract.rehearsals import FaultEntry, RehearsalEntry, StepEntry
 from cellc.mock import MockCell, RehearsalResult, load
 from cellc.mock.control import GripperGoal, TrajectoryGoal, TrajectoryPoint
+from cellc.mock.faults.possible import possible_faults
 from cellc.mock.plant import Plant
 from cellc.output.write import write
 from cellc.pipeline import check, compile_cell
@@ -139,3 +140,20 @@ def test_goals_that_no_command_may_follow_are_rejected_with_the_reason(cell: Moc
     assert answers["bare"] == "a point lacks positions, velocities or accelerations"
     assert answers["elsewhere"] == "the trajectory begins 1 away from where the joints stand"
     assert answers["gripper"] == "`arm` takes trajectories only"
+
+
+def test_periods_that_the_adapter_misses_are_missed_cycles_and_trip_its_watchdog(cell: MockCell) -> None:
+    # 20 periods of 4 ms are twice what the watchdog allows.
+    result, plant = run(cell, FaultEntry(kind="skip_cycles", target="", at_s=0.4, cycles=20))
+    assert result.outcome in ("missed_cycle", "protective_stop")
+    state = plant.control.adapters["arm"].adapter.read()
+    assert (state.phase, state.fault) == (Phase.STOPPED, "no command within the watchdog's time")
+
+
+def test_every_fault_at_every_step_ends_in_a_named_outcome(cell: MockCell) -> None:
+    for case in possible_faults(cell.contract):
+        outcomes = case.outcomes(REACH, 2)
+        entry = RehearsalEntry(
+            name="reach", steps=REACH, faults=(case.at(2),), expect="succeeded", within_s=None, timeout_s=60.0
+        )
+        assert cell.rehearse(entry).outcome in outcomes, case.name
