@@ -8,6 +8,7 @@ from pydantic import Field
 
 from cellc.catalog.catalog_model import CatalogModel, Date, Distro, ParameterFact, Text, Token
 from cellc.catalog.device_control import InterfaceName, PluginUse
+from cellc.catalog.device_interfaces import QosUse
 
 ParameterType = Literal[
     "bool", "int", "double", "string", "bool_array", "int_array", "double_array", "string_array", "none"
@@ -62,7 +63,7 @@ class ControllerTopic(CatalogModel):
     name: Text
     type: Text
     direction: Literal["publish", "subscribe"]
-    qos: Token
+    qos: QosUse
     only: tuple[Distro, ...] = ()
 
 

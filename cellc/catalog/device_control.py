@@ -1,10 +1,10 @@
-"""What ros2_control sees of a device: hardware plugins, interfaces, and controllers that only this device has."""
+"""What ros2_control sees of a device: hardware plugins and interfaces, and the driver where there is no plugin."""
 
 from __future__ import annotations
 
 from pydantic import Field
 
-from cellc.catalog.catalog_model import CatalogModel, Distro, ParameterFact, Text, Token
+from cellc.catalog.catalog_model import CatalogModel, ParameterFact, Text, Token
 from cellc.spec.quantity import Frequency
 
 InterfaceName = Text
@@ -34,12 +34,16 @@ class JointInterfaces(CatalogModel):
 
 
 class GroupInterfaces(CatalogModel):
-    """Interfaces of a ``<sensor>`` or ``<gpio>``; ``initial`` values are what a mock starts from."""
+    """Interfaces of a ``<sensor>`` or ``<gpio>``; ``initial`` values are what a mock starts from.
+
+    ``fixed_name`` where the hardware exports them under this very name, whatever prefix the device has.
+    """
 
     command: tuple[InterfaceName, ...] = ()
     state: tuple[InterfaceName, ...] = ()
     initial: dict[InterfaceName, float] = Field(default_factory=dict)
     real_only: bool = False
+    fixed_name: bool = False
 
 
 class ControlFacts(CatalogModel):
@@ -65,15 +69,16 @@ class PluginUse(CatalogModel):
     parameters: dict[Text, ParameterFact] = Field(default_factory=dict)
 
 
-class DeviceController(CatalogModel):
-    """A controller kind that only this device offers; ``behaviour`` is the neutral kind that it acts as.
+class DriverFacts(CatalogModel):
+    """What moves the device on the real target where ``hardware`` names no plugin for it.
 
-    ``command_interfaces`` are what it claims where the spec says nothing; empty for those of the neutral kind.
+    ``node`` is one of the device's nodes, ``joint_states`` one of its topics, and ``actions`` tell which of its actions
+    takes the goals of a kind of controller that is not spawned there.
     """
 
-    behaviour: Token
-    command_interfaces: tuple[InterfaceName, ...] = ()
-    plugins: dict[Distro, PluginUse]
+    node: Text
+    joint_states: Text | None = None
+    actions: dict[Token, Text] = Field(default_factory=dict)
     source: Text
 
 

@@ -1,9 +1,10 @@
 """A device of the catalogue: what ``device.yaml`` says beyond what its description holds.
 
 Texts may carry placeholders that link fills in: ``{device}`` the name in the spec, ``{prefix}`` that of its ROS names,
-``{stem}`` the prefix without its last underscore, ``{address}`` and ``{port}`` of the connection, ``{host_address}`` of
-the host's card, ``{carrier_address}`` that of the device on which this one is mounted, ``{share:PACKAGE}`` the share
-folder of an installed package. Links, joints, sensors and gpios are named without prefix.
+``{bare_prefix}`` the prefix without its last underscore, ``{stem}`` the same or, where there is none, the name,
+``{address}`` and ``{port}`` of the connection, ``{host_address}`` of the host's card, ``{carrier_address}`` that of the
+device on which this one is mounted, ``{share:PACKAGE}`` the share folder of an installed package. Links, joints,
+sensors and gpios are named without prefix.
 """
 
 from __future__ import annotations
@@ -13,7 +14,8 @@ from typing import Literal
 from pydantic import Field
 
 from cellc.catalog.catalog_model import CatalogModel, Date, Text, Token
-from cellc.catalog.device_control import ControlFacts, DeviceController, SpeedScalingFacts
+from cellc.catalog.device_control import ControlFacts, DriverFacts, SpeedScalingFacts
+from cellc.catalog.device_controller import DeviceController
 from cellc.catalog.device_interfaces import ActionFacts, CameraFacts, NodeFacts, ServiceFacts, TopicFacts
 from cellc.catalog.device_operation import NetworkFacts, SafetyFacts, VersionRow
 from cellc.spec.quantity import Force, JointAcceleration, JointJerk, JointPosition, Length, Mass, Velocity
@@ -105,6 +107,7 @@ class DeviceModel(CatalogModel):
     limits: LimitFacts = Field(default_factory=LimitFacts)
     packages: PackageFacts
     control: ControlFacts | None = None
+    driver: DriverFacts | None = None
     controllers: dict[Token, DeviceController] = Field(default_factory=dict)
     speed_scaling: SpeedScalingFacts | None = None
     gripper: GripperFacts | None = None

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
 from cellc.catalog.controller_kind import ControllerKind
 from cellc.catalog.description import Description
+from cellc.catalog.device_controller import PASSIVE
 from cellc.catalog.device_model import DeviceModel
 from cellc.catalog.distro_model import ControllerManagerFacts, DistroTable
 from cellc.catalog.message_model import InterfaceTypeTable
@@ -102,18 +103,40 @@ def _unknown_names(model: DeviceModel, description: Description, document: Sourc
     joints = {joint.name for joint in description.joints}
     named: list[_NamedThing] = [(("base",), model.base, links, "link"), *_named_joints(model, joints)]
     named += [(("frames", short), link, links, "link") for short, link in model.frames.items()]
-    return [
-        Diagnostic(
-            "catalogue-entry-invalid",
-            Severity.ERROR,
-            f"the description has no {kind} `{name}`",
-            document.locate(path),
-            path,
-            did_you_mean(name, known, f"{kind}s of the description"),
-        )
-        for path, name, known, kind in named
-        if name not in known
+    kinds = {*controller_kinds(), *PASSIVE}
+    behaviours: list[_NamedThing] = [
+        (("controllers", name, "behaviour"), own.behaviour, kinds, "kind of controller")
+        for name, own in model.controllers.items()
     ]
+    return [
+        *_unknown(document, named, "description"),
+        *_unknown(document, behaviours, "catalogue"),
+        *_unknown(document, _named_by_driver(model), "device"),
+    ]
+
+
+def _unknown(document: SourceDocument, named: Iterable[_NamedThing], where: str) -> Iterator[Diagnostic]:
+    for path, name, known, kind in named:
+        if name not in known:
+            yield Diagnostic(
+                "catalogue-entry-invalid",
+                Severity.ERROR,
+                f"the {where} has no {kind} `{name}`",
+                document.locate(path),
+                path,
+                did_you_mean(name, known, f"{kind}s of the {where}"),
+            )
+
+
+def _named_by_driver(model: DeviceModel) -> Iterator[_NamedThing]:
+    driver = model.driver
+    if driver is None:
+        return
+    yield ("driver", "node"), driver.node, {node.name for node in model.nodes}, "node"
+    if driver.joint_states is not None:
+        yield ("driver", "joint_states"), driver.joint_states, {topic.name for topic in model.topics}, "topic"
+    for kind, action in driver.actions.items():
+        yield ("driver", "actions", kind), action, {one.name for one in model.actions}, "action"
 
 
 def _named_joints(model: DeviceModel, joints: set[str]) -> list[_NamedThing]:

@@ -10,10 +10,23 @@ from cellc.cell.interface import ParameterValue
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class StandIn:
+    """What takes the goals of a controller on real hardware: an action of the device's own node."""
+
+    node: str
+    action: str
+    action_type: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Controller(Entity):
     """A controller with its plugin for the cell's distribution.
 
     Args:
+        namespace: that of its manager, empty or with a leading slash.
+        label: name that no other controller of the cell has: the bare one, or the full one where managers share it.
+        targets: targets on which it is spawned; the others lack its hardware, or parts of it.
+        stand_in: what takes its goals on the real target where it is not spawned there.
         kind: kind in the catalogue, such as ``joint_trajectory``.
         behaviour: neutral kind whose behaviour it has; a vendor's scaled variant is ``scaled_joint_trajectory``.
         plugin: type string for the controller manager.
@@ -25,6 +38,10 @@ class Controller(Entity):
     """
 
     manager: str
+    namespace: str
+    label: str
+    targets: tuple[str, ...]
+    stand_in: StandIn | None
     kind: str
     behaviour: str
     plugin: str
@@ -42,6 +59,11 @@ class Controller(Entity):
     goal_tolerance: float | None
     on_violation: str
     update_rate_hz: float | None
+
+    @property
+    def full_name(self) -> str:
+        """Fully qualified name of its node, with a leading slash."""
+        return f"{self.namespace}/{self.name}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -62,3 +84,8 @@ class ControllerManager(Entity):
     devices: tuple[str, ...]
     controllers: tuple[Controller, ...]
     switches: tuple[ControllerSwitch, ...]
+
+    @property
+    def node(self) -> str:
+        """Fully qualified name of its node, with a leading slash."""
+        return f"{self.namespace}/controller_manager"

@@ -46,10 +46,9 @@ class InterfaceGroup:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HardwareComponent:
-    """What moves a device; plugins and parameters by target (``mock``, ``real``).
+    """A component of ros2_control; plugins and parameters by target (``mock``, ``real``).
 
-    ``targets`` are those on which it becomes a ``<ros2_control>`` tag. On any other the driver's own node moves the
-    device, and stands in ``plugins`` as ``package/executable``.
+    ``targets`` are those on which it becomes a ``<ros2_control>`` tag; on any other the device's driver moves it.
     """
 
     name: str
@@ -58,6 +57,23 @@ class HardwareComponent:
     parameters: Mapping[str, Mapping[str, str]]
     sensors: tuple[InterfaceGroup, ...]
     gpios: tuple[InterfaceGroup, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DeviceDriver:
+    """The node that moves a device on the real target past ros2_control.
+
+    Args:
+        node: its fully qualified name.
+        program: ``package/executable``.
+        joint_states: the topic on which the program publishes the joints of the device, or None.
+        actions: kind of controller → the action, and its type, that takes such a controller's goals.
+    """
+
+    node: str
+    program: str
+    joint_states: str | None
+    actions: Mapping[str, tuple[str, str]]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -71,6 +87,7 @@ class Device(Entity):
         root_link: prefixed root link; its pose in ``parent_frame`` is ``transform_root_to_parent``.
         frames: short names of the catalogue and local link names → prefixed link names.
         joints: movable joints in the order of the description, mimic joints included.
+        driver: what moves it on the real target where no component of ros2_control does.
         tool_frame: prefixed link where tools mount, for an arm.
         carries: devices mounted on this one, directly or on a frame of it.
     """
@@ -85,6 +102,7 @@ class Device(Entity):
     frames: Mapping[str, str]
     joints: tuple[DeviceJoint, ...]
     hardware: HardwareComponent | None
+    driver: DeviceDriver | None
     tool_frame: str | None
     carries: tuple[str, ...]
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from enum import Enum
 
 from cellc.cell.entity import Entity
@@ -11,6 +12,10 @@ from cellc.diagnostics import Span, YamlPath
 
 ParameterValue = bool | int | float | str | tuple[bool | int | float | str, ...]
 """What a ROS parameter can hold; an int where a double is declared is a mistake."""
+
+
+TARGETS = ("mock", "real")
+"""What the hardware interfaces of a cell reach."""
 
 
 class NodeSource(str, Enum):
@@ -25,7 +30,8 @@ class NodeSource(str, Enum):
 class Node(Entity):
     """A node; ``name`` is its bare name, ``namespace`` empty or with a leading slash.
 
-    ``clock`` is ``wall``, ``sim`` or None for the target's; ``real_only`` nodes are not started on a mock.
+    ``clock`` is ``wall``, ``sim`` or None for the target's; ``real_only`` nodes are not started on a mock. ``remaps``
+    are topics as the node's program names them → the names that they have in the cell.
     """
 
     source: NodeSource
@@ -41,11 +47,18 @@ class Node(Entity):
     real_only: bool = False
     device: str | None = None
     parameters: Mapping[str, ParameterValue]
+    remaps: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def full_name(self) -> str:
         """Fully qualified name, with a leading slash."""
         return f"{self.namespace}/{self.name}"
+
+
+def node_labels(nodes: Sequence[Node]) -> tuple[str, ...]:
+    """Return a name for each node that no other of them has: the bare one, or the full one where several share it."""
+    times = Counter(node.name for node in nodes)
+    return tuple(node.name if times[node.name] == 1 else node.full_name for node in nodes)
 
 
 class InterfaceKind(str, Enum):
@@ -72,12 +85,21 @@ class Qos:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Endpoint:
-    """One end of an interface: a node (or a controller, device) and the QoS it offers or requests."""
+    """One end of an interface: a node, controller or device, and the QoS it offers or requests.
+
+    Args:
+        node: what the spec calls it: a node, a controller or a device. No other end of the cell is called so: where
+            managers have controllers of one name, it is the full name.
+        full_name: fully qualified name of the node in the ROS graph.
+        targets: targets on which it stands there.
+    """
 
     node: str
+    full_name: str
     qos: Qos
     path: YamlPath
     span: Span
+    targets: tuple[str, ...] = TARGETS
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -117,3 +139,9 @@ class Interface(Entity):
     on_error: str | None = None
     cancel_within_s: float | None = None
     simulated: SimulatedNetwork | None = None
+
+    @property
+    def targets(self) -> tuple[str, ...]:
+        """Targets on which somebody publishes or serves it; every target where no source is declared."""
+        found = {target for source in self.sources for target in source.targets}
+        return tuple(target for target in TARGETS if target in found or not self.sources)

@@ -61,7 +61,9 @@ class ContractQos(ContractModel):
 class ContractEndpoint(ContractModel):
     """One end of an interface."""
 
-    node: str = Field(description="Full name of the node.")
+    node: str = Field(description="Name of the node, controller or device, which no other end has.")
+    full_name: str = Field(description="Fully qualified name of the node in the ROS graph.")
+    targets: tuple[Literal["mock", "real"], ...] = Field(description="Targets on which it stands there.")
     qos: ContractQos = Field(description="Its profile.")
 
 
@@ -102,14 +104,18 @@ class ContractController(ContractModel):
 
     plugin: str = Field(description="Type as the controller manager loads it.")
     behaviour: str = Field(description="What the type does, in the mock's terms.")
+    full_name: str = Field(description="Fully qualified name of its node.")
+    targets: tuple[Literal["mock", "real"], ...] = Field(description="Targets on which it is loaded.")
     device: str | None = Field(description="Device whose joints it drives.")
     joints: tuple[str, ...] = Field(description="Joints in the controller's order.")
     command_interfaces: tuple[str, ...] = Field(description="Interfaces it claims, as `joint/interface`.")
     state_interfaces: tuple[str, ...] = Field(description="Interfaces it reads, as `joint/interface`.")
     active: bool = Field(description="Active after start-up.")
-    client: str | None = Field(description="Full name of the one node that may command it.")
+    client: str | None = Field(description="Name of the one node that may command it.")
     action: str | None = Field(description="Full name of its action.")
     action_type: str | None = Field(description="ROS type of its action.")
+    real_action: str | None = Field(description="Action that takes its goals where it is not loaded on real hardware.")
+    real_action_type: str | None = Field(description="ROS type of that action.")
     on_violation: str = Field(description="What happens on a tolerance violation.")
 
 
@@ -133,7 +139,7 @@ class ContractGripper(ContractModel):
     """A gripper in its joint's units: rad or m."""
 
     joint: str = Field(description="Joint that is commanded.")
-    controller: str | None = Field(description="Controller that moves it.")
+    controller: str | None = Field(description="Controller that moves it; by full name where managers share names.")
     open: float = Field(description="Position when open.")
     closed: float = Field(description="Position when closed on nothing.")
     max_effort: float = Field(description="Largest effort, N or Nm.")
@@ -161,6 +167,14 @@ class ContractClock(ContractModel):
     drift: float = Field(0.0, description="Seconds that the mock lets it gain in a second, until the bound.")
 
 
+class ContractDriver(ContractModel):
+    """A driver's own node, which moves a device on real hardware past every controller manager."""
+
+    node: str = Field(description="Full name of the node.")
+    program: str = Field(description="Package and executable.")
+    joint_states: str | None = Field(description="Topic on which its program publishes joints, before remapping.")
+
+
 class ContractDevice(ContractModel):
     """A device as the mock needs it."""
 
@@ -170,6 +184,7 @@ class ContractDevice(ContractModel):
     root_link: str = Field(description="Link that is mounted.")
     architecture: str = Field(description="Who owns the command path.")
     hardware_component: str | None = Field(description="Name of its ros2_control component.")
+    driver: ContractDriver | None = Field(description="What moves it where it has no component on real hardware.")
     speed_scaling_interface: str | None = Field(description="State interface of its speed scaling.")
     gripper: ContractGripper | None = Field(description="What a gripper adds.")
     camera: ContractCamera | None = Field(description="What a camera adds.")
@@ -205,7 +220,9 @@ class ContractGroup(ContractModel):
     base_link: str = Field(description="First link of the chain.")
     tip_frame: str = Field(description="Frame that goals place.")
     joints: tuple[str, ...] = Field(description="Joints in chain order.")
-    controller: str | None = Field(description="Controller, or device behind an adapter, that executes trajectories.")
+    controller: str | None = Field(
+        description="Controller, by full name where managers share names, or device behind an adapter, that executes."
+    )
 
 
 class ContractPoseTarget(ContractModel):

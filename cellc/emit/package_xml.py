@@ -21,7 +21,6 @@ from cellc.formats.xml_text import comment, element, render
 from cellc.graph.cell_graph import CellGraph
 
 _ALWAYS = ("ros2launch", "xacro")
-_MERGED_BY = "joint_state_publisher"
 _CONTROL = ("controller_manager", "hardware_interface", "ros2controlcli")
 _WAITED_WITH = ("ros2cli_common_extensions", "tf2_ros")  # what the steps of the bring-up ask with
 _PLANNING = (
@@ -66,8 +65,6 @@ def _dependencies(cell: Cell) -> tuple[str, ...]:
     names |= {package for device in cell.devices for package in share_folders(device)}
     if plans(cell):
         names |= set(_PLANNING)
-    if len(cell.managers) > 1:
-        names.add(_MERGED_BY)
     if cell.managers:
         names |= {*_CONTROL, *_WAITED_WITH}
     return tuple(sorted(names))

@@ -13,8 +13,8 @@ from collections.abc import Iterator
 
 from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
-from cellc.cell.interface import Endpoint, Interface, InterfaceKind
-from cellc.formats.claim_label import claim_facts, stop_facts
+from cellc.cell.interface import Endpoint, Interface, InterfaceKind, node_labels
+from cellc.formats.claim_label import claim_facts, driver_facts, stop_facts
 from cellc.formats.header import Header
 from cellc.formats.interface_label import interface_facts
 from cellc.graph.cell_graph import CellGraph
@@ -36,17 +36,18 @@ def _diagram(cell: Cell) -> Iterator[str]:
     for interface in cell.interfaces:
         yield from _arrows(interface, devices)
     yield from _claims(cell)
+    yield from _drivers(cell)
     yield f"style vendor {_BOLD}"
     yield f"style safety {_BOLD}"
 
 
 def _ros_graph(cell: Cell) -> Iterator[str]:
     yield 'subgraph ros["ROS 2 graph"]'
-    for node in cell.nodes:
-        yield f"  {_box('node', node.name, f'{node.package}/{node.executable}', f'owner {node.owner}')}"
+    for node, label in zip(cell.nodes, node_labels(cell.nodes), strict=True):
+        yield f"  {_box('node', label, f'{node.package}/{node.executable}', f'owner {node.owner}')}"
     for controller in cell.controllers:
         client = f"commanded by {controller.client}" if controller.client else "no client"
-        yield f"  {_box('node', controller.name, controller.plugin, client)}"
+        yield f"  {_box('node', controller.label, controller.plugin, client)}"
     yield "end"
 
 
@@ -95,7 +96,15 @@ def _claims(cell: Cell) -> Iterator[str]:
             if controller.device is not None and controller.command_interfaces:
                 label = _text("<br/>".join(["claims", *claim_facts(cell, manager, controller)]))
                 arrow = "-->" if controller.active else "-.->"
-                yield f'{_id("node", controller.name)} {arrow} |"{label}"| {_id("device", controller.device)}'
+                yield f'{_id("node", controller.label)} {arrow} |"{label}"| {_id("device", controller.device)}'
+
+
+def _drivers(cell: Cell) -> Iterator[str]:
+    names = {node.full_name: label for node, label in zip(cell.nodes, node_labels(cell.nodes), strict=True)}
+    for device in cell.devices:
+        if device.driver is not None:
+            label = _text("<br/>".join(["moves", *driver_facts(cell, device, device.driver)]))
+            yield f'{_id("node", names[device.driver.node])} --> |"{label}"| {_id("device", device.name)}'
 
 
 def _end(end: Endpoint, devices: set[str]) -> str:

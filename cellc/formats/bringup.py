@@ -15,7 +15,8 @@ from cellc.cell.frame import WORLD, FrameKind
 from cellc.cell.interface import InterfaceKind, Node
 from cellc.formats.hosts import host_of, host_of_manager
 from cellc.formats.movers import is_mover, movers
-from cellc.formats.spawning import Spawning, on_the_mock_alone, spawnings
+from cellc.formats.spawning import Spawning, spawnings
+from cellc.link.derived_joint_states import JOINT_STATE_TYPE
 
 MOVE = "move"
 """Begins the name of the steps that wait for everything and then become the program behind them, one a target."""
@@ -30,7 +31,7 @@ class Step:
         name: name of the step, a word of a shell.
         waits_for: conditions, each a kind and its arguments: ``topic /joint_states``.
         command: what is done then.
-        mock_alone: only on the mock.
+        only: the one target on which it is taken; None for every target.
     """
 
     stage: str
@@ -38,13 +39,13 @@ class Step:
     host: str
     waits_for: tuple[str, ...]
     command: str
-    mock_alone: bool = False
+    only: str | None = None
 
 
 def steps(cell: Cell) -> tuple[Step, ...]:
     """Return the steps in the order of their stages; each waits for its conditions, none for the one before it."""
     managed = [node for node in cell.nodes if node.lifecycle]
-    spawned = [(manager, one) for manager in cell.managers for one in spawnings(cell, manager)]
+    spawned = [(manager, one) for manager in cell.managers for one in spawnings(manager)]
     return (
         *(_configure(cell, node) for node in managed),
         *(_observe(cell, manager, one) for manager, one in spawned if one.observing),
@@ -58,20 +59,17 @@ def ready_to_move(cell: Cell, target: str) -> tuple[str, ...]:
 
     For the mock that nothing but the mock runs: its argument is a word, and the description is what moves.
     """
-    alone = {one.name for one in cell.controllers if on_the_mock_alone(cell, one)}
     asking = {node.name for node in movers(cell)}
     claimed = (
         f"controller {_node(manager)} {name} active"
         for manager in cell.managers
-        for one in spawnings(cell, manager)
-        for name in (() if one.mock_alone else one.claiming)
+        for one in spawnings(manager)
+        for name in (one.claiming if one.on(target) else ())
     )
     actions = (
         f"action {one.name}"
         for one in cell.interfaces
-        if one.kind is InterfaceKind.ACTION
-        and any(end.node in asking for end in one.sinks)
-        and not any(end.node in alone for end in one.sources)
+        if one.kind is InterfaceKind.ACTION and target in one.targets and any(end.node in asking for end in one.sinks)
     )
     return (*(("mocked",) if target == "mock" else ()), *claimed, *actions, *_states(cell))
 
@@ -96,8 +94,8 @@ def _activate(cell: Cell, node: Node) -> Step:
 
 def _observe(cell: Cell, manager: ControllerManager, spawned: Spawning) -> Step:
     waits_for = tuple(f"controller {_node(manager)} {name} inactive" for name in spawned.controllers)
-    name = f"observe_{manager.name}" + ("_mock" if spawned.mock_alone else "")
-    return _switch(cell, manager, "observe", name, waits_for, spawned.observing, spawned.mock_alone)
+    name = f"observe_{manager.name}" + ("" if spawned.only is None else f"_{spawned.only}")
+    return _switch(cell, manager, "observe", name, waits_for, spawned.observing, spawned.only)
 
 
 def _claim(cell: Cell, manager: ControllerManager, spawned: Spawning) -> Step:
@@ -107,8 +105,8 @@ def _claim(cell: Cell, manager: ControllerManager, spawned: Spawning) -> Step:
         *(f"transform {group.base_link} {group.tip_frame}" for group in cell.groups),
         *_states(cell),
     )
-    name = f"claim_{manager.name}" + ("_mock" if spawned.mock_alone else "")
-    return _switch(cell, manager, "claim", name, waits_for, spawned.claiming, spawned.mock_alone)
+    name = f"claim_{manager.name}" + ("" if spawned.only is None else f"_{spawned.only}")
+    return _switch(cell, manager, "claim", name, waits_for, spawned.claiming, spawned.only)
 
 
 def _switch(
@@ -118,16 +116,18 @@ def _switch(
     name: str,
     waits_for: tuple[str, ...],
     controllers: tuple[str, ...],
-    mock_alone: bool,
+    only: str | None,
 ) -> Step:
     # Strict: all of them or none, so that a cell is never half claimed.
     command = f"ros2 control switch_controllers --activate {' '.join(controllers)} --strict -c {_node(manager)}"
-    return Step(stage, name, host_of_manager(cell, manager), waits_for, command, mock_alone)
+    return Step(stage, name, host_of_manager(cell, manager), waits_for, command, only)
 
 
 def _joint_states(cell: Cell, manager: ControllerManager) -> Iterator[str]:
-    name = f"{manager.namespace}/joint_states"
-    return (interface.name for interface in cell.interfaces if interface.name == name)
+    own = {controller.full_name for controller in manager.controllers}
+    for interface in cell.interfaces:
+        if interface.type == JOINT_STATE_TYPE and any(end.full_name in own for end in interface.sources):
+            yield interface.name
 
 
 def _states(cell: Cell) -> Iterator[str]:

@@ -6,7 +6,9 @@ from collections.abc import Iterator
 
 from cellc.cell.cell import Cell
 from cellc.cell.control import Controller, ControllerManager
+from cellc.cell.device import Device, DeviceDriver
 from cellc.formats.numbers import shortest
+from cellc.formats.real_mover import real_mover
 
 _NOT_STATED = "not stated"
 # REP-103: SI and radians; by the joint's type.
@@ -31,8 +33,19 @@ def claim_facts(cell: Cell, manager: ControllerManager, controller: Controller) 
     yield f"owner {owner}; on a violation: {controller.on_violation}; watchdog: {watchdog(cell, controller)}"
     if device is not None:
         state = "from start-up" if controller.active else "as an alternate, inactive at start-up"
-        plugin = device.hardware.plugins["real"] if device.hardware else "no hardware"
-        yield f"through {plugin}; {state}; architecture: {device.spec.architecture}"
+        through = f"through {real_mover(device)}" if "real" in controller.targets else "on the mock alone"
+        yield f"{through}; {state}; architecture: {device.spec.architecture}"
+
+
+def driver_facts(cell: Cell, device: Device, driver: DeviceDriver) -> Iterator[str]:
+    """Yield program, goals, owner and watchdog of what moves a device past every controller on real hardware."""
+    safety = device.facts.safety
+    goals = ", ".join(action for action, _ in driver.actions.values()) or "none declared"
+    yield f"{driver.program}, on real hardware; no controller claims anything there"
+    yield f"goals: {goals}; frame joints, on request, time of the driver"
+    watched = (None if safety is None else safety.watchdog) or _NOT_STATED
+    yield f"owner {cell.spec.owners.responsibilities.vendor_safety}; watchdog: {watched}"
+    yield f"architecture: {device.spec.architecture}"
 
 
 def stop_facts(cell: Cell) -> Iterator[str]:

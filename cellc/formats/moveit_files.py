@@ -3,19 +3,31 @@
 from __future__ import annotations
 
 from cellc.cell.cell import Cell
-from cellc.cell.interface import Node
+from cellc.cell.interface import TARGETS, Node
 
 JOINT_LIMITS = "config/joint_limits.yaml"
+CONTROLLERS = "config/moveit/controllers.yaml"
 PARAMETER_FILES = (
     "config/moveit/kinematics.yaml",
     JOINT_LIMITS,
     "config/moveit/cartesian_limits.yaml",
     "config/moveit/planning_pipelines.yaml",
-    "config/moveit/controllers.yaml",
+    CONTROLLERS,
     "config/moveit/trajectory_execution.yaml",
     "config/moveit/planning_scene.yaml",
 )
 """In the order in which move_group is given them."""
+
+
+def parameter_files(cell: Cell, target: str) -> tuple[str, ...]:
+    """Return the files that move_group is given on ``mock``, ``real`` or what a substitution makes of them."""
+    return tuple(controllers_file(cell, target) if file == CONTROLLERS else file for file in PARAMETER_FILES)
+
+
+def controllers_file(cell: Cell, target: str) -> str:
+    """Return the path of the file with the controllers that move_group calls: one, unless the targets differ."""
+    differs = any(one.active and one.action is not None and len(one.targets) < len(TARGETS) for one in cell.controllers)
+    return CONTROLLERS.replace(".yaml", f".{target}.yaml") if differs else CONTROLLERS
 
 
 def semantic_file(cell: Cell) -> str:

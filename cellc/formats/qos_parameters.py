@@ -17,7 +17,7 @@ def qos_parameters(cell: Cell, node: Node) -> dict[str, ParameterValue]:
         if topic.kind is not InterfaceKind.TOPIC or topic.derived:
             continue
         for side, ends in (("publisher", topic.sources), ("subscription", topic.sinks)):
-            for qos in (end.qos for end in ends if end.node == node.name):
+            for qos in (end.qos for end in ends if end.full_name == node.full_name):
                 prefix = f"qos_overrides.{topic.name}.{side}"
                 found |= {f"{prefix}.{policy}": value for policy, value in _policies(qos, side)}
     return found

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from cellc.cell.cell import Cell
 from cellc.cell.control import Controller, ControllerManager
+from cellc.cell.interface import TARGETS
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,33 +17,34 @@ class Spawning:
         controllers: all that the spawner is given.
         observing: those to activate that read states and claim nothing.
         claiming: those to activate that claim command interfaces.
-        mock_alone: their hardware is a component on the mock; on real hardware the driver's own node moves the device,
-            and a spawner would fail there.
+        only: the one target on which they are spawned; None for every target. On the others their hardware is no
+            component, or lacks what they need, and a spawner would fail.
     """
 
     controllers: tuple[str, ...]
     observing: tuple[str, ...]
     claiming: tuple[str, ...]
-    mock_alone: bool
+    only: str | None
+
+    def on(self, target: str) -> bool:
+        """Tell whether it is started on a target."""
+        return self.only in (None, target)
 
 
-def spawnings(cell: Cell, manager: ControllerManager) -> Iterator[Spawning]:
+def spawnings(manager: ControllerManager) -> Iterator[Spawning]:
     """Yield what the spawners of a manager are given, in order; the first failure in a list stops the rest of it."""
-    for mock_alone in (False, True):
-        controllers = [one for one in manager.controllers if on_the_mock_alone(cell, one) is mock_alone]
+    for only in (None, *TARGETS):
+        controllers = [one for one in manager.controllers if only_target(one) == only]
         if controllers:
             active = [one for one in controllers if one.active]
             yield Spawning(
                 tuple(one.name for one in controllers),
                 tuple(one.name for one in active if not one.command_interfaces),
                 tuple(one.name for one in active if one.command_interfaces),
-                mock_alone,
+                only,
             )
 
 
-def on_the_mock_alone(cell: Cell, controller: Controller) -> bool:
-    """Tell whether a controller has its hardware on the mock and not in the real description."""
-    if controller.device is None:
-        return False
-    hardware = cell.device(controller.device).hardware
-    return hardware is not None and "real" not in hardware.targets
+def only_target(controller: Controller) -> str | None:
+    """Return the one target on which a controller is spawned, or None for one that is spawned on every target."""
+    return controller.targets[0] if len(controller.targets) == 1 else None

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from cellc.catalog.controller_kind import ControllerKind
-from cellc.catalog.load import load_controller_kind
+from cellc.catalog.kind_of import kind_behind
 from cellc.cell.cell import Cell
 from cellc.cell.control import Controller
 
 
 def kind_of(cell: Cell, controller: Controller) -> ControllerKind | None:
-    """Return the neutral kind of a controller, or None for one that only its vendor describes."""
-    own = None if controller.device is None else cell.device(controller.device).facts.controllers.get(controller.kind)
-    return load_controller_kind(own.behaviour if own is not None else controller.behaviour).value
+    """Return the kind of a controller: a neutral one, or what its device says of a passive one."""
+    return kind_behind(controller.kind, None if controller.device is None else cell.device(controller.device).facts)
 
 
 def plugin_parameters(cell: Cell, controller: Controller) -> frozenset[str]:

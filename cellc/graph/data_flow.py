@@ -32,7 +32,7 @@ class DataFlow:
 
     Args:
         interfaces: every declaration of a name, in the order of the cell.
-        commanders: controllers with command interfaces by name, where motion ends.
+        commanders: controllers with command interfaces by the name that ends have, where motion ends.
         frame_edges: edges from the publisher of a dynamic frame to the nodes that plan in it.
     """
 
@@ -122,7 +122,7 @@ def build_data_flow(cell: Cell) -> DataFlow:
     commanders: dict[str, list[Controller]] = {}
     for controller in cell.controllers:
         if controller.command_interfaces:
-            commanders.setdefault(controller.name, []).append(controller)
+            commanders.setdefault(controller.label, []).append(controller)
     return DataFlow(
         {name: tuple(found) for name, found in interfaces.items()},
         {name: tuple(found) for name, found in commanders.items()},

@@ -76,10 +76,10 @@ def build_startup(cell: Cell) -> StartupGraph:
     """Gather who waits for whom: clients for servers, controllers for their manager, clients for controllers."""
     needs: dict[Need, None] = {}
     for controller in cell.controllers:
-        manager = _manager_node(cell, controller.manager)
-        needs[Need(controller.name, manager, f"{manager}/list_controllers")] = None
+        manager = f"{controller.namespace}/controller_manager"
+        needs[Need(controller.label, manager, f"{manager}/list_controllers")] = None
         if controller.client and controller.action:
-            needs[Need(controller.client, controller.name, controller.action)] = None
+            needs[Need(controller.client, controller.label, controller.action)] = None
     for interface in cell.interfaces:
         if interface.kind is not InterfaceKind.TOPIC:
             pairs = ((sink.node, source.node) for source in interface.sources for sink in interface.sinks)
@@ -87,8 +87,3 @@ def build_startup(cell: Cell) -> StartupGraph:
     parts = dict.fromkeys(node.name for node in cell.nodes)
     parts.update(dict.fromkeys(part for need in needs for part in (need.part, need.needs)))
     return StartupGraph(tuple(parts), tuple(needs))
-
-
-def _manager_node(cell: Cell, name: str) -> str:
-    namespace = next((manager.namespace for manager in cell.managers if manager.name == name), "")
-    return f"{namespace}/controller_manager"

@@ -22,17 +22,26 @@ def _unknown(code: str, thing: str, where: str) -> CodePage:
 
 CODES: tuple[CodePage, ...] = (
     _unknown("unknown-calibration", "calibration", "a measured transform names an entry of `calibrations`"),
+    _unknown("unknown-clock", "clock", "a clock is a host, a device that states one, or the domain of either"),
     _unknown("unknown-controller", "controller", "switches and faults name controllers of the cell"),
     _unknown("unknown-device", "device", "controllers, steps and faults name entries of `devices`"),
     _unknown("unknown-frame", "frame", "a frame is `world`, an entry of `frames` or `scene`, or `device/link`"),
     _unknown("unknown-goal", "pose or goal", "a `move` step names an entry of `motion.poses` or `motion.goals`"),
     _unknown("unknown-group", "planning group", "poses and goals belong to an entry of `motion.groups`"),
     _unknown("unknown-host", "host", "nodes, managers and connections name entries of `hosts`"),
+    _unknown("unknown-interface", "interface", "a fault names a topic, service or action under its full name"),
     _unknown("unknown-joint", "joint", "a joint is `device/joint`, with the joint's name in its description"),
     _unknown("unknown-model", "model", "a device names an entry of the catalogue, or a folder with a device.yaml"),
     _unknown("unknown-nic", "network card", "a connection names a card of its host"),
     _unknown("unknown-node", "node", "interfaces, frames and clients name nodes, devices or controllers"),
     _unknown("unknown-rehearsal", "rehearsal", "`use` names another entry of `rehearsals`"),
+    _page(
+        "ambiguous-node",
+        "a reference fits several controllers",
+        "Two controller managers may have controllers of one name, each in its namespace. Which of them publishes or "
+        "serves is then told by its full name alone.",
+        "write the full name, with the namespace of its manager",
+    ),
     _page(
         "controller-not-in-distro",
         "the pinned distribution has no plugin for this kind of controller",
@@ -46,6 +55,13 @@ CODES: tuple[CodePage, ...] = (
         "Joints and claims follow from the device. Without one the controller would have an empty list of joints, "
         "which the controller manager refuses.",
         "add `device:` to the controller",
+    ),
+    _page(
+        "event-never-comes",
+        "a fault waits for a step that is not there, or that sends no goal",
+        "A fault may begin when a step is started, when its goal is accepted or when a joint first moves. Only moves "
+        "and grips send goals; a fault that waits for anything else never comes, and the rehearsal proves nothing.",
+        "name a step of the rehearsal, with an event that it has",
     ),
     _page(
         "not-a-chain",

@@ -8,7 +8,7 @@ from cellc.catalog.description import Description, Joint
 from cellc.catalog.device_control import GroupInterfaces, JointInterfaces
 from cellc.catalog.device_model import AccelerationLimit, DeviceModel, JerkLimit
 from cellc.catalog.load import CatalogDevice, device_names, load_device
-from cellc.cell.device import Device, DeviceJoint, HardwareComponent, InterfaceGroup
+from cellc.cell.device import Device, DeviceDriver, DeviceJoint, HardwareComponent, InterfaceGroup
 from cellc.cell.frame import WORLD
 from cellc.diagnostics import Diagnostic, Outcome, Severity, did_you_mean
 from cellc.link.local_device import local_device
@@ -108,6 +108,7 @@ def _device(
     prefix = prefix_of(name, written)
     facts = entry.model
     mount = written.mount
+    known = placeholders(name, prefix, written, spec)
     return Device(
         name=name,
         path=path,
@@ -121,7 +122,8 @@ def _device(
         transform_root_to_parent=identity() if mount is None else pose(mount.xyz, mount.rpy),
         frames={short: prefix + link for short, link in _frame_names(entry).items()},
         joints=_joints(name, written, document, facts, entry.description, prefix),
-        hardware=_hardware(facts, placeholders(name, prefix, written, spec), prefix),
+        hardware=_hardware(facts, known, prefix),
+        driver=_driver(facts, known),
         tool_frame=None if facts.tool_frame is None else prefix + facts.frames.get(facts.tool_frame, facts.tool_frame),
         carries=_carried(name, spec),
     )
@@ -205,7 +207,7 @@ def _hardware(facts: DeviceModel, known: Placeholders, prefix: str) -> HardwareC
     return HardwareComponent(
         name=known.fill(control.component),
         targets=tuple(by_target),
-        plugins={"real": _driver(facts)} | {target: hardware.plugin for target, hardware in by_target.items()},
+        plugins={target: hardware.plugin for target, hardware in by_target.items()},
         parameters={
             target: {key: known.fill(value) for key, value in hardware.parameters.items()}
             for target, hardware in by_target.items()
@@ -215,15 +217,24 @@ def _hardware(facts: DeviceModel, known: Placeholders, prefix: str) -> HardwareC
     )
 
 
-def _driver(facts: DeviceModel) -> str:
-    """Return the node that moves a device which no component of ros2_control moves."""
-    return next((f"{node.package}/{node.executable}" for node in facts.nodes), "no driver")
+def _driver(facts: DeviceModel, known: Placeholders) -> DeviceDriver | None:
+    driver = facts.driver
+    if driver is None:
+        return None
+    program = next(f"{node.package}/{node.executable}" for node in facts.nodes if node.name == driver.node)
+    types = {action.name: action.type for action in facts.actions}
+    return DeviceDriver(
+        node="/" + known.fill(driver.node),
+        program=program,
+        joint_states=None if driver.joint_states is None else known.fill(driver.joint_states),
+        actions={kind: (known.fill(action), types[action]) for kind, action in driver.actions.items()},
+    )
 
 
 def _groups(groups: Mapping[str, GroupInterfaces], prefix: str) -> tuple[InterfaceGroup, ...]:
     return tuple(
         InterfaceGroup(
-            name=prefix + name,
+            name=name if entry.fixed_name else prefix + name,
             command_interfaces=entry.command,
             state_interfaces=entry.state,
             initial=dict(entry.initial),

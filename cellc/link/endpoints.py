@@ -1,16 +1,62 @@
-"""Who may stand at the end of an interface, and the QoS that devices and controllers offer there."""
+"""Who may stand at the end of an interface, under which names, and what devices and controllers offer there."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 
-from cellc.cell.control import ControllerManager
+from cellc.cell.control import Controller, ControllerManager
 from cellc.cell.device import Device
-from cellc.cell.interface import Node, NodeSource, Qos
-from cellc.link.interfaces import EndpointNames
+from cellc.cell.interface import TARGETS, Endpoint, Node, NodeSource, Qos, node_labels
+from cellc.diagnostics import Span, YamlPath
 from cellc.link.placeholders import placeholders
-from cellc.link.qos import QosResolver
+from cellc.link.qos import DEFAULT, QosResolver
 from cellc.spec.cell_spec import CellSpec
+
+
+@dataclass(frozen=True, slots=True)
+class EndName:
+    """A node, a device or a controller that may stand at an end.
+
+    Args:
+        node: its name in the spec, unlike that of any other.
+        full_name: fully qualified name of the node behind it.
+        owner: who answers for it.
+        targets: targets on which it runs.
+        nodes: full names of the nodes that offer single interfaces, for a device whose driver has several.
+        offered: QoS of the topics that it publishes, by full name.
+    """
+
+    node: str
+    full_name: str
+    owner: str
+    targets: tuple[str, ...] = TARGETS
+    nodes: Mapping[str, str] = field(default_factory=dict)
+    offered: Mapping[str, Qos] = field(default_factory=dict)
+
+    def end(self, interface: str, path: YamlPath, span: Span, qos: Qos | None = None) -> Endpoint:
+        """Return this end of an interface; without a QoS it has what is offered there."""
+        return Endpoint(
+            node=self.node,
+            full_name=self.nodes.get(interface, self.full_name),
+            qos=qos or self.offered.get(interface, DEFAULT),
+            path=path,
+            span=span,
+            targets=self.targets,
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class EndpointNames:
+    """What may stand at the end of an interface.
+
+    Args:
+        known: by the name in the spec, and by the full name of its node.
+        shared: names that several controllers have → their full names, by which alone they can be told apart.
+    """
+
+    known: Mapping[str, EndName]
+    shared: Mapping[str, tuple[str, ...]]
 
 
 def name_endpoints(
@@ -21,11 +67,54 @@ def name_endpoints(
     resolver: QosResolver,
 ) -> EndpointNames:
     """Collect nodes, devices and controllers with their owners, and what devices publish with which QoS."""
-    owners = {node.name: node.owner for node in nodes if node.source is not NodeSource.DEVICE}
-    owners |= {device.name: spec.owners.responsibilities.vendor_safety for device in devices}
-    owners |= {c.name: spec.owners.responsibilities.command for manager in managers for c in manager.controllers}
-    offered = {(device.name, topic): qos for device in devices for topic, qos in _offered(device, spec, resolver)}
-    return EndpointNames(owners=owners, offered=offered)
+    controllers = tuple(controller for manager in managers for controller in manager.controllers)
+    own = [node for node in nodes if node.source is not NodeSource.DEVICE]
+    words = {
+        label: EndName(label, node.full_name, node.owner) for node, label in zip(own, node_labels(own), strict=True)
+    }
+    words |= {device.name: _of_device(device, nodes, spec, resolver) for device in devices}
+    command = spec.owners.responsibilities.command
+    words |= {c.label: EndName(c.label, c.full_name, command, c.targets) for c in controllers}
+    full = {end.full_name: end for end in words.values()}
+    full |= {node.full_name: _of_node(node) for node in nodes if node.full_name not in full}
+    return EndpointNames(full | words, _shared(controllers))
+
+
+def _of_node(node: Node) -> EndName:
+    """Name a node by its full name: others share the bare one, or its device stands for it."""
+    targets = ("real",) if node.real_only else TARGETS
+    return EndName(node.full_name, node.full_name, node.owner, targets)
+
+
+def _shared(controllers: tuple[Controller, ...]) -> dict[str, tuple[str, ...]]:
+    shared: dict[str, tuple[str, ...]] = {}
+    for one in controllers:
+        if one.label != one.name:
+            shared[one.name] = (*shared.get(one.name, ()), one.label)
+    return shared
+
+
+def _of_device(device: Device, nodes: tuple[Node, ...], spec: CellSpec, resolver: QosResolver) -> EndName:
+    own = next((node.full_name for node in nodes if node.device == device.name), f"/{device.name}")
+    return EndName(
+        node=device.name,
+        full_name=own,
+        owner=spec.owners.responsibilities.vendor_safety,
+        nodes={name: node for name, node in _nodes_of(device, spec) if any(n.full_name == node for n in nodes)},
+        offered=dict(_offered(device, spec, resolver)),
+    )
+
+
+def _nodes_of(device: Device, spec: CellSpec) -> Iterator[tuple[str, str]]:
+    """Yield the interfaces of a device with the nodes that the catalogue says offer them."""
+    known = placeholders(device.name, device.prefix, device.spec, spec)
+    facts = device.facts
+    for topic in facts.topics:
+        yield known.fill(topic.name), "/" + known.fill(topic.publisher)
+    for service in facts.services:
+        yield known.fill(service.name), "/" + known.fill(service.server)
+    for action in facts.actions:
+        yield known.fill(action.name), "/" + known.fill(action.server)
 
 
 def _offered(device: Device, spec: CellSpec, resolver: QosResolver) -> Iterator[tuple[str, Qos]]:

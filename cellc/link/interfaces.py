@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from cellc.cell.interface import Endpoint, Interface, InterfaceKind, Qos, SimulatedNetwork
-from cellc.diagnostics import Diagnostic, Outcome, YamlPath
+from cellc.cell.interface import Endpoint, Interface, InterfaceKind, SimulatedNetwork
+from cellc.diagnostics import Diagnostic, Outcome, Severity, YamlPath
+from cellc.link.endpoints import EndName, EndpointNames
 from cellc.link.frame_names import FrameNames
-from cellc.link.qos import DEFAULT, with_changes
+from cellc.link.qos import with_changes
 from cellc.link.unknown import unknown_name
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
@@ -22,19 +22,6 @@ from cellc.spec.interfaces import (
     TopicSpec,
 )
 from cellc.spec.quantity import Quantity
-
-
-@dataclass(frozen=True, slots=True)
-class EndpointNames:
-    """What may stand at the end of an interface.
-
-    Args:
-        owners: name of each node, device and controller → who answers for it.
-        offered: (name, topic) → QoS that a device or controller offers there.
-    """
-
-    owners: Mapping[str, str]
-    offered: Mapping[tuple[str, str], Qos]
 
 
 def link_interfaces(
@@ -69,7 +56,7 @@ def _interface(
     sinks = _endpoints(name, written_sinks, document, (*path, sink_key), ends)
     problems = (*frame.diagnostics, *sources.diagnostics, *sinks.diagnostics)
     bound_sources = sources.value or ()
-    owner = written.owner or (ends.owners.get(bound_sources[0].node) if bound_sources else None)
+    owner = written.owner or (ends.known[bound_sources[0].node].owner if bound_sources else None)
     common = _Common(name, path, document, frame.value, owner, bound_sources, sinks.value or ())
     if isinstance(written, TopicSpec):
         return Outcome(_topic(common, written), problems)
@@ -149,12 +136,29 @@ def _endpoints(
     endpoints: list[Endpoint] = []
     problems: list[Diagnostic] = []
     for node, qos, at in _written_endpoints(written, path):
-        if node not in ends.owners:
-            problems.append(unknown_name("unknown-node", node, "node", ends.owners, document, at))
-            continue
-        profile = ends.offered.get((node, interface), DEFAULT)
-        endpoints.append(Endpoint(node=node, qos=with_changes(profile, qos), path=at, span=document.locate_key(at)))
+        bound = _end_name(node, document, at, ends)
+        problems += bound.diagnostics
+        if bound.value is not None:
+            offered = bound.value.end(interface, at, document.locate_key(at))
+            endpoints.append(replace(offered, qos=with_changes(offered.qos, qos)))
     return Outcome(tuple(endpoints), tuple(problems))
+
+
+def _end_name(node: str, document: SourceDocument, at: YamlPath, ends: EndpointNames) -> Outcome[EndName]:
+    if node in ends.known:
+        return Outcome(ends.known[node])
+    if node not in ends.shared:
+        return Outcome(None, (unknown_name("unknown-node", node, "node", ends.known, document, at),))
+    full_names = " or ".join(f"`{name}`" for name in ends.shared[node])
+    problem = Diagnostic(
+        code="ambiguous-node",
+        severity=Severity.ERROR,
+        message=f"`{node}` is the name of {len(ends.shared[node])} controllers",
+        span=document.locate(at),
+        yaml_path=at,
+        help=f"write {full_names}",
+    )
+    return Outcome(None, (problem,))
 
 
 def _written_endpoints(written: Endpoints, path: YamlPath) -> tuple[tuple[str, QosSpec, YamlPath], ...]:

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from cellc.catalog.catalog_model import DISTROS, Distro
-from cellc.catalog.controller_kind import ControllerKind
-from cellc.catalog.load import controller_kinds, load_controller_kind, load_qos_profiles
+from cellc.catalog.load import load_qos_profiles
 from cellc.catalog.qos_model import RMWS, Rmw
 from cellc.cell.cell import Cell
 from cellc.cell.device import Device
 from cellc.diagnostics import Diagnostic, Outcome, Severity, did_you_mean
-from cellc.link.control import ControlContext, link_managers
-from cellc.link.derived import Derivation, derive_interfaces
+from cellc.link.control import link_managers
+from cellc.link.controller import ControlContext
+from cellc.link.derivation import Derivation
+from cellc.link.derived import derive_interfaces
 from cellc.link.devices import link_devices
 from cellc.link.endpoints import name_endpoints
 from cellc.link.frame_names import name_frames
@@ -41,14 +42,13 @@ def _link_with_devices(
     spec: CellSpec, document: SourceDocument, distro: Distro, linked_devices: Outcome[tuple[Device, ...]]
 ) -> Outcome[Cell]:
     devices = linked_devices.value or ()
-    kinds = _controller_kinds(spec, devices)
     resolver = _qos_resolver(spec)
     names = name_frames(spec, document, devices)
     scene = link_scene(spec, document, names)
     frames = link_frames(spec, document, devices, names)
     all_frames = (*(frames.value or ()), *scene_frames(scene.value or ()))
     nodes = link_nodes(spec, document, devices)
-    context = ControlContext(spec, document, distro, {device.name: device for device in devices}, kinds)
+    context = ControlContext(spec, document, distro, {device.name: device for device in devices})
     managers = link_managers(context)
     loops = managers.value or ()
     all_nodes = (*(nodes.value or ()), *standard_nodes(spec, document, loops))
@@ -56,7 +56,7 @@ def _link_with_devices(
     ends = name_endpoints(spec, devices, all_nodes, loops, resolver)
     interfaces = link_interfaces(spec, document, ends, names)
     written = interfaces.value or ()
-    derived = derive_interfaces(Derivation(spec, document, loops, kinds, all_frames, resolver), written)
+    derived = derive_interfaces(Derivation(spec, document, distro, loops, devices, all_frames, ends, resolver), written)
     groups = link_groups(spec, document, devices, all_frames, names, controllers)
     poses = link_poses(spec, document, groups.value or ())
     goals = link_goals(spec, document, groups.value or (), names)
@@ -86,15 +86,6 @@ def _qos_resolver(spec: CellSpec) -> QosResolver:
     table = load_qos_profiles().value
     assert table is not None  # package data, held valid by the catalogue's tests
     return QosResolver(table, _rmw(spec))
-
-
-def _controller_kinds(spec: CellSpec, devices: tuple[Device, ...]) -> dict[str, ControllerKind]:
-    """Load the neutral kinds that the cell's controllers are of, or act as; others stay unread."""
-    managers = (*(() if spec.control is None else (spec.control,)), *spec.managers.values())
-    written = {controller.type for manager in managers for controller in manager.controllers.values()}
-    written |= {own.behaviour for device in devices for own in device.facts.controllers.values()}
-    loaded = {kind: load_controller_kind(kind).value for kind in controller_kinds() if kind in written}
-    return {kind: facts for kind, facts in loaded.items() if facts is not None}
 
 
 def _distro(spec: CellSpec, document: SourceDocument) -> Outcome[Distro]:

@@ -49,7 +49,7 @@ def link_groups(
                 base_link=base.value,
                 tip_frame=tip.value,
                 joints=joints,
-                controllers=tuple(c.name for c in controllers if c.action and set(c.joints) & set(joints)),
+                controllers=tuple(c.label for c in controllers if c.action and set(c.joints) & set(joints)),
             )
         )
     return Outcome(tuple(groups), tuple(problems))

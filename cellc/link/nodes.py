@@ -3,16 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from cellc.cell.control import ControllerManager
 from cellc.cell.device import Device
 from cellc.cell.interface import Node, NodeSource
-from cellc.diagnostics import Diagnostic, Outcome, Severity
+from cellc.diagnostics import Diagnostic, Outcome, Severity, Span, YamlPath
 from cellc.link.frames import ROBOT_STATE_PUBLISHER
 from cellc.link.placeholders import placeholders
 from cellc.link.unknown import unknown_name
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
+
+DESCRIPTION_PUBLISHER = "description_publisher"
+"""Says the description of one of several controller managers."""
+
+JOINT_STATES = "/joint_states"
+"""Where robot_state_publisher and planners hear of all joints.
+
+Nobody merges: several publishers on it are usual, readers put joints together by name. joint_state_publisher with a
+``source_list`` would stamp old states anew, and report zero for joints that it has not heard of.
+"""
 
 
 def link_nodes(spec: CellSpec, document: SourceDocument, devices: tuple[Device, ...]) -> Outcome[tuple[Node, ...]]:
@@ -34,6 +45,7 @@ def link_nodes(spec: CellSpec, document: SourceDocument, devices: tuple[Device, 
                 source=NodeSource.SPEC,
                 package=package,
                 executable=executable,
+                namespace=written.namespace,
                 host=written.host or _only_host(spec),
                 lifecycle=written.lifecycle,
                 owner=written.owner,
@@ -49,36 +61,68 @@ def link_nodes(spec: CellSpec, document: SourceDocument, devices: tuple[Device, 
 def standard_nodes(
     spec: CellSpec, document: SourceDocument, managers: tuple[ControllerManager, ...]
 ) -> tuple[Node, ...]:
-    """Return robot_state_publisher and one node for each controller manager."""
-    publisher = Node(
-        name=ROBOT_STATE_PUBLISHER,
-        path=("devices",),
-        span=document.locate(("devices",)),
+    """Return robot_state_publisher and one node for each controller manager, with what several of them need."""
+    publisher = _description_publisher(
+        spec, ROBOT_STATE_PUBLISHER, ("devices",), document.locate(("devices",)), _only_host(spec)
+    )
+    return (
+        publisher,
+        *(_manager_node(spec, manager) for manager in managers),
+        *(_own_description(spec, manager) for manager in managers if len(managers) > 1),
+    )
+
+
+def _manager_node(spec: CellSpec, manager: ControllerManager) -> Node:
+    # Everybody listens to one topic, wherever the manager is: publishers of joint states are told apart by joint.
+    own = f"{manager.namespace}{JOINT_STATES}"
+    return Node(
+        name="controller_manager",
+        path=manager.path,
+        span=manager.span,
+        source=NodeSource.STANDARD,
+        package="controller_manager",
+        executable="ros2_control_node",
+        namespace=manager.namespace,
+        host=manager.host or _only_host(spec),
+        owner=spec.owners.responsibilities.command,
+        language="cpp",
+        parameters={},
+        remaps={} if own == JOINT_STATES else {own: JOINT_STATES},
+    )
+
+
+def _own_description(spec: CellSpec, manager: ControllerManager) -> Node:
+    """Return the node that says which hardware one of several managers drives.
+
+    It is a robot_state_publisher of which only the description is wanted: it hears no joint states, and its transforms
+    go where nobody listens, so that those of the cell keep one authority.
+    """
+    home = description_home(manager)
+    apart = {"/tf": "/tf", "/tf_static": "/tf_static", f"{home}{JOINT_STATES}": JOINT_STATES}
+    node = _description_publisher(
+        spec, DESCRIPTION_PUBLISHER, manager.path, manager.span, manager.host or _only_host(spec)
+    )
+    return replace(node, namespace=home, remaps={name: f"{home}/unused{topic}" for name, topic in apart.items()})
+
+
+def description_home(manager: ControllerManager) -> str:
+    """Return the namespace in which the description of one of several managers is published."""
+    return manager.namespace or f"/{manager.name}"
+
+
+def _description_publisher(spec: CellSpec, name: str, path: YamlPath, span: Span, host: str | None) -> Node:
+    return Node(
+        name=name,
+        path=path,
+        span=span,
         source=NodeSource.STANDARD,
         package=ROBOT_STATE_PUBLISHER,
         executable=ROBOT_STATE_PUBLISHER,
-        host=_only_host(spec),
+        host=host,
         owner=spec.owners.responsibilities.frames,
         language="cpp",
         parameters={},
     )
-    loops = tuple(
-        Node(
-            name="controller_manager",
-            path=manager.path,
-            span=manager.span,
-            source=NodeSource.STANDARD,
-            package="controller_manager",
-            executable="ros2_control_node",
-            namespace=manager.namespace,
-            host=manager.host or _only_host(spec),
-            owner=spec.owners.responsibilities.command,
-            language="cpp",
-            parameters={},
-        )
-        for manager in managers
-    )
-    return (publisher, *loops)
 
 
 def _driver_nodes(spec: CellSpec, devices: tuple[Device, ...]) -> Iterator[Node]:
@@ -86,7 +130,7 @@ def _driver_nodes(spec: CellSpec, devices: tuple[Device, ...]) -> Iterator[Node]
         connection = device.spec.connection
         known = placeholders(device.name, device.prefix, device.spec, spec)
         for entry in device.facts.nodes:
-            namespace, _, name = known.fill(entry.name).rpartition("/")
+            namespace, _, name = f"/{known.fill(entry.name)}".rpartition("/")
             yield Node(
                 name=name,
                 path=device.path,
@@ -101,7 +145,16 @@ def _driver_nodes(spec: CellSpec, devices: tuple[Device, ...]) -> Iterator[Node]
                 real_only=entry.provides == "real",
                 device=device.name,
                 parameters=known.fill_parameters(entry.parameters),
+                remaps=_joined(device, f"{namespace}/{name}"),
             )
+
+
+def _joined(device: Device, node: str) -> dict[str, str]:
+    """Return the remap by which a driver's joint states join those of the controller managers."""
+    driver = device.driver
+    if driver is None or driver.joint_states is None or driver.node != node:
+        return {}
+    return {driver.joint_states: JOINT_STATES}
 
 
 def _only_host(spec: CellSpec) -> str | None:

@@ -48,6 +48,7 @@ def placeholders(name: str, prefix: str, written: DeviceSpec, spec: CellSpec) ->
             "device": name,
             "prefix": prefix,
             "stem": prefix.removesuffix("_") or name,
+            "bare_prefix": prefix.removesuffix("_"),
             "address": (connection.address if connection is not None else None) or UNKNOWN,
             "port": (connection.port if connection is not None else None) or UNKNOWN,
             "host_address": host_address,

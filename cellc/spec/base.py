@@ -20,6 +20,14 @@ REFERENCE_PATTERN = r"^[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)?$"
 # Device, controller, node and interface tokens end up in ROS graph names: one token of `[A-Za-z_][A-Za-z0-9_]*`.
 Name = Annotated[str, StringConstraints(pattern=NAME_PATTERN, max_length=64)]
 
+# Empty for the root namespace.
+Namespace = Annotated[str, StringConstraints(pattern=r"^(/[A-Za-z_][A-Za-z0-9_]*)*$", max_length=128)]
+
+# A node, controller or device by its name, or by its full name where several controllers share the short one.
+NodeReference = Annotated[
+    str, StringConstraints(pattern=r"^([A-Za-z][A-Za-z0-9_]*|(/[A-Za-z_][A-Za-z0-9_]*)+)$", max_length=256)
+]
+
 # REP-144: lower case, at least two characters, starts with a letter; the cell's name becomes a package name.
 PackageName = Annotated[str, StringConstraints(pattern=PACKAGE_NAME_PATTERN, max_length=64)]
 

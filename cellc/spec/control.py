@@ -6,7 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from cellc.spec.base import Name, ParameterValue, SpecModel, Text
+from cellc.spec.base import Name, Namespace, ParameterValue, SpecModel, Text
 from cellc.spec.quantity import Duration, Frequency, JointPosition
 
 
@@ -56,9 +56,7 @@ class ManagerSpec(SpecModel):
     """One controller manager with its update loop."""
 
     update_rate: Frequency = Field(..., description="Rate of read, update, write.", examples=["500 Hz"])
-    namespace: str = Field(
-        "", description="Namespace of the manager.", pattern=r"^(/[A-Za-z_][A-Za-z0-9_]*)*$", examples=["/left"]
-    )
+    namespace: Namespace = Field("", description="Namespace of the manager.", examples=["/left"])
     host: Name | None = Field(None, description="Host that runs it.", examples=["control_pc"])
     controllers: dict[Name, ControllerSpec] = Field(
         ...,

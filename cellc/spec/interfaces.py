@@ -6,7 +6,17 @@ from typing import Annotated, Literal, Union
 
 from pydantic import Discriminator, Field, Tag
 
-from cellc.spec.base import FrameReference, InterfaceType, Name, ParameterValue, SpecModel, Text, shape_of
+from cellc.spec.base import (
+    FrameReference,
+    InterfaceType,
+    Name,
+    Namespace,
+    NodeReference,
+    ParameterValue,
+    SpecModel,
+    Text,
+    shape_of,
+)
 from cellc.spec.quantity import Duration, Frequency, Ratio
 
 OnStale = Literal["reject_goal", "stop_and_hold", "ignore_sample", "continue"]
@@ -17,6 +27,7 @@ class NodeSpec(SpecModel):
     """A node of the cell that is not a driver or controller of the catalogue."""
 
     run: Text = Field(..., description="Package and executable.", examples=["cell_perception/detector"])
+    namespace: Namespace = Field("", description="Namespace of the node.", examples=["/left"])
     host: Name | None = Field(None, description="Host that runs it.", examples=["control_pc"])
     lifecycle: bool = Field(False, description="Is a managed node.", examples=[True])
     owner: Text = Field("UNKNOWN", description="Who answers for it.", examples=["perception"])
@@ -55,9 +66,9 @@ class QosSpec(SpecModel):
 
 Endpoints = Annotated[
     Union[
-        Annotated[Name, Tag("text")],
-        Annotated[tuple[Name, ...], Tag("list")],
-        Annotated[dict[Name, QosSpec], Tag("mapping")],
+        Annotated[NodeReference, Tag("text")],
+        Annotated[tuple[NodeReference, ...], Tag("list")],
+        Annotated[dict[NodeReference, QosSpec], Tag("mapping")],
     ],
     Discriminator(
         shape_of,
@@ -115,7 +126,7 @@ class ServiceSpec(InterfaceFields):
     """A bounded request and its response."""
 
     service: InterfaceType = Field(..., description="Service type.", examples=["std_srvs/srv/Trigger"])
-    server: Name = Field(..., description="Node that answers.", examples=["perception"])
+    server: NodeReference = Field(..., description="Node that answers.", examples=["perception"])
     client: Endpoints = Field(..., description="Nodes that ask.", examples=["task"])
     timeout: Duration | None = Field(None, description="Bound of the response time.", examples=["1 s"])
     on_timeout: OnTimeout | None = Field(None, description="What the client does then.", examples=["error"])
@@ -126,7 +137,7 @@ class ActionSpec(InterfaceFields):
     """A long-running goal with feedback and cancellation."""
 
     action: InterfaceType = Field(..., description="Action type.", examples=["moveit_msgs/action/MoveGroup"])
-    server: Name = Field(..., description="Node or controller that executes.", examples=["move_group"])
+    server: NodeReference = Field(..., description="Node or controller that executes.", examples=["move_group"])
     client: Endpoints = Field(..., description="Nodes that send goals.", examples=["task"])
     timeout: Duration | None = Field(None, description="Bound of a whole goal.", examples=["20 s"])
     on_timeout: OnTimeout | None = Field(None, description="What the client does then.", examples=["cancel_and_hold"])

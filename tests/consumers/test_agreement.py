@@ -229,8 +229,12 @@ _PARTS = {
 
 _FOR_PLANNING = {
     "config/joint_limits.yaml",
-    *(f"config/moveit/{name}.yaml" for name in ("kinematics", "controllers", "planning_pipelines")),
+    *(f"config/moveit/{name}.yaml" for name in ("kinematics", "planning_pipelines")),
 }
+
+
+def _driven(texts: dict[str, str]) -> bool:
+    return any(device["driver"] for device in json.loads(texts["contract.json"])["devices"].values())
 
 
 @every_build
@@ -238,7 +242,9 @@ def test_package_has_every_part(cell: str, distro: str) -> None:
     texts = build(cell, distro).texts
     assert _PARTS | {f"urdf/{cell}.mock.urdf", f"urdf/{cell}.real.urdf"} <= set(texts)
     spec = yaml.safe_load(spec_for(cell, distro))
-    planning = _FOR_PLANNING | {f"config/moveit/{cell}.srdf"}
+    # One file of controllers, unless a driver's own node takes goals on real hardware.
+    called = ("controllers.mock", "controllers.real") if _driven(texts) else ("controllers",)
+    planning = _FOR_PLANNING | {f"config/moveit/{cell}.srdf"} | {f"config/moveit/{name}.yaml" for name in called}
     assert planning & set(texts) == (planning if cell in PLANNING else set())  # nobody reads them where no node plans
     assert {f"middleware/{host}.sh" for host in spec.get("hosts", {})} <= set(texts)
     overridden = any("to" in one or isinstance(one.get("from"), dict) for one in spec.get("interfaces", {}).values())

@@ -56,8 +56,28 @@ def test_what_one_node_hears_another_may_say(cell: str, distro: str) -> None:
     found = profiles(cell, distro)
     said = {topic for profile in found.values() for topic in granted(profile, "topics", "publish")}
     for name, profile in found.items():
-        heard = granted(profile, "topics", "subscribe") - {"/clock"}
-        assert heard <= said, name
+        heard = {topic for topic in granted(profile, "topics", "subscribe") if not topic.startswith("~/")} - {"/clock"}
+        assert {topic for topic in heard if "/unused/" not in topic} <= said, name
+
+
+@every_build
+def test_nobody_may_command_past_an_action(cell: str, distro: str) -> None:
+    # A trajectory controller fails to configure where it may not subscribe; nothing may speak to it there.
+    found = profiles(cell, distro)
+    said = {topic for profile in found.values() for topic in granted(profile, "topics", "publish")}
+    for name, profile in found.items():
+        own = {topic.replace("~", name) for topic in granted(profile, "topics", "subscribe") if topic.startswith("~/")}
+        assert not own & said
+
+
+@every_build
+def test_unused_topics_are_said_and_heard_by_one_node_alone(cell: str, distro: str) -> None:
+    for name, profile in profiles(cell, distro).items():
+        names = granted(profile, "topics", "publish") | granted(profile, "topics", "subscribe")
+        home = name.rpartition("/")[0]
+        unused = {topic for topic in names if "/unused/" in topic}
+        assert not unused or name == f"{home}/description_publisher"
+        assert all(topic.startswith(f"{home}/unused/") for topic in unused)
 
 
 @every_build
@@ -69,7 +89,8 @@ def test_descriptions_and_joint_states_pass(cell: str, distro: str) -> None:
         if process.executable == "robot_state_publisher":
             assert f"{process.namespace}/robot_description" in may_say
             assert {process.remaps.get(topic, topic) for topic in ("/tf", "/tf_static")} <= may_say
-            assert process.remaps.get("joint_states", f"{process.namespace}/joint_states") in may_hear
+            states = f"{process.namespace}/joint_states"
+            assert process.remaps.get(states, states) in may_hear
         if process.executable == "ros2_control_node":
             assert process.remaps["~/robot_description"] in may_hear
         if process.executable == "move_group":

@@ -113,7 +113,8 @@ def test_picture_labels_every_arrow_and_keeps_its_text_inside(cell: str, sheet: 
     contract = json.loads(artifacts_of(cell)["contract.json"])
     assert set(contract["interfaces"]) <= set(said)
     claiming = [c for m in contract["managers"].values() for c in m["controllers"].values() if c["command_interfaces"]]
-    assert arrows == len(contract["interfaces"]) + len(claiming) + 1  # and the physical stop
+    driven = [device for device in contract["devices"].values() if device["driver"]]
+    assert arrows == len(contract["interfaces"]) + len(claiming) + len(driven) + 1  # and the physical stop
     assert sum(entry.startswith("owner ") for entry in said) == arrows
     width, height = (float(value) for value in picture.attrib["viewBox"].split()[2:])
     letter = 8.0 * float(picture.attrib["font-size"]) / 13.0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from functools import lru_cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -57,7 +58,8 @@ def test_each_manager_takes_its_description_from_its_own_topic() -> None:
     for manager, namespace in zip(_nodes("ros2_control_node"), ("/left", "/right"), strict=True):
         remaps = {remap.get("from"): remap.get("to") for remap in manager.findall("remap")}
         topic = f"{namespace}/robot_description"
-        assert remaps == {"~/robot_description": topic, "robot_description": topic}
+        states = {f"{namespace}/joint_states": "/joint_states"}
+        assert remaps == {"~/robot_description": topic, "robot_description": topic} | states
 
 
 def test_static_frames_keep_one_authority() -> None:
@@ -70,10 +72,34 @@ def test_static_frames_keep_one_authority() -> None:
         assert {"/tf", "/tf_static"} <= {remap.get("from") for remap in node.findall("remap")}
 
 
-def test_joint_states_of_both_are_merged() -> None:
-    (merger,) = _nodes("joint_state_publisher")
-    parameters = {entry.attrib["name"]: entry.attrib["value"] for entry in merger.findall("param")}
-    assert yaml.safe_load(parameters["source_list"]) == ["/left/joint_states", "/right/joint_states"]
+def test_joint_states_of_both_meet_on_one_topic_without_a_merger() -> None:
+    # joint_state_publisher would give old states a new stamp, and zero to joints that it has not heard of.
+    assert not _nodes("joint_state_publisher")
+    assert "joint_state_publisher" not in _artifacts()["package.xml"]
+    interfaces = json.loads(_artifacts()["contract.json"])["interfaces"]
+    ends = {name: [end["full_name"] for end in interfaces[name]["sources"]] for name in interfaces}
+    assert ends["/joint_states"] == ["/left/joint_states", "/right/joint_states"]
+    assert "/left/joint_states" not in interfaces
+
+
+def test_descriptions_are_of_each_manager() -> None:
+    interfaces = json.loads(_artifacts()["contract.json"])["interfaces"]
+    for side in ("left", "right"):
+        said = interfaces[f"/{side}/robot_description"]
+        assert [end["full_name"] for end in said["sources"]] == [f"/{side}/description_publisher"]
+        assert [end["full_name"] for end in said["sinks"]] == [f"/{side}/controller_manager"]
+    assert interfaces["/robot_description"]["sinks"] == []
+
+
+def test_namesakes_have_rights_on_their_own_interfaces_alone() -> None:
+    policy = ElementTree.fromstring(_artifacts()["security/policy.xml"])
+    executed = {
+        (profile.get("ns"), action.text)
+        for profile in policy.iter("profile")
+        if profile.get("node") == "trajectory"
+        for action in profile.iter("action")
+    }
+    assert executed == {(f"/{side}", f"/{side}/trajectory/follow_joint_trajectory") for side in ("left", "right")}
 
 
 def test_every_parameter_key_carries_its_namespace() -> None:

@@ -108,10 +108,11 @@ def test_address_of_the_carrier_is_unknown_where_the_arm_has_none(tmp_path: Path
 
 
 def test_hand_has_hardware_on_the_mock_alone(cell: Cell) -> None:
-    hand = cell.device("hand").hardware
+    hand, driver = cell.device("hand").hardware, cell.device("hand").driver
     assert hand is not None
-    assert hand.targets == ("mock",)
-    assert hand.plugins["real"] == "franka_gripper/franka_gripper_node"
+    assert driver is not None
+    assert hand.targets == tuple(hand.plugins) == ("mock",)
+    assert (driver.node, driver.program) == ("/hand_gripper", "franka_gripper/franka_gripper_node")
     tags = {
         target: [tag.get("name") for tag in robot_description(cell, target).iter("ros2_control")]
         for target in ("mock", "real")

@@ -41,16 +41,23 @@ def _manager(manager: ControllerManager) -> ContractManager:
 
 
 def _controller(controller: Controller) -> ContractController:
-    return ContractController(
-        plugin=controller.plugin,
-        behaviour=controller.behaviour,
-        device=controller.device,
-        joints=controller.joints,
-        command_interfaces=controller.command_interfaces,
-        state_interfaces=controller.state_interfaces,
-        active=controller.active,
-        client=controller.client,
-        action=controller.action,
-        action_type=controller.action_type,
-        on_violation=controller.on_violation,
+    other = controller.stand_in
+    return ContractController.model_validate(
+        {
+            "plugin": controller.plugin,
+            "behaviour": controller.behaviour,
+            "full_name": controller.full_name,
+            "targets": controller.targets,
+            "device": controller.device,
+            "joints": controller.joints,
+            "command_interfaces": controller.command_interfaces,
+            "state_interfaces": controller.state_interfaces,
+            "active": controller.active,
+            "client": controller.client,
+            "action": controller.action,
+            "action_type": controller.action_type,
+            "real_action": None if other is None else other.action,
+            "real_action_type": None if other is None else other.action_type,
+            "on_violation": controller.on_violation,
+        }
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from cellc.cell.cell import Cell
 from cellc.cell.device import Device
 from cellc.cell.interface import Interface, InterfaceKind
-from cellc.contract.contract import ContractCamera, ContractDevice, ContractGripper
+from cellc.contract.contract import ContractCamera, ContractDevice, ContractDriver, ContractGripper
 from cellc.graph.adapters import adapted_devices
 from cellc.link.placeholders import placeholders
 
@@ -23,6 +23,7 @@ def _device(cell: Cell, device: Device) -> ContractDevice:
         root_link=device.root_link,
         architecture=device.spec.architecture,
         hardware_component=None if device.hardware is None or _adapted(cell, device) else device.hardware.name,
+        driver=_driver(device),
         speed_scaling_interface=_speed_scaling(cell, device),
         gripper=_gripper(cell, device),
         camera=_camera(cell, device),
@@ -32,6 +33,13 @@ def _device(cell: Cell, device: Device) -> ContractDevice:
 def _adapted(cell: Cell, device: Device) -> bool:
     """Tell whether an adapter drives a device, so that no controller manager ever loads its hardware."""
     return any(adapted.device.name == device.name for adapted in adapted_devices(cell))
+
+
+def _driver(device: Device) -> ContractDriver | None:
+    driver = device.driver
+    if driver is None:
+        return None
+    return ContractDriver(node=driver.node, program=driver.program, joint_states=driver.joint_states)
 
 
 def _filled(cell: Cell, device: Device, text: str) -> str:
@@ -47,7 +55,7 @@ def _gripper(cell: Cell, device: Device) -> ContractGripper | None:
     facts = device.facts.gripper
     if facts is None:
         return None
-    controllers = (c.name for c in cell.controllers if c.device == device.name and c.action and c.active)
+    controllers = (c.label for c in cell.controllers if c.device == device.name and c.action and c.active)
     return ContractGripper(
         joint=device.prefix + facts.joint,
         controller=next(controllers, None),

@@ -38,11 +38,13 @@ def _interface(interface: Interface) -> ContractInterface:
 
 
 def _endpoint(end: Endpoint) -> ContractEndpoint:
-    return ContractEndpoint(node=end.node, qos=_qos(end.qos))
+    # Through validation, because the cell's words are plain text and the contract's are fixed.
+    return ContractEndpoint.model_validate(
+        {"node": end.node, "full_name": end.full_name, "targets": end.targets, "qos": _qos(end.qos)}
+    )
 
 
 def _qos(qos: Qos) -> ContractQos:
-    # Through validation, because the cell's words are plain text and the contract's are fixed.
     return ContractQos.model_validate(
         {
             "reliability": qos.reliability,

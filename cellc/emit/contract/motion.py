@@ -42,7 +42,7 @@ def disabled_collisions(graph: CellGraph) -> tuple[ContractDisabledCollision, ..
 
 
 def _group(cell: Cell, group: PlanningGroup) -> ContractGroup:
-    active = (c.name for c in cell.controllers if c.name in group.controllers and c.active)
+    active = (c.label for c in cell.controllers if c.label in group.controllers and c.active)
     adapted = adapter_of_group(cell, group)
     return ContractGroup(
         base_link=group.base_link,

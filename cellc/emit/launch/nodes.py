@@ -7,65 +7,40 @@ from xml.etree.ElementTree import Element
 
 from cellc.cell.cell import Cell
 from cellc.cell.interface import Node, NodeSource
-from cellc.emit.launch.elements import description_parameter, enclave, remap
+from cellc.emit.launch.elements import description_parameter, identity, remaps
 from cellc.emit.launch.substitutions import ON_REAL, TARGET, on_host, share
-from cellc.formats.enclaves import enclave_of
 from cellc.formats.hosts import host_of, launch_hosts
 from cellc.formats.interface_label import TF_RATE_HZ
-from cellc.formats.moveit_files import PARAMETER_FILES, is_planner, plans, semantic_file
+from cellc.formats.moveit_files import is_planner, parameter_files, plans, semantic_file
 from cellc.formats.numbers import decimal
 from cellc.formats.package_files import QOS_OVERRIDES, description_file, node_file
 from cellc.formats.qos_parameters import qos_parameters
 from cellc.formats.xml_text import element
 
 
-def robot_state_publisher(cell: Cell) -> Element:
+def robot_state_publisher(cell: Cell, node: Node) -> Element:
     """Return the one authority for all static frames."""
-    attributes = {
-        "pkg": "robot_state_publisher",
-        "exec": "robot_state_publisher",
-        "name": "robot_state_publisher",
-        "output": "both",
-        **enclave(f"/{cell.name}/robot_state_publisher"),
-    }
-    # It listens in the root namespace; the one manager elsewhere publishes its joint states there.
-    namespaces = [manager.namespace for manager in cell.managers]
-    remaps = [remap("joint_states", f"{namespaces[0]}/joint_states")] if len(namespaces) == 1 and namespaces[0] else []
     # Said though it is the default: what reads /tf is promised this rate.
     rate = element("param", {"name": "publish_frequency", "value": decimal(TF_RATE_HZ)})
-    return element("node", attributes, [_description(cell), rate, *remaps])
+    return element("node", identity(cell, node), [_description(cell), rate])
 
 
 def cell_node(cell: Cell, node: Node) -> Element:
     """Return a node that the spec names."""
-    return element("node", _identity(cell, node), _parameters(cell, node))
+    return element("node", identity(cell, node), _parameters(cell, node))
 
 
 def driver_node(cell: Cell, node: Node) -> Element:
     """Return a node of a device's driver; one for real hardware alone stays away from the mock."""
     condition = {"if": ON_REAL} if node.real_only else {}
-    return element("node", _identity(cell, node) | condition, _parameters(cell, node))
+    return element("node", identity(cell, node) | condition, _parameters(cell, node))
 
 
 def moving_node(cell: Cell, node: Node, prefix: str) -> Element:
     """Return a node that asks for motion, behind a prefix that waits until everything is ready for it."""
     hosts = launch_hosts(cell)
     place = {"if": on_host(host_of(cell, node))} if hosts else {}
-    return element("node", _identity(cell, node) | {"launch-prefix": prefix} | place, _parameters(cell, node))
-
-
-def _identity(cell: Cell, node: Node) -> dict[str, str]:
-    place = {"namespace": node.namespace} if node.namespace else {}
-    again = {"respawn": "true"} if node.respawn else {}
-    return {
-        "pkg": node.package,
-        "exec": node.executable,
-        "name": node.name,
-        **place,
-        "output": "both",
-        **again,
-        **enclave(enclave_of(cell, node)),
-    }
+    return element("node", identity(cell, node) | {"launch-prefix": prefix} | place, _parameters(cell, node))
 
 
 def _parameters(cell: Cell, node: Node) -> Iterator[Element]:
@@ -73,13 +48,14 @@ def _parameters(cell: Cell, node: Node) -> Iterator[Element]:
         yield _description(cell)
         semantic = f"$(command 'cat {share(cell, semantic_file(cell))}')"
         yield element("param", {"name": "robot_description_semantic", "value": semantic, "type": "str"})
-        yield from (element("param", {"from": share(cell, file)}) for file in PARAMETER_FILES)
+        yield from (element("param", {"from": share(cell, file)}) for file in parameter_files(cell, TARGET))
     if node.parameters:
         yield element("param", {"from": share(cell, node_file(node))})
     if node.source is NodeSource.SPEC and qos_parameters(cell, node):
         yield element("param", {"from": share(cell, QOS_OVERRIDES)})
     if node.clock == "sim":
         yield element("param", {"name": "use_sim_time", "value": "true"})
+    yield from remaps(node)
 
 
 def _description(cell: Cell) -> Element:

@@ -12,14 +12,15 @@ from xml.etree.ElementTree import Element
 from cellc.cell.cell import Cell
 from cellc.cell.interface import Node, NodeSource
 from cellc.emit.launch.bring_up import FILE
-from cellc.emit.launch.control import control, joint_state_merger, spawners
+from cellc.emit.launch.control import control, spawners
 from cellc.emit.launch.nodes import cell_node, driver_node, robot_state_publisher
-from cellc.emit.launch.substitutions import ON_REAL, share
+from cellc.emit.launch.substitutions import only_on, share
 from cellc.formats.bringup import Step, steps
 from cellc.formats.hosts import host_of, host_of_manager
 from cellc.formats.movers import started_by_a_person
 from cellc.formats.parameter_file import spec_path
 from cellc.formats.xml_text import comment, element
+from cellc.link.frames import ROBOT_STATE_PUBLISHER
 
 _ABOUT = {
     "configure": "every controller is loaded and configured, none is active; managed nodes likewise",
@@ -44,16 +45,14 @@ def _discover(cell: Cell, host: str | None) -> Iterator[Element]:
     for node in cell.nodes:
         if (
             node.source is NodeSource.STANDARD
-            and node.name == "robot_state_publisher"
+            and node.name == ROBOT_STATE_PUBLISHER
             and _here(host, host_of(cell, node))
         ):
-            yield robot_state_publisher(cell)
+            yield robot_state_publisher(cell, node)
     for manager in cell.managers:
         if _here(host, host_of_manager(cell, manager)):
             yield comment(spec_path(manager.path))
             yield from control(cell, manager)
-    if len(cell.managers) > 1 and _here(host, host_of_manager(cell, cell.managers[0])):
-        yield joint_state_merger(cell)
     for node in cell.nodes:
         if _here(host, host_of(cell, node)):
             yield from _node(cell, node)
@@ -79,9 +78,8 @@ def _steps(cell: Cell, host: str | None, stage: str) -> Iterator[Element]:
 
 
 def _step(cell: Cell, step: Step) -> Element:
-    condition = {"unless": ON_REAL} if step.mock_alone else {}
     command = f"bash {share(cell, FILE)} {step.name}"
-    return element("executable", {"name": step.name, "cmd": command, "output": "both", **condition})
+    return element("executable", {"name": step.name, "cmd": command, "output": "both", **only_on(step.only)})
 
 
 def _here(host: str | None, of: str) -> bool:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 
 from cellc.cell.cell import Cell
-from cellc.cell.control import Controller
 from cellc.cell.interface import ParameterValue
+from cellc.formats.moveit_files import is_planner
 
 Parameters = Mapping[str, ParameterValue]
 
@@ -14,20 +15,28 @@ _MANAGER = "moveit_simple_controller_manager"
 _TYPES = ("FollowJointTrajectory", "GripperCommand", "ParallelGripperCommand")
 
 
-def controllers(cell: Cell) -> Parameters:
-    """Return every active controller with an action that MoveIt knows; its name carries the namespace."""
-    called = [controller for controller in cell.controllers if controller.active and _type(controller) in _TYPES]
+@dataclass(frozen=True, slots=True)
+class _Called:
+    """An action that MoveIt calls: its full name and type, and the joints that it moves."""
+
+    action: str
+    type: str
+    joints: tuple[str, ...]
+
+
+def controllers(cell: Cell, target: str) -> Parameters:
+    """Return what executes on a target: active controllers with an action that MoveIt knows, and what stands in."""
+    called = {_name(cell, one): one for one in _called(cell, target) if _short(one.type) in _TYPES}
     parameters: dict[str, ParameterValue] = {
         "moveit_controller_manager": f"{_MANAGER}/MoveItSimpleControllerManager",
-        f"{_MANAGER}.controller_names": tuple(_name(controller) for controller in called),
+        f"{_MANAGER}.controller_names": tuple(called),
     }
-    for controller in called:
-        prefix = f"{_MANAGER}.{_name(controller)}"
+    for name, one in called.items():
         parameters |= {
-            f"{prefix}.type": _type(controller),
-            f"{prefix}.action_ns": _suffix(controller),
-            f"{prefix}.joints": controller.joints,
-            f"{prefix}.default": True,
+            f"{_MANAGER}.{name}.type": _short(one.type),
+            f"{_MANAGER}.{name}.action_ns": one.action.rpartition("/")[2],
+            f"{_MANAGER}.{name}.joints": one.joints,
+            f"{_MANAGER}.{name}.default": True,
         }
     return parameters
 
@@ -62,13 +71,22 @@ def planning_scene() -> Parameters:
     }
 
 
-def _type(controller: Controller) -> str:
-    return (controller.action_type or "").rpartition("/")[2]
+def _called(cell: Cell, target: str) -> Iterator[_Called]:
+    for one in cell.controllers:
+        if one.active and target in one.targets and one.action is not None:
+            yield _Called(one.action, one.action_type or "", one.joints)
+        elif one.active and target == "real" and one.stand_in is not None:
+            yield _Called(one.stand_in.action, one.stand_in.action_type, one.joints)
 
 
-def _name(controller: Controller) -> str:
-    return (controller.action or "").lstrip("/").rpartition("/")[0]
+def _name(cell: Cell, called: _Called) -> str:
+    """Return the name below which MoveIt looks for the action, with the namespace of who serves it.
+
+    It is relative to move_group: with its slash where that is in a namespace of its own.
+    """
+    name = called.action.rpartition("/")[0]
+    return name if any(is_planner(node) and node.namespace for node in cell.nodes) else name.removeprefix("/")
 
 
-def _suffix(controller: Controller) -> str:
-    return (controller.action or "").rpartition("/")[2]
+def _short(type_: str) -> str:
+    return type_.rpartition("/")[2]

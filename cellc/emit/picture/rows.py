@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from cellc.cell.cell import Cell
 from cellc.cell.interface import Interface, InterfaceKind
-from cellc.formats.claim_label import claim_facts, stop_facts
+from cellc.formats.claim_label import claim_facts, driver_facts, stop_facts
 from cellc.formats.interface_label import interface_facts
 
 
@@ -35,7 +35,7 @@ def bands(cell: Cell) -> tuple[Band, ...]:
     owners = cell.spec.owners.responsibilities
     return (
         Band("ROS 2 graph", False, tuple(map(_exchange, cell.interfaces))),
-        Band(f"Vendor control (owner {owners.vendor_safety})", True, tuple(_claims(cell))),
+        Band(f"Vendor control (owner {owners.vendor_safety})", True, (*_claims(cell), *_drivers(cell))),
         Band(f"Physical safety (owner {owners.physical_stop})", True, tuple(_stops(cell))),
     )
 
@@ -53,7 +53,14 @@ def _claims(cell: Cell) -> Iterator[Row]:
         for controller in manager.controllers:
             if controller.device is not None and controller.command_interfaces:
                 facts = tuple(claim_facts(cell, manager, controller))
-                yield Row((controller.name,), "claims", facts, (controller.device,))
+                yield Row((controller.label,), "claims", facts, (controller.device,))
+
+
+def _drivers(cell: Cell) -> Iterator[Row]:
+    """Yield what moves a device past every controller manager."""
+    for device in cell.devices:
+        if device.driver is not None:
+            yield Row((device.driver.node,), "moves", tuple(driver_facts(cell, device, device.driver)), (device.name,))
 
 
 def _stops(cell: Cell) -> Iterator[Row]:

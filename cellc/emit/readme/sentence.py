@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cellc.cell.cell import Cell
+from cellc.cell.control import Controller
 from cellc.cell.frame import FrameKind
 from cellc.cell.interface import Interface, InterfaceKind
+from cellc.formats.real_mover import real_mover
 
 
 def bringup_sentence(cell: Cell) -> str:
@@ -45,15 +47,23 @@ def _actions(cell: Cell) -> Iterator[str]:
     for controller in cell.controllers:
         if controller.action is not None:
             client = controller.client or "a client that the spec does not name"
-            yield f"{client} sends goals to {controller.name} through `{controller.action}`"
+            yield f"{client} sends goals to {controller.label} through `{controller.action}`{_instead(controller)}"
+
+
+def _instead(controller: Controller) -> str:
+    """Return where the goals go on real hardware, for a controller that is not there."""
+    other = controller.stand_in
+    return "" if other is None else f", on real hardware to {other.node} through `{other.action}`"
 
 
 def _managers(cell: Cell) -> Iterator[str]:
     for manager in cell.managers:
-        for name in manager.devices:
-            hardware = cell.device(name).hardware
-            if hardware is not None:
-                yield f"controller manager {manager.name} writes to {name} through {hardware.plugins['real']}"
+        for device in map(cell.device, manager.devices):
+            through = real_mover(device)
+            if device.hardware is not None and "real" in device.hardware.targets:
+                yield f"controller manager {manager.name} writes to {device.name} through {through}"
+            else:
+                yield f"no controller manager writes to {device.name} on real hardware, where {through} moves it"
 
 
 def _drives(cell: Cell) -> Iterator[str]:

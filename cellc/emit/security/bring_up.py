@@ -5,6 +5,7 @@ from __future__ import annotations
 from cellc.cell.cell import Cell
 from cellc.emit.security.profile import Profile
 from cellc.emit.security.rights import common_profile
+from cellc.link.derived_joint_states import JOINT_STATE_TYPE
 
 # What `ros2 lifecycle get|set`, `ros2 control list_controllers|switch_controllers` and `ros2 param get` call.
 _OF_MANAGED = ("change_state", "get_available_transitions", "get_state")
@@ -20,8 +21,7 @@ def bring_up_profiles(cell: Cell) -> tuple[Profile, Profile]:
     common = common_profile(cell)
     managed = (f"{node.full_name}/{one}" for node in cell.nodes if node.lifecycle for one in _OF_MANAGED)
     managers = (f"{one.namespace}/controller_manager/{name}" for one in cell.managers for name in _OF_MANAGER)
-    states = {f"{manager.namespace}/joint_states" for manager in cell.managers}
-    seen = (interface.name for interface in cell.interfaces if interface.name in states)
+    seen = (interface.name for interface in cell.interfaces if interface.type == JOINT_STATE_TYPE)
     tools = Profile(
         namespace="",
         node="bring_up",

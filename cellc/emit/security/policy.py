@@ -17,8 +17,7 @@ from cellc.cell.control import ControllerManager
 from cellc.cell.interface import NodeSource
 from cellc.emit.security.bring_up import bring_up_profiles
 from cellc.emit.security.profile import Profile, profile_element
-from cellc.emit.security.rights import common_profile, manager_client, manager_process, node_profile
-from cellc.emit.security.several_managers import description_publisher, joint_state_merger
+from cellc.emit.security.rights import manager_client, manager_process, node_profile
 from cellc.formats.enclaves import bring_up_enclave, enclave_of, manager_enclave, spawner_enclave
 from cellc.formats.header import Header
 from cellc.formats.spawning import spawnings
@@ -40,18 +39,13 @@ def _enclaves(cell: Cell) -> Iterator[Element]:
             yield _enclave(enclave_of(cell, node), [node_profile(cell, node)])
     for manager in cell.managers:
         yield _enclave(manager_enclave(cell, manager), manager_process(cell, manager))
-        yield _enclave(spawner_enclave(cell, manager), _spawners(cell, manager))
+        yield _enclave(spawner_enclave(cell, manager), _spawners(manager))
     yield _enclave(bring_up_enclave(cell), [*bring_up_profiles(cell)])
-    if len(cell.managers) > 1:
-        common = common_profile(cell)
-        publishers = (description_publisher(manager, common) for manager in cell.managers)
-        for profile in (*publishers, joint_state_merger(cell, common)):
-            yield _enclave(f"/{cell.name}{profile.namespace}/{profile.node}", [profile])
 
 
-def _spawners(cell: Cell, manager: ControllerManager) -> Iterator[Profile]:
+def _spawners(manager: ControllerManager) -> Iterator[Profile]:
     # The spawner names itself after its first controller.
-    for one in spawnings(cell, manager):
+    for one in spawnings(manager):
         yield manager_client(manager, f"spawner_{one.controllers[0]}")
 
 

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from cellc.cell.cell import Cell
-from cellc.cell.control import ControllerManager
-from cellc.cell.interface import InterfaceKind, Node
+from cellc.cell.control import Controller, ControllerManager
+from cellc.cell.interface import InterfaceKind, Node, NodeSource
 from cellc.emit.security.profile import Profile
-from cellc.emit.security.several_managers import description_topic, merged, of_namesake
+from cellc.graph.controller_kinds import kind_of
+from cellc.link.nodes import JOINT_STATES
+from cellc.link.placeholders import placeholders
 
 _PUBLISH = ("/parameter_events", "/rosout")
 _SUBSCRIBE = ("/clock", "/parameter_events")
@@ -48,53 +50,101 @@ _CONTROLLER_STATE = "~/controller_state"
 
 def node_profile(cell: Cell, node: Node) -> Profile:
     """Return the rights of a node with a process of its own."""
-    return _granted(cell, node.namespace, node.name, _LIFECYCLE if node.lifecycle else ())
+    granted = _granted(cell, node.full_name, _LIFECYCLE if node.lifecycle else ())
+    return _driver(cell, node, granted) if node.source is NodeSource.DEVICE else _silenced(node, granted)
+
+
+def _driver(cell: Cell, node: Node, granted: Profile) -> Profile:
+    """Add what the catalogue says that a driver's node offers: it fails where one of these is denied to it."""
+    device = cell.device(node.device or "")
+    known = placeholders(device.name, device.prefix, device.spec, cell.spec)
+
+    def own(offered: Iterable[tuple[str, str]]) -> tuple[str, ...]:
+        names = (known.fill(name) for name, server in offered if f"/{known.fill(server)}" == node.full_name)
+        return tuple(node.remaps.get(name, name) for name in names)
+
+    facts = device.facts
+    return replace(
+        granted,
+        publish=(*granted.publish, *own((one.name, one.publisher) for one in facts.topics)),
+        reply=(*granted.reply, *own((one.name, one.server) for one in facts.services)),
+        execute=(*granted.execute, *own((one.name, one.server) for one in facts.actions)),
+    )
+
+
+def _silenced(node: Node, granted: Profile) -> Profile:
+    """Add the topics to which a node's transforms go unheard, and from which it hears no joint states."""
+    said = (target for name, target in node.remaps.items() if name in ("/tf", "/tf_static"))
+    heard = (target for name, target in node.remaps.items() if name not in ("/tf", "/tf_static"))
+    return replace(granted, publish=(*granted.publish, *said), subscribe=(*granted.subscribe, *heard))
 
 
 def common_profile(cell: Cell) -> Profile:
     """Return the rights that every node has, for one that stands at no interface of the cell."""
-    return _granted(cell, "", "", ())
+    return _granted(cell, "/", ())
 
 
 def manager_process(cell: Cell, manager: ControllerManager) -> Iterator[Profile]:
     """Yield the rights of the manager, its controllers and, from Jazzy on, the nodes of its hardware."""
-    name = f"{manager.namespace}/controller_manager"
     services = (*_MANAGER, *(() if cell.distro == "humble" else (_CLEANUP,)))
-    granted = _granted(cell, manager.namespace, "controller_manager", tuple(f"{name}/{one}" for one in services))
-    yield replace(granted, subscribe=(*_SUBSCRIBE, description_topic(cell, manager)))
+    yield _granted(cell, manager.node, tuple(f"{manager.node}/{one}" for one in services))
     for controller in manager.controllers:
-        yield _granted(cell, manager.namespace, controller.name, () if cell.distro == "humble" else _LOGGERS)
+        yield _controller(cell, controller)
     if cell.distro != "humble":
         for device in (cell.device(name) for name in manager.devices):
             if device.hardware is not None:
-                yield _granted(cell, manager.namespace, device.hardware.name.lower(), ())
+                yield _granted(cell, f"{manager.namespace}/{device.hardware.name.lower()}", ())
+
+
+def _controller(cell: Cell, controller: Controller) -> Profile:
+    """Grant what the interfaces grant, and what the kind has besides: it fails where one of these is denied to it.
+
+    Nobody is granted to publish what it subscribes to unless an interface of the cell says so.
+    """
+    granted = _granted(cell, controller.full_name, () if cell.distro == "humble" else _LOGGERS)
+    kind = kind_of(cell, controller)
+    topics = () if kind is None else tuple(one for one in kind.topics if not one.only or cell.distro in one.only)
+    said = tuple(_own(controller, one.name) for one in topics if one.direction == "publish")
+    heard = tuple(_own(controller, one.name) for one in topics if one.direction == "subscribe")
+    served = () if kind is None else tuple(_own(controller, one.name) for one in kind.services)
+    return replace(
+        granted,
+        publish=(*granted.publish, _CONTROLLER_STATE, *said),
+        subscribe=(*granted.subscribe, *heard),
+        reply=(*granted.reply, *served),
+    )
+
+
+def _own(controller: Controller, name: str) -> str:
+    if name.startswith("~/"):
+        return name
+    return JOINT_STATES if name == "joint_states" else f"{controller.namespace}/{name}"
 
 
 def manager_client(manager: ControllerManager, node: str) -> Profile:
     """Return the rights of a spawner: to ask the manager and to set the parameters of what it loads."""
-    name = f"{manager.namespace}/controller_manager"
+    name = manager.node
     asked = (*(f"{name}/{service}" for service in (*_MANAGER, _CLEANUP)), f"{name}/set_parameters")
     return Profile(
         namespace=manager.namespace,
         node=node,
         publish=_PUBLISH,
         subscribe=_SUBSCRIBE,
-        reply=_PARAMETERS,
+        reply=(*_PARAMETERS, _TYPE_DESCRIPTION),
         request=(*asked, f"{name}/get_parameters", f"{name}/describe_parameters", f"{name}/list_parameters"),
     )
 
 
-def _granted(cell: Cell, namespace: str, name: str, services: tuple[str, ...]) -> Profile:
+def _granted(cell: Cell, full_name: str, services: tuple[str, ...]) -> Profile:
     def names(kind: InterfaceKind, side: str) -> tuple[str, ...]:
-        return tuple(found for found in _names(cell, name, kind, side) if not of_namesake(cell, namespace, name, found))
+        return tuple(_names(cell, full_name, kind, side))
 
-    managed = {controller.name for controller in cell.controllers}
-    publish = (*_PUBLISH, *((_CONTROLLER_STATE,) if name in managed else ()))
+    namespace, _, name = full_name.rpartition("/")
     return Profile(
         namespace=namespace,
         node=name,
-        publish=(*publish, *names(InterfaceKind.TOPIC, "sources"), *_transitions(services)),
-        subscribe=(*_SUBSCRIBE, *merged(cell, names(InterfaceKind.TOPIC, "sinks"))),
+        publish=(*_PUBLISH, *names(InterfaceKind.TOPIC, "sources"), *_transitions(services)),
+        subscribe=(*_SUBSCRIBE, *names(InterfaceKind.TOPIC, "sinks")),
         reply=(
             *_PARAMETERS,
             *(() if cell.distro == "humble" else (_TYPE_DESCRIPTION,)),
@@ -111,9 +161,9 @@ def _transitions(services: tuple[str, ...]) -> tuple[str, ...]:
     return ("~/transition_event",) if services == _LIFECYCLE else ()
 
 
-def _names(cell: Cell, node: str, kind: InterfaceKind, side: str) -> Iterator[str]:
+def _names(cell: Cell, full_name: str, kind: InterfaceKind, side: str) -> Iterator[str]:
     """Yield the interfaces of one kind at whose side a node stands."""
     for interface in cell.interfaces:
         ends = interface.sources if side == "sources" else interface.sinks
-        if interface.kind is kind and any(end.node == node for end in ends):
+        if interface.kind is kind and any(end.full_name == full_name for end in ends):
             yield interface.name

@@ -35,9 +35,8 @@ from cellc.rules.finding import found
 
 def check(graph: CellGraph) -> Iterator[Finding]:
     """Yield nodes and controllers whose full name is taken."""
-    namespaces = {manager.name: manager.namespace for manager in graph.cell.managers}
     named = [(node.full_name, node.path) for node in graph.cell.nodes]
-    named += [(f"{namespaces[c.manager]}/{c.name}", c.path) for c in graph.cell.controllers]
+    named += [(c.full_name, c.path) for c in graph.cell.controllers]
     first: dict[str, YamlPath] = {}
     for name, path in named:
         earlier = first.setdefault(name, path)

@@ -51,7 +51,7 @@ def _type_of(graph: CellGraph, node: str, name: str) -> str | None:
     device = next((device for device in graph.cell.devices if device.name == node), None)
     if device is not None:
         return device_topics(graph.cell, device).get(name)
-    return next((c.action_type for c in graph.cell.controllers if c.name == node and c.action == name), None)
+    return next((c.action_type for c in graph.cell.controllers if c.label == node and c.action == name), None)
 
 
 RULE = define("type-conflict", Severity.ERROR, check, __doc__)

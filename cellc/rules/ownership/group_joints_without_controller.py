@@ -38,7 +38,7 @@ from cellc.rules.finding import found
 def check(graph: CellGraph) -> Iterator[Finding]:
     """Yield groups with joints that are in none of their controllers."""
     for group in graph.cell.groups:
-        controllers = [c for c in graph.cell.controllers if c.name in group.controllers]
+        controllers = [c for c in graph.cell.controllers if c.label in group.controllers]
         moved = {joint for controller in controllers for joint in controller.joints}
         missing = [joint for joint in group.joints if joint not in moved]
         if controllers and missing:

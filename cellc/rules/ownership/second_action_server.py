@@ -52,7 +52,7 @@ def check(graph: CellGraph) -> Iterator[Finding]:
     for interface in graph.cell.interfaces:
         owner = owners.get(interface.name)
         for source in interface.sources:
-            if owner is not None and source.node != owner.name:
+            if owner is not None and source.full_name != owner.full_name:
                 message = f"`{source.node}` serves `{interface.name}`, which controller `{owner.name}` serves itself"
                 related = (Related("the controller is here", owner.span),)
                 yield found(graph, source.path, message, "give the other server another name", related)

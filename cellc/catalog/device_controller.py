@@ -1,0 +1,59 @@
+"""Controllers that only one device has: variants of a neutral kind, and passive ones that command no joint."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from cellc.catalog.catalog_model import CatalogModel, Distro, Text, Token
+from cellc.catalog.controller_kind import ControllerKind, ControllerService, ControllerTopic, ParameterFacts
+from cellc.catalog.device_control import InterfaceName, PluginUse
+
+BROADCASTER = "broadcaster"
+"""Publishes what the hardware reports."""
+
+SERVICE = "service"
+"""Answers services, for which it may claim interfaces of the device that are no joint's."""
+
+PASSIVE = (BROADCASTER, SERVICE)
+
+
+class DeviceController(CatalogModel):
+    """A controller kind that only this device offers.
+
+    ``behaviour`` is the neutral kind that it acts as; then ``command_interfaces`` are what it claims of each joint
+    where the spec says nothing, empty for those of the neutral kind. ``broadcaster`` and ``service`` act as no other:
+    such a kind tells itself what it ``claims`` and ``reads``, by full interface names, and what it declares, publishes
+    and serves. ``real_only`` where the mock lacks what it needs.
+    """
+
+    behaviour: Token
+    command_interfaces: tuple[InterfaceName, ...] = ()
+    claims: tuple[Text, ...] = ()
+    reads: tuple[Text, ...] = ()
+    topics: tuple[ControllerTopic, ...] = ()
+    services: tuple[ControllerService, ...] = ()
+    parameters: dict[Text, ParameterFacts] = Field(default_factory=dict)
+    plugins: dict[Distro, PluginUse]
+    real_only: bool = False
+    source: Text
+
+    def passive_kind(self, as_of: str) -> ControllerKind | None:
+        """Return what the entry says of a passive controller as a kind; None for a variant of a neutral one.
+
+        Args:
+            as_of: date of the device's entry.
+        """
+        if self.behaviour not in PASSIVE:
+            return None
+        return ControllerKind(
+            format=1,
+            kind=self.behaviour,
+            summary=f"a {self.behaviour} of one device",
+            as_of=as_of,
+            sources=(self.source,),
+            scope="sensor",
+            plugins=self.plugins,
+            topics=self.topics,
+            services=self.services,
+            parameters=self.parameters,
+        )
