@@ -22,7 +22,7 @@ def begin_evidence(cell: MockCell, folder: Path, names: Sequence[str], seed: int
     try:
         from cellc.mock.evidence.collect import EvidenceCollector
     except ModuleNotFoundError as error:
-        if error.name != "mcap":
+        if (error.name or "").partition(".")[0] != "mcap":
             raise
         raise MockError(
             "", "evidence needs the package `mcap`; install it with `pip install cellc[evidence]`"

@@ -120,6 +120,21 @@ def test_measured_position_follows_the_command_one_cycle_later(written: Written)
         assert state.speed_scaling_factor == 1.0
 
 
+def test_reference_velocity_is_the_slope_of_the_reference(written: Written) -> None:
+    states = [each.message for each in messages(written, "/arm_trajectory/controller_state")]
+    for before, state, after in list(zip(states[:-2], states[1:-1], states[2:], strict=True))[::97]:
+        slope = (after.reference.positions - before.reference.positions) / (2 * PERIOD_NS / 1e9)
+        assert state.reference.velocities.tolist() == pytest.approx(slope.tolist(), abs=1e-3)
+
+
+def test_transforms_come_at_the_rate_of_their_publisher_with_the_stamp_of_the_joint_state(written: Written) -> None:
+    """robot_state_publisher takes a joint state 50 ms after the one before, 20 Hz by default."""
+    moving = [each for each in messages(written, "/tf") if len(each.message.transforms) > 1]
+    assert {after.log_ns - before.log_ns for before, after in pairwise(moving)} == {50_000_000}
+    for each in moving:
+        assert {stamp_ns(transform.header) for transform in each.message.transforms} == {each.log_ns}
+
+
 def test_tip_stands_where_the_arithmetic_of_the_arm_puts_it(written: Written) -> None:
     """At home the upper arm points up, the forearm forwards and the tool down.
 

@@ -1,0 +1,52 @@
+"""`cellc mock FOLDER --evidence DIR` as a user meets it."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from cellc.mock.command import run_command
+
+
+def test_one_rehearsal_has_its_evidence_and_the_exit_code_of_its_outcome(
+    generated: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run_command(str(generated), names=["cancelled"], evidence=str(tmp_path / "out")) == 0
+    assert "passed  cancelled" in capsys.readouterr().out
+    assert (tmp_path / "out" / "report.html").is_file()
+
+
+def test_same_rehearsal_twice_is_one(generated: Path, tmp_path: Path) -> None:
+    assert run_command(str(generated), names=["cancelled", "cancelled"], evidence=str(tmp_path / "out")) == 0
+
+
+def test_unknown_rehearsal_leaves_nothing(generated: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run_command(str(generated), names=["missing"], evidence=str(tmp_path / "out")) == 2
+    assert "has no rehearsal `missing`" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_missing_package_is_told_with_what_to_install(
+    generated: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in [name for name in sys.modules if name.startswith(("mcap", "cellc.mock.evidence.collect"))]:
+        monkeypatch.delitem(sys.modules, name)
+    for name in [name for name in sys.modules if name.startswith("cellc.mock.evidence.bag.bag")]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, "mcap", None)
+    assert run_command(str(generated), names=["cancelled"], evidence=str(tmp_path / "out")) == 2
+    assert "pip install 'cellc[evidence]'" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_runs_without_evidence_load_nothing_of_it(generated: Path) -> None:
+    import subprocess
+
+    code = (
+        f"import sys; from cellc.mock.command import run_command; run_command({str(generated)!r}, names=['cancelled'])"
+    )
+    told = "; print([name for name in sys.modules if name.split('.')[0] == 'mcap' or 'report_page' in name])"
+    ran = subprocess.run([sys.executable, "-c", code + told], capture_output=True, text=True, check=True)
+    assert ran.stdout.splitlines()[-1] == "[]"
