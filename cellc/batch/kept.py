@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import sys
 from pathlib import Path
 
 from cellc.batch.answer import Answer, answer_of, plain_of
@@ -44,10 +45,10 @@ def keep_answer(kind: Kind, file: str, program: str, answer: Answer, asked: Reco
 
 
 def _entry(kind: Kind, file: str) -> str | None:
-    """Name the entry after the installation, the current folder and the spec; spans and relative paths need both."""
+    """Name the entry after the installation, the interpreter, the current folder and the spec."""
     try:
         folder = Path.cwd()
     except OSError:  # it was removed
         return None
-    question = "\0".join((str(PACKAGE), str(folder), file))
+    question = "\0".join((str(PACKAGE), sys.implementation.cache_tag or "", str(folder), file))
     return f"{kind}/{hashlib.sha256(os.fsencode(question)).hexdigest()}.json"

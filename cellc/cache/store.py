@@ -1,10 +1,11 @@
-"""Entries of the cache as files: put in place in one step, checked when they are read, and never very many."""
+"""Entries of the cache as files: packed, put in place in one step, checked when read, and never very many."""
 
 from __future__ import annotations
 
 import hashlib
 import os
 import tempfile
+import zlib
 from pathlib import Path
 
 from cellc.cache.folder import cache_folder
@@ -12,29 +13,32 @@ from cellc.cache.folder import cache_folder
 MAX_BYTES = 10_000_000
 """A larger entry is not one that cellc wrote."""
 
-MAX_ENTRIES = 1000
+MAX_ENTRIES = 2000
 """Entries of one kind; when there are more, the older half goes."""
 
 
 def read_entry(name: str) -> bytes | None:
-    """Return the content of an entry, or None where there is none, or it is not as it was written."""
+    """Return the content of an entry, or None where there is none, or it is not as this user wrote it."""
     folder = cache_folder()
     if folder is None:
         return None
     file = folder / name
     try:
-        if file.stat().st_size > MAX_BYTES:
+        status = file.stat()
+        # In a folder that several users share, nobody takes the answer of another.
+        if status.st_size > MAX_BYTES or (hasattr(os, "getuid") and status.st_uid != os.getuid()):
             return None
-        digest, _, content = file.read_bytes().partition(b"\n")
+        digest, _, packed = file.read_bytes().partition(b"\n")
     except OSError:
         return None
-    return content if digest == _digest(content) else None
+    return zlib.decompress(packed) if digest == _digest(packed) else None
 
 
 def write_entry(name: str, content: bytes) -> None:
     """Keep the content; where that is not possible, nothing happens."""
     folder = cache_folder()
-    if folder is None or len(content) >= MAX_BYTES:
+    packed = zlib.compress(content, 1)
+    if folder is None or len(packed) >= MAX_BYTES:
         return
     file = folder / name
     try:
@@ -44,7 +48,7 @@ def write_entry(name: str, content: bytes) -> None:
         return
     try:
         with os.fdopen(handle, "wb") as stream:
-            stream.write(_digest(content) + b"\n" + content)
+            stream.write(_digest(packed) + b"\n" + packed)
         os.replace(part, file)  # no other process reads half of it
         _prune(file.parent)
     except OSError:

@@ -44,7 +44,14 @@ def test_the_older_half_goes_where_there_are_too_many(home: Path, monkeypatch: p
 
 def test_a_huge_entry_is_neither_written_nor_read(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     write_entry("kind/name", b"0123456789")
-    monkeypatch.setattr(store, "MAX_BYTES", 20)
+    monkeypatch.setattr(store, "MAX_BYTES", 60)
     assert read_entry("kind/name") is None
-    write_entry("kind/huge", bytes(20))
+    write_entry("kind/huge", bytes(range(100)))
     assert not (home / "kind/huge").exists()
+
+
+@pytest.mark.skipif(not hasattr(os, "getuid"), reason="the system has no numbers of users")
+def test_an_entry_of_another_user_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
+    write_entry("kind/name", b"0123456789")
+    monkeypatch.setattr(os, "getuid", lambda: -1)
+    assert read_entry("kind/name") is None

@@ -7,6 +7,7 @@ import os
 import shutil
 import subprocess
 import sys
+import zlib
 from pathlib import Path
 
 import pytest
@@ -81,7 +82,7 @@ def _loaded(arguments: list[str], code: int) -> set[str]:
 def test_files_of_the_package_are_not_asked_for_again(home: Path) -> None:
     process("check", PICK)
     (entry,) = (home / "check").iterdir()
-    asked = json.loads(entry.read_bytes().partition(b"\n")[2])["asked"]["marks"]
+    asked = json.loads(zlib.decompress(entry.read_bytes().partition(b"\n")[2]))["asked"]["marks"]
     assert {path for what, path, _, _ in asked if what == "contents"} == {PICK}
 
 

@@ -73,4 +73,6 @@ def _limits(testimony: Testimony) -> GateCheck:
     moved = any(peak.share > 0.0 for peak in total.peaks)
     good = [f"{len(reports)} runs, largest share of a limit: {shares}"] if moved else []
     bad = [str(excess) for excess in total.excesses]
-    return judged("No commanded trajectory exceeds a limit", good, bad, "a campaign in which a trajectory moves a joint")
+    return judged(
+        "No commanded trajectory exceeds a limit", good, bad, "a campaign in which a trajectory moves a joint"
+    )
