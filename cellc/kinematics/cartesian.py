@@ -10,7 +10,7 @@ import numpy as np
 import pinocchio
 
 from cellc.kinematics.chain import GroupChain
-from cellc.kinematics.edge import check_count
+from cellc.kinematics.edge import check_lengths
 from cellc.kinematics.failure import FailureReason, PlanFailure
 from cellc.kinematics.limits import Array, JointLimits
 from cellc.kinematics.model import from_pose, to_pose
@@ -107,7 +107,7 @@ def _first_refusal(
     end = len(jacobians) if not refused.size else int(refused[0])
     touching = _first_touching(chain, waypoints[: end + 1])
     if touching is not None:
-        return _Refusal(touching, FailureReason.NO_PATH, chain.describe_contact(waypoints[touching]))
+        return _Refusal(touching[0], FailureReason.NO_PATH, chain.describe_contact(touching[1]))
     if not refused.size:
         return None
     if not inside[end]:
@@ -119,15 +119,20 @@ def _first_refusal(
     return _Refusal(end + 1, FailureReason.JOINT_JUMP, detail)
 
 
-def _first_touching(chain: GroupChain, waypoints: Array) -> int | None:
-    """Return the first step at which a polyline of small steps meets a collision."""
+def _first_touching(chain: GroupChain, waypoints: Array) -> tuple[int, Array] | None:
+    """Return the first step at which a polyline of small steps meets a collision, and where; the start is checked."""
+    if len(waypoints) == 1:
+        return None
     differences = np.diff(waypoints, axis=0)
-    counts = np.array([check_count(chain, difference) for difference in differences], dtype=np.intp)
-    steps = np.repeat(np.arange(len(differences)), counts)
-    parts = np.arange(1, len(steps) + 1) - np.repeat(np.cumsum(counts) - counts, counts)
-    checked = waypoints[steps] + parts[:, np.newaxis] * (differences / counts[:, np.newaxis])[steps]
+    lengths = np.maximum(check_lengths(chain, differences), 1e-12)
+    ends = np.cumsum(lengths)
+    count = math.ceil(float(np.sum(lengths)))
+    marks = np.arange(1, count + 1) * (ends[-1:] / count)
+    steps = np.minimum(np.searchsorted(ends, marks), len(ends) - 1)
+    shares = 1.0 - (ends[steps] - marks) / lengths[steps]
+    checked = waypoints[steps] + shares[:, np.newaxis] * differences[steps]
     row = chain.first_collision(checked)
-    return None if row is None else int(steps[row]) + 1
+    return None if row is None else (int(steps[row]) + 1, checked[row])
 
 
 def _place(step: int, steps: int) -> str:

@@ -79,8 +79,10 @@ class GroupChain:
         self._rest = scene.rest_configuration()
         pinocchio.framesForwardKinematics(self._model, self._data, self._rest)
         self.transform_base_to_world: PinTransform = self._data.oMf[self._base].copy()
-        box_rates = sweep_rates(scene.model, self._joints, scene.box_shapes())
-        self._rates = np.vstack((self._shape_rates, box_rates))
+        self._rates = self._shape_rates
+        if scene.boxes:
+            box_rates = sweep_rates(scene.model, self._joints, scene.box_shapes())
+            self._rates = np.vstack((self._shape_rates, box_rates))
 
     def in_scene(self, scene: CollisionScene) -> GroupChain:
         """Return the chain of the same group in another scene of the same model."""
@@ -90,8 +92,8 @@ class GroupChain:
 
     def full(self, configuration: Array) -> Array:
         """Return pinocchio's configuration of the whole cell for one of the group, or one in each row for many."""
-        vector: Array = np.empty((*configuration.shape[:-1], len(self._rest)))
-        vector[...] = self._rest
+        many = configuration.ndim > 1
+        vector: Array = np.tile(self._rest, (len(configuration), 1)) if many else self._rest.copy()
         vector[..., self._plain_to] = configuration[..., self._plain_from] * self._plain_factors + self._plain_offsets
         for joint in self._circle:
             angles = (joint.multiplier * configuration[..., joint.column] + joint.offset).ravel().tolist()
@@ -99,9 +101,9 @@ class GroupChain:
             vector[..., joint.place : joint.place + 2] = turned.reshape(*configuration.shape[:-1], 2)
         return vector
 
-    def sweep_m(self, difference: Array) -> float:
-        """Bound how far any point of the cell moves while the group moves by a difference of configurations."""
-        return float(np.max(self._rates @ np.abs(difference), initial=0.0))
+    def sweeps_m(self, differences: Array) -> Array:
+        """Bound how far any point of the cell moves while the group moves by each row of differences."""
+        return np.asarray(np.max(np.abs(differences) @ self._rates.T, axis=1, initial=0.0))
 
     def first_collision(self, configurations: Array) -> int | None:
         """Return the first row of several configurations at which the cell is in collision; None where it never is."""

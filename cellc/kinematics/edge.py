@@ -19,15 +19,19 @@ _LEAST_STEP_RAD = 0.001
 
 def edge_is_free(chain: GroupChain, start: Array, goal: Array) -> bool:
     """Tell whether the inside and the goal of an edge are free of collision; the start is taken as checked."""
-    count = check_count(chain, goal - start)
+    count = max(1, math.ceil(check_lengths(chain, (goal - start)[np.newaxis, :])[0]))
     order = np.fromiter(_coarse_first(count), dtype=np.float64, count=count)
     return chain.first_collision(start + order[:, np.newaxis] * ((goal - start) / count)) is None
 
 
-def check_count(chain: GroupChain, difference: Array) -> int:
-    """Return into how many parts an edge is cut by its checks; a difference of configurations tells its length."""
-    wanted = chain.sweep_m(difference) / EDGE_RESOLUTION_M
-    return max(1, math.ceil(min(wanted, float(np.max(np.abs(difference))) / _LEAST_STEP_RAD)))
+def check_lengths(chain: GroupChain, differences: Array) -> Array:
+    """Return the lengths of edges in units of the farthest that two checks may be apart.
+
+    Args:
+        differences: of configurations, one in each row.
+    """
+    wanted = chain.sweeps_m(differences) / EDGE_RESOLUTION_M
+    return np.asarray(np.minimum(wanted, np.max(np.abs(differences), axis=1) / _LEAST_STEP_RAD))
 
 
 def _coarse_first(count: int) -> Iterator[int]:

@@ -67,7 +67,8 @@ def descend(chain: GroupChain, target_to_world: PinTransform, seed: Array, limit
         configuration = configuration + _step(jacobian, error, squared)
         if lower is not None and upper is not None:
             configuration = np.minimum(np.maximum(configuration, lower), upper)
-    return Descent(best, float(np.linalg.norm(least[:3])), float(np.linalg.norm(least[3:])), there)
+    away, turned = (math.sqrt(float(part @ part)) for part in (least[:3], least[3:]))
+    return Descent(best, away, turned, there)
 
 
 def singular_values(chain: GroupChain, configuration: Array) -> Array:

@@ -73,14 +73,14 @@ def test_no_point_moves_farther_than_the_bound(spread: float) -> None:
         start = generator.uniform(LIMITS.lower, LIMITS.upper)
         difference = generator.normal(0.0, spread, 6) * generator.integers(0, 2, 6)
         moved = _corners(model, scene, chain.full(start + difference)) - _corners(model, scene, chain.full(start))
-        assert np.max(np.linalg.norm(moved, axis=1)) <= chain.sweep_m(difference) + 1e-9
+        assert np.max(np.linalg.norm(moved, axis=1)) <= chain.sweeps_m(difference[np.newaxis])[0] + 1e-9
 
 
 def test_bound_of_one_joint_is_the_distance_that_a_stretched_arm_reaches() -> None:
     # The UR5e's 0.425 + 0.3922 + 0.0997 + 0.04 m (half a flange) lie between shoulder and the last cylinder's rim.
     chain = GroupChain(GROUP, CollisionScene(RobotModel.from_urdf(arm_urdf())))
-    assert 0.95 < chain.sweep_m(np.array([0.0, 1.0, 0.0, 0.0, 0.0, 0.0])) < 1.2
-    assert chain.sweep_m(np.array([0.0, 0.0, 0.0, 0.0, 0.0, 1.0])) == pytest.approx(
+    assert 0.95 < chain.sweeps_m(np.array([[0.0, 1.0, 0.0, 0.0, 0.0, 0.0]]))[0] < 1.2
+    assert chain.sweeps_m(np.array([[0.0, 0.0, 0.0, 0.0, 0.0, 1.0]]))[0] == pytest.approx(
         math.hypot(0.04, 0.04) * 1.2, rel=0.3
     )
 
@@ -89,9 +89,9 @@ def test_bound_counts_the_way_of_sliding_joints_and_of_those_that_follow() -> No
     model = RobotModel.from_urdf(FINGERS)
     turning = GroupChain(PlanningGroup("hand", ("turn",), "world", "hand"), CollisionScene(model))
     # The twin's centre is at most 0.6 m out; a ball round a ball of 0.1 m adds its own box's half diagonal.
-    assert 0.7 <= turning.sweep_m(np.array([1.0])) < 0.8
+    assert 0.7 <= turning.sweeps_m(np.array([[1.0]]))[0] < 0.8
     sliding = GroupChain(PlanningGroup("hand", ("slide",), "world", "hand"), CollisionScene(model))
-    assert sliding.sweep_m(np.array([0.1])) == pytest.approx(0.2)
+    assert sliding.sweeps_m(np.array([[0.1]]))[0] == pytest.approx(0.2)
 
 
 @pytest.mark.parametrize("degrees", range(5, 50, 3))
