@@ -13,7 +13,7 @@ from collections.abc import Iterator
 
 from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
-from cellc.cell.interface import Endpoint, Interface, InterfaceKind, node_labels
+from cellc.cell.interface import Endpoint, Interface, InterfaceKind
 from cellc.formats.claim_label import claim_facts, driver_facts, stop_facts
 from cellc.formats.header import Header
 from cellc.formats.interface_label import interface_facts
@@ -32,9 +32,8 @@ def _diagram(cell: Cell) -> Iterator[str]:
     yield from _ros_graph(cell)
     yield from _vendor_control(cell)
     yield from _physical_safety(cell)
-    devices = {device.name for device in cell.devices} - {node.name for node in cell.nodes}
     for interface in cell.interfaces:
-        yield from _arrows(interface, devices)
+        yield from _arrows(cell, interface)
     yield from _claims(cell)
     yield from _drivers(cell)
     yield f"style vendor {_BOLD}"
@@ -43,11 +42,11 @@ def _diagram(cell: Cell) -> Iterator[str]:
 
 def _ros_graph(cell: Cell) -> Iterator[str]:
     yield 'subgraph ros["ROS 2 graph"]'
-    for node, label in zip(cell.nodes, node_labels(cell.nodes), strict=True):
-        yield f"  {_box('node', label, f'{node.package}/{node.executable}', f'owner {node.owner}')}"
-    for controller in cell.controllers:
-        client = f"commanded by {controller.client}" if controller.client else "no client"
-        yield f"  {_box('node', controller.label, controller.plugin, client)}"
+    for node in cell.nodes:
+        yield f"  {_box('node', node.full_name[1:], f'{node.package}/{node.executable}', f'owner {node.owner}')}"
+    for one in cell.controllers:
+        client = f"commanded by {one.client}" if one.client else "no client"
+        yield f"  {_box('node', one.full_name[1:], one.plugin, client)}"
     yield "end"
 
 
@@ -71,18 +70,18 @@ def _physical_safety(cell: Cell) -> Iterator[str]:
             yield f'{_id("stop", stop.authority)} == "{label}" ==> {_id("device", device.name)}'
 
 
-def _arrows(interface: Interface, devices: set[str]) -> Iterator[str]:
+def _arrows(cell: Cell, interface: Interface) -> Iterator[str]:
     # A sample travels from the publisher to the subscriber, a goal or a request from the client to the server.
     topic = interface.kind is InterfaceKind.TOPIC
     starts, ends = (interface.sources, interface.sinks) if topic else (interface.sinks, interface.sources)
     if len(starts) == len(ends) == 1:
         label = _text("<br/>".join([interface.name, *interface_facts(interface)]))
-        yield f'{_end(starts[0], devices)} -- "{label}" --> {_end(ends[0], devices)}'
+        yield f'{_end(cell, starts[0])} -- "{label}" --> {_end(cell, ends[0])}'
         return
     yield _box("interface", interface.name, *interface_facts(interface))
     hub = _id("interface", interface.name)
-    yield from (f'{_end(start, devices)} -- "{_qos(start)}" --> {hub}' for start in starts)
-    yield from (f'{hub} -- "{_qos(end)}" --> {_end(end, devices)}' for end in ends)
+    yield from (f'{_end(cell, start)} -- "{_qos(start)}" --> {hub}' for start in starts)
+    yield from (f'{hub} -- "{_qos(end)}" --> {_end(cell, end)}' for end in ends)
 
 
 def _qos(end: Endpoint) -> str:
@@ -96,19 +95,21 @@ def _claims(cell: Cell) -> Iterator[str]:
             if controller.device is not None and controller.command_interfaces:
                 label = _text("<br/>".join(["claims", *claim_facts(cell, manager, controller)]))
                 arrow = "-->" if controller.active else "-.->"
-                yield f'{_id("node", controller.label)} {arrow} |"{label}"| {_id("device", controller.device)}'
+                start = _id("node", controller.full_name[1:])
+                yield f'{start} {arrow} |"{label}"| {_id("device", controller.device)}'
 
 
 def _drivers(cell: Cell) -> Iterator[str]:
-    names = {node.full_name: label for node, label in zip(cell.nodes, node_labels(cell.nodes), strict=True)}
     for device in cell.devices:
         if device.driver is not None:
             label = _text("<br/>".join(["moves", *driver_facts(cell, device, device.driver)]))
-            yield f'{_id("node", names[device.driver.node])} --> |"{label}"| {_id("device", device.name)}'
+            yield f'{_id("node", device.driver.node[1:])} --> |"{label}"| {_id("device", device.name)}'
 
 
-def _end(end: Endpoint, devices: set[str]) -> str:
-    return _id("device" if end.node in devices else "node", end.node)
+def _end(cell: Cell, end: Endpoint) -> str:
+    # Full names, because managers may have controllers of one name; an adapter's device has no node in the graph.
+    known = {one.full_name for one in (*cell.nodes, *cell.controllers)}
+    return _id("node", end.full_name[1:]) if end.full_name in known else _id("device", end.node)
 
 
 def _box(kind: str, name: str, *lines: str) -> str:

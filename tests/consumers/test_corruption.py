@@ -10,6 +10,8 @@ import json
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
+from tempfile import TemporaryDirectory, mkdtemp
 
 import pytest
 
@@ -18,15 +20,21 @@ from cellc.emit.emit_all import EMITTERS
 from cellc.formats.configuration import configuration_id, configuration_inputs
 from cellc.formats.header import Header, header_of
 from cellc.graph.cell_graph import CellGraph
+from cellc.output.compare import compare
+from cellc.output.write import write
 from cellc.verify.verify import verify
 from tests.consumers import (
     starting,
     test_agreement,
+    test_bring_up,
     test_launch,
     test_moveit,
+    test_pages,
     test_parameters,
+    test_pictures,
     test_refusals,
     test_security,
+    test_walk,
     test_xsd,
 )
 from tests.consumers.corruption import corruptions
@@ -52,6 +60,8 @@ _CHECKS: tuple[Callable[[str, str], None], ...] = (
     test_security.test_controllers_serve_their_own_actions_alone_and_their_clients_alone_may_call,
     test_security.test_what_one_node_hears_another_may_say,
     test_security.test_descriptions_and_joint_states_pass,
+    test_security.test_managers_serve_what_they_have_and_spawners_may_call_what_they_need,
+    test_security.test_what_one_node_calls_another_serves,
     test_parameters.test_controllers_declare_what_they_are_told_and_are_told_what_they_need,
     test_parameters.test_manager_declares_what_it_is_told,
     test_parameters.test_every_section_belongs_to_a_node_that_runs,
@@ -82,6 +92,39 @@ _CHECKS: tuple[Callable[[str, str], None], ...] = (
     test_launch.test_plugins_are_of_packages_that_the_manifest_names,
     test_xsd.test_xml_is_what_its_readers_declare,
     test_xsd.test_launch_files_follow_their_grammar,
+    test_launch.test_nothing_asks_for_motion_before_a_person_releases_it,
+    test_bring_up.test_script_is_bash_and_launching_starts_every_step,
+    test_bring_up.test_conditions_name_what_the_cell_has,
+    test_bring_up.test_everything_is_activated_once_and_alternates_never,
+    test_walk.test_walk_has_every_gate_once_and_in_order,
+    test_walk.test_table_says_what_the_sections_say_and_leads_to_them,
+    test_walk.test_every_gate_leaves_evidence_of_its_own,
+    test_walk.test_checklists_hold_the_commands_of_the_walk,
+    test_walk.test_checklists_tick_what_the_walk_says,
+    test_walk.test_blocks_are_what_a_shell_takes,
+    test_walk.test_commands_name_what_the_cell_has,
+    test_walk.test_files_that_commands_read_are_in_the_package,
+    test_walk.test_gate_of_enabling_holds_no_command,
+    test_walk.test_real_target_is_started_only_after_the_mock_gate_and_motion_last,
+    test_walk.test_file_list_of_the_page_is_the_folder,
+    test_pictures.test_every_arrow_is_labelled_and_its_text_stays_inside,
+    test_pictures.test_boxes_hold_their_names_and_arrows_lie_level,
+    test_pictures.test_vendor_control_and_physical_safety_are_bold_and_apart,
+    test_pictures.test_sheets_and_diagram_say_the_same_of_every_arrow,
+    test_pictures.test_diagram_has_the_ends_and_the_qos_of_the_contract,
+    test_pages.test_manifest_has_the_version_tuple_of_the_spec,
+    test_pages.test_audit_asks_for_every_unknown_and_judges_every_pin,
+    test_pages.test_audit_expects_the_interfaces_of_the_contract,
+    test_pages.test_audit_names_one_owner_for_each_command_interface,
+    test_pages.test_audit_has_the_way_back_that_the_catalogue_knows,
+    test_pages.test_people_of_the_spec_answer_for_what_it_says,
+)
+_SCRIPT = "launch/bring_up.bash"
+_RUNS: tuple[Callable[[Path], None], ...] = (
+    test_bring_up.test_steps_started_in_the_wrong_order_act_in_the_right_one,
+    partial(test_bring_up.test_mover_of_the_mock_is_not_started_on_real_hardware, target="mock"),
+    partial(test_bring_up.test_mover_of_the_mock_is_not_started_on_real_hardware, target="real"),
+    test_bring_up.test_mover_waits_for_its_claims,
 )
 _CHECKS_OF_TARGETS: tuple[Callable[[str, str, str], None], ...] = (
     test_launch.test_spawners_follow_the_spec_and_activate_nothing,
@@ -104,8 +147,17 @@ def caught_by(built: Build) -> str:
                         return check_of.__name__
     finally:
         starting.processes.cache_clear()
+    if built.texts.get(_SCRIPT) != build(_CELL, _DISTRO).texts[_SCRIPT] and _fails(partial(_brought_up, built)):
+        return _brought_up.__name__
     found = verify(built.artifacts, built.graph)
     return found[0].code if found else ""
+
+
+def _brought_up(built: Build) -> None:
+    """Run the steps of the bring-up, which takes seconds, so that only another script than the emitted one is run."""
+    with TemporaryDirectory() as folder, in_place(built):
+        for check in _RUNS:
+            check(Path(mkdtemp(dir=folder)))
 
 
 def _fails(check: Callable[[], None]) -> bool:
@@ -118,6 +170,17 @@ def _fails(check: Callable[[], None]) -> bool:
 
 def test_build_itself_is_found_without_fault() -> None:
     assert caught_by(build(_CELL, _DISTRO)) == ""
+
+
+def test_golden_record_sees_every_fault_and_where_it_is(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    # As `cellc build --check` compares generated/ with what the cells make.
+    built = build(_CELL, _DISTRO)
+    write(built.artifacts, tmp_path / _CELL)
+    sample = list(corruptions(built, _SEED, _SAMPLE))
+    seen = [compare(one.of(built).artifacts, tmp_path / _CELL) for one in sample]
+    with capsys.disabled():
+        print(f"\n{sum(map(bool, seen))} of {len(sample)} single-line faults are seen by the golden record")
+    assert [[(found.path, found.line) for found in one] for one in seen] == [[(one.path, one.line)] for one in sample]
 
 
 @needs_oracles

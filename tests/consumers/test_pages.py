@@ -1,0 +1,124 @@
+"""The audit and the manifest against the contract, the spec and the catalogue's own files."""
+
+from __future__ import annotations
+
+import json
+import re
+from typing import Any
+
+import yaml
+
+from tests.consumers.matrix import ROOT, build, every_build, spec_for
+from tests.consumers.starting import written
+
+_OF_CELL = ("os", "kernel", "ros", "rmw", "ros2_control", "moveit")
+_OF_DEVICE = ("revision", "serial", "firmware", "driver", "sdk", "description")
+
+
+def tables(cell: str, distro: str) -> dict[str, list[list[str]]]:
+    """Return the rows of every section of the audit, without their heads."""
+    parts = re.split(r"^## (.+)$", build(cell, distro).texts["audit.md"], flags=re.MULTILINE)
+    sections = dict(zip(parts[1::2], parts[2::2], strict=True))
+    return {
+        name: [[one.strip() for one in line.split(" | ")] for line in _rows(text)] for name, text in sections.items()
+    }
+
+
+def _rows(text: str) -> list[str]:
+    lines = [line.strip("| ") for line in text.splitlines() if line.startswith("|")]
+    return lines[2:]
+
+
+def _tuple(cell: str, distro: str) -> dict[str, str]:
+    spec: Any = yaml.safe_load(spec_for(cell, distro))
+    versions = spec["versions"]
+    parts = {name: versions.get(name, "UNKNOWN") for name in _OF_CELL}
+    rollback = versions.get("rollback", {})
+    parts |= {f"rollback.{name}": rollback.get(name, "UNKNOWN") for name in ("image", "configuration")}
+    return parts | {
+        f"{device}.{name}": one.get(name, "UNKNOWN") for device, one in spec["devices"].items() for name in _OF_DEVICE
+    }
+
+
+@every_build
+def test_manifest_has_the_version_tuple_of_the_spec(cell: str, distro: str) -> None:
+    manifest = json.loads(build(cell, distro).texts["manifest.json"])
+    assert manifest["version_tuple"] == {name: str(value) for name, value in _tuple(cell, distro).items()}
+    assert manifest["cell"] == cell
+    contract = json.loads(build(cell, distro).texts["contract.json"])
+    assert manifest["configuration_id"] == contract["configuration_id"]
+
+
+@every_build
+def test_audit_asks_for_every_unknown_and_judges_every_pin(cell: str, distro: str) -> None:
+    found = tables(cell, distro)
+    asked = {row[2].strip("`") for row in found["Open questions"]}
+    pinned = {(row[0], row[1]): row[2] for row in found["Version tuple"]}
+    for name, value in _tuple(cell, distro).items():
+        holder, _, part = name.rpartition(".")
+        if value == "UNKNOWN":
+            path = f"versions.{name}" if holder in ("", "rollback") else f"devices.{name}"
+            assert path in asked
+        elif holder != "rollback":
+            assert pinned[holder or cell, part] == str(value)
+
+
+@every_build
+def test_audit_expects_the_interfaces_of_the_contract(cell: str, distro: str) -> None:
+    found = tables(cell, distro)
+    promised = json.loads(build(cell, distro).texts["contract.json"])["interfaces"]
+    rows = [row for kind in ("topics", "services", "actions") for row in found[f"Expected {kind}"]]
+    assert [row[0].strip("`") for row in rows if "`" in row[0]] == [
+        name for kind in ("topic", "service", "action") for name, one in promised.items() if one["kind"] == kind
+    ]
+    for row in rows:
+        one = promised[row[0].strip("`")]
+        assert row[1] == one["type"]
+        for shown, ends in ((row[2], one["sources"]), (row[3], one["sinks"])):
+            wanted = dict.fromkeys(
+                "{} ({}, {}, depth {})".format(
+                    end["node"], *(end["qos"][k] for k in ("reliability", "durability", "depth"))
+                )
+                for end in ends
+            )
+            assert shown == (", ".join(wanted) or "none")
+
+
+@every_build
+def test_audit_names_one_owner_for_each_command_interface(cell: str, distro: str) -> None:
+    promised = json.loads(build(cell, distro).texts["contract.json"])["managers"].values()
+    claims = [
+        (name, controller, one["active"])
+        for manager in promised
+        for controller, one in manager["controllers"].items()
+        for name in one["command_interfaces"]
+    ]
+    rows = tables(cell, distro)["Command owners"]
+    assert [(row[0].strip("`"), row[1].removesuffix(" (inactive)")) for row in rows] == [
+        (name, controller) for name, controller, _ in claims
+    ]
+    assert [row[1].endswith(" (inactive)") for row in rows] == [not active for _, _, active in claims]
+
+
+@every_build
+def test_audit_has_the_way_back_that_the_catalogue_knows(cell: str, distro: str) -> None:
+    text = build(cell, distro).texts["audit.md"].split("\n## Recovery\n")[1].split("\n## ")[0]
+    wanted: list[str] = []
+    limits: list[str] = []
+    for device, one in written(cell)["devices"].items():
+        facts = yaml.safe_load((ROOT / f"cellc/catalog/devices/{one['model']}/device.yaml").read_text(encoding="utf-8"))
+        for way in facts.get("safety", {}).get("recovery", ()):
+            wanted += [f"{device}, {way['state']}:", *(f"{n}. {step}" for n, step in enumerate(way["steps"], 1))]
+        limits += [f": {limit}" for limit in facts.get("mock_cannot_prove", ())]
+    assert [line for line in text.splitlines() if re.match(r"\d+\. |\w+, \w+:$", line)] == wanted
+    proof = build(cell, distro).texts["audit.md"].split("\n## What the mock cannot prove\n")[1]
+    assert len([line for line in proof.splitlines() if line.startswith("- ")]) == len(limits)
+    assert all(limit in proof for limit in limits)
+
+
+@every_build
+def test_people_of_the_spec_answer_for_what_it_says(cell: str, distro: str) -> None:
+    found, owners = tables(cell, distro), written(cell).get("owners", {})
+    for title, section in (("Approvals", "approvals"), ("Responsibilities", "responsibilities")):
+        shown = {row[0]: row[-1] for row in found[title]}
+        assert {name: shown[name] for name in owners.get(section, {})} == owners.get(section, {})
