@@ -24,9 +24,8 @@ def begin_evidence(cell: MockCell, folder: Path, names: Sequence[str], seed: int
     except ModuleNotFoundError as error:
         if (error.name or "").partition(".")[0] != "mcap":
             raise
-        raise MockError(
-            "", "evidence needs the package `mcap`; install it with `pip install cellc[evidence]`"
-        ) from None
+        text = "evidence needs the package `mcap`; install it with `pip install 'cellc[evidence]'`"
+        raise MockError("", text) from None
     for name in names:
         cell.entry(name)
     return EvidenceCollector(cell, folder, names, seed)
