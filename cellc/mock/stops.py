@@ -41,8 +41,8 @@ class Stops:
         self._causes: dict[str, int] = {}
 
     def enter(self, component: str, state: str) -> None:
-        """Name the state that a component stops in; what stops it lasts until ``end_cause``."""
-        self._states.setdefault(component, state)
+        """Name the state that a component stops in, the gravest where it stops twice; it lasts until ``end_cause``."""
+        self._states[component] = min(state, self._states.get(component, state), key=_RANK.index)
         self._causes[component] = self._causes.get(component, 0) + 1
 
     def end_cause(self, component: str) -> None:

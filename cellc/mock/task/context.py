@@ -130,7 +130,7 @@ class TaskContext:
         inbox = None if self.acting_on is None else self.plant.inboxes.get(self.acting_on)
         if inbox is None or inbox.newest is None or inbox.on_stale == "continue":
             return self.deadline_ns
-        return max(self.now_ns, inbox.stale_from_ns(inbox.newest.stamp_ns))
+        return max(self.now_ns + 1, inbox.stale_from_ns(inbox.newest.stamp_ns))  # time goes on, however a clock rounds
 
     def _check_observation(self) -> None:
         """Raise AttemptError where the frame that is acted on is no longer observed: a frozen camera stops the arm."""
