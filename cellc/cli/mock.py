@@ -44,9 +44,9 @@ def mock(
 
     if names and (campaign or list_only or replayed or gates):
         raise click.UsageError("--rehearsal runs declared rehearsals; it does not go with the options of the campaign.")
-    if evidence is not None and (campaign or list_only or replayed or gates):
-        raise click.UsageError("--evidence is of declared rehearsals; it does not go with the options of the campaign.")
-    options = CampaignOptions(seed=seed, jobs=jobs, pairs=pairs, as_json=as_json, records=records)
+    if evidence is not None and (campaign or list_only or gates):
+        raise click.UsageError("--evidence is of single runs; it goes with --rehearsal or --replay.")
+    options = CampaignOptions(seed=seed, jobs=jobs, pairs=pairs, as_json=as_json, records=records, evidence=evidence)
     if list_only:
         code = list_runs(folder, options)
     elif replayed:

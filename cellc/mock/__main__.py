@@ -33,8 +33,8 @@ def main() -> int:
     in_campaign = options.campaign or options.list or options.replay or options.gates
     if options.rehearsal and in_campaign:
         parser.error("--rehearsal runs declared rehearsals; it does not go with the options of the campaign")
-    if options.evidence and in_campaign:
-        parser.error("--evidence is of declared rehearsals; it does not go with the options of the campaign")
+    if options.evidence and (options.campaign or options.list or options.gates):
+        parser.error("--evidence is of single runs; it goes with --rehearsal or --replay")
     # Imported here, so that Ctrl-C while the planning libraries load ends without a traceback too.
     return _run_campaign(options) if in_campaign else _run_rehearsals(options)
 
@@ -62,6 +62,7 @@ def _run_campaign(options: argparse.Namespace) -> int:
         pairs=options.pairs,
         as_json=options.json,
         records=options.records,
+        evidence=options.evidence,
     )
     if options.gates:
         from cellc.mock.gates.command import run_gates

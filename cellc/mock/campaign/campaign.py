@@ -11,6 +11,7 @@ from cellc.mock.campaign.plan import CampaignPlan
 from cellc.mock.campaign.run import CampaignRun, RunEnd
 from cellc.mock.campaign.workers import Assignment, run_here, run_in_workers
 from cellc.mock.cell import MockCell
+from cellc.mock.errors import MockError
 from cellc.mock.faults.case import FaultCase
 
 Progress = Callable[[int, int, int], None]
@@ -56,9 +57,11 @@ def make_plan(cell: MockCell, cases: Sequence[FaultCase], seed: int) -> tuple[Ca
     """Run what is undisturbed, and plan faults for what succeeds; a rehearsal that fails by itself is told as failed.
 
     Raises:
-        MockError: the cell cannot be executed.
+        MockError: the cell cannot be executed, or has no rehearsal without faults.
     """
     undisturbed = [CampaignRun.undisturbed(entry) for entry in cell.entries if not entry.faults]
+    if not undisturbed:
+        raise MockError(cell.contract.files.rehearsals, "has no rehearsal without faults to run a campaign over")
     baselines = tuple(execute(cell, run, seed) for run in undisturbed)
     return CampaignPlan(cases, [baseline for baseline in baselines if baseline.named]), baselines
 

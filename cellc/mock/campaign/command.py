@@ -17,8 +17,9 @@ from cellc.mock.campaign.run import CampaignRun
 from cellc.mock.campaign.text import campaign_lines, end_lines
 from cellc.mock.campaign.to_json import campaign_json
 from cellc.mock.campaign.workers import usable_cores
-from cellc.mock.cell import MockCell, load
+from cellc.mock.cell import MockCell, cell_of, load
 from cellc.mock.errors import MockError
+from cellc.mock.evidence.begin import begin_evidence
 from cellc.mock.faults.possible import possible_faults
 from cellc.mock.record import to_json_lines
 from cellc.mock.write_text import write_text
@@ -34,6 +35,7 @@ class CampaignOptions:
         jobs: processes; None for as many as there are cores.
         pairs: number of runs with two faults.
         records: file that the attempt records of all runs are written to, as JSON lines.
+        evidence: folder that bags and the report of replayed runs are written to.
     """
 
     program: str = "cellc mock"
@@ -42,6 +44,7 @@ class CampaignOptions:
     pairs: int = 0
     as_json: bool = False
     records: str | None = None
+    evidence: str | None = None
 
 
 Choice = Callable[[CampaignPlan], Sequence[CampaignRun]]
@@ -72,11 +75,13 @@ def replay_runs(folder: str, identifiers: Sequence[str], options: CampaignOption
     """Run some runs of a campaign alone; they end as they did in it, to the last bit."""
 
     def named_runs(plan: CampaignPlan) -> Sequence[CampaignRun]:
-        return [_found(plan, identifier) for identifier in identifiers]
+        return [_found(plan, identifier) for identifier in dict.fromkeys(identifiers)]
 
     try:
         cell = load_checked(folder, options)
         campaign = _conduct(cell, named_runs, replace(options, jobs=1))
+        if options.evidence is not None:
+            _keep_evidence(cell, campaign, Path(options.evidence))
     except (MockError, KeyboardInterrupt) as stop:
         return stopped(stop)
     replay = partial(_replay_command, folder, options)
@@ -85,6 +90,20 @@ def replay_runs(folder: str, identifiers: Sequence[str], options: CampaignOption
     else:
         print("\n".join(line for end in campaign.ends for line in end_lines(end, replay(end.run.identifier))))
     return 0 if all(end.passed for end in campaign.ends) else 1
+
+
+def _keep_evidence(cell: MockCell, campaign: Campaign, folder: Path) -> None:
+    """Run the runs once more as rehearsals of the cell, and write what they leave."""
+    known = cell.folder.rehearsals
+    added = tuple(
+        end.run.entry.model_copy(update={"expect": end.result.outcome} if end.named else {}) for end in campaign.ends
+    )
+    widened = cell_of(replace(cell.folder, rehearsals=(*known, *added)))
+    names = [entry.name for entry in added]
+    with begin_evidence(widened, folder, names, campaign.seed) as collector:
+        for name in names:
+            collector.run(name)
+        collector.settle()
 
 
 def list_runs(folder: str, options: CampaignOptions) -> int:

@@ -5,11 +5,13 @@ from __future__ import annotations
 import json
 import os
 import shlex
+import shutil
 import signal
 import subprocess
 import sys
 import time
 from pathlib import Path
+from urllib.parse import quote
 
 import pytest
 
@@ -73,6 +75,7 @@ def test_unknown_run_names_the_nearest(folders: dict[str, Path]) -> None:
         (["--campaign", "--pairs", "-1"], "the number of pairs is -1; it must be 0 or greater"),
         (["--campaign", "--seed", "-1"], "the seed is -1; it must be 0 or greater"),
         (["--campaign", "--rehearsal", "ready"], "--rehearsal runs declared rehearsals"),
+        (["--campaign", "--evidence", "nowhere"], "--evidence is of single runs"),
     ],
 )
 def test_unusable_options_are_refused(folders: dict[str, Path], arguments: list[str], words: str) -> None:
@@ -136,3 +139,24 @@ def test_failing_run_is_told_with_the_command_that_replays_it(
     assert lines[-1].startswith("FAILED: ")
     matrix = next(line for line in lines if line.startswith("protective_stop:arm"))
     assert "!" in matrix
+
+
+def test_replayed_run_leaves_its_evidence(folders: dict[str, Path], tmp_path: Path) -> None:
+    pytest.importorskip("mcap")
+    name = "ready/protective_stop:arm@2"
+    ran = run("mock", str(folders["minimal"]), "--replay", name, "--replay", name, "--evidence", str(tmp_path / "kept"))
+    assert ran.code == 0, ran.err
+    written = sorted(path.name for path in (tmp_path / "kept").iterdir())
+    stem = quote(name, safe="")
+    assert {f"{stem}.mcap", f"{stem}.records.jsonl", "report.html"} <= set(written)
+    lines = (tmp_path / "kept" / f"{stem}.records.jsonl").read_text(encoding="utf-8").splitlines()
+    assert json.loads(lines[-1])["outcome"] == "protective_stop"
+
+
+def test_folder_whose_rehearsals_all_have_faults_has_no_campaign(folders: dict[str, Path], tmp_path: Path) -> None:
+    folder = Path(shutil.copytree(folders["minimal"], tmp_path / "minimal"))
+    rehearsals = json.loads((folder / "rehearsals.json").read_text(encoding="utf-8"))
+    fault = {"kind": "skip_cycles", "target": "", "at_s": 0.0, "cycles": 1}
+    rehearsals["rehearsals"] = [{**entry, "faults": [fault]} for entry in rehearsals["rehearsals"]]
+    (folder / "rehearsals.json").write_text(json.dumps(rehearsals), encoding="utf-8")
+    assert_refused(run("mock", str(folder), "--campaign"), "has no rehearsal without faults to run a campaign over")
