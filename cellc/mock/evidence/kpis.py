@@ -73,9 +73,10 @@ def kpis(targets: ContractKpis, result: RehearsalResult, trace: TraceResult, max
         _at_most(
             "wrong_owner_events",
             "events",
-            sum(not claim.by_contract for claim in trace.claims),
+            sum(not claim.by_contract for claim in trace.claims)
+            + sum(record.outcome == "wrong_owner" for record in attempts),
             targets.wrong_owner_events,
-            "claims of controllers that the contract does not name",
+            "claims that the contract does not state, and attempts that another commander ended",
         ),
     )
 

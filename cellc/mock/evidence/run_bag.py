@@ -61,6 +61,8 @@ class RunBag:
                 if facts.action is not None:
                     topic = goal_topic(controller, gripper=facts.behaviour not in TRAJECTORY_BEHAVIOURS)
                     self._goals[controller] = self._declare(topic)
+        for device in contract.adapters:
+            self._goals[device] = self._declare(goal_topic(device, gripper=False))
         topics = {frame: pose_topic(contract, frame) for frame in plant.perceptions}
         self._poses = {frame: self._declare(topic) for frame, topic in topics.items() if topic is not None}
         self._diagnostics = self._declare(DIAGNOSTICS)

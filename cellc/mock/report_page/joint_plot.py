@@ -35,7 +35,7 @@ def joint_plot(
     trace: JointTrace, limits: ContractJointLimits | None, tolerance: float | None, time: TimeAxis
 ) -> Element:
     """Return the plot of a joint with its name and figures."""
-    reach = Reach(*_range(trace.actual))
+    reach = Reach(*extremes(trace.actual))
     caption = tag("figcaption", tag("b", trace.joint), *_caption(trace, reach, limits, tolerance))
     label = f"{trace.joint}: command, state and error over time"
     drawing = svg(WIDTH, _HEIGHT, label, *_positions(trace, limits, time), *_errors(trace, tolerance, time))
@@ -47,15 +47,14 @@ def _caption(
 ) -> Iterator[Element]:
     unit = trace.unit
     yield tag("span", f"state {angle(reach.low, unit)} … {angle(reach.high, unit)}")
-    bounds = "no limits" if limits is None else f"limits {_bound(limits.lower)} … {_bound(limits.upper)} {unit}"
-    yield tag("span", bounds)
+    yield tag("span", limits_in_words(limits, unit))
     allowed = "" if tolerance is None else f", {small(tolerance, unit)} allowed"
     yield tag("span", f"largest error {small(trace.worst_error, unit)}{allowed}")
 
 
 def _positions(trace: JointTrace, limits: ContractJointLimits | None, time: TimeAxis) -> Iterator[Element]:
     command = trace.desired if trace.command is None else trace.command
-    spans = [_range(command), _range(trace.actual)]
+    spans = [extremes(command), extremes(trace.actual)]
     low, high = padded(min(span[0] for span in spans), max(span[1] for span in spans), _LEAST_RANGE)
     y = Scale(low, high, _MIDDLE, _TOP)
     yield from frame(time, y, [(value, f"{value + 0.0:.6g}") for value in ticks(low, high, 4)])
@@ -66,7 +65,7 @@ def _positions(trace: JointTrace, limits: ContractJointLimits | None, time: Time
     yield tag("path", class_="state", d=path(trace.actual, time.scale(), y))
     yield text("label", LEFT + 4.0, _TOP + 10.0, trace.unit)
     if limits is not None and limits.lower is not None and limits.upper is not None:
-        yield from _gauge(limits.lower, limits.upper, Reach(*_range(trace.actual)))
+        yield from _gauge(limits.lower, limits.upper, Reach(*extremes(trace.actual)))
 
 
 def _gauge(lower: float, upper: float, reach: Reach) -> Iterator[Element]:
@@ -92,10 +91,16 @@ def _errors(trace: JointTrace, tolerance: float | None, time: TimeAxis) -> Itera
     yield from time_labels(time, _HEIGHT - 4.0)
 
 
-def _range(envelope: Envelope) -> tuple[float, float]:
+def extremes(envelope: Envelope) -> tuple[float, float]:
+    """Return the least and the greatest value of an envelope of one signal; zeros where it has none."""
     if not np.isfinite(envelope.lowest).any():
         return 0.0, 0.0
     return float(np.nanmin(envelope.lowest)), float(np.nanmax(envelope.highest))
+
+
+def limits_in_words(limits: ContractJointLimits | None, unit: str) -> str:
+    """Return the position limits of a joint."""
+    return "no limits stated" if limits is None else f"limits {_bound(limits.lower)} … {_bound(limits.upper)} {unit}"
 
 
 def _bound(value: float | None) -> str:

@@ -15,6 +15,7 @@ from cellc.mock.report_page.element import Child, tag
 from cellc.mock.report_page.fault_times import fault_times
 from cellc.mock.report_page.joint_plot import joint_plot
 from cellc.mock.report_page.panel import TimeAxis
+from cellc.mock.report_page.state_plot import state_plot
 
 
 def run_section(number: int, run: RunEvidence, contract: Contract) -> Element:
@@ -52,6 +53,10 @@ def _parts(run: RunEvidence, trace: TraceResult, contract: Contract) -> Iterator
             joint_plot(each, contract.joint_limits.get(each.joint), run.tolerances.get(each.joint), time)
             for each in trace.joints
         ]
+        yield tag("div", *panels, class_="grid")
+    if trace.states:
+        yield tag("h3", "State of joints that no trajectory controller drives")
+        panels = [state_plot(each, contract.joint_limits.get(each.joint), time) for each in trace.states]
         yield tag("div", *panels, class_="grid")
     if trace.ages:
         yield tag("h3", "Ages of messages and transforms")

@@ -23,7 +23,7 @@ TARGETS = ContractKpis(
     recovery_time_s=2.0,
     wrong_owner_events=0,
 )
-QUIET = TraceResult(joints=(), ages=(), claims=(), changes=(), missed_cycles=0, ended_ns=0)
+QUIET = TraceResult(joints=(), states=(), ages=(), claims=(), changes=(), missed_cycles=0, ended_ns=0)
 MS = 1_000_000
 
 
@@ -82,6 +82,11 @@ def test_claim_of_a_controller_that_the_contract_does_not_name_is_a_wrong_owner(
     claims = (Claim("j/position", "arm", 0, 1, True), Claim("j/position", "other", 1, 2, False))
     found = figures(plain, trace=replace(QUIET, claims=claims))
     assert (found["wrong_owner_events"].value, found["wrong_owner_events"].met) == (1, False)
+
+
+def test_attempt_that_another_commander_ended_is_a_wrong_owner(plain: RehearsalResult) -> None:
+    ended = replace(plain.attempts[0], outcome="wrong_owner")
+    assert figures(plain, ended)["wrong_owner_events"].value == 1
 
 
 def test_real_run_meets_what_it_came_to(plain: RehearsalResult) -> None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cellc.mock.control import ControllerChanged, HardwareChanged, JointStateBlock, Recording
+from cellc.mock.evidence.topics import TRAJECTORY_BEHAVIOURS
 from cellc.mock.evidence.trace.age_builder import AgeBuilder, AgeTrace
 from cellc.mock.evidence.trace.claims import Claim, ClaimBook, StateChange
 from cellc.mock.evidence.trace.envelope import Array, Envelope, EnvelopeBuilder
@@ -37,10 +38,21 @@ class JointTrace:
 
 
 @dataclass(frozen=True, slots=True)
+class StateTrace:
+    """Measured positions of a joint that no trajectory controller drives: a gripper's, or one behind an adapter."""
+
+    joint: str
+    source: str
+    unit: str
+    state: Envelope
+
+
+@dataclass(frozen=True, slots=True)
 class TraceResult:
     """All that was kept of a run, to its end at ``ended_ns``."""
 
     joints: tuple[JointTrace, ...]
+    states: tuple[StateTrace, ...]
     ages: tuple[AgeTrace, ...]
     claims: tuple[Claim, ...]
     changes: tuple[StateChange, ...]
@@ -57,16 +69,16 @@ class RunTrace:
         self._book = ClaimBook(plant)
         self._changes: list[StateChange] = []
         self._signals: dict[tuple[str, str], EnvelopeBuilder] = {}
+        self._states: dict[tuple[str, str], EnvelopeBuilder] = {}
         self._ages: dict[str, AgeBuilder] = {}
         self._claims: tuple[Claim, ...] = ()
         self._ended_ns = 0
         self._missed = 0
-        self._commanded = {
-            interface
-            for manager in plant.contract.managers.values()
-            for controller in manager.controllers.values()
-            for interface in controller.command_interfaces
+        controllers = [each for manager in plant.contract.managers.values() for each in manager.controllers.values()]
+        self._followed = {
+            joint for each in controllers if each.behaviour in TRAJECTORY_BEHAVIOURS for joint in each.joints
         }
+        self._commanded = {interface for each in controllers for interface in each.command_interfaces}
 
     def joint_states(self, manager: str, broadcaster: str, block: JointStateBlock) -> None:
         """Take joint states as the task receives them."""
@@ -77,6 +89,10 @@ class RunTrace:
             block.stamps_ns.tolist(), history.arrivals(block.stamps_ns).tolist(), strict=True
         ):
             ages.arrived(arrived_ns, clock.read(taken_ns))
+        for name in history.names:
+            if name not in self._followed:
+                builder = self._states.setdefault((broadcaster, name), EnvelopeBuilder(1))
+                builder.add(block.stamps_ns, block.positions[:, [block.names.index(name)]])
 
     def transforms(self, message: TransformMessage) -> None:
         """Take moving edges as a listener receives them."""
@@ -116,6 +132,10 @@ class RunTrace:
         """Return everything; the run must have ended."""
         return TraceResult(
             joints=tuple(self._joint(*key, builder.envelope()) for key, builder in self._signals.items()),
+            states=tuple(
+                StateTrace(joint, source, self._unit(joint), builder.envelope())
+                for (source, joint), builder in self._states.items()
+            ),
             ages=tuple(ages.trace() for ages in self._ages.values()),
             claims=self._claims,
             changes=tuple(self._changes),
@@ -130,11 +150,13 @@ class RunTrace:
         )
         extremes = np.abs(np.concatenate([error.lowest, error.highest]))
         worst = float(np.nanmax(extremes)) if np.isfinite(extremes).any() else 0.0
-        links = self._plant.robot_state_publisher.links.joints.values()
-        slides = any(each.name == joint and each.kind == "prismatic" for each in links)
         positions = f"{joint}/position" in self._commanded and np.isfinite(command.lowest).any()
-        unit = "m" if slides else "rad"
-        return JointTrace(joint, controller, unit, desired, actual, command if positions else None, error, worst)
+        shown = command if positions else None
+        return JointTrace(joint, controller, self._unit(joint), desired, actual, shown, error, worst)
+
+    def _unit(self, joint: str) -> str:
+        links = self._plant.robot_state_publisher.links.joints.values()
+        return "m" if any(each.name == joint and each.kind == "prismatic" for each in links) else "rad"
 
     def _age(self, source: str, max_age_s: float | None) -> AgeBuilder:
         if source not in self._ages:
