@@ -146,7 +146,8 @@ def test_recording_has_a_complete_profile_for_each_topic_that_it_records(cell: s
     for topic, profile in profiles.items():
         assert set(profile) == {"history", "depth", "reliability", "durability"}, topic
         assert all(profile[name] in _LEGAL[name] for name in ("history", "reliability", "durability"))
-        assert profile["depth"] >= 1
+        offered = contract(cell, distro)["interfaces"].get(topic, {}).get("sources", [])
+        assert profile["depth"] == max([end["qos"]["depth"] for end in offered], default=profile["depth"]) >= 1
 
 
 @every_build
@@ -160,6 +161,9 @@ def test_drivers_are_told_what_they_declare_and_the_address_of_the_spec(cell: st
             switches = [name for name in values if re.search(r"enable|headless|publish_tf", name)]
             assert all(isinstance(values[name], bool) for name in switches)
             assert values.get("robot_ip") in addresses | {None, "UNKNOWN"}  # UNKNOWN blocks the real target
+            rates = [str(one["rate_hz"]) for one in contract(cell, distro)["interfaces"].values() if one["rate_hz"]]
+            profiles = [value.split(",")[2] for name, value in values.items() if name.endswith("_profile")]
+            assert {f"{rate}.0" for rate in profiles} <= set(rates)
 
 
 @every_build
@@ -173,7 +177,7 @@ def test_environment_is_the_spec_and_leads_to_files_of_the_package(cell: str, di
         if "network" in spec:
             assert stated["ROS_DOMAIN_ID"] == str(spec["network"]["domain_id"])
         discovery = "ROS_LOCALHOST_ONLY" if distro == "humble" else "ROS_AUTOMATIC_DISCOVERY_RANGE"
-        assert discovery in stated
+        assert stated[discovery] in ({"0", "1"} if distro == "humble" else {"SUBNET", "LOCALHOST", "OFF"})
         leads = {name: value.split("/", 1)[1] for name, value in stated.items() if "_cell_share" in value}
         leads = {name: value.removeprefix("/").removeprefix("${_cell_share}/") for name, value in leads.items()}
         assert set(leads.values()) <= set(texts)

@@ -118,6 +118,7 @@ _CHECKS: tuple[Callable[[str, str], None], ...] = (
     test_pages.test_audit_names_one_owner_for_each_command_interface,
     test_pages.test_audit_has_the_way_back_that_the_catalogue_knows,
     test_pages.test_people_of_the_spec_answer_for_what_it_says,
+    test_pages.test_audit_expects_the_nodes_that_are_launched_with_what_they_are_told,
 )
 _SCRIPT = "launch/bring_up.bash"
 _RUNS: tuple[Callable[[Path], None], ...] = (

@@ -126,6 +126,12 @@ def test_pipelines_name_plugins_and_adapters_that_exist(cell: str, distro: str) 
                 assert len(adapters) == len(set(adapters)) >= 2
     if found:
         assert found["planning_pipelines"] == list(_PLUGINS)
+        switches = ("execution_duration_monitoring", "wait_for_trajectory_completion")
+        assert all(isinstance(found[f"trajectory_execution.{one}"], bool) for one in switches)
+        for name in (name for name in found if name.endswith(".planner_configs")):
+            configured = {one.split(".")[2] for one in found if one.startswith("ompl.planner_configs.")}
+            assert found[name.replace("planner_configs", "default_planner_config")] in found[name]
+            assert set(found[name]) == configured
         assert found["default_planning_pipeline"] in found["planning_pipelines"]
         assert found["pilz_industrial_motion_planner.default_planner_config"] in ("PTP", "LIN", "CIRC")
         capabilities = found["capabilities"].split()

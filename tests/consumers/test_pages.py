@@ -9,7 +9,7 @@ from typing import Any
 import yaml
 
 from tests.consumers.matrix import ROOT, build, every_build, spec_for
-from tests.consumers.starting import written
+from tests.consumers.starting import node_name, processes, written
 
 _OF_CELL = ("os", "kernel", "ros", "rmw", "ros2_control", "moveit")
 _OF_DEVICE = ("revision", "serial", "firmware", "driver", "sdk", "description")
@@ -122,3 +122,23 @@ def test_people_of_the_spec_answer_for_what_it_says(cell: str, distro: str) -> N
     for title, section in (("Approvals", "approvals"), ("Responsibilities", "responsibilities")):
         shown = {row[0]: row[-1] for row in found[title]}
         assert {name: shown[name] for name in owners.get(section, {})} == owners.get(section, {})
+
+
+@every_build
+def test_audit_expects_the_nodes_that_are_launched_with_what_they_are_told(cell: str, distro: str) -> None:
+    rows = {row[0].strip("`"): row for row in tables(cell, distro)["Expected nodes"]}
+    started = {node_name(one): one for one in processes(cell, distro, "real") if one.executable != "spawner"}
+    contract = json.loads(build(cell, distro).texts["contract.json"])
+    plugins = {
+        f"{manager['namespace']}/{name}": one["plugin"]
+        for manager in contract["managers"].values()
+        for name, one in manager["controllers"].items()
+    }
+    assert {name: rows[name][1] for name in plugins} == plugins
+    for name in set(rows) - set(plugins):
+        process = started[name]
+        assert rows[name][1].removesuffix(" (real target)") == f"{process.package}/{process.executable}"
+        told = {one.strip("`") for one in rows[name][4].split(", ")}
+        assert set(process.files) - {f"config/{name[1:].replace('/', '.')}.yaml"} <= told
+        if process.executable != "ros2_control_node":  # Humble's is given the description as well
+            assert set(process.values) - {"use_sim_time"} <= told

@@ -14,6 +14,7 @@ from tests.consumers.matrix import build, every_build
 
 SHEETS = ("responsibility.svg", "responsibility.phone.svg")
 _SPACE = "{http://www.w3.org/2000/svg}"
+_COLUMNS = {"responsibility.svg": 4, "responsibility.phone.svg": 3}  # titles of bands, both boxes, what is carried
 _DRAWN = {"svg", "defs", "marker", "path", "rect", "text", "line"}
 
 
@@ -41,12 +42,14 @@ def place(one: Element, *names: str) -> tuple[float, ...]:
 def test_every_arrow_is_labelled_and_its_text_stays_inside(cell: str, distro: str) -> None:
     promised = contract(cell, distro)
     claims = [c for m in promised["managers"].values() for c in m["controllers"].values() if c["command_interfaces"]]
+    drivers = [name for name, one in promised["devices"].items() if one["driver"] is not None]
     for name in SHEETS:
         picture = sheet(cell, distro, name)
         said = [entry.text or "" for entry in picture.iter(f"{_SPACE}text")]
         arrows = len(list(picture.iter(f"{_SPACE}line")))
         assert set(promised["interfaces"]) <= set(said)
-        assert arrows == len(promised["interfaces"]) + len(claims) + 1  # and the physical stop
+        # What moves a device past the controllers has an arrow too, and so has the physical stop.
+        assert arrows == len(promised["interfaces"]) + len(claims) + len(drivers) + 1
         assert sum(entry.startswith("owner ") for entry in said) == arrows
         width, height = (float(value) for value in picture.attrib["viewBox"].split()[2:])
         letter = 8.0 * float(picture.attrib["font-size"]) / 13.0
@@ -74,6 +77,11 @@ def test_boxes_hold_their_names_and_arrows_lie_level(cell: str, distro: str) -> 
             lines = [y for x, y in places if x == left + 8 and top < y < top + high]
             assert lines == [top + 16 + 18 * number for number in range(len(lines))]
             assert high == 18 * len(lines) + 8 > 8
+        assert len({tuple(box.get(one) for one in ("width", "fill", "stroke")) for box in boxes}) == 1
+        styles = {tuple(sorted(set(one.attrib) - {"x", "y"})) for one in picture.iter(f"{_SPACE}text")}
+        assert styles == {(), ("fill",), ("font-weight",), ("font-size", "font-weight")}
+        assert len({one.get("fill") for one in picture.iter(f"{_SPACE}text")} - {None}) == 1
+        assert len({place(one, "x") for one in picture.iter(f"{_SPACE}text")}) <= _COLUMNS[name]
 
 
 @every_build
@@ -106,6 +114,10 @@ def test_diagram_has_the_ends_and_the_qos_of_the_contract(cell: str, distro: str
     text = diagram(cell, distro)
     boxes = re.findall(r"^ *(\w+)\[\"", text, re.MULTILINE)
     assert len(boxes) == len(set(boxes))
+    assert len(re.findall("^  subgraph ", text, re.MULTILINE)) == len(re.findall("^  end$", text, re.MULTILINE)) == 3
+    for manager in contract(cell, distro)["managers"].values():
+        for name, one in manager["controllers"].items():
+            assert f'["{manager["namespace"]}/{name}<br/>{one["plugin"]}<br/>'.replace('"/', '"') in text
     arrows = re.findall(r"^  (\w+) (?:--|==|-\.->)(.*?)(\w+)$", text, re.MULTILINE)
     for start, _, end in arrows:
         assert {start, end} <= set(boxes), (start, end)

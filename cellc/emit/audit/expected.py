@@ -5,10 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from cellc.cell.cell import Cell
-from cellc.cell.interface import Endpoint, Interface, InterfaceKind
+from cellc.cell.interface import Endpoint, Interface, InterfaceKind, Node, NodeSource
 from cellc.emit.audit.table import table
 from cellc.formats.interface_label import interface_facts
+from cellc.formats.moveit_files import is_planner, parameter_files, plans
+from cellc.formats.package_files import QOS_OVERRIDES, controllers_file
+from cellc.formats.qos_parameters import qos_parameters
 from cellc.graph.device_topics import device_topics
+from cellc.link.nodes import DESCRIPTION_PUBLISHER
 from cellc.link.placeholders import placeholders
 
 
@@ -42,12 +46,26 @@ def _nodes(cell: Cell) -> Iterator[tuple[str, ...]]:
     for node in cell.nodes:
         real = " (real target)" if node.real_only else ""
         program = f"{node.package}/{node.executable}{real}"
-        yield f"`{node.full_name}`", program, node.host or "not stated", node.owner, _code(node.parameters)
+        yield f"`{node.full_name}`", program, node.host or "not stated", node.owner, _code(_parameters(cell, node))
     for manager in cell.managers:
         for one in manager.controllers:
             owner = cell.spec.owners.approvals.controller
             name = f"`{manager.namespace}/{one.name}`"
             yield name, one.plugin, manager.host or "not stated", owner, _code(one.parameters)
+
+
+def _parameters(cell: Cell, node: Node) -> tuple[str, ...]:
+    """Return the names of parameters, and the files of those that several nodes or controllers share."""
+    files = {manager.node: controllers_file(cell, manager) for manager in cell.managers}
+    if node.full_name in files:
+        return (files[node.full_name],)
+    if node.name == DESCRIPTION_PUBLISHER:
+        return ("robot_description",)
+    if node.source is NodeSource.STANDARD:
+        return ("robot_description", "publish_frequency")
+    planned = ("robot_description", "robot_description_semantic", *parameter_files(cell, "real"))
+    overrides = (QOS_OVERRIDES,) if node.source is NodeSource.SPEC and qos_parameters(cell, node) else ()
+    return (*node.parameters, *(planned if is_planner(node) and plans(cell) else ()), *overrides)
 
 
 def _of_drivers(cell: Cell) -> Iterator[tuple[str, ...]]:

@@ -27,7 +27,7 @@ def bring_up(cell: Cell, header: Header) -> Artifact:
     """Return the script of a cell."""
     parts = [
         header.commented("#").rstrip("\n"),
-        "set -u",
+        "set -eu",
         f'step="${{1:?which step: {", ".join(_names(cell))}}}"',
         f'enclave="{bring_up_enclave(cell)}" # of what is asked here, where security is on',
         "",

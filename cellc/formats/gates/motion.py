@@ -11,6 +11,7 @@ from cellc.formats.gates.gate import Check, Gate
 from cellc.formats.gates.releases import move_real
 from cellc.formats.numbers import shortest
 from cellc.formats.recorded_topics import record_command
+from cellc.link.derived_joint_states import JOINT_STATE_TYPE
 from cellc.spec.safety import FirstMotionSpec
 
 _NOT_STATED = "`bringup.first_motion` is not stated: joint, sign, largest change, speed, timeout, reasons to stop"
@@ -74,16 +75,20 @@ def _recorded(cell: Cell, gate: str) -> Check:
 
 def _servers(cell: Cell) -> Iterator[Check]:
     for interface in cell.interfaces:
-        if interface.kind is InterfaceKind.ACTION:
+        if interface.kind is InterfaceKind.ACTION and "real" in interface.targets:
             yield Check(f"`{interface.name}` has one server", (f"ros2 action info {interface.name}",))
 
 
 def _cancels(cell: Cell) -> Iterator[Check]:
     for interface in cell.interfaces:
-        if interface.cancel_within_s is not None:
+        if interface.cancel_within_s is not None and "real" in interface.targets:
             yield Check(f"A cancel on `{interface.name}` holds within {shortest(interface.cancel_within_s)} s")
 
 
+def joint_state_topics(cell: Cell) -> tuple[str, ...]:
+    """Return where joints are reported on real hardware."""
+    return tuple(one.name for one in cell.interfaces if one.type == JOINT_STATE_TYPE and "real" in one.targets)
+
+
 def _states(cell: Cell) -> tuple[str, ...]:
-    names = dict.fromkeys(manager.namespace for manager in cell.managers)
-    return tuple(f"ros2 topic echo --once {namespace}/joint_states" for namespace in names)
+    return tuple(f"ros2 topic echo --once {topic}" for topic in joint_state_topics(cell))

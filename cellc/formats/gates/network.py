@@ -68,6 +68,7 @@ def _discovery(cell: Cell) -> Gate:
     ends = tuple(
         Check(f"`{interface.name}` has its declared ends: {_ends(cell, interface)}", (_info(interface),))
         for interface in cell.interfaces
+        if "real" in interface.targets
     )
     return Gate(
         code="L3",
@@ -102,7 +103,7 @@ def _data(cell: Cell) -> Gate:
 
 def _freshness(cell: Cell) -> Iterator[Check]:
     for interface in cell.interfaces:
-        if interface.kind is InterfaceKind.TOPIC and interface.rate_hz is not None:
+        if interface.kind is InterfaceKind.TOPIC and interface.rate_hz is not None and "real" in interface.targets:
             age = "" if interface.max_age_s is None else f", no sample older than {shortest(interface.max_age_s)} s"
             yield Check(
                 f"`{interface.name}` arrives at {shortest(interface.rate_hz)} Hz{age}",
