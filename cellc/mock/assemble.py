@@ -11,6 +11,7 @@ from cellc.mock.bus.matching import hears, task_node
 from cellc.mock.bus.network import Network
 from cellc.mock.bus.topic import Topic
 from cellc.mock.clocks import DEFAULT, TimeJump, build_clocks
+from cellc.mock.connections import joint_state_feeds, stream_edge
 from cellc.mock.control import ControllerManager
 from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.engine.simulation import Simulation
@@ -26,10 +27,10 @@ from cellc.mock.progress import Progress
 from cellc.mock.stops import Stops
 from cellc.mock.tf.buffer import DEFAULT_BUFFER_S, TransformBuffer
 from cellc.mock.tf.sources import SampledSource
-from cellc.mock.world.joint_states import JOINT_STATE_TYPE, JointStateHistory
 from cellc.mock.world.objects import World
 from cellc.transforms import Pose
 
+TF = "/tf"
 POSE_TYPE = "geometry_msgs/msg/PoseStamped"
 _DEFAULT_RATE_HZ = 10.0
 """Of a dynamic frame whose rate is not stated."""
@@ -47,8 +48,10 @@ def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int) -> Plant:
     simulation = Simulation(control)
     task = task_node(contract)
     clocks = build_clocks(contract.clocks, contract.clock_of, lambda: simulation.now_ns)
-    heard_by_publisher = _heard(contract, control, ROBOT_STATE_PUBLISHER)
-    published = RobotStatePublisher(memory.model.links, heard_by_publisher, PUBLISH_FREQUENCY_HZ, horizon_s, clocks)
+    network = Network(contract.interfaces, simulation, seed)
+    feeds = joint_state_feeds(contract, control, network, ROBOT_STATE_PUBLISHER)
+    tf_edge = stream_edge(contract, network, TF, ROBOT_STATE_PUBLISHER, task)
+    published = RobotStatePublisher(memory.model.links, feeds, PUBLISH_FREQUENCY_HZ, horizon_s, clocks, tf_edge)
     plant = Plant(
         contract=contract,
         simulation=simulation,
@@ -58,9 +61,9 @@ def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int) -> Plant:
         robot_state_publisher=published,
         planner=MotionPlanner(memory, seed),
         clocks=clocks,
-        network=Network(contract.interfaces, simulation, seed),
+        network=network,
         task=task,
-        heard_histories=_heard(contract, control, task),
+        feeds=joint_state_feeds(contract, control, network, task),
         cameras={},
         perceptions={},
         inboxes={},
@@ -81,21 +84,6 @@ def _note_jump(plant: Plant, jump: TimeJump) -> None:
     plant.robot_state_publisher.catch_up(jump.at_ns)
     plant.buffer.note_jump(jump)
     plant.requests.changed.fire(jump.at_ns)
-
-
-def _heard(contract: Contract, control: ControlStack, node: str) -> tuple[JointStateHistory, ...]:
-    """Return the joint states whose broadcaster is connected to a node."""
-    topics = {
-        source.node: name
-        for name, interface in contract.interfaces.items()
-        if interface.type == JOINT_STATE_TYPE
-        for source in interface.sources
-    }
-    return tuple(
-        history
-        for (_, controller), history in control.histories.items()
-        if hears(contract, topics.get(controller, ""), controller, node)
-    )
 
 
 def _managers(folder: GeneratedFolder) -> Mapping[str, ControllerManager]:
@@ -145,7 +133,7 @@ def _add_object(plant: Plant, name: str, frame: ContractFrame, images: Mapping[s
     transform = SampledSource(
         frame.parent, name, frame.authority, frame.buffer_s or DEFAULT_BUFFER_S, plant.buffer.warnings
     )
-    if hears(plant.contract, "/tf", frame.authority, plant.task):
+    if hears(plant.contract, TF, frame.authority, plant.task):
         plant.buffer.add(name, transform)
     topic, interface = _pose_topic(plant, frame)
     inbox = ObservationInbox(interface, plant.clocks.of(plant.task), plant.simulation)

@@ -11,6 +11,7 @@ from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.engine.process import Signal
 from cellc.mock.engine.simulation import Simulation
 from cellc.mock.nodes.camera import Camera
+from cellc.mock.nodes.joint_state_feed import JointStateFeed
 from cellc.mock.nodes.motion_planner import MotionPlanner
 from cellc.mock.nodes.observations import ObservationInbox
 from cellc.mock.nodes.perception import Perception
@@ -18,7 +19,6 @@ from cellc.mock.nodes.robot_state_publisher import RobotStatePublisher
 from cellc.mock.progress import Progress
 from cellc.mock.stops import Stops
 from cellc.mock.tf.buffer import TransformBuffer
-from cellc.mock.world.joint_states import JointStateHistory
 from cellc.mock.world.objects import World
 
 
@@ -51,7 +51,7 @@ class Plant:
 
     Attributes:
         task: node that the task of a rehearsal stands for.
-        heard_histories: joint states that reach the task.
+        feeds: joint states that reach the task.
         cameras: by device.
         perceptions: by the dynamic frame that they publish.
         inboxes: the task's observations, by dynamic frame.
@@ -69,7 +69,7 @@ class Plant:
     clocks: Clocks
     network: Network
     task: str
-    heard_histories: tuple[JointStateHistory, ...]
+    feeds: tuple[JointStateFeed, ...]
     cameras: dict[str, Camera]
     perceptions: dict[str, Perception]
     inboxes: dict[str, ObservationInbox]

@@ -7,7 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cellc.mock.bus.stream import NEVER_NS, StreamEdge
 from cellc.mock.clocks import Clock, Clocks
+from cellc.mock.nodes.joint_state_feed import JointStateFeed
 from cellc.mock.tf.buffer import TransformBuffer
 from cellc.mock.tf.cache import TimeCache
 from cellc.mock.tf.sources import StaticSource
@@ -37,28 +39,52 @@ class PublishedStates:
     they are asked for.
     """
 
-    def __init__(self, history: JointStateHistory, rate_hz: float, buffer_s: float, clock: Clock) -> None:
-        """Bind the states of a broadcaster that stamps with ``clock``."""
-        self.history = history
+    def __init__(
+        self, feed: JointStateFeed, rate_hz: float, buffer_s: float, clock: Clock, edge: StreamEdge | None
+    ) -> None:
+        """Bind the states of a broadcaster that stamps with ``clock``; ``edge`` takes transforms to the listener."""
+        self.history = feed.history
         self.cache = TimeCache[UsedState](round(buffer_s * 1e9))
         self.refused_stamps: list[int] = []
         self._interval_ns = round(1e9 / rate_hz)
+        self._feed = feed
         self._clock = clock
+        self._edge = edge
+        self._travelling: list[tuple[int, UsedState]] = []
         self._last_ns: int | None = None
 
     def catch_up(self, now_ns: int) -> None:
         """Use the joint states that have arrived since the last call."""
-        arrived = self.history.arrived(now_ns)
-        stamps = self.history.stamps[:arrived]
+        places = self._feed.arrived(now_ns)
+        stamps = self.history.stamps[places]
         index = 0 if self._last_ns is None else int(np.searchsorted(stamps, self._last_ns + self._interval_ns))
-        while index < arrived:
+        while index < len(stamps):
             taken_ns = int(stamps[index])
-            used = UsedState(taken_ns, tuple(self.history.positions[index].tolist()))
-            stamp_ns = self._clock.read(taken_ns)
-            if not self.cache.insert(stamp_ns, used):
-                self.refused_stamps.append(stamp_ns)
+            self._publish(UsedState(taken_ns, tuple(self.history.positions[places[index]].tolist())))
             self._last_ns = taken_ns
             index = int(np.searchsorted(stamps, taken_ns + self._interval_ns))
+        if self._travelling:
+            self._receive(now_ns)
+
+    def _publish(self, used: UsedState) -> None:
+        if self._edge is None or self._edge.ideal:
+            self._store(used)
+            return
+        arrival_ns = int(self._edge.arrivals(np.array([used.taken_ns], dtype=np.int64))[0])
+        if arrival_ns < NEVER_NS:
+            self._travelling.append((arrival_ns, used))
+
+    def _receive(self, now_ns: int) -> None:
+        """Store the transforms that have reached the listener."""
+        for arrival_ns, used in self._travelling:
+            if arrival_ns <= now_ns:
+                self._store(used)
+        self._travelling = [entry for entry in self._travelling if entry[0] > now_ns]
+
+    def _store(self, used: UsedState) -> None:
+        stamp_ns = self._clock.read(used.taken_ns)
+        if not self.cache.insert(stamp_ns, used):
+            self.refused_stamps.append(stamp_ns)
 
 
 class JointSource:
@@ -119,12 +145,22 @@ class RobotStatePublisher:
     """
 
     def __init__(
-        self, links: LinkTree, histories: Iterable[JointStateHistory], rate_hz: float, buffer_s: float, clocks: Clocks
+        self,
+        links: LinkTree,
+        feeds: Iterable[JointStateFeed],
+        rate_hz: float,
+        buffer_s: float,
+        clocks: Clocks,
+        edge: StreamEdge | None = None,
     ) -> None:
-        """Bind the node; a joint is taken from the first broadcaster that reports it."""
+        """Bind the node; a joint is taken from the first broadcaster that reports it.
+
+        Args:
+            edge: from the node to the listener on /tf; None where the contract does not describe it.
+        """
         self.links = links
         self._published = tuple(
-            PublishedStates(history, rate_hz, buffer_s, clocks.of(history.broadcaster)) for history in histories
+            PublishedStates(feed, rate_hz, buffer_s, clocks.of(feed.history.broadcaster), edge) for feed in feeds
         )
         self._moving: dict[str, JointSource] = {}
         self._warnings: TfWarnings | None = None

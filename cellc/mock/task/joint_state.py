@@ -34,13 +34,13 @@ def current_state(plant: Plant) -> CurrentState:
     """
     stamps: list[tuple[int, int]] = []
     positions: dict[str, float] = {}
-    for history in plant.heard_histories:
-        arrived = history.arrived(plant.now_ns)
-        if arrived == 0:
+    for feed in plant.feeds:
+        history, newest = feed.history, feed.newest(plant.now_ns)
+        if newest is None:
             raise AttemptError(Outcome.STALE_STATE, "no joint state has arrived")
-        taken_ns = int(history.stamps[arrived - 1])
+        taken_ns = int(history.stamps[newest])
         stamps.append((plant.clocks.of(history.broadcaster).read(taken_ns), taken_ns))
-        positions |= dict(zip(history.names, history.positions[arrived - 1].tolist(), strict=True))
+        positions |= dict(zip(history.names, history.positions[newest].tolist(), strict=True))
     if not stamps:
         raise AttemptError(Outcome.STALE_STATE, "no joint states reach the task")
     stamp_ns, taken_ns = min(stamps)

@@ -34,7 +34,8 @@ def qos(**changes: Any) -> ContractQos:
 
 def endpoint(node: str, profile: ContractQos) -> ContractEndpoint:
     """Return one end of a topic, with what a topic reads of it."""
-    return ContractEndpoint.model_construct(node=node, qos=profile)
+    fields: dict[str, Any] = {"node": node, "qos": profile}
+    return ContractEndpoint.model_construct(**fields)
 
 
 class StepClock:
