@@ -7,6 +7,7 @@ import math
 import pytest
 import yaml
 
+from cellc.mock.control.manager.settings import read_file
 from cellc.mock.control.parameters import Parameter, ParameterError, ParameterFile, ParameterFileError, ParameterSet
 
 
@@ -123,3 +124,15 @@ def test_file_is_read_alike_with_and_without_libyaml(text: str, monkeypatch: pyt
     with_libyaml = read()
     monkeypatch.delattr(yaml, "CSafeLoader")
     assert read() == with_libyaml
+
+
+def test_parameter_that_is_set_stays_with_its_node() -> None:
+    text = "n:\n  ros__parameters: {names: [a, b], rate: 2.0}"
+    for _ in range(2):
+        parameters = ParameterSet(read_file(text).of_node("n", ""))
+        parameters.declare(
+            (Parameter("names", "string_array", [], (), False), Parameter("rate", "double", 1.0, (), False))
+        )
+        assert (parameters.texts("names"), parameters.number("rate")) == (("a", "b"), 2.0)
+        parameters.set("names", ["c"])
+        parameters.set("rate", 3.0)

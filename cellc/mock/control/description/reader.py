@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from xml.etree import ElementTree
 
 from cellc.mock.control.description.component import ComponentInfo, PartInfo, read_component
 from cellc.mock.control.description.urdf import UrdfJoint, read_joints
 from cellc.mock.control.errors import DescriptionError
+
+_KEPT = 8
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,8 +61,9 @@ def _check_joint(part: PartInfo, component: ComponentInfo, joints: Mapping[str, 
         raise DescriptionError(f"Mimic joint '{joint.mimic.joint}' not found in <ros2_control> tag")
 
 
+@lru_cache(maxsize=_KEPT)
 def read_description(text: str) -> RobotDescription:
-    """Read a URDF with its `<ros2_control>` elements.
+    """Read a URDF with its `<ros2_control>` elements; kept, since every run of a cell starts from the same text.
 
     Args:
         text: the robot description.

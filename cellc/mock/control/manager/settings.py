@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 from cellc.mock.control.errors import ManagerAborted
 from cellc.mock.control.parameters import Parameter, ParameterError, ParameterFile, ParameterFileError, ParameterSet
 
 NODE_NAME = "controller_manager"
+_KEPT = 8
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,8 +22,9 @@ class ManagerSettings:
     initially_inactive: tuple[str, ...]
 
 
+@lru_cache(maxsize=_KEPT)
 def read_file(text: str) -> ParameterFile:
-    """Read the parameter file of the manager's process.
+    """Read the parameter file of the manager's process; kept, since every run of a cell starts from the same text.
 
     Raises:
         ManagerAborted: where rcl refuses it.
