@@ -112,10 +112,9 @@ class TransformBuffer:
 
     def _refused(self, target: str, source: str) -> TfFailure | None:
         """Return why a frame of a lookup cannot be looked for, the target's reason first."""
-        known = self._known_frames()
         for argument, frame in (("target_frame", target), ("source_frame", source)):
             failure = refused_name(argument, frame)
-            if failure is None and frame not in known:
+            if failure is None and not self._knows(frame):
                 failure = unknown_frame(argument, frame)
             if failure is not None:
                 return failure
@@ -165,11 +164,17 @@ class TransformBuffer:
             return found
         return _between(source, found)
 
+    def _knows(self, frame: str) -> bool:
+        """Tell whether a frame was ever heard of, as a child or as a parent."""
+        source = self._sources.get(frame)
+        if frame in self._remembered or (source is not None and _has_data(source)):
+            return True
+        return any(each.parent(-1) == frame for each in self._sources.values() if _has_data(each))
+
     def _known_frames(self) -> set[str]:
         known = set(self._remembered)
         for child, source in self._sources.items():
-            stamps = source.stamps()
-            if stamps is None or stamps:
+            if _has_data(source):
                 known |= {child, source.parent(-1)}
         return known
 
@@ -181,6 +186,11 @@ class TransformBuffer:
                 break
             chain.append(source.parent(-1))
         return chain
+
+
+def _has_data(source: TransformSource) -> bool:
+    stamps = source.stamps()
+    return stamps is None or bool(stamps)
 
 
 def _between(source: TransformSource, found: Neighbours) -> Edge:
