@@ -45,7 +45,7 @@ def quintic_coefficients(durations: Array, states: tuple[Array, Array, Array]) -
 
 
 def extremes(coefficients: Array, durations: Array, order: int) -> tuple[Array, Array]:
-    """Bound a derivative of quintics from below and above by the hull of its Bernstein coefficients.
+    """Bound a derivative of all quintics from below and above by the hull of its Bernstein coefficients.
 
     The bound is never too narrow; it is exact where the derivative is monotone, so for every piece of constant jerk.
 
@@ -53,14 +53,15 @@ def extremes(coefficients: Array, durations: Array, order: int) -> tuple[Array, 
         order: 0 position, 1 velocity, 2 acceleration, 3 jerk.
 
     Returns:
-        Least and greatest value, each of shape (pieces, joints), in units of seconds.
+        Least and greatest value over all pieces, each of shape (joints,), in units of seconds.
     """
     powers = coefficients
     for _ in range(order):
         powers = powers[:, 1:, :] * np.arange(1, powers.shape[1])[np.newaxis, :, np.newaxis]
     powers = powers / (durations[:, np.newaxis, np.newaxis] ** order)
     control = np.einsum("ij,kjl->kil", _to_bernstein(_DEGREE - order), powers)
-    return control.min(axis=1), control.max(axis=1)
+    flat = control.reshape(-1, control.shape[2])
+    return flat.min(axis=0), flat.max(axis=0)
 
 
 @cache
