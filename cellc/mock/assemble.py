@@ -81,8 +81,9 @@ def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int) -> Plant:
 
 def _note_jump(plant: Plant, jump: TimeJump) -> None:
     """Let the listener of the task hear of a clock that was set, and the task look at what it waits for."""
-    plant.robot_state_publisher.catch_up(jump.at_ns)
-    plant.buffer.note_jump(jump)
+    if jump.clock is plant.clocks.of(plant.task):
+        plant.robot_state_publisher.catch_up(jump.at_ns)
+        plant.buffer.note_jump(jump)
     plant.requests.changed.fire(jump.at_ns)
 
 

@@ -106,6 +106,7 @@ def _not_up(
 
 def _findings(plant: Plant) -> tuple[str, ...]:
     contract: Contract = plant.contract
+    plant.robot_state_publisher.catch_up(plant.now_ns)  # what the listener refuses, it refuses when it arrives
     return (
         *unmatched_pairs(contract),
         *plant.network.events.lines(),

@@ -46,6 +46,14 @@ class TfWarnings:
 
 def refusal(parent: str, child: str, authority: str, pose: Pose) -> tuple[str, str] | None:
     """Return the kind and text with which tf2 refuses a transform; None for one that it stores."""
+    x, y, z = pose.position
+    excess = abs(sum(part * part for part in pose.quaternion) - 1.0)
+    if parent and child and parent != child and excess < QUATERNION_TOLERANCE and not math.isnan(x + y + z):
+        return None
+    return _reason(parent, child, authority, pose, excess)
+
+
+def _reason(parent: str, child: str, authority: str, pose: Pose, excess: float) -> tuple[str, str] | None:
     numbers = (*pose.position, *pose.quaternion)
     if parent == child:
         return "TF_SELF_TRANSFORM", (
@@ -67,7 +75,7 @@ def refusal(parent: str, child: str, authority: str, pose: Pose) -> tuple[str, s
             f'TF_NAN_INPUT: Ignoring transform for child_frame_id "{child}" from authority "{authority}" because '
             f"of a nan value in the transform {values}"
         )
-    if abs(sum(part * part for part in pose.quaternion) - 1.0) >= QUATERNION_TOLERANCE:
+    if excess >= QUATERNION_TOLERANCE:
         values = " ".join(f"{part:f}" for part in pose.quaternion)
         return "TF_DENORMALIZED_QUATERNION", (
             f'TF_DENORMALIZED_QUATERNION: Ignoring transform for child_frame_id "{child}" from authority "{authority}" '
