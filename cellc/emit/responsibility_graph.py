@@ -108,7 +108,7 @@ def _drivers(cell: Cell) -> Iterator[str]:
 
 def _end(cell: Cell, end: Endpoint) -> str:
     # Full names, because managers may have controllers of one name; an adapter's device has no node in the graph.
-    known = {one.full_name for one in (*cell.nodes, *cell.controllers)}
+    known = {node.full_name for node in cell.nodes} | {controller.full_name for controller in cell.controllers}
     return _id("node", end.full_name[1:]) if end.full_name in known else _id("device", end.node)
 
 

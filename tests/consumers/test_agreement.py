@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import json
 import re
-import subprocess
 from typing import Any
 from xml.etree.ElementTree import fromstring
 
@@ -147,7 +146,9 @@ def test_recording_has_a_complete_profile_for_each_topic_that_it_records(cell: s
         assert set(profile) == {"history", "depth", "reliability", "durability"}, topic
         assert all(profile[name] in _LEGAL[name] for name in ("history", "reliability", "durability"))
         offered = contract(cell, distro)["interfaces"].get(topic, {}).get("sources", [])
-        assert profile["depth"] == max([end["qos"]["depth"] for end in offered], default=profile["depth"]) >= 1
+        # qos.md 2: rcl_action's status is latched with the last one, its feedback and any other topic keeps ten.
+        kept = 1 if topic.endswith("/_action/status") else 10
+        assert profile["depth"] == max([end["qos"]["depth"] for end in offered], default=kept)
 
 
 @every_build
@@ -164,47 +165,6 @@ def test_drivers_are_told_what_they_declare_and_the_address_of_the_spec(cell: st
             rates = [str(one["rate_hz"]) for one in contract(cell, distro)["interfaces"].values() if one["rate_hz"]]
             profiles = [value.split(",")[2] for name, value in values.items() if name.endswith("_profile")]
             assert {f"{rate}.0" for rate in profiles} <= set(rates)
-
-
-@every_build
-def test_environment_is_the_spec_and_leads_to_files_of_the_package(cell: str, distro: str) -> None:
-    texts, spec = build(cell, distro).texts, yaml.safe_load(spec_for(cell, distro))
-    for path in (path for path in texts if path.endswith(".sh")):
-        subprocess.run(["bash", "-n"], input=texts[path], text=True, check=True, capture_output=True)
-        stated = dict(re.findall(r'^export (\w+)="(.*)"$', texts[path], re.MULTILINE))
-        rmw = spec["versions"].get("rmw", "").split(" ")[0]
-        assert stated["RMW_IMPLEMENTATION"] == (rmw or stated["RMW_IMPLEMENTATION"])
-        if "network" in spec:
-            assert stated["ROS_DOMAIN_ID"] == str(spec["network"]["domain_id"])
-        discovery = "ROS_LOCALHOST_ONLY" if distro == "humble" else "ROS_AUTOMATIC_DISCOVERY_RANGE"
-        assert stated[discovery] in ({"0", "1"} if distro == "humble" else {"SUBNET", "LOCALHOST", "OFF"})
-        leads = {name: value.split("/", 1)[1] for name, value in stated.items() if "_cell_share" in value}
-        leads = {name: value.removeprefix("/").removeprefix("${_cell_share}/") for name, value in leads.items()}
-        assert set(leads.values()) <= set(texts)
-        wanted = {
-            "rmw_fastrtps_cpp": {"FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_DEFAULT_PROFILES_FILE"},
-            "rmw_cyclonedds_cpp": {"CYCLONEDDS_URI"},
-        }
-        assert set(leads) == wanted[stated["RMW_IMPLEMENTATION"]]
-        assert texts[path].splitlines()[-1] == "unset _cell_share"  # it is sourced
-        assert texts[path].count(f'"$(ros2 pkg prefix --share {cell})"') == 1
-
-
-@every_build
-def test_everything_that_is_read_at_run_time_is_installed(cell: str, distro: str) -> None:
-    texts = build(cell, distro).texts
-    installs = re.findall(
-        r"^install\((FILES|DIRECTORY)\n((?:  [\w./]+\n)+)  DESTINATION share/\$\{PROJECT_NAME\}\n\)",
-        texts["CMakeLists.txt"],
-        re.M,
-    )
-    kinds = {kind: set(names.split()) for kind, names in installs}
-    folders = {path.split("/")[0] for path in texts if "/" in path and not path.startswith(("gates", "graph"))}
-    assert kinds["DIRECTORY"] >= folders - {"evidence"}
-    assert kinds["FILES"] >= {"contract.json", "manifest.json", "rehearsals.json"}
-    assert texts["CMakeLists.txt"].rstrip().endswith("ament_package()")
-    assert f"project({cell} NONE)" in texts["CMakeLists.txt"]
-    assert "find_package(ament_cmake REQUIRED)" in texts["CMakeLists.txt"]
 
 
 @every_build
@@ -292,18 +252,6 @@ def test_named_states_are_the_poses_of_the_spec(cell: str, distro: str) -> None:
             *numbers, unit = text.split()
             values = [float(joint.attrib["value"]) for joint in states[pose, group].findall("joint")]
             assert values == pytest.approx([_si(f"{number} {unit}") for number in numbers], abs=1e-12)
-
-
-@every_build
-def test_fast_dds_uses_the_transports_that_it_describes(cell: str, distro: str) -> None:
-    for path in (path for path in build(cell, distro).texts if path.endswith(".fastdds.xml")):
-        text = re.sub(' xmlns="[^"]*"', "", build(cell, distro).texts[path])
-        dds = fromstring(text)
-        described = [tag.text for tag in dds.findall(".//transport_descriptor/transport_id")]
-        used = [tag.text for tag in dds.findall(".//userTransports/transport_id")]
-        assert sorted(map(str, described)) == sorted(map(str, used))
-        assert dds.findtext(".//useBuiltinTransports") == "false"  # they would use every card
-        assert dds.findall(".//interfaceWhiteList/*")
 
 
 @every_planning_build

@@ -178,3 +178,14 @@ def test_mover_waits_for_its_claims(tmp_path: Path) -> None:
     said, errors = stack.start("move_real", "echo", "it moves", wait_s=1).communicate(timeout=60)
     assert "it moves" not in said
     assert "there is no controller /controller_manager arm_trajectory active" in errors
+
+
+def test_mover_starts_on_real_hardware_once_everything_shows(tmp_path: Path) -> None:
+    stack = Stack(tmp_path)
+    stack.spawn()
+    (stack.state / "nodes" / "perception").write_text("active\n")
+    mover = stack.start("move_real", "echo", "it moves")
+    for name in ("arm_trajectory", "gripper_action"):
+        (stack.state / "controllers" / name).write_text("active\n")
+    said, errors = mover.communicate(timeout=60)
+    assert (said.splitlines()[-1], mover.returncode, errors) == ("it moves", 0, "")

@@ -135,7 +135,8 @@ def test_audit_expects_the_nodes_that_are_launched_with_what_they_are_told(cell:
         for name, one in manager["controllers"].items()
     }
     assert {name: rows[name][1] for name in plugins} == plugins
-    for name in set(rows) - set(plugins):
+    assert set(rows) == set(plugins) | set(started)
+    for name in started:
         process = started[name]
         assert rows[name][1].removesuffix(" (real target)") == f"{process.package}/{process.executable}"
         told = {one.strip("`") for one in rows[name][4].split(", ")}

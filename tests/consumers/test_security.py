@@ -103,6 +103,16 @@ def test_managers_serve_what_they_have_and_spawners_may_call_what_they_need(cell
 
 
 @every_build
+def test_who_serves_parameters_serves_them_all(cell: str, distro: str) -> None:
+    # network_security.md 5.3: what every node needs.
+    every = {f"~/{one}_parameters" for one in ("describe", "get", "list", "set")}
+    every |= {"~/get_parameter_types", "~/set_parameters_atomically"}
+    for name, profile in profiles(cell, distro).items():
+        served = {one for one in granted(profile, "services", "reply") if "parameter" in one}
+        assert served in (set(), every), name
+
+
+@every_build
 def test_what_one_node_calls_another_serves(cell: str, distro: str) -> None:
     found = profiles(cell, distro)
     served = {

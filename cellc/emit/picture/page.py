@@ -12,7 +12,7 @@ from cellc.emit.picture.shapes import LINE, arrow, box, text, wrapped
 _WIDTH = 1000
 _BOX = 190
 _BOX_CHARACTERS = 24
-_CHARACTERS = 80
+_CHARACTERS = 84
 
 
 def _height(row: Row) -> int:
