@@ -22,6 +22,7 @@ from cellc.mock.nodes.observations import ObservationInbox
 from cellc.mock.nodes.perception import ObjectPose, Perception
 from cellc.mock.nodes.robot_state_publisher import NODE as ROBOT_STATE_PUBLISHER
 from cellc.mock.nodes.robot_state_publisher import PUBLISH_FREQUENCY_HZ, RobotStatePublisher
+from cellc.mock.nodes.tf_broadcast import TF, TfBroadcast
 from cellc.mock.plant import Plant, Requests
 from cellc.mock.progress import Progress
 from cellc.mock.stops import Stops
@@ -30,7 +31,6 @@ from cellc.mock.tf.sources import SampledSource
 from cellc.mock.world.objects import World
 from cellc.transforms import Pose
 
-TF = "/tf"
 POSE_TYPE = "geometry_msgs/msg/PoseStamped"
 _DEFAULT_RATE_HZ = 10.0
 """Of a dynamic frame whose rate is not stated."""
@@ -73,9 +73,10 @@ def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int) -> Plant:
     )
     clocks.listen(partial(_note_jump, plant))
     images = _add_cameras(plant)
+    tf = TfBroadcast(contract.interfaces.get(TF), task, network, simulation)
     for name, frame in contract.frames.items():
         if frame.kind == "dynamic" and frame.simulated_parent is not None:
-            _add_object(plant, name, frame, images)
+            _add_object(plant, name, frame, images, tf)
     return plant
 
 
@@ -125,7 +126,9 @@ def _add_cameras(plant: Plant) -> dict[str, Topic[Image]]:
     return topics
 
 
-def _add_object(plant: Plant, name: str, frame: ContractFrame, images: Mapping[str, Topic[Image]]) -> None:
+def _add_object(
+    plant: Plant, name: str, frame: ContractFrame, images: Mapping[str, Topic[Image]], tf: TfBroadcast
+) -> None:
     """Place the object that a dynamic frame follows, with the node that sees it and the inbox of the task."""
     pose = frame.simulated_pose
     assert frame.simulated_parent is not None  # the caller asked
@@ -153,8 +156,9 @@ def _add_object(plant: Plant, name: str, frame: ContractFrame, images: Mapping[s
         if subscription is not None:
             max_age_s = plant.contract.interfaces[image_topic].max_age_s
             clock = plant.clocks.of(frame.authority)
+            sender = tf.sender(frame.authority, name, transform)
             plant.perceptions[name] = Perception(
-                name, frame, subscription, max_age_s, publish, transform, plant.world, clock, plant.simulation
+                name, frame, subscription, max_age_s, publish, sender, plant.world, clock, plant.simulation
             )
             break
 

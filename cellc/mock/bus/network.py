@@ -39,13 +39,13 @@ class Network:
         self.timers = timers
         self._seed = seed
         self._declared = {name: _declared(interface) for name, interface in interfaces.items()}
-        self._edges: dict[EdgeName, Apply] = {}
+        self._edges: dict[EdgeName, list[Apply]] = {}
         self._disturbed: list[tuple[str, str | None, str | None, EdgeBehaviour]] = []
         self._cuts: list[tuple[frozenset[str], frozenset[str] | None]] = []
 
     def attach(self, edge: EdgeName, apply: Apply) -> None:
         """Let an edge be told of its behaviour, now and whenever it changes."""
-        self._edges[edge] = apply
+        self._edges.setdefault(edge, []).append(apply)
         apply(self.behaviour(edge))
 
     def random(self, edge: EdgeName) -> Random:
@@ -92,8 +92,10 @@ class Network:
         return False
 
     def _tell(self) -> None:
-        for edge, apply in self._edges.items():
-            apply(self.behaviour(edge))
+        for edge, applies in self._edges.items():
+            behaviour = self.behaviour(edge)
+            for apply in applies:
+                apply(behaviour)
 
 
 def _declared(interface: ContractInterface) -> EdgeBehaviour:

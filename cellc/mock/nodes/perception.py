@@ -10,8 +10,8 @@ from cellc.mock.bus.subscription import Subscription
 from cellc.mock.clocks import Clock
 from cellc.mock.engine.simulation import Simulation
 from cellc.mock.nodes.camera import Image
+from cellc.mock.nodes.tf_broadcast import TransformSink
 from cellc.mock.tf.deferred import DeferredPose
-from cellc.mock.tf.sources import SampledSource
 from cellc.mock.world.objects import World
 from cellc.transforms import Pose
 
@@ -52,7 +52,7 @@ class Perception:
         images: Subscription[Image],
         max_image_age_s: float | None,
         publish: Callable[[ObjectPose], None],
-        transform: SampledSource,
+        transform: TransformSink,
         world: World,
         clock: Clock,
         simulation: Simulation,

@@ -6,6 +6,7 @@ One host runs all nodes, and the camera stamps on a clock of its own.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any
 
 import pytest
@@ -34,7 +35,7 @@ def rehearse(cell: MockCell, actions: Mapping[float, Action]) -> tuple[Rehearsal
             if at_s == 0.0:
                 action(plant)
             else:
-                plant.simulation.at(round(at_s * 1e9), lambda action=action: action(plant))  # type: ignore[misc]
+                plant.simulation.at(round(at_s * 1e9), partial(action, plant))
 
     return cell.rehearse(cell.entry("pick_and_place"), watch=watch), plants[0]
 
