@@ -1,0 +1,93 @@
+"""Times one call that checks many cells: on one core and on all, with nothing kept, after edits, and once more.
+
+Run it on a quiet machine: ``python benchmarks/many_cells.py [--cells 100]``. The cells are the three of ``cells/``
+over and over, each with a name and a size of its table of its own, so that those that have one differ in geometry.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import re
+import resource
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from cellc.batch.cores import usable_cores
+
+ROOT = Path(__file__).resolve().parents[1]
+TEMPLATES = sorted((ROOT / "cells").glob("*/cell.yaml"))
+
+_BOUND = """
+import os, sys
+os.sched_setaffinity(0, sorted(os.sched_getaffinity(0))[: int(sys.argv.pop(1))])
+from cellc.__main__ import main
+if __name__ == "__main__":
+    main()
+"""
+
+
+def write_cells(folder: Path, count: int) -> list[str]:
+    """Write the cells and return their names."""
+    names = []
+    for number in range(count):
+        template = TEMPLATES[number % len(TEMPLATES)]
+        text = template.read_text(encoding="utf-8")
+        text = text.replace(f"cell: {template.parent.name}\n", f"cell: cell_{number}\n")
+        text = re.sub(r"box: (\d+) ", rf"box: \1.{number:03} ", text)
+        (folder / f"cell_{number}.yaml").write_text(text, encoding="utf-8")
+        names.append(f"cell_{number}.yaml")
+    return names
+
+
+def measured(files: list[str], folder: Path, cores: int, forget: str, runs: int) -> tuple[float, float]:
+    """Check all cells in one call.
+
+    Args:
+        forget: what is removed from the cache before each run.
+
+    Returns:
+        Medians of wall time and of time on all processors in s.
+    """
+    times, used = [], []
+    environment = os.environ | {"XDG_CACHE_HOME": str(folder / "cache"), "PYTHONPATH": str(ROOT)}
+    for _ in range(runs):
+        if forget:
+            shutil.rmtree(folder / "cache/cellc" / forget, ignore_errors=True)
+        before, begin = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
+        subprocess.run(
+            [sys.executable, "-c", _BOUND, str(cores), "check", *files],
+            cwd=folder,
+            env=environment,
+            stdout=subprocess.DEVNULL,
+            check=True,
+        )
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        times.append(time.perf_counter() - begin)
+        used.append(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
+    return statistics.median(times), statistics.median(used)
+
+
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--cells", type=int, default=100)
+    parser.add_argument("--runs", type=int, default=5)
+    options = parser.parse_args()
+    print(f"| {options.cells} cells | cores | median s | CPU s |\n|---|---|---|---|")
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        files = write_cells(folder, options.cells)
+        for label, forget in (("nothing kept", "."), ("all edited, geometry kept", "check"), ("nothing changed", "")):
+            for cores in sorted({1, usable_cores()}):
+                wall, used = measured(files, folder, cores, forget, options.runs)
+                print(f"| {label} | {cores} | {wall:.2f} | {used:.2f} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
