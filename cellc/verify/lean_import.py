@@ -6,14 +6,14 @@ import importlib
 import sys
 from types import ModuleType
 
-_HEAVY = ("scipy", "networkx")
+_HEAVY = ("scipy", "networkx", "PIL", "shapely", "rtree")
 
 
 def import_yourdfpy() -> ModuleType:
     """Return the package ``yourdfpy``.
 
-    It builds its scene on trimesh, which imports scipy and networkx for operations on meshes where it finds them and
-    does without where it does not. Hiding them from that one import saves 0.4 s of every build; whoever imports them
+    It builds its scene on trimesh, which imports libraries for operations on meshes where it finds them and does
+    without where it does not. Hiding them from that one import saves 0.4 s of every build; whoever imports them
     afterwards gets them.
     """
     hidden = [] if "trimesh" in sys.modules else [name for name in _HEAVY if name not in sys.modules]

@@ -25,6 +25,13 @@ def test_workers_answer_as_this_process_does() -> None:
     assert multiprocessing.active_children() == []
 
 
+def test_workers_compile_as_this_process_does() -> None:
+    assert list(in_workers("compile", [MINIMAL, FILES[0]], 2)) == [
+        compute("compile", MINIMAL),
+        compute("compile", FILES[0]),
+    ]
+
+
 def test_a_caller_that_stops_early_leaves_no_process() -> None:
     answers = in_workers("check", FILES, 2)
     assert next(answers) == compute("check", FILES[0])

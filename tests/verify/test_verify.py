@@ -142,6 +142,7 @@ def test_check_of_a_cell_does_not_import_foreign_parsers() -> None:
 def test_what_was_hidden_can_be_imported_after_a_verification() -> None:
     program = (
         "import sys\nfrom cellc.verify.lean_import import import_yourdfpy\nimport_yourdfpy()\n"
-        "assert not {'scipy', 'networkx'} & set(sys.modules)\nimport networkx, scipy.spatial"
+        "assert not {'scipy', 'networkx', 'PIL', 'shapely'} & set(sys.modules)\n"
+        "import PIL.Image, networkx, scipy.spatial, shapely"
     )
     subprocess.run([sys.executable, "-c", program], check=True, cwd=ROOT)
