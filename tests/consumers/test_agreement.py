@@ -159,6 +159,9 @@ def test_drivers_are_told_what_they_declare_and_the_address_of_the_spec(cell: st
         if process.executable in _OF_DRIVERS:
             values = told(texts, process.files, node_name(process))
             assert set(values) == _OF_DRIVERS[process.executable], node_name(process)
+            joints = [tag.attrib["name"] for tag in fromstring(build(cell, distro).urdf("real")).findall("joint")]
+            moved = values.get("joint_names")
+            assert moved is None or (len(moved) == 2 and set(moved) <= set(joints))  # two fingers
             switches = [name for name in values if re.search(r"enable|headless|publish_tf", name)]
             assert all(isinstance(values[name], bool) for name in switches)
             assert values.get("robot_ip") in addresses | {None, "UNKNOWN"}  # UNKNOWN blocks the real target

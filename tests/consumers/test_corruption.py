@@ -87,6 +87,7 @@ _CHECKS: tuple[Callable[[str, str], None], ...] = (
     test_agreement.test_targets_differ_in_their_hardware_alone,
     test_agreement.test_contract_has_limits_calibrations_and_pairs_of_the_other_files,
     test_agreement.test_named_states_are_the_poses_of_the_spec,
+    test_environment.test_profiles_reach_the_cards_for_ros_and_no_other,
     test_environment.test_fast_dds_uses_the_transports_that_it_describes,
     test_agreement.test_collision_pairs_of_contract_and_semantic_description_are_the_same,
     test_moveit.test_move_group_gets_both_descriptions,

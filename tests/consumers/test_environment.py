@@ -62,3 +62,17 @@ def test_everything_that_is_read_at_run_time_is_installed(cell: str, distro: str
     assert texts["CMakeLists.txt"].rstrip().endswith("ament_package()")
     assert f"project({cell} NONE)" in texts["CMakeLists.txt"]
     assert "find_package(ament_cmake REQUIRED)" in texts["CMakeLists.txt"]
+
+
+@every_build
+def test_profiles_reach_the_cards_for_ros_and_no_other(cell: str, distro: str) -> None:
+    texts, spec = build(cell, distro).texts, yaml.safe_load(spec_for(cell, distro))
+    remote = spec.get("network", {}).get("discovery") in ("unicast", "multicast")
+    for host, one in spec.get("hosts", {}).items():
+        cards = [card["address"].split("/")[0] for card in one["nics"].values() if "control" not in card["carries"]]
+        wanted = ["127.0.0.1", *(cards if remote else ())]
+        fast, cyclone = (texts.get(f"middleware/{host}.{kind}.xml", "") for kind in ("fastdds", "cyclonedds"))
+        assert re.findall(r"<NetworkInterface address=\"(.+?)\"/>", cyclone) == (wanted if cyclone else [])
+        allowed = re.findall("<interfaceWhiteList>(.*?)</interfaceWhiteList>", fast, re.DOTALL)
+        assert re.findall("<address>(.+?)</address>", "".join(allowed)) == (wanted if fast else [])
+        assert fast or cyclone
