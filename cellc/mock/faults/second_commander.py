@@ -37,7 +37,7 @@ class SecondCommander:
     def begin(self, plant: Plant) -> None:
         """Send it; a goal that is rejected commands nothing."""
         manager = plant.control.manager_of(self.controller)
-        response = manager.send_goal(self.controller, self._goal(manager.joint_positions()))
+        response = plant.control.send_goal(self.controller, self._goal(manager.joint_positions()))
         if response.accepted:
             plant.requests.foreign_goals[(self.controller, response.goal_id)] = CLIENT
             plant.requests.changed.fire(plant.now_ns)

@@ -19,9 +19,9 @@ def at(stamp_ns: int) -> str:
     return f"{stamp_ns / 1e9:.3f} s"
 
 
-def angle(value: float, unit: str) -> str:
-    """Return a joint position with four digits after the point."""
-    return f"{value:.4f} {unit}".replace("-", "−")
+def span(low: float, high: float, unit: str) -> str:
+    """Return the range of a joint's positions, with four digits after the point."""
+    return f"{low:.4f} … {high:.4f} {unit}".replace("-", "−")
 
 
 def small(value: float, unit: str) -> str:
@@ -38,7 +38,7 @@ def plain(value: float | None, unit: str) -> str:
         return _NONE
     if unit == "s":
         return seconds(value)
-    return f"{value:.0%}" if unit == "share" else f"{value:g}"
+    return f"{value:.0%}" if unit == "share" else f"{value:g} {unit.removesuffix('s') if value == 1 else unit}"
 
 
 def count(number: int, noun: str) -> str:

@@ -13,7 +13,7 @@ from cellc.mock.evidence.trace.envelope import Envelope
 from cellc.mock.evidence.trace.run_trace import JointTrace
 from cellc.mock.report_page.curve import path
 from cellc.mock.report_page.element import svg, tag
-from cellc.mock.report_page.figures import angle, small
+from cellc.mock.report_page.figures import small, span
 from cellc.mock.report_page.panel import LEFT, RIGHT, WIDTH, TimeAxis, frame, line, text, time_labels
 from cellc.mock.report_page.scale import Scale, padded, round_below, ticks
 
@@ -46,7 +46,7 @@ def _caption(
     trace: JointTrace, reach: Reach, limits: ContractJointLimits | None, tolerance: float | None
 ) -> Iterator[Element]:
     unit = trace.unit
-    yield tag("span", f"state {angle(reach.low, unit)} … {angle(reach.high, unit)}")
+    yield tag("span", f"state {span(reach.low, reach.high, unit)}")
     yield tag("span", limits_in_words(limits, unit))
     allowed = "" if tolerance is None else f", {small(tolerance, unit)} allowed"
     yield tag("span", f"largest error {small(trace.worst_error, unit)}{allowed}")
@@ -100,7 +100,11 @@ def extremes(envelope: Envelope) -> tuple[float, float]:
 
 def limits_in_words(limits: ContractJointLimits | None, unit: str) -> str:
     """Return the position limits of a joint."""
-    return "no limits stated" if limits is None else f"limits {_bound(limits.lower)} … {_bound(limits.upper)} {unit}"
+    return (
+        "no limits stated"
+        if limits is None
+        else f"limits {_bound(limits.lower)} … {_bound(limits.upper)} {unit}".replace("-", "−")
+    )
 
 
 def _bound(value: float | None) -> str:

@@ -9,7 +9,7 @@ from cellc.contract.contract import ContractJointLimits
 from cellc.mock.evidence.trace.run_trace import StateTrace
 from cellc.mock.report_page.curve import path
 from cellc.mock.report_page.element import svg, tag
-from cellc.mock.report_page.figures import angle
+from cellc.mock.report_page.figures import span
 from cellc.mock.report_page.joint_plot import extremes, limits_in_words
 from cellc.mock.report_page.panel import LEFT, WIDTH, TimeAxis, frame, line, text, time_labels
 from cellc.mock.report_page.scale import Scale, padded, ticks
@@ -22,7 +22,7 @@ _LEAST_RANGE = 0.01
 def state_plot(trace: StateTrace, limits: ContractJointLimits | None, time: TimeAxis) -> Element:
     """Return the plot of a joint with its name and range."""
     low, high = extremes(trace.state)
-    reach = tag("span", f"state {angle(low, trace.unit)} … {angle(high, trace.unit)}")
+    reach = tag("span", f"state {span(low, high, trace.unit)}")
     caption = tag("figcaption", tag("b", trace.joint), reach, tag("span", limits_in_words(limits, trace.unit)))
     drawing = svg(WIDTH, _HEIGHT, f"{trace.joint}: state over time", *_content(trace, limits, time))
     return tag("figure", caption, drawing, class_="panel")

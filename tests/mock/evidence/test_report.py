@@ -65,8 +65,8 @@ def test_every_rehearsal_stands_in_the_report_with_its_outcome(page: Page, writt
 
 def test_each_joint_has_its_limits_and_its_largest_error_with_units(page: Page) -> None:
     # The limits of the arm are two turns either way, half of them for the elbow.
-    assert "limits -6.283 … 6.283 rad" in page.words
-    assert "limits -3.142 … 3.142 rad" in page.words
+    assert "limits −6.283 … 6.283 rad" in page.words
+    assert "limits −3.142 … 3.142 rad" in page.words
     assert page.words.count(", 200 mrad allowed") == 3 * 6
 
 
