@@ -8,10 +8,11 @@ from functools import partial
 from cellc.contract.contract import Contract, ContractFrame, ContractInterface
 from cellc.mock.adapter.server import AdapterServer
 from cellc.mock.bus.matching import hears, task_node
+from cellc.mock.bus.middleware import middleware_of
 from cellc.mock.bus.network import Network
 from cellc.mock.bus.topic import Topic
 from cellc.mock.clocks import DEFAULT, TimeJump, build_clocks
-from cellc.mock.connections import joint_state_feeds, stream_edge
+from cellc.mock.connections import joint_state_feeds, stream_edge, watch_deadlines
 from cellc.mock.control import ControllerManager
 from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.engine.simulation import Simulation
@@ -48,7 +49,7 @@ def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int) -> Plant:
     simulation = Simulation(control)
     task = task_node(contract)
     clocks = build_clocks(contract.clocks, contract.clock_of, lambda: simulation.now_ns)
-    network = Network(contract.interfaces, simulation, seed)
+    network = Network(contract.interfaces, simulation, seed, middleware_of(contract))
     feeds = joint_state_feeds(contract, control, network, ROBOT_STATE_PUBLISHER)
     tf_edge = stream_edge(contract, network, TF, ROBOT_STATE_PUBLISHER, task)
     published = RobotStatePublisher(memory.model.links, feeds, PUBLISH_FREQUENCY_HZ, horizon_s, clocks, tf_edge)
@@ -173,7 +174,8 @@ def _pose_topic(plant: Plant, frame: ContractFrame) -> tuple[Topic[ObjectPose] |
 
 
 def start_nodes(plant: Plant) -> None:
-    """Start cameras and perception."""
+    """Start cameras and perception, and what watches the deadlines of joint states."""
+    watch_deadlines(plant.contract, plant.control, plant.network)
     for camera in plant.cameras.values():
         camera.start()
     for name, perception in plant.perceptions.items():

@@ -38,6 +38,7 @@ def _clock_of(cell: Cell) -> Iterator[tuple[str, str | None]]:
     for manager in cell.managers:
         for controller in manager.controllers:
             yield controller.name, manager.host or only_host
+            yield controller.label, manager.host or only_host
     for device in cell.devices:
         connection = device.spec.connection
         host = only_host if connection is None else connection.host

@@ -22,7 +22,7 @@ class Match(Generic[Sample]):
         self._reader = reader
         self._manual = source.qos.liveliness == "manual_by_topic"
         self._was_alive = False
-        lease_s = sink.qos.lease_duration_s
+        lease_s = sink.qos.lease_duration_s if network.middleware.tells else None
         self._lease = None if lease_s is None else Lease(lease_s, network.timers, self._note_liveliness)
         self._edge = Edge[Sample](
             reliable=(source.qos.reliability, sink.qos.reliability) == ("reliable", "reliable"),

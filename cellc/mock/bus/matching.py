@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cellc.contract.contract import Contract, ContractEndpoint
-from cellc.mock.bus.qos import incompatibilities
+from cellc.mock.bus.middleware import Middleware, middleware_of
 
 
 def unmatched_pairs(contract: Contract) -> tuple[str, ...]:
@@ -21,8 +21,9 @@ def hears(contract: Contract, topic: str, source: str, sink: str) -> bool:
     declared = contract.interfaces.get(topic)
     if declared is None:
         return True
+    compare = middleware_of(contract).compare
     pairs = [(a, b) for a in declared.sources for b in declared.sinks if (a.node, b.node) == (source, sink)]
-    return not pairs or any(not incompatibilities(a.qos, b.qos) for a, b in pairs)
+    return not pairs or any(not compare(a.qos, b.qos) for a, b in pairs)
 
 
 def task_node(contract: Contract) -> str:
@@ -47,14 +48,15 @@ def served_actions(contract: Contract) -> dict[str, str | None]:
 
 
 def _unmatched(contract: Contract) -> Iterator[str]:
+    rules = middleware_of(contract)
     for name, interface in sorted(contract.interfaces.items()):
         for source in interface.sources:
             for sink in interface.sinks:
-                yield from _mismatch(name, source, sink)
+                yield from _mismatch(rules, name, source, sink)
                 if interface.kind != "topic":
-                    yield from _mismatch(name, sink, source)
+                    yield from _mismatch(rules, name, sink, source)
 
 
-def _mismatch(name: str, offering: ContractEndpoint, requesting: ContractEndpoint) -> Iterator[str]:
-    for problem in incompatibilities(offering.qos, requesting.qos):
+def _mismatch(rules: Middleware, name: str, offering: ContractEndpoint, requesting: ContractEndpoint) -> Iterator[str]:
+    for problem in rules.compare(offering.qos, requesting.qos):
         yield f"`{name}` from `{offering.node}` to `{requesting.node}` is not connected: {problem}"

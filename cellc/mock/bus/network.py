@@ -9,6 +9,7 @@ from random import Random
 from cellc.contract.contract import ContractInterface
 from cellc.mock.bus.behaviour import IDEAL, SEVERED, EdgeBehaviour, edge_random
 from cellc.mock.bus.events import QosEvents
+from cellc.mock.bus.middleware import DDS, Middleware
 from cellc.mock.bus.timers import Timers
 
 
@@ -30,11 +31,19 @@ class Network:
 
     Attributes:
         events: of the middleware, over all topics.
+        middleware: its rules.
         timers: the simulated clock.
     """
 
-    def __init__(self, interfaces: Mapping[str, ContractInterface], timers: Timers, seed: int) -> None:
+    def __init__(
+        self,
+        interfaces: Mapping[str, ContractInterface],
+        timers: Timers,
+        seed: int,
+        middleware: Middleware = DDS,
+    ) -> None:
         """Bind the network to what the contract says of it; ``seed`` is that of the run."""
+        self.middleware = middleware
         self.events = QosEvents()
         self.timers = timers
         self._seed = seed

@@ -53,6 +53,40 @@ class DeadlineWatch:
             self._arm(self._due_ns + self._period_ns)
 
 
+class StreamDeadline:
+    """The same count for a dense stream, which is looked at when a period is over and not at every sample."""
+
+    def __init__(
+        self, period_s: float, timers: Timers, newest_ns: Callable[[int], int | None], missed: Callable[[], None]
+    ) -> None:
+        """Bind the watch, which begins with the first sample that it finds.
+
+        Args:
+            newest_ns: returns when the last sample up to a time came; None before the first.
+            missed: is called once for each period without a sample.
+        """
+        self._period_ns = round(period_s * 1e9)
+        self._timers = timers
+        self._newest_ns = newest_ns
+        self._missed = missed
+        self._due_ns: int | None = None
+        timers.at_background(timers.now_ns + self._period_ns, self._look)
+
+    def _look(self) -> None:
+        due_ns = self._timers.now_ns if self._due_ns is None else self._due_ns
+        newest_ns = self._newest_ns(due_ns)
+        if newest_ns is None:
+            self._timers.at_background(due_ns + self._period_ns, self._look)
+            return
+        if newest_ns + self._period_ns > due_ns:
+            self._due_ns = newest_ns + self._period_ns
+        else:
+            if self._due_ns is not None:
+                self._missed()
+            self._due_ns = due_ns + self._period_ns
+        self._timers.at_background(self._due_ns + 1, self._look)
+
+
 class Lease:
     """Whether a writer counts as alive (DDS 1.4, 2.2.3.11): it must be asserted within each lease duration.
 

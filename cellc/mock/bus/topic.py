@@ -10,7 +10,6 @@ from cellc.mock.bus.edge import Sample
 from cellc.mock.bus.events import QosEvent, QosEventKind
 from cellc.mock.bus.match import Match
 from cellc.mock.bus.network import Network
-from cellc.mock.bus.qos import incompatibilities
 from cellc.mock.bus.reader import Reader
 from cellc.mock.bus.subscription import Subscription
 from cellc.mock.bus.writer import Writer
@@ -61,7 +60,7 @@ class Topic(Generic[Sample]):
 
     def _match(self, source: ContractEndpoint, reader: Reader[Sample]) -> None:
         sink = reader.endpoint
-        found = incompatibilities(source.qos, sink.qos)
+        found = self._network.middleware.compare(source.qos, sink.qos)
         if not found:
             match = Match[Sample](self.name, source, reader, self._network)
             self._writers[source.node].connect(match, wants_history=sink.qos.durability == "transient_local")

@@ -34,11 +34,11 @@ class Writer(Generic[Sample]):
             self._latched = deque(maxlen=depth)
         self._lifespan_ns = None if qos.lifespan_s is None else round(qos.lifespan_s * 1e9)
         self._deadline: DeadlineWatch | None = None
-        if qos.deadline_s is not None:
+        if qos.deadline_s is not None and network.middleware.tells:
             self._deadline = DeadlineWatch(qos.deadline_s, network.timers, self._missed)
         # An automatic publisher loses its liveliness with its process alone, and then there is nobody to tell.
         self._lease: Lease | None = None
-        if qos.liveliness == "manual_by_topic" and qos.lease_duration_s is not None:
+        if qos.liveliness == "manual_by_topic" and qos.lease_duration_s is not None and network.middleware.tells:
             self._lease = Lease(qos.lease_duration_s, network.timers, self._note_liveliness)
 
     def publish(self, sample: Sample) -> None:

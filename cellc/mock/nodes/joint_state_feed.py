@@ -24,6 +24,17 @@ class JointStateFeed:
         here = self.arrived(now_ns)
         return int(here[-1]) if here.size else None
 
+    def newest_arrival_ns(self, now_ns: int) -> int | None:
+        """Return when the newest message arrived that has; None before the first."""
+        newest = self.newest(now_ns)
+        if newest is None:
+            return None
+        stamps = self.history.stamps
+        if self._edge is None or self._edge.ideal:
+            return int(self.history.arrivals(stamps[newest : newest + 1])[0])
+        delayed = self.history.arrivals(stamps) - stamps
+        return int((self._edge.arrivals(stamps) + delayed)[newest])
+
     def arrived(self, now_ns: int) -> IntArray:
         """Return the places in the history of all messages that have arrived, rising."""
         stamps = self.history.stamps

@@ -7,6 +7,7 @@ from typing import Any
 
 from cellc.contract.contract import ContractEndpoint, ContractInterface, ContractNetwork, ContractQos
 from cellc.mock.bus.events import QosEventKind
+from cellc.mock.bus.middleware import DDS, Middleware
 from cellc.mock.bus.network import Network
 from cellc.mock.bus.subscription import Subscription
 from cellc.mock.bus.topic import Topic
@@ -73,6 +74,7 @@ class Bench:
         network: ContractNetwork | None = None,
         seed: int = 0,
         talkers: tuple[str, ...] = ("talker",),
+        middleware: Middleware = DDS,
     ) -> None:
         empty: dict[str, Any] = dict.fromkeys(ContractInterface.model_fields)
         entry = empty | {
@@ -84,7 +86,7 @@ class Bench:
         }
         interface = ContractInterface.model_construct(**entry)
         self.clock = StepClock()
-        self.network = Network({TOPIC: interface}, self.clock, seed)
+        self.network = Network({TOPIC: interface}, self.clock, seed, middleware)
         self.topic = Topic[int](TOPIC, interface, self.network)
         self.received: list[tuple[float, int]] = []
 

@@ -6,7 +6,9 @@ import pytest
 
 from cellc.mock.bus.behaviour import EdgeBehaviour
 from cellc.mock.bus.events import QosEventKind
-from tests.mock.bus.bench import TOPIC, Bench, qos
+from cellc.mock.bus.middleware import ZENOH
+from cellc.mock.bus.timers import StreamDeadline
+from tests.mock.bus.bench import MS, TOPIC, Bench, StepClock, qos
 
 OFFERED = QosEventKind.OFFERED_DEADLINE_MISSED
 REQUESTED = QosEventKind.REQUESTED_DEADLINE_MISSED
@@ -165,3 +167,43 @@ def test_nothing_is_scheduled_where_no_profile_asks_for_it(period_ms: float) -> 
     bench.listen()
     bench.publish_every(period_ms, count=5)
     assert bench.clock._queue.next_ns() is None
+
+
+def test_middleware_without_the_rules_of_dds_connects_and_tells_nothing() -> None:
+    # rmw_zenoh: any two endpoints on one key match, and neither deadlines nor leases give events.
+    offered = qos(reliability="best_effort", deadline_s=0.2)
+    bench = Bench(offered, qos(deadline_s=0.1, lease_duration_s=0.1), middleware=ZENOH)
+    subscription = bench.subscribe()
+    bench.topic.publish("talker", 1)
+    bench.clock.run_until(1000)
+    assert bench.topic.mismatches == []
+    assert bench.drain(subscription) == [1]
+    assert bench.network.events.log == []
+
+
+class TestStreamDeadline:
+    """Deadlines of streams that are looked at when a period is over."""
+
+    def watch(self, stamps_ms: list[float], until_ms: float, period_s: float = 0.1) -> list[float]:
+        """Return the milliseconds of the misses of a stream."""
+        clock, missed = StepClock(), list[float]()
+
+        def newest_ns(now_ns: int) -> int | None:
+            seen = [at for at in stamps_ms if at * MS <= now_ns]
+            return round(seen[-1] * MS) if seen else None
+
+        StreamDeadline(period_s, clock, newest_ns, lambda: missed.append(clock.now_ns / MS))
+        clock.run_until(until_ms)
+        return missed
+
+    def test_stream_in_time_misses_nothing(self) -> None:
+        assert self.watch([10.0 * index for index in range(100)], until_ms=990) == []
+
+    def test_stream_that_stops_misses_every_period(self) -> None:
+        assert self.watch([0.0, 50.0], until_ms=360) == [150.000001, 250.000001, 350.000001]
+
+    def test_gap_is_as_many_misses_as_periods_pass_in_it(self) -> None:
+        assert self.watch([0.0, 90.0, 400.0, 480.0], until_ms=500) == [190.000001, 290.000001, 390.000001]
+
+    def test_stream_that_never_began_misses_nothing(self) -> None:
+        assert self.watch([], until_ms=1000) == []

@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+from cellc.contract.rehearsals import FaultEntry
 from cellc.mock import MockCell, RehearsalResult, load
 from cellc.mock.bus.events import QosEventKind
 from cellc.mock.plant import Plant
@@ -107,6 +108,26 @@ def test_deadline_that_the_camera_misses_is_told_of_both_ends(folder: Path) -> N
     assert result.outcome == "succeeded"  # a deadline reports a missed contract, it enforces nothing
     assert any("at `camera`: offered deadline missed" in finding for finding in result.findings)
     assert any("at `perception`: requested deadline missed" in finding for finding in result.findings)
+
+
+def test_deadline_that_joint_states_keep_is_not_told(folder: Path) -> None:
+    result, _ = run(cell_with(folder, profile("/joint_states", deadline_s=0.002)))  # 500 Hz
+    assert result.findings == ()
+
+
+def test_deadline_that_joint_states_miss_is_told_of_every_end(folder: Path) -> None:
+    cell = cell_with(folder, profile("/joint_states", deadline_s=0.01))
+    entry = cell.entry("pick_and_place")
+    late = FaultEntry(kind="skip_cycles", target="", at_s=0.2, cycles=12)
+    result = cell.rehearse(entry.model_copy(update={"faults": (late,)}))
+    # 12 cycles of 2 ms are missed: 26 ms between two samples hold two periods of 10 ms that pass without one.
+    for node, kind in (
+        ("joint_states", "offered deadline missed"),
+        ("robot_state_publisher", "requested deadline missed"),
+        ("move_group", "requested deadline missed"),
+        ("task", "requested deadline missed"),
+    ):
+        assert f"`/joint_states` at `{node}`: {kind}, 2 x" in result.findings
 
 
 def test_seed_of_the_run_decides_what_is_lost(folder: Path) -> None:
