@@ -57,6 +57,7 @@ class GenericSystem:
         self._modes = ["position"] * len(self._names)
         self._mimics = self._find_mimics(joints)
         self._command_columns = {kind: self._columns(kind, True) for kind in _MODES}
+        self._moving_columns = {kind: self._in_mode(kind) for kind in _MODES}
         self._followed = np.concatenate([self._command_columns[kind][1] for kind in _MODES])
         self._state_columns = {kind: self._columns(kind, False) for kind in _MODES}
         self._pairs = self._mirrored()
@@ -133,6 +134,15 @@ class GenericSystem:
             joint, _, kind = key.rpartition("/")
             if joint in self._names and kind in _MODES:
                 self._modes[self._names.index(joint)] = kind
+        self._moving_columns = {kind: self._in_mode(kind) for kind in _MODES}
+
+    def _in_mode(self, kind: str) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Indices of the joints that a kind of command moves now, and its columns."""
+        indices, columns = self._command_columns[kind]
+        if not self._dynamics:
+            return indices, columns
+        chosen = np.array([self._modes[index] == kind for index in indices], dtype=bool)
+        return indices[chosen], columns[chosen]
 
     # -- cycles ------------------------------------------------------------------------------------------------------
 
@@ -186,10 +196,7 @@ class GenericSystem:
 
     def _move(self, motion: Motion, command: Array, period_s: float) -> None:
         for kind in _MODES:
-            indices, columns = self._command_columns[kind]
-            if self._dynamics and len(indices):
-                chosen = np.array([self._modes[i] == kind for i in indices], dtype=bool)
-                indices, columns = indices[chosen], columns[chosen]
+            indices, columns = self._moving_columns[kind]
             given = ~np.isnan(command[0, columns])
             if not given.all():
                 indices, columns = indices[given], columns[given]

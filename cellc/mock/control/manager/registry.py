@@ -217,6 +217,9 @@ class ControllerRegistry:
 
     def in_update_order(self) -> list[LoadedController]:
         """The controllers, each before those whose references it writes."""
+        configured = [loaded for loaded in self.controllers.values() if loaded.state in ("inactive", "active")]
+        if not any(loaded.controller.reference_interfaces() for loaded in configured):
+            return list(self.controllers.values())
         ordered: list[LoadedController] = []
 
         def place(loaded: LoadedController) -> None:

@@ -42,14 +42,19 @@ class JointCommands:
 
     def write(self, motion: Motion, samples: Samples, measured: StartState, cycle: Cycle) -> None:
         """Command one cycle."""
-        velocity = motion.spline.velocities(samples.next_reached, samples.next_into)[0]
+        spline, ahead = motion.spline, (samples.next_reached, samples.next_into)
         if self._pids:
-            self._write_pid(samples, velocity, measured, cycle)
+            self._write_pid(samples, spline.velocities(*ahead)[0], measured, cycle)
             return
-        acceleration = motion.spline.accelerations(samples.next_reached, samples.next_into)[0]
-        values = {"position": samples.next[0], "velocity": velocity, "acceleration": acceleration}
         for kind, columns in self._interfaces.commands.items():
-            wanted = values.get(kind, np.zeros(len(columns)))
+            if kind == "position":
+                wanted = samples.next[0]
+            elif kind == "velocity":
+                wanted = spline.velocities(*ahead)[0]
+            elif kind == "acceleration":
+                wanted = spline.accelerations(*ahead)[0]
+            else:
+                wanted = np.zeros(len(columns))
             for column, value in zip(columns.tolist(), wanted.tolist(), strict=False):
                 self._context.command(column, value)
 
