@@ -88,6 +88,8 @@ class GoalBook:
 
     def next_monitor_ns(self) -> int | None:
         """The next time at which a result or feedback is due."""
+        if self.idle:
+            return None
         monitors = [*self._waiting, *([self._active] if self._active else [])]
         due = [time for monitor in monitors if (time := monitor.next_ns()) is not None]
         return min(due, default=None)
