@@ -8,9 +8,12 @@ in its last place, 2^-53 |x| each, and a difference of order n over steps of h s
 2^n e / h^n: with 16 units, at 2 ms and 6.3 rad, 2e-5 rad/s^3, far below any jerk limit.
 
 A hold sets the command to the measured position at once, in the mock as in the real controller, so it steps; so does
-whatever else the controller notes as an interruption. There only the position is held against its limit, and the step
-is told with its size. Controllers that send positions instead of trajectories, those of grippers, leave speed to their
-device: their positions are checked, the rest nobody can check here.
+whatever else the controller notes as an interruption. There only the position is compared with its limit, and the step
+is told with its size. A hold asks for no motion: where the measured position itself lies outside the limits, as that of
+a displaced joint may, the hold is told apart and is no excess.
+
+Controllers that send positions instead of trajectories, those of grippers, leave speed to their device: their positions
+are checked, the rest nobody can check here.
 """
 
 from __future__ import annotations
@@ -24,7 +27,7 @@ from numpy.typing import NDArray
 
 from cellc.contract.contract import Contract, ContractJointLimits
 from cellc.mock.campaign.limits_report import CommandStep, LimitExcess, LimitsReport, Peak, merge
-from cellc.mock.control.journal import CommandSamples, Interruption
+from cellc.mock.control.journal import Cause, CommandSamples, Interruption
 
 QUANTITIES = ("position", "velocity", "acceleration", "jerk")
 _TRAJECTORIES = ("joint_trajectory", "scaled_joint_trajectory")
@@ -33,6 +36,7 @@ _RELATIVE = 1e-9
 """Of the limit itself, which the planner compares in floating point too."""
 
 Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 
 
 def check_limits(
@@ -64,6 +68,7 @@ def _of_controller(contract: Contract, samples: CommandSamples, interruptions: S
         peaks=tuple(each.peak() for each in compared[1:]),
         excesses=tuple(excess for each in compared if (excess := each.worst()) is not None),
         steps=tuple(_steps(commands, own)) if trajectories else (),
+        held_outside=() if (held := _held_outside(commands, own)) is None else (held,),
         unchecked=unchecked,
     )
 
@@ -100,8 +105,11 @@ class _Compared:
         self._commands = commands
         self._order = order
         self._values = _derivative(commands.positions, commands.stamps_ns, order)
-        self._shares = np.nan_to_num(_outside(commands) if order == 0 else np.abs(self._values) / self._allowed())
-        for interruption in interruptions if order else ():
+        if order == 0:
+            self._shares = np.where(_outside(commands) & ~_held(commands, interruptions), 2.0, 0.0)
+            return
+        self._shares = np.nan_to_num(np.abs(self._values) / self._allowed())
+        for interruption in interruptions:
             begin, end = np.searchsorted(commands.stamps_ns, (interruption.stamp_ns, interruption.until_ns))
             self._shares[max(0, int(begin) - order) : int(end)] = 0.0
 
@@ -122,14 +130,8 @@ class _Compared:
             return None
         commands = self._commands
         row, joint = divmod(int(self._shares.argmax()), len(commands.joints))
-        return LimitExcess(
-            controller=commands.controller,
-            joint=commands.joints[joint],
-            quantity=QUANTITIES[self._order],
-            stamp_ns=int(commands.stamps_ns[row + self._order]),
-            value=float(self._values[row, joint]),
-            limit=commands.limit(self._order, joint, float(self._values[row, joint])),
-        )
+        stamp_ns = int(commands.stamps_ns[row + self._order])
+        return _excess(commands, self._order, joint, stamp_ns, float(self._values[row, joint]))
 
 
 def _derivative(positions: Array, stamps_ns: NDArray[np.int64], order: int) -> Array:
@@ -141,12 +143,37 @@ def _derivative(positions: Array, stamps_ns: NDArray[np.int64], order: int) -> A
     return values
 
 
-def _outside(commands: _Commands) -> Array:
-    """Return 0 where a position is within its limits and 2 where it is not: there is no share of a range."""
+def _excess(commands: _Commands, order: int, joint: int, stamp_ns: int, value: float) -> LimitExcess:
+    limit = commands.limit(order, joint, value)
+    return LimitExcess(commands.controller, commands.joints[joint], QUANTITIES[order], stamp_ns, value, limit)
+
+
+def _outside(commands: _Commands) -> Flags:
+    """Tell which positions are outside their limits; one that was never commanded is not."""
     lower = np.array([-math.inf if limit.lower is None else limit.lower for limit in commands.limits])
     upper = np.array([math.inf if limit.upper is None else limit.upper for limit in commands.limits])
     beyond = np.maximum(lower - commands.positions, commands.positions - upper)
-    return np.where(beyond > _ROUNDING * np.maximum(1.0, np.abs(commands.positions)), 2.0, 0.0)
+    return np.asarray(beyond > _ROUNDING * np.maximum(1.0, np.abs(commands.positions)))
+
+
+def _held(commands: _Commands, interruptions: Sequence[Interruption]) -> Flags:
+    """Tell which commands are those of a hold, from its first update on for as long as they do not change."""
+    held = np.zeros(commands.positions.shape, dtype=np.bool_)
+    for interruption in interruptions:
+        begin = int(np.searchsorted(commands.stamps_ns, interruption.stamp_ns))
+        if interruption.cause is Cause.HOLD and begin < len(held):
+            same = commands.positions[begin:] == commands.positions[begin]
+            held[begin:] |= np.logical_and.accumulate(same, axis=0)
+    return held
+
+
+def _held_outside(commands: _Commands, interruptions: Sequence[Interruption]) -> LimitExcess | None:
+    """Return the first hold of a position outside its limits."""
+    rows, joints = np.nonzero(_outside(commands) & _held(commands, interruptions))
+    if not len(rows):
+        return None
+    row, joint = int(rows[0]), int(joints[0])
+    return _excess(commands, 0, joint, int(commands.stamps_ns[row]), float(commands.positions[row, joint]))
 
 
 def _steps(commands: _Commands, interruptions: Sequence[Interruption]) -> Iterator[CommandStep]:

@@ -51,12 +51,14 @@ class LimitsReport:
         peaks: by quantity, position left out.
         excesses: the worst of each controller and quantity of each run.
         steps: at interruptions, that of the joint which stepped farthest.
+        held_outside: holds of a position that was itself measured outside the limits, as a displaced joint's is.
         unchecked: interfaces or quantities of joints that commands say nothing of.
     """
 
     peaks: tuple[Peak, ...] = ()
     excesses: tuple[LimitExcess, ...] = ()
     steps: tuple[CommandStep, ...] = ()
+    held_outside: tuple[LimitExcess, ...] = ()
     unchecked: tuple[str, ...] = ()
 
     @property
@@ -75,5 +77,6 @@ def merge(reports: Iterable[LimitsReport]) -> LimitsReport:
         peaks=tuple(Peak(quantity, share) for quantity, share in shares.items()),
         excesses=tuple(excess for report in known for excess in report.excesses),
         steps=tuple(step for report in known for step in report.steps),
+        held_outside=tuple(held for report in known for held in report.held_outside),
         unchecked=tuple(sorted({name for report in known for name in report.unchecked})),
     )

@@ -82,6 +82,9 @@ def limit_lines(limits: LimitsReport) -> Iterator[str]:
             f"        {len(steps)} x {cause}, where the real controller steps too: {_STEPS.get(cause, cause)}; "
             f"at most {_size(largest):.4f} rad or m (`{largest.joint}`)"
         )
+    if limits.held_outside:
+        count, first = len(limits.held_outside), limits.held_outside[0]
+        yield f"        {count} x hold of a position that was measured outside its limit: {first}"
     joints = sorted({name.partition("/")[0] for name in limits.unchecked})
     if joints:
         yield f"        set points, whose speed is the device's own and UNKNOWN here: {', '.join(joints)}"

@@ -59,5 +59,6 @@ def _limits(limits: LimitsReport) -> dict[str, object]:
             {"count": sum(step.cause == cause for step in limits.steps), "largest": asdict(step)}
             for cause, step in sorted(largest.items())
         ],
+        "held_outside": [asdict(held) for held in limits.held_outside],
         "unchecked": list(limits.unchecked),
     }

@@ -69,10 +69,23 @@ def test_motion_just_inside_a_limit_is_held_and_just_outside_is_not(
 def test_excess_is_told_with_its_joint_time_value_and_limit(contract: Contract) -> None:
     positions = np.zeros(100)
     positions[60:] = 3.2  # beyond pi, from 0.120 s on
-    report = judged(contract, positions, Interruption(60 * PERIOD_NS, 60 * PERIOD_NS, ARM, Cause.HOLD))
+    report = judged(contract, positions, Interruption(60 * PERIOD_NS, 60 * PERIOD_NS, ARM, Cause.REPLACED))
     assert [str(excess) for excess in report.excesses] == [
         f"`{ARM}` commanded joint `{ELBOW}` to position 3.2 at 0.120 s; its limit is 3.14159"
     ]
+
+
+def test_hold_of_a_position_measured_outside_is_told_and_moves_nothing(contract: Contract) -> None:
+    positions = np.zeros(100)
+    positions[40:70] = 3.2
+    hold = Interruption(40 * PERIOD_NS, 40 * PERIOD_NS, ARM, Cause.HOLD)
+    report = judged(contract, positions, hold, Interruption(70 * PERIOD_NS, 70 * PERIOD_NS, ARM, Cause.HOLD))
+    assert report.held
+    assert [(held.quantity, held.value, held.stamp_ns) for held in report.held_outside] == [
+        ("position", 3.2, 40 * PERIOD_NS)
+    ]
+    positions[69] = 3.3  # the command moves on outside
+    assert exceeded(judged(contract, positions, hold))[0] == (ELBOW, "position")
 
 
 @pytest.mark.parametrize("row", [1, 50, 98])

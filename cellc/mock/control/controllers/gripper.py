@@ -15,6 +15,7 @@ from cellc.mock.control.block import Block
 from cellc.mock.control.controllers.base import Context, Cycle, QuietController
 from cellc.mock.control.controllers.monitor import GoalMonitor
 from cellc.mock.control.events import GoalStatus, GripperEnded
+from cellc.mock.control.journal import Cause
 from cellc.mock.control.messages import GripperGoal
 from cellc.mock.control.parameters import Parameter
 from cellc.mock.control.parameters.requirements import at_least, not_empty
@@ -108,7 +109,7 @@ class GripperController(QuietController):
         self._position_column = table.state_column(f"{self._joint}/position")
         self._velocity_column = table.state_column(f"{self._joint}/velocity")
         self._extra_columns = {kind: table.command_column(name) for kind, name in self._extra().items()}
-        self._position = float(table.state[self._position_column])
+        self._hold(now_ns)
         self._limits = {kind: parameters.number(f"max_{kind}") for kind in ("effort", "velocity")}
         self._goal, self._waiting = None, []
         self._moved_ns = now_ns
@@ -146,10 +147,16 @@ class GripperController(QuietController):
 
     def cancel(self, now_ns: int) -> None:
         """Cancel the running goal and hold the measured position."""
-        self._position = float(self.context.table.state[self._position_column])
+        self._hold(now_ns)
         assert self._goal is not None, "only a running goal is canceled"
         goal_id = self._goal.goal_id
         self._decide(now_ns, lambda stamp_ns: self._ended(goal_id, stamp_ns, now_ns, GoalStatus.CANCELED))
+
+    def _hold(self, now_ns: int) -> None:
+        """Command the measured position from the next update on."""
+        table = self.context.table
+        self._position = float(table.state[self._position_column])
+        table.journal.note(now_ns + 1, self.context.name, Cause.HOLD)
 
     def is_waiting(self, goal_id: int) -> bool:
         """Whether a goal is decided and its result not delivered yet."""
