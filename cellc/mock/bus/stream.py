@@ -66,7 +66,7 @@ class StreamEdge:
     def _first_arrivals(self, published_ns: IntArray) -> IntArray:
         """Return when samples arrive, each on its own: sent, sent again where the pair is reliable, or lost."""
         sent_ns, arrivals = published_ns.copy(), np.full(len(published_ns), NEVER_NS, dtype=np.int64)
-        open_, attempt = np.arange(len(published_ns)), 0
+        open_, attempt = np.flatnonzero(self._may_arrive(sent_ns)), 0
         while open_.size and attempt < _MOST_RETRIES:
             travel, loss, retry = self._figures(sent_ns[open_], published_ns[open_], attempt)
             through = self._draw(published_ns[open_], 2 * attempt) >= loss
@@ -75,9 +75,16 @@ class StreamEdge:
             if not self._reliable:
                 break
             sent_ns[open_] += retry
-            open_ = open_[self._kept(open_, sent_ns, published_ns)]
+            open_ = open_[self._kept(open_, sent_ns, published_ns) & self._may_arrive(sent_ns[open_])]
             attempt += 1
         return self._overtake(arrivals, published_ns)
+
+    def _may_arrive(self, sent_ns: IntArray) -> npt.NDArray[np.bool_]:
+        """Tell which of the instants are not in an outage that goes on: there is no use in sending into it again."""
+        last = self._since[-1]
+        return (
+            np.asarray(sent_ns < last.from_ns) if last.behaviour.loss >= 1.0 else np.ones(len(sent_ns), dtype=np.bool_)
+        )
 
     def _kept(self, open_: IntArray, sent_ns: IntArray, published_ns: IntArray) -> npt.NDArray[np.bool_]:
         """Tell which samples the writer still has when it is to send them again."""

@@ -12,15 +12,16 @@ from functools import partial
 from cellc.contract.contract import Contract, ContractInterface
 from cellc.contract.rehearsals import FaultEntry
 from cellc.mock.bus.behaviour import SEVERED
-from cellc.mock.bus.matching import served_actions
 from cellc.mock.bus.events import QosEvent, QosEventKind
+from cellc.mock.bus.matching import served_actions
 from cellc.mock.faults.bounds import POSE_TYPE, Bounds
 from cellc.mock.faults.case import BORNE, SUCCEEDED, Ending, FaultCase, ends_in, fault_case
-from cellc.mock.faults.cell_steps import CellStep
+from cellc.mock.faults.cell_steps import CellStep, cell_steps
 from cellc.mock.faults.contents import image_topic
 from cellc.mock.faults.observed import cameras, ending_unobserved
 from cellc.mock.faults.silent_states import catch_up, delay, of_broadcasters
 from cellc.mock.plant import Plant
+from cellc.mock.task.bounds import planning_actions
 from cellc.mock.world.joint_states import JOINT_STATE_TYPE
 
 TF = "/tf"
@@ -88,10 +89,12 @@ class MismatchQos:
 
 def cases(contract: Contract) -> Iterator[FaultCase]:
     """Yield every interface whose samples or answers the task rests on."""
+    used = {served_actions(contract)[name] for step in cell_steps(contract) for name in step.controllers}
+    asked = {*used, *planning_actions(contract)}
     for name, interface in contract.interfaces.items():
         entry = FaultEntry(kind="mismatch_qos", target=name)
         bounds = Bounds(contract)
-        if interface.kind != "topic":
+        if interface.kind != "topic" and name in asked:
             yield fault_case(entry, contract, partial(_unanswered, bounds, name))
         elif interface.type == JOINT_STATE_TYPE:
             yield fault_case(entry, contract, partial(_stateless, bounds))
@@ -111,7 +114,8 @@ def _observed(contract: Contract, name: str, interface: ContractInterface) -> tu
 
 def _unanswered(bounds: Bounds, name: str, step: CellStep) -> Ending:
     served = served_actions(bounds.contract)
-    if name in {served[each] for each in step.controllers} or (name not in served.values() and step.kind == "move"):
+    plans = name in planning_actions(bounds.contract) and step.kind == "move"
+    if plans or name in {served[each] for each in step.controllers}:
         return ends_in("timeout", within_s=bounds.execution_s(step))
     return BORNE
 

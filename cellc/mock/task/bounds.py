@@ -31,18 +31,23 @@ def joint_state_age_s(contract: Contract) -> float:
 
 def action_timeout_s(contract: Contract) -> float | None:
     """Return the bound of the action that plans and executes for the task; a controller's own bound is another one."""
-    stated = [interface.timeout_s for interface in _task_actions(contract)]
+    stated = [interface.timeout_s for interface in planning_actions(contract).values()]
     return max((timeout_s for timeout_s in stated if timeout_s is not None), default=None)
 
 
 def planning_server(contract: Contract) -> str:
     """Return the node that plans for the task; empty where the task plans itself."""
-    servers = [source.node for interface in _task_actions(contract) if interface.sinks for source in interface.sources]
+    actions = [interface for interface in planning_actions(contract).values() if interface.sinks]
+    servers = [source.node for interface in actions for source in interface.sources]
     return servers[0] if servers else ""
 
 
-def _task_actions(contract: Contract) -> list[ContractInterface]:
-    """Return the actions that neither a controller nor an adapter serves, in the order of their names."""
-    own = served_actions(contract).values()
+def planning_actions(contract: Contract) -> dict[str, ContractInterface]:
+    """Return the actions by which the task has a motion planned and executed, in the order of their names.
+
+    The actions of controllers and adapters are left out, and those of their types, which stand in for one elsewhere.
+    """
+    served = [name for name in served_actions(contract).values() if name in contract.interfaces]
+    types = {contract.interfaces[name].type for name in served if name is not None}
     interfaces = sorted(contract.interfaces.items())
-    return [interface for name, interface in interfaces if interface.kind == "action" and name not in own]
+    return {name: each for name, each in interfaces if each.kind == "action" and each.type not in types}
