@@ -10,7 +10,10 @@ from typing import Literal
 
 from pydantic import Field
 
+from cellc.contract.adapter import ContractAdapter
 from cellc.contract.base import ContractModel, ContractPose
+from cellc.contract.clock import ContractClock
+from cellc.contract.network import ContractNetwork
 
 
 class ContractFiles(ContractModel):
@@ -65,15 +68,6 @@ class ContractEndpoint(ContractModel):
     full_name: str = Field(description="Fully qualified name of the node in the ROS graph.")
     targets: tuple[Literal["mock", "real"], ...] = Field(description="Targets on which it stands there.")
     qos: ContractQos = Field(description="Its profile.")
-
-
-class ContractNetwork(ContractModel):
-    """What the mock's network does to each sample of a topic."""
-
-    latency_s: float = Field(0.0, description="Shortest time from publishing to arrival.")
-    jitter_s: float = Field(0.0, description="Up to so much more.")
-    loss: float = Field(0.0, description="Share of samples lost on their way, 0 to 1.")
-    reordering: float = Field(0.0, description="Share of samples overtaken by the next one, 0 to 1.")
 
 
 class ContractInterface(ContractModel):
@@ -156,17 +150,6 @@ class ContractCamera(ContractModel):
     clock: str = Field(description="Clock domain of the stamps.")
 
 
-class ContractClock(ContractModel):
-    """A clock that stamps are made on: of a host, or of a device with one of its own."""
-
-    domain: str = Field(description="Clock domain.")
-    synchronised_by: str | None = Field(None, description="What disciplines it.")
-    max_offset_s: float | None = Field(None, description="Bound of its offset; null where nothing bounds it.")
-    simulated: bool = Field(False, description="Time comes from /clock.")
-    offset_s: float = Field(0.0, description="Offset that the mock gives it.")
-    drift: float = Field(0.0, description="Seconds that the mock lets it gain in a second, until the bound.")
-
-
 class ContractDriver(ContractModel):
     """A driver's own node, which moves a device on real hardware past every controller manager."""
 
@@ -188,20 +171,6 @@ class ContractDevice(ContractModel):
     speed_scaling_interface: str | None = Field(description="State interface of its speed scaling.")
     gripper: ContractGripper | None = Field(description="What a gripper adds.")
     camera: ContractCamera | None = Field(description="What a camera adds.")
-
-
-class ContractAdapter(ContractModel):
-    """A device that its vendor's library drives behind an adapter, where no controller does."""
-
-    joints: tuple[str, ...] = Field(description="Joints in the order of states and commands.")
-    units: tuple[Literal["rad", "m"], ...] = Field(description="Unit of each joint's position.")
-    action: str = Field(description="Full name of the action that takes its trajectories.")
-    state_topic: str = Field(description="Full name of the topic of its stamped state.")
-    client: str | None = Field(description="Name of the one node that may command it.")
-    command_period_s: float = Field(description="Time from one command to the next.", gt=0.0)
-    command_timeout_s: float = Field(description="Watchdog: silence after which it stops.", gt=0.0)
-    stop_time_s: float = Field(description="Longest time from a hold to standstill.", gt=0.0)
-    start_positions: tuple[float, ...] = Field(description="Where the mock's joints stand at first, rad or m.")
 
 
 class ContractJointLimits(ContractModel):

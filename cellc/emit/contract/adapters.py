@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from cellc.cell.cell import Cell
-from cellc.contract.contract import ContractAdapter
+from cellc.contract.adapter import ContractAdapter
 from cellc.formats.urdf.start import start_positions
 from cellc.graph.adapters import AdaptedDevice, adapted_devices
 from cellc.spec.devices import AdapterSpec

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from cellc.cell.cell import Cell
 from cellc.cell.device import Device
-from cellc.contract.contract import ContractClock
+from cellc.contract.clock import ContractClock
 from cellc.spec.devices import StampSpec
 from cellc.spec.hosts import ClockSpec
 

@@ -6,7 +6,8 @@ from dataclasses import asdict
 
 from cellc.cell.cell import Cell
 from cellc.cell.interface import Endpoint, Interface, Qos
-from cellc.contract.contract import ContractEndpoint, ContractInterface, ContractNetwork, ContractQos
+from cellc.contract.contract import ContractEndpoint, ContractInterface, ContractQos
+from cellc.contract.network import ContractNetwork
 
 
 def interfaces(cell: Cell) -> dict[str, ContractInterface]:

@@ -16,7 +16,8 @@ from cellc.adapter import (
     Waypoint,
     check_command,
 )
-from cellc.contract.contract import ContractAdapter, ContractJointLimits
+from cellc.contract.adapter import ContractAdapter
+from cellc.contract.contract import ContractJointLimits
 from cellc.mock.control import TrajectoryGoal, TrajectoryPoint
 
 START_TOLERANCE = 0.01

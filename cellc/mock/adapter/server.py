@@ -7,7 +7,8 @@ from collections.abc import Mapping
 import numpy as np
 
 from cellc.adapter import FollowerResult, FollowerStatus, Phase, TrajectoryFollower
-from cellc.contract.contract import ContractAdapter, ContractJointLimits
+from cellc.contract.adapter import ContractAdapter
+from cellc.contract.contract import ContractJointLimits
 from cellc.mock.adapter.goal import adapter_model, first_refusal, read_goal
 from cellc.mock.adapter.simulated import SimulatedAdapter
 from cellc.mock.control import (

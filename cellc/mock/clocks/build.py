@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from cellc.contract.contract import ContractClock
+from cellc.contract.clock import ContractClock
 from cellc.mock.clocks.clock import Clock, Segment
 from cellc.mock.clocks.clocks import Clocks
 

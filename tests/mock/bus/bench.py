@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from cellc.contract.contract import ContractEndpoint, ContractInterface, ContractNetwork, ContractQos
+from cellc.contract.contract import ContractEndpoint, ContractInterface, ContractQos
+from cellc.contract.network import ContractNetwork
 from cellc.mock.bus.events import QosEventKind
 from cellc.mock.bus.middleware import DDS, Middleware
 from cellc.mock.bus.network import Network

@@ -11,7 +11,8 @@ from random import Random
 
 import pytest
 
-from cellc.contract.contract import ContractNetwork, ContractQos
+from cellc.contract.contract import ContractQos
+from cellc.contract.network import ContractNetwork
 from cellc.mock.bus.behaviour import SEVERED, EdgeBehaviour, edge_random
 from cellc.mock.bus.events import QosEventKind
 from tests.mock.bus.bench import MS, TOPIC, Bench, qos

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from cellc.contract.contract import ContractInterface, ContractNetwork, ContractQos
+from cellc.contract.contract import ContractInterface, ContractQos
+from cellc.contract.network import ContractNetwork
 from cellc.mock.bus.behaviour import SEVERED
 from cellc.mock.bus.network import EdgeName, Network
 from cellc.mock.bus.stream import NEVER_NS, IntArray, StreamEdge

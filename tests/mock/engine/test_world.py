@@ -107,7 +107,9 @@ def test_history_stays_bounded_and_keeps_its_horizon() -> None:
 def test_robot_state_publisher_thins_joint_states_to_its_frequency(links: LinkTree) -> None:
     # The cart moves with the square of time, so linear interpolation over 50 ms differs from the truth as expected.
     history = history_of([(index * 0.002) ** 2 for index in range(200)])
-    publisher = RobotStatePublisher(links, (JointStateFeed(history, None),), rate_hz=20.0, buffer_s=10.0, clocks=Clocks({}, {}, lambda: 0))
+    publisher = RobotStatePublisher(
+        links, (JointStateFeed(history, None),), rate_hz=20.0, buffer_s=10.0, clocks=Clocks({}, {}, lambda: 0)
+    )
     buffer = TransformBuffer()
     publisher.announce(buffer, hears_static=True, hears_moving=True)
     publisher.catch_up(398 * MS)
