@@ -80,7 +80,7 @@ def activation(node: Node) -> str:
 
 
 def _configure(cell: Cell, node: Node) -> Step:
-    command = f"ros2 lifecycle set {node.full_name} configure"
+    command = _transition(node, "configure")
     return Step("configure", f"configure_{node.name}", host_of(cell, node), (f"node {node.full_name}",), command)
 
 
@@ -89,7 +89,12 @@ def _activate(cell: Cell, node: Node) -> Step:
         frame.parent for frame in cell.frames if frame.kind is FrameKind.DYNAMIC and frame.authority == node.name
     )
     waits_for = (f"lifecycle {node.full_name} inactive", *(f"transform {WORLD} {parent}" for parent in parents))
-    return Step("observe", f"activate_{node.name}", host_of(cell, node), waits_for, activation(node))
+    return Step("observe", f"activate_{node.name}", host_of(cell, node), waits_for, _transition(node, "activate"))
+
+
+def _transition(node: Node, transition: str) -> str:
+    # A daemon may not know of the node yet, and without one there must be time to find it.
+    return f"ros2 lifecycle set --no-daemon --spin-time 2 {node.full_name} {transition}"
 
 
 def _observe(cell: Cell, manager: ControllerManager, spawned: Spawning) -> Step:

@@ -7,10 +7,10 @@ case "$1 $2" in
     [ -e "$STATE/nodes$4" ] || { echo "Node not found" >&2; exit 1; }
     echo "$(cat "$STATE/nodes$4") [2]"
     ;;
-  "lifecycle set") # a transition that fails ends with 0 too
-    echo "$4 $3" >> "$STATE/log"
-    [ -e "$STATE/refuses$3" ] && { echo "Transitioning failed" >&2; exit 0; }
-    [ "$4" = configure ] && echo inactive > "$STATE/nodes$3" || echo active > "$STATE/nodes$3"
+  "lifecycle set") # --no-daemon --spin-time S NODE TRANSITION; a transition that fails ends with 0 too
+    echo "$7 $6" >> "$STATE/log"
+    [ -e "$STATE/refuses$6" ] && { echo "Transitioning failed" >&2; exit 0; }
+    [ "$7" = configure ] && echo inactive > "$STATE/nodes$6" || echo active > "$STATE/nodes$6"
     ;;
   "control list_controllers")
     for file in "$STATE"/controllers/*; do

@@ -7,6 +7,7 @@ import os
 import re
 import subprocess
 from pathlib import Path
+from xml.etree.ElementTree import fromstring
 
 import pytest
 import yaml
@@ -79,6 +80,25 @@ def _spawned(cell: str, distro: str, target: str, namespace: str) -> set[str]:
         if one.executable == "spawner" and f"{namespace}/controller_manager" in one.arguments
     ]
     return {name for line in lines for name in line[: line.index("-c")]}
+
+
+@every_build
+def test_policy_lets_the_steps_ask_and_act(cell: str, distro: str) -> None:
+    texts = build(cell, distro).texts
+    (path,) = re.findall('^enclave="(.+?)"', texts[_FILE], re.MULTILINE)
+    policy = fromstring(texts["security/policy.xml"])
+    (enclave,) = [one for one in policy.iter("enclave") if one.attrib["path"] == path]
+    may = {entry.text for profile in enclave.iter("profile") for kind in profile for entry in kind}
+    for kind, *named in (condition.split() for condition in _CONDITION.findall(texts[_FILE])):
+        if kind == "topic":
+            assert named[0] in may
+        elif kind == "controller":
+            assert {f"{named[0]}/{one}" for one in ("list_controllers", "switch_controller")} <= may
+        elif kind == "lifecycle":
+            assert {f"{named[0]}/{one}" for one in ("get_state", "change_state", "get_available_transitions")} <= may
+    assert {"/tf", "/tf_static", "/robot_state_publisher/get_parameters"} <= may
+    # To wait is not to move: neither a goal nor a command may come from here.
+    assert not [kind for profile in enclave.iter("profile") for kind in profile if kind.tag == "actions"]
 
 
 class Stack:
