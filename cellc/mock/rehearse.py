@@ -68,7 +68,7 @@ def rehearse(
         within_s=rehearsal.within_s,
         attempts=tuple(task.records),
         bringup=tuple(bringup.evidence),
-        findings=_findings(plant),
+        findings=(*_findings(plant), *(each.describe_absence() for each in injections if each.begun_ns is None)),
     )
 
 

@@ -22,6 +22,14 @@ class Injection:
         self.begun_ns: int | None = None
         self._fault = fault
 
+    def describe_absence(self) -> str:
+        """Say why the fault never began."""
+        name = f"fault `{self.entry.kind} {self.entry.target}`"
+        event = self.entry.event
+        if event is None:
+            return f"{name} never began: the rehearsal was over before {self.entry.at_s:g} s"
+        return f"{name} never began: step {event.step} was never `{event.when}`, or was over too soon"
+
     def schedule(self, plant: Plant, start_ns: int) -> None:
         """Let the fault begin, counted from ``start_ns`` or from its event."""
         event = self.entry.event

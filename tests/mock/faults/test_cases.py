@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections import Counter
+from typing import Any
 
 import pytest
 
-from cellc.contract.rehearsals import FaultEntry, FaultEvent, RehearsalEntry, StepEntry
+from cellc.contract.rehearsals import FaultEntry, FaultEvent, FaultKind, RehearsalEntry, StepEntry
 from cellc.mock import MockCell
+from cellc.mock.errors import MockError
 from cellc.mock.faults.case import BORNE, FaultCase, ends_in
 from cellc.mock.faults.possible import possible_faults
 from tests.mock.faults.conftest import Rehearse
@@ -74,6 +76,44 @@ def test_offset_of_an_event_is_kept_to_the_nanosecond(run: Rehearse) -> None:
     )  # ends on a tick of the monitor
 
 
-def test_event_that_never_comes_injects_nothing(run: Rehearse) -> None:
+def test_event_that_never_comes_injects_nothing_and_that_is_told(run: Rehearse) -> None:
     result = run(FaultEntry(kind="protective_stop", target="arm", event=FaultEvent(step=2, when="accepted"))).result
     assert (result.outcome, result.response_s) == ("succeeded", None)
+    assert result.findings[-1] == (
+        "fault `protective_stop arm` never began: step 2 was never `accepted`, or was over too soon"
+    )
+
+
+def test_time_after_the_end_injects_nothing_and_that_is_told(run: Rehearse) -> None:
+    result = run(FaultEntry(kind="protective_stop", target="arm", at_s=100.0)).result
+    assert result.findings[-1] == "fault `protective_stop arm` never began: the rehearsal was over before 100 s"
+
+
+@pytest.mark.parametrize("moment", [{}, {"at_s": 1.0, "event": FaultEvent(step=1)}])
+def test_fault_begins_at_a_time_or_with_an_event(run: Rehearse, moment: dict[str, Any]) -> None:
+    with pytest.raises(MockError, match="needs either a time or an event"):
+        run(FaultEntry(kind="protective_stop", target="arm", **moment))
+
+
+@pytest.mark.parametrize(
+    ("kind", "target"),
+    [
+        ("freeze", "lamp"),
+        ("double_frame", "world"),
+        ("jump_clock", "moon"),
+        ("mismatch_qos", "/nothing"),
+        ("unresponsive", "nobody"),
+        ("second_commander", "joint_states"),
+        ("switch", "to_nowhere"),
+        ("slow", "knee"),
+        ("scale_speed", "gripper"),
+        ("wrong_payload", "gripper"),
+        ("emergency_stop", "camera"),
+        ("cut_network", "fixture"),
+    ],
+)
+def test_fault_that_names_what_the_contract_does_not_have_is_refused(
+    run: Rehearse, kind: FaultKind, target: str
+) -> None:
+    with pytest.raises(MockError, match=f"fault `{kind}` names `{target}`"):
+        run(FaultEntry(kind=kind, target=target, at_s=1.0))
