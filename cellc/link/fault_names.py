@@ -32,48 +32,47 @@ def fault_targets(
     frames: FrameNames,
 ) -> Mapping[str, Target]:
     """Return what each kind of fault may hit; ``cancel`` and ``skip_cycles`` name nothing of the cell."""
-    controllers = [controller for manager in managers for controller in manager.controllers]
-    jointed = [device for device in devices if device.actuated_joints]
-    stoppable = Target("device with hardware", "unknown-device", _named(jointed))
-    streams = Target(
-        "camera or device with joints",
-        "unknown-device",
-        _named(device for device in devices if device.facts.camera is not None or device in jointed),
-    )
-    frame = Target("frame", "unknown-frame", frames.by_reference)
-    joint = Target("joint", "unknown-joint", _joints(devices))
-    controller = Target("controller", "unknown-controller", _named(controllers))
-    commanded = Target(
-        "controller with an action", "unknown-controller", _named(each for each in controllers if each.action)
-    )
-    switches = _named(switch for manager in managers for switch in manager.switches)
     return {
-        "freeze": streams,
-        "delay": streams,
-        "drop_frame": frame,
-        "double_frame": frame,
+        **_of_devices(devices),
+        **_of_graph(managers, interfaces),
+        "drop_frame": Target("frame", "unknown-frame", frames.by_reference),
+        "double_frame": Target("frame", "unknown-frame", frames.by_reference),
         "jump_clock": Target("clock", "unknown-clock", _clocks(spec)),
-        "mismatch_qos": Target("interface", "unknown-interface", _named(interfaces)),
-        "unresponsive": Target("server", "unknown-node", {**_servers(interfaces), **commanded.names}),
         "unreachable": Target("goal", "unknown-goal", {name: name for name in spec.motion.goals}),
-        "reject": controller,
-        "second_commander": commanded,
-        "switch": Target("switch or controller", "unknown-controller", {**controller.names, **switches}),
-        "stick": joint,
-        "slow": joint,
-        "displace": joint,
-        "scale_speed": Target(
-            "device with speed scaling",
-            "unknown-device",
-            _named(device for device in jointed if device.facts.speed_scaling is not None),
-        ),
-        "wrong_payload": Target(
-            "arm", "unknown-device", _named(device for device in jointed if device.facts.kind == "arm")
-        ),
-        "protective_stop": stoppable,
-        "emergency_stop": stoppable,
-        "restart_driver": stoppable,
-        "cut_network": streams,
+    }
+
+
+def _of_devices(devices: tuple[Device, ...]) -> dict[str, Target]:
+    """Return the faults that hit a device or one of its joints."""
+    jointed = [device for device in devices if device.actuated_joints]
+    seen = [device for device in devices if device.facts.camera is not None or device in jointed]
+    scaled = [device for device in jointed if device.facts.speed_scaling is not None]
+    arms = [device for device in jointed if device.facts.kind == "arm"]
+    code = "unknown-device"
+    streams = Target("camera or device with joints", code, _named(seen))
+    stoppable = Target("device with hardware", code, _named(jointed))
+    joint = Target("joint", "unknown-joint", _joints(devices))
+    return {
+        **dict.fromkeys(("freeze", "delay", "cut_network"), streams),
+        **dict.fromkeys(("stick", "slow", "displace"), joint),
+        **dict.fromkeys(("protective_stop", "emergency_stop", "restart_driver"), stoppable),
+        "scale_speed": Target("device with speed scaling", code, _named(scaled)),
+        "wrong_payload": Target("arm", code, _named(arms)),
+    }
+
+
+def _of_graph(managers: tuple[ControllerManager, ...], interfaces: tuple[Interface, ...]) -> dict[str, Target]:
+    """Return the faults that hit a controller, a switch, a server or an interface."""
+    controllers = [controller for manager in managers for controller in manager.controllers]
+    switches = [switch for manager in managers for switch in manager.switches]
+    acting = _named(controller for controller in controllers if controller.action is not None)
+    code = "unknown-controller"
+    return {
+        "mismatch_qos": Target("interface", "unknown-interface", _named(interfaces)),
+        "unresponsive": Target("server", "unknown-node", {**_servers(interfaces), **acting}),
+        "reject": Target("controller", code, _named(controllers)),
+        "second_commander": Target("controller with an action", code, acting),
+        "switch": Target("switch or controller", code, {**_named(controllers), **_named(switches)}),
     }
 
 
