@@ -1,0 +1,43 @@
+"""The kinds of faults and the outcomes are the same words wherever they are listed."""
+
+from __future__ import annotations
+
+from typing import get_args
+
+from cellc.contract.rehearsals import FaultKind
+from cellc.contract.rehearsals import OutcomeName as OutcomeInContract
+from cellc.mock import MockCell
+from cellc.mock.faults.build import _BUILDERS
+from cellc.mock.faults.possible import possible_faults
+from cellc.mock.task.outcome import Outcome
+from cellc.rules.evidence.merged_failure_layers import _LAYERS
+from cellc.spec.faults import FAULT_KEYS
+from cellc.spec.rehearsals import OutcomeName as OutcomeInSpec
+
+
+def test_kinds_of_faults_are_the_same_in_spec_contract_mock_and_rule() -> None:
+    kinds = set(FAULT_KEYS)
+    assert set(get_args(FaultKind)) == kinds
+    assert set(_BUILDERS) == kinds
+    assert set(_LAYERS) == kinds
+
+
+def test_outcomes_are_the_same_in_spec_contract_and_mock() -> None:
+    assert get_args(OutcomeInSpec) == get_args(OutcomeInContract) == tuple(outcome.value for outcome in Outcome)
+
+
+def test_cell_of_the_chapter_can_meet_every_kind_of_fault(cell: MockCell) -> None:
+    assert {case.entry.kind for case in possible_faults(cell.contract)} == set(FAULT_KEYS)
+
+
+def test_every_outcome_that_a_case_names_exists(cell: MockCell) -> None:
+    named = {
+        outcome for case in possible_faults(cell.contract) for end in case.endings.values() for outcome in end.outcomes
+    }
+    assert named <= {outcome.value for outcome in Outcome}
+
+
+def test_rule_expects_of_a_fault_what_the_mock_makes_of_it(cell: MockCell) -> None:
+    for case in possible_faults(cell.contract):
+        outcomes = {outcome for end in case.endings.values() for outcome in end.outcomes}
+        assert outcomes & set(_LAYERS[case.entry.kind]), case.name
