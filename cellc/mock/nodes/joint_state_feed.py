@@ -35,6 +35,14 @@ class JointStateFeed:
         delayed = self.history.arrivals(stamps) - stamps
         return int((self._edge.arrivals(stamps) + delayed)[newest])
 
+    def last_arrivals(self, count: int) -> IntArray:
+        """Return when the last messages of the history arrive; `NEVER_NS` or later stands for one that is lost."""
+        stamps = self.history.stamps
+        arrivals = self.history.arrivals(stamps[-count:])
+        if self._edge is None or self._edge.ideal:
+            return arrivals
+        return self._edge.arrivals(stamps)[-count:] + (arrivals - stamps[-count:])
+
     def arrived(self, now_ns: int) -> IntArray:
         """Return the places in the history of all messages that have arrived, rising."""
         stamps = self.history.stamps

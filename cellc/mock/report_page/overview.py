@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from xml.etree.ElementTree import Element
 
 from cellc.mock.evidence.kpis import Kpi
@@ -14,7 +13,7 @@ _NAMES = {
     "plan_to_execute_s": "plan to execute",
     "cancel_s": "cancel to hold",
     "missed_cycles": "missed cycles",
-    "stale_state_rejection": "stale state rejected",
+    "stale_state_rejection": "stale data rejected",
     "protective_stops": "protective stops",
     "recovery_time_s": "recovery time",
     "wrong_owner_events": "wrong-owner events",
@@ -71,26 +70,32 @@ def _outcome_row(number: int, run: RunEvidence) -> Element:
 
 
 def key_figures(content: ReportContent) -> Element:
-    """Return the seven figures of the checkpoint, one row each, with one column a rehearsal."""
+    """Return the seven figures of the checkpoint, one column each under its target, with one row a rehearsal."""
+    title = tag("h2", "Key figures")
     runs = [run for run in content.runs if run.kpis]
-    head = tag("tr", tag("th", "figure"), tag("th", "target"), *(tag("th", run.result.name) for run in runs))
-    rows = [tag("tr", *_figure_row(index, runs)) for index in range(len(runs[0].kpis) if runs else 0)]
-    table = tag("table", tag("thead", head), tag("tbody", *rows))
+    if not runs:
+        return tag("section", title, tag("p", "No cell came up, so that nothing was measured.", class_="hint"))
+    figures = runs[0].kpis
+    names = tag("tr", tag("th", "rehearsal"), *(tag("th", _NAMES[figure.name]) for figure in figures))
+    targets = tag("tr", tag("th", "target"), *(tag("th", _target(figure)) for figure in figures))
+    table = tag("table", tag("thead", names, targets), tag("tbody", *(_figure_row(run) for run in runs)))
     hint = (
         "A target is for the cell in service. Where a rehearsal injects a fault, a missed target tells what the fault "
         "did, and is set in brackets; the rehearsal itself is judged above. – is what a run never came to."
     )
-    return tag("section", tag("h2", "Key figures"), tag("p", hint, class_="hint"), tag("div", table, class_="wide"))
+    bases = [tag("div", tag("dt", _NAMES[figure.name]), tag("dd", figure.basis)) for figure in figures]
+    measured = tag("details", tag("summary", "What was measured"), tag("dl", *bases, class_="pairs"))
+    return tag("section", title, tag("p", hint, class_="hint"), tag("div", table, class_="wide"), measured)
 
 
-def _figure_row(index: int, runs: list[RunEvidence]) -> Iterator[Element]:
-    first = runs[0].kpis[index]
-    comparison = "≥" if first.name == "stale_state_rejection" else "≤"
-    target = "none set" if first.target is None else f"{comparison} {plain(first.target, first.unit)}"
-    yield tag("td", _NAMES.get(first.name, first.name), tag("small", first.basis))
-    yield tag("td", target, class_="number")
-    for run in runs:
-        yield _figure(run.kpis[index], injected=bool(run.entry.faults))
+def _target(figure: Kpi) -> str:
+    comparison = "≥" if figure.name == "stale_state_rejection" else "≤"
+    return "none set" if figure.target is None else f"{comparison} {plain(figure.target, figure.unit)}"
+
+
+def _figure_row(run: RunEvidence) -> Element:
+    cells = [_figure(figure, injected=bool(run.entry.faults)) for figure in run.kpis]
+    return tag("tr", tag("td", run.result.name), *cells)
 
 
 def _figure(figure: Kpi, *, injected: bool) -> Element:

@@ -11,7 +11,8 @@ Array = NDArray[np.float64]
 Times = NDArray[np.int64]
 
 _SLOTS = 1024
-_FIRST_WIDTH_NS = 10_000_000
+FIRST_WIDTH_NS = 10_000_000
+"""Length of a slot at first; what changes more slowly should be added as often."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +36,7 @@ class EnvelopeBuilder:
     """Adds samples to slots; when they do not fit any more, each two neighbouring slots become one."""
 
     def __init__(self, signals: int) -> None:
-        self._width_ns = _FIRST_WIDTH_NS
+        self._width_ns = FIRST_WIDTH_NS
         self._lowest: Array = np.full((_SLOTS, signals), np.nan)
         self._highest: Array = np.full((_SLOTS, signals), np.nan)
 

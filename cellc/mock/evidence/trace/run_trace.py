@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cellc.mock.bus.stream import NEVER_NS
 from cellc.mock.control import ControllerChanged, HardwareChanged, JointStateBlock, Recording
 from cellc.mock.evidence.topics import TRAJECTORY_BEHAVIOURS
 from cellc.mock.evidence.trace.age_builder import AgeBuilder, AgeTrace
@@ -83,25 +84,34 @@ class RunTrace:
     def joint_states(self, manager: str, broadcaster: str, block: JointStateBlock) -> None:
         """Take joint states as the task receives them."""
         history = self._plant.control.histories[(manager, broadcaster)]
-        ages = self._age(f"joint states of {broadcaster}", joint_state_age_s(self._plant.contract))
-        clock = self._plant.clocks.of(broadcaster)
-        for taken_ns, arrived_ns in zip(
-            block.stamps_ns.tolist(), history.arrivals(block.stamps_ns).tolist(), strict=True
-        ):
-            ages.arrived(arrived_ns, clock.read(taken_ns))
+        feed = next((feed for feed in self._plant.feeds if feed.history is history), None)
+        if feed is not None:
+            self._age_states(broadcaster, block, feed.last_arrivals(len(block.stamps_ns)).tolist())
+        for each in self._ages.values():
+            each.advance(int(block.stamps_ns[0]))
         for name in history.names:
             if name not in self._followed:
                 builder = self._states.setdefault((broadcaster, name), EnvelopeBuilder(1))
                 builder.add(block.stamps_ns, block.positions[:, [block.names.index(name)]])
 
+    def _age_states(self, broadcaster: str, block: JointStateBlock, arrivals: list[int]) -> None:
+        ages = self._age(f"joint states of {broadcaster}", joint_state_age_s(self._plant.contract))
+        clock = self._plant.clocks.of(broadcaster)
+        for taken_ns, arrived_ns in zip(block.stamps_ns.tolist(), arrivals, strict=True):
+            if arrived_ns < NEVER_NS:
+                ages.sent(arrived_ns, clock.read(taken_ns))
+
     def transforms(self, message: TransformMessage) -> None:
         """Take moving edges as a listener receives them."""
-        self._age("transforms of moving links", None).arrived(message.published_ns, message.transforms[0].stamp_ns)
+        ages = self._age("transforms of moving links", None)
+        ages.sent(message.published_ns, message.transforms[0].stamp_ns)
 
     def observation(self, frame: str, pose: ObjectPose) -> None:
         """Take an observation that has reached the task."""
         max_age_s = self._plant.inboxes[frame].max_age_s
-        self._age(f"observations of {frame}", max_age_s).arrived(self._plant.now_ns, pose.stamp_ns)
+        ages = self._age(f"observations of {frame}", max_age_s)
+        ages.sent(self._plant.now_ns, pose.stamp_ns)
+        ages.advance(self._plant.now_ns)
 
     def controller_states(self, controller: str, recording: Recording) -> None:
         """Take states of a trajectory controller."""
@@ -123,7 +133,7 @@ class RunTrace:
     def end(self, now_ns: int) -> None:
         """Close what is open."""
         for ages in self._ages.values():
-            ages.look(now_ns)
+            ages.advance(now_ns)
         self._missed = sum(history.missed_until(now_ns) for history in self._plant.control.histories.values())
         self._claims = self._book.claims(now_ns)
         self._ended_ns = now_ns
