@@ -73,18 +73,19 @@ class StreamDeadline:
         timers.at_background(timers.now_ns + self._period_ns, self._look)
 
     def _look(self) -> None:
-        due_ns = self._timers.now_ns if self._due_ns is None else self._due_ns
-        newest_ns = self._newest_ns(due_ns)
+        now_ns = self._timers.now_ns
+        newest_ns = self._newest_ns(now_ns if self._due_ns is None else self._due_ns)
         if newest_ns is None:
-            self._timers.at_background(due_ns + self._period_ns, self._look)
-            return
-        if newest_ns + self._period_ns > due_ns:
-            self._due_ns = newest_ns + self._period_ns
+            self._timers.at_background(now_ns + self._period_ns, self._look)
+        elif self._due_ns is None or newest_ns + self._period_ns > self._due_ns:
+            self._arm(newest_ns + self._period_ns)
         else:
-            if self._due_ns is not None:
-                self._missed()
-            self._due_ns = due_ns + self._period_ns
-        self._timers.at_background(self._due_ns + 1, self._look)
+            self._missed()
+            self._arm(self._due_ns + self._period_ns)
+
+    def _arm(self, due_ns: int) -> None:
+        self._due_ns = due_ns
+        self._timers.at_background(due_ns + 1, self._look)
 
 
 class Lease:

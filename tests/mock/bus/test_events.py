@@ -205,5 +205,8 @@ class TestStreamDeadline:
     def test_gap_is_as_many_misses_as_periods_pass_in_it(self) -> None:
         assert self.watch([0.0, 90.0, 400.0, 480.0], until_ms=500) == [190.000001, 290.000001, 390.000001]
 
+    def test_stream_of_one_sample_misses_from_that_sample_on(self) -> None:
+        assert self.watch([95.0], until_ms=310) == [195.000001, 295.000001]
+
     def test_stream_that_never_began_misses_nothing(self) -> None:
         assert self.watch([], until_ms=1000) == []

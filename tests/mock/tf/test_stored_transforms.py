@@ -6,7 +6,9 @@ import math
 
 import pytest
 
+from cellc.mock.clocks import Clock, Segment, TimeJump
 from cellc.mock.tf.buffer import Transform, TransformBuffer
+from cellc.mock.tf.failure import TfFailure, TfFailureKind
 from cellc.mock.tf.sources import SampledSource, StaticSource
 from cellc.transforms import Pose, from_xyz_rpy, identity
 
@@ -70,6 +72,47 @@ def test_repeated_stamp_is_stored_silently_and_the_later_value_is_found(
     part.insert(11 * SECOND, at_x(5.0))
     assert buffer.warnings.lines() == ()
     assert x_of(buffer, "part", 11 * SECOND) == 5.0
+
+
+def test_repeated_stamp_among_older_ones_is_found_with_its_later_value(
+    buffer: TransformBuffer, part: SampledSource
+) -> None:
+    for stamp, metres in ((10, 0.0), (12, 2.0), (11, 1.0), (11, 7.0)):
+        part.insert(stamp * SECOND, at_x(metres))
+    assert x_of(buffer, "part", 11 * SECOND) == 7.0
+
+
+def set_back(*, simulated: bool, source_changed: bool = False) -> TimeJump:
+    """Return the jump of a clock by two seconds back."""
+    clock = Clock("pc", "ros", (Segment(0, 0, 1.0),), simulated=simulated)
+    return TimeJump(clock, -2 * SECOND, 10 * SECOND, source_changed)
+
+
+@pytest.mark.parametrize(
+    ("jump", "line"),
+    [
+        (set_back(simulated=True), "Detected jump back in time. Clearing TF buffer."),
+        (set_back(simulated=True, source_changed=True), "Detected time source change. Clearing TF buffer."),
+        (set_back(simulated=False), None),
+    ],
+)
+def test_buffer_is_cleared_where_rcl_tells_tf2_of_a_jump(
+    buffer: TransformBuffer, part: SampledSource, jump: TimeJump, line: str | None
+) -> None:
+    buffer.add("base", StaticSource("world", "publisher", at_x(1.0)))
+    part.insert(9 * SECOND, at_x(1.0))
+    part.insert(10 * SECOND, at_x(1.0))
+    buffer.note_jump(jump)
+    assert buffer.warnings.lines() == (() if line is None else (line,))
+    assert x_of(buffer, "base", 0) == 1.0  # /tf_static is never forgotten
+    answer = buffer.lookup("world", "part", 10 * SECOND)
+    if line is None:
+        assert isinstance(answer, Transform)
+    else:
+        assert isinstance(answer, TfFailure)
+        # The frame is known, its history is not: tf2 has no reason to give before the comma.
+        assert answer.kind is TfFailureKind.EXTRAPOLATION_NO_DATA
+        assert answer.text == ", when looking up transform from frame [part] to frame [world]"
 
 
 @pytest.mark.parametrize(
