@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import pytest
 
-from cellc.contract.rehearsals import FaultEntry, RehearsalEntry
+from cellc.contract.rehearsals import FaultEntry, FaultKind, RehearsalEntry
 from cellc.mock import MockCell
 from cellc.mock.faults.possible import possible_faults
 from cellc.mock.record import to_json_lines
@@ -51,11 +51,13 @@ def test_faults_at_a_time_and_with_an_event_go_together(run: Rehearse) -> None:
     assert run(at_time, during(3, "cancel", "move", after_s=1.0)).failed.outcome == "stale_state"
 
 
-def test_two_stops_of_one_device_are_acknowledged_when_both_are_over(run: Rehearse) -> None:
-    faults = (
-        during(3, "protective_stop", "arm", lasting_s=0.5),
-        during(3, "emergency_stop", "arm", lasting_s=3.0),
-    )
+@pytest.mark.parametrize(
+    "kinds", [("protective_stop", "emergency_stop"), ("emergency_stop", "protective_stop")], ids=["worse", "better"]
+)
+def test_two_stops_of_one_device_are_acknowledged_when_both_are_over(
+    run: Rehearse, kinds: tuple[FaultKind, FaultKind]
+) -> None:
+    faults = (during(3, kinds[0], "arm", lasting_s=0.5), during(3, kinds[1], "arm", lasting_s=3.0))
     done = run(*faults, steps=(HOME, DETECT, PICK, ACKNOWLEDGE, wait(0.1), HOME))
     acknowledged = done.attempt(4)
     assert (done.attempt(3).safety_state, done.result.outcome) == ("emergency_stop", "succeeded")

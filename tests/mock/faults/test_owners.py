@@ -37,6 +37,8 @@ def test_goals_of_both_clients_are_cancelled_and_the_arm_is_held(run: Rehearse) 
     assert done.failed.cancel.held_ns is not None
     assert done.failed.cancel.latency_s is not None
     assert done.failed.cancel.latency_s <= 0.2
+    # The other client's goal takes a second: it would still be executing.
+    assert done.plant.control.managers["control"].cancel_all("arm_trajectory").goals_canceling == ()
 
 
 def test_goal_of_a_second_client_that_is_rejected_commands_nothing(run: Rehearse) -> None:
