@@ -125,7 +125,9 @@ class ContractManager(ContractModel):
 
     namespace: str = Field(description="Namespace of the manager.")
     update_rate_hz: float = Field(description="Rate of read, update, write.")
-    controllers: dict[str, ContractController] = Field(description="Controllers by name.")
+    controllers: dict[str, ContractController] = Field(
+        description="Controllers by name, by full name where managers share it."
+    )
     switches: dict[str, ContractSwitch] = Field(description="Declared switches by name.")
 
 

@@ -13,7 +13,7 @@ from cellc.mock.bus.network import Network
 from cellc.mock.bus.topic import Topic
 from cellc.mock.clocks import DEFAULT, TimeJump, build_clocks
 from cellc.mock.connections import joint_state_feeds, stream_edge, watch_deadlines
-from cellc.mock.control import ControllerManager
+from cellc.mock.control import ControllerManager, DeclaredInterfaces
 from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.engine.simulation import Simulation
 from cellc.mock.folder import GeneratedFolder
@@ -98,6 +98,10 @@ def _managers(folder: GeneratedFolder) -> Mapping[str, ControllerManager]:
             namespace=manager.namespace,
             distro=contract.distro,
             plugin_behaviours=contract.plugin_behaviours,
+            declared={
+                controller: DeclaredInterfaces(facts.command_interfaces, facts.state_interfaces)
+                for controller, facts in manager.controllers.items()
+            },
         )
         for name, manager in contract.managers.items()
     }

@@ -83,9 +83,10 @@ def test_contract_has_the_controllers_of_the_parameter_files(cell: str, distro: 
         values = told(texts, process.files, node_name(process))
         assert (values["update_rate"], process.namespace) == (manager["update_rate_hz"], manager["namespace"])
         types = {key.removesuffix(".type"): plugin for key, plugin in values.items() if key.endswith(".type")}
-        assert types == {name: one["plugin"] for name, one in manager["controllers"].items()}
-        for name, one in manager["controllers"].items():
-            own = told(texts, process.files, f"{process.namespace}/{name}")
+        own_names = {one["full_name"].rpartition("/")[2]: one for one in manager["controllers"].values()}
+        assert types == {name: one["plugin"] for name, one in own_names.items()}
+        for name, one in own_names.items():
+            own = told(texts, process.files, one["full_name"])
             joints = own.get("joints", [own["joint"]] if "joint" in own else [])
             assert joints == one["joints"] or one["behaviour"] == "joint_state_broadcaster", name
             if "command_interfaces" in own:

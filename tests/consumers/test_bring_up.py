@@ -44,9 +44,9 @@ def test_conditions_name_what_the_cell_has(cell: str, distro: str) -> None:
     contract = json.loads(texts["contract.json"])
     frames = set(yaml.safe_load(texts["config/frames.yaml"])["frames"])
     controllers = {
-        (f"{one['namespace']}/controller_manager", name)
-        for one in contract["managers"].values()
-        for name in one["controllers"]
+        (f"{manager['namespace']}/controller_manager", one["full_name"].rpartition("/")[2])
+        for manager in contract["managers"].values()
+        for one in manager["controllers"].values()
     }
     managed = {f"/{name}" for name, node in written(cell).get("nodes", {}).items() if node.get("lifecycle")}
     kinds = {name: one["kind"] for name, one in contract["interfaces"].items()}

@@ -130,9 +130,9 @@ def test_audit_expects_the_nodes_that_are_launched_with_what_they_are_told(cell:
     started = {node_name(one): one for one in processes(cell, distro, "real") if one.executable != "spawner"}
     contract = json.loads(build(cell, distro).texts["contract.json"])
     plugins = {
-        f"{manager['namespace']}/{name}": one["plugin"]
+        one["full_name"]: one["plugin"]
         for manager in contract["managers"].values()
-        for name, one in manager["controllers"].items()
+        for one in manager["controllers"].values()
     }
     assert {name: rows[name][1] for name in plugins} == plugins
     assert set(rows) == set(plugins) | set(started)

@@ -116,8 +116,8 @@ def test_diagram_has_the_ends_and_the_qos_of_the_contract(cell: str, distro: str
     assert len(boxes) == len(set(boxes))
     assert len(re.findall("^  subgraph ", text, re.MULTILINE)) == len(re.findall("^  end$", text, re.MULTILINE)) == 3
     for manager in contract(cell, distro)["managers"].values():
-        for name, one in manager["controllers"].items():
-            assert f'["{manager["namespace"]}/{name}<br/>{one["plugin"]}<br/>'.replace('"/', '"') in text
+        for one in manager["controllers"].values():
+            assert f'["{one["full_name"][1:]}<br/>{one["plugin"]}<br/>' in text
     arrows = re.findall(r"^  (\w+) (?:--|==|-\.->)(.*?)(\w+)$", text, re.MULTILINE)
     for start, _, end in arrows:
         assert {start, end} <= set(boxes), (start, end)

@@ -33,7 +33,7 @@ def _owners(cell: Cell) -> Iterator[tuple[str, ...]]:
         for name in controller.command_interfaces:
             client = controller.client or "nobody"
             state = "" if controller.active else " (inactive)"
-            yield f"`{name}`", f"{controller.name}{state}", client, people.get(client, _NOT_STATED)
+            yield f"`{name}`", f"{controller.label}{state}", client, people.get(client, _NOT_STATED)
 
 
 def _requests(cell: Cell) -> Iterator[tuple[str, ...]]:
@@ -70,9 +70,9 @@ def _controller(
     hardware = "its hardware" if device is None or device.hardware is None else device.hardware.name
     rate = controller.update_rate_hz or manager.update_rate_hz
     behaviour = "" if action is None else f"; {_failure(action)}"
-    name = controller.action or f"{manager.namespace}/{controller.name}"
+    name = controller.action or controller.full_name
     return (
-        f"{controller.client or 'nobody'} → `{name}` → {controller.name} → {hardware}",
+        f"{controller.client or 'nobody'} → `{name}` → {controller.label} → {hardware}",
         (action.frame if action is not None else None) or "joints",
         units(cell, controller),
         f"{shortest(rate)} Hz",

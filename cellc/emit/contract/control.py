@@ -29,12 +29,16 @@ def joint_limits(cell: Cell) -> dict[str, ContractJointLimits]:
 
 
 def _manager(manager: ControllerManager) -> ContractManager:
+    labels = {controller.name: controller.label for controller in manager.controllers}
     return ContractManager(
         namespace=manager.namespace,
         update_rate_hz=manager.update_rate_hz,
-        controllers={controller.name: _controller(controller) for controller in manager.controllers},
+        controllers={controller.label: _controller(controller) for controller in manager.controllers},
         switches={
-            switch.name: ContractSwitch(activate=switch.activate, deactivate=switch.deactivate)
+            switch.name: ContractSwitch(
+                activate=tuple(labels[name] for name in switch.activate),
+                deactivate=tuple(labels[name] for name in switch.deactivate),
+            )
             for switch in manager.switches
         },
     )

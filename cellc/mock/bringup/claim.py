@@ -18,7 +18,7 @@ def claim(plant: Plant) -> Waiting[StageEvidence]:
         commanding = tuple(
             controller
             for controller, facts_of in entry.controllers.items()
-            if facts_of.active and facts_of.command_interfaces
+            if facts_of.active and facts_of.command_interfaces and "mock" in facts_of.targets
         )
         problems += yield from activate(plant, name, commanding)
         claims = _claims(plant.control.managers[name])
@@ -44,7 +44,7 @@ def _differences(entry: ContractManager, claims: dict[str, str]) -> list[str]:
     expected = {
         interface: name
         for name, controller in entry.controllers.items()
-        if controller.active
+        if controller.active and "mock" in controller.targets
         for interface in controller.command_interfaces
     }
     return [

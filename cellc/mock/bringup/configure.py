@@ -15,7 +15,10 @@ def configure(plant: Plant) -> Waiting[StageEvidence]:
     problems: list[str] = []
     for name, entry in plant.contract.managers.items():
         manager = plant.control.managers[name]
-        for controller in entry.controllers:
+        for controller, declared in entry.controllers.items():
+            if "mock" not in declared.targets:
+                facts.append(f"`{controller}` is left out: it is for real hardware alone")
+                continue
             mark = LogMark(manager)
             response = manager.spawn((controller,), inactive=True)
             if response.ok:

@@ -23,7 +23,7 @@ def observe(plant: Plant) -> Waiting[StageEvidence]:
         publishing = tuple(
             controller
             for controller, entry in manager.controllers.items()
-            if entry.active and not entry.command_interfaces
+            if entry.active and not entry.command_interfaces and "mock" in entry.targets
         )
         problems += yield from activate(plant, name, publishing)
     if problems:

@@ -3,6 +3,7 @@
 Time is simulated, in integer nanoseconds; nothing sleeps and nothing is random.
 """
 
+from cellc.mock.control.controllers.base import DeclaredInterfaces
 from cellc.mock.control.controllers.joint_state_broadcaster import JointStateBlock
 from cellc.mock.control.controllers.joint_trajectory.recorder import Recording
 from cellc.mock.control.errors import ManagerAborted
@@ -40,6 +41,7 @@ __all__ = [
     "ControlEvent",
     "ControllerChanged",
     "ControllerManager",
+    "DeclaredInterfaces",
     "Disturbances",
     "GoalEnded",
     "GoalResponse",

@@ -23,6 +23,14 @@ class Cycle:
     period_ns: int
 
 
+@dataclass(frozen=True, slots=True)
+class DeclaredInterfaces:
+    """Full names of what a vendor's passive controller claims and reads: they stand in its code alone."""
+
+    command: tuple[str, ...] = ()
+    state: tuple[str, ...] = ()
+
+
 @dataclass(slots=True)
 class Context:
     """What a controller node is given by the manager.
@@ -38,6 +46,7 @@ class Context:
         limiter: limits commands as they are set; None where limits are not enforced.
         log: the log.
         events: where events for the outside are put.
+        declared: what a controller takes of which nothing else tells it.
     """
 
     name: str
@@ -50,6 +59,7 @@ class Context:
     limiter: CommandLimiter | None
     log: Log
     events: list[ControlEvent]
+    declared: DeclaredInterfaces = DeclaredInterfaces()
 
     def command(self, column: int, value: float) -> None:
         """Set a command interface, limited where limits are enforced."""

@@ -73,3 +73,19 @@ class PassiveBroadcaster(QuietController):
     Args:
         context: what the manager gives.
     """
+
+
+class DeclaredController(QuietController):
+    """A vendor's broadcaster or server: it takes what the cell declares of it, and commands nothing by itself.
+
+    Args:
+        context: what the manager gives.
+    """
+
+    def command_interfaces(self) -> tuple[str, ...]:
+        """What it claims for its services."""
+        return self.context.declared.command
+
+    def state_interfaces(self) -> tuple[str, ...]:
+        """What its messages are made of."""
+        return self.context.declared.state

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
+from cellc.mock.control.controllers.base import DeclaredInterfaces
 from cellc.mock.control.description import RobotDescription, read_description
 from cellc.mock.control.errors import DescriptionError
 from cellc.mock.control.events import ControlEvent
@@ -29,12 +30,14 @@ class NodeOptions:
         distro: ROS distribution.
         behaviours: behaviours of further controller types.
         start_ns: simulated time of the first cycle.
+        declared: interfaces of controllers that only the cell tells, by name.
     """
 
     namespace: str
     distro: str
     behaviours: Mapping[str, str]
     start_ns: int
+    declared: Mapping[str, DeclaredInterfaces]
 
 
 @dataclass(slots=True)
@@ -121,7 +124,9 @@ def assemble(urdf: str, parameters: str, options: NodeOptions, changed: Callable
         hardware.set_initial(settings.initially_unconfigured, settings.initially_inactive)
         if settings.enforce_command_limits:
             limiter = CommandLimiter(all_limits(description), table, period_ns, log)
-    registry = ControllerRegistry(file, options.namespace, options.distro, options.behaviours, log, events)
+    registry = ControllerRegistry(
+        file, options.namespace, options.distro, options.behaviours, log, events, options.declared
+    )
     registry.attach(description, table, limiter, period_ns, rate)
     checker = SwitchChecker(registry, hardware, table, log)
     switcher = Switcher(registry, hardware, table, limiter, checker, log, events)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from cellc.mock.control.controllers.base import Controller
+from cellc.mock.control.controllers.base import Controller, DeclaredInterfaces
 from cellc.mock.control.controllers.forward_command import ForwardCommandController
 from cellc.mock.control.controllers.gpio import GpioCommandController
 from cellc.mock.control.controllers.joint_state_broadcaster import JointStateBlock, JointStateBroadcaster
@@ -42,8 +42,9 @@ class ControllerManager:
         parameters: text of the parameter file (controllers.yaml); empty for none.
         namespace: namespace of the manager and its controllers.
         distro: humble, jazzy, kilted or lyrical.
-        plugin_behaviours: behaviour of controller plugin types that are not known here, by type.
+        plugin_behaviours: behaviour of further controller plugin types.
         start_ns: simulated time of the first update cycle.
+        declared: interfaces of controllers that only the cell tells, by name.
 
     Raises:
         ManagerAborted: where the real process would end while it starts.
@@ -58,12 +59,11 @@ class ControllerManager:
         distro: str = "kilted",
         plugin_behaviours: Mapping[str, str] | None = None,
         start_ns: int = 0,
+        declared: Mapping[str, DeclaredInterfaces] | None = None,
     ) -> None:
-        stack = assemble(
-            urdf, parameters, NodeOptions(namespace, distro, plugin_behaviours or {}, start_ns), self._touch
-        )
-        self.log = stack.log
-        self.disturbances = stack.disturbances
+        options = NodeOptions(namespace, distro, plugin_behaviours or {}, start_ns, declared or {})
+        stack = assemble(urdf, parameters, options, self._touch)
+        self.log, self.disturbances = stack.log, stack.disturbances
         self.journal = stack.table.journal
         self.description_error = stack.description_error
         self.period_ns = stack.period_ns

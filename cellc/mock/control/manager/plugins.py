@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from cellc.mock.control.controllers.base import Context, Controller
-from cellc.mock.control.controllers.broadcasters import ForceTorqueBroadcaster, PassiveBroadcaster
+from cellc.mock.control.controllers.broadcasters import DeclaredController, ForceTorqueBroadcaster, PassiveBroadcaster
 from cellc.mock.control.controllers.forward_command import ForwardCommandController
 from cellc.mock.control.controllers.gpio import GpioCommandController
 from cellc.mock.control.controllers.gripper import EFFORT, PARALLEL, POSITION, GripperController
@@ -34,6 +34,8 @@ _FACTORIES: Mapping[str, Callable[[Context], Controller]] = {
     "gpio_command": GpioCommandController,
     "pid": PidController,
     "passive_broadcaster": PassiveBroadcaster,
+    "broadcaster": DeclaredController,
+    "service": DeclaredController,
 }
 
 _ALL = ("humble", "jazzy", "kilted", "lyrical")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
-from cellc.mock.control.controllers.base import ConfigureError, Context
+from cellc.mock.control.controllers.base import ConfigureError, Context, DeclaredInterfaces
 from cellc.mock.control.description import RobotDescription
 from cellc.mock.control.events import ControlEvent, ControllerChanged
 from cellc.mock.control.hardware import CommandLimiter
@@ -28,6 +28,7 @@ class ControllerRegistry:
         behaviours: behaviours of further plugin types.
         log: the log.
         events: where changes are told.
+        declared: interfaces of controllers that only the cell tells, by name.
     """
 
     def __init__(
@@ -38,7 +39,9 @@ class ControllerRegistry:
         behaviours: Mapping[str, str],
         log: Log,
         events: list[ControlEvent],
+        declared: Mapping[str, DeclaredInterfaces],
     ) -> None:
+        self._declared = declared
         self._file = file
         self._namespace = namespace
         self._distro = distro
@@ -70,10 +73,11 @@ class ControllerRegistry:
 
     def load(self, name: str, spawner_file: ParameterFile | None) -> ServiceResponse:
         """Answer load_controller; `spawner_file` is the file of the spawner's --param-file."""
-        own = self._file.of_node(name, self._namespace)
-        given = self._own.get(f"{name}.type")
+        bare = name.rpartition("/")[2]  # one of several namesakes is called by its full name
+        own = self._file.of_node(bare, self._namespace)
+        given = self._own.get(f"{bare}.type")
         if spawner_file is not None:
-            from_spawner = spawner_file.of_node(name, self._namespace)
+            from_spawner = spawner_file.of_node(bare, self._namespace)
             own.update(from_spawner)
             given = from_spawner.get("type", given)
         if name in self.controllers:
@@ -94,6 +98,7 @@ class ControllerRegistry:
             self._limiter,
             self._log,
             self._events,
+            self._declared.get(name, DeclaredInterfaces()),
         )
         try:
             context.parameters.declare(
