@@ -12,7 +12,6 @@ from cellc.mock.campaign.campaign import Campaign, conduct, make_plan
 from cellc.mock.campaign.plan import CampaignPlan
 from cellc.mock.campaign.run import CampaignRun
 from cellc.mock.faults.possible import possible_faults
-from cellc.mock.nodes.observations import ObservationInbox
 from cellc.mock.task import context as task_context
 from tests.mock.campaign.conftest import plan_of
 
@@ -88,16 +87,11 @@ def _without_checks_of_the_cell(patch: pytest.MonkeyPatch) -> None:
     patch.setattr(task_context.TaskContext, "check_cell", lambda self: None)
 
 
-def _without_ages_of_observations(patch: pytest.MonkeyPatch) -> None:
-    patch.setattr(ObservationInbox, "is_stale", lambda self, stamp_ns, allowance_s=0.0: False)
-
-
 @pytest.mark.parametrize(
     ("removed", "fault", "outcome"),
     [
         (_without_checks_of_the_cell, "protective_stop:arm", "protective_stop"),
         (_without_checks_of_the_cell, "skip_cycles", "missed_cycle"),
-        (_without_ages_of_observations, "freeze:camera", "stale_state"),
     ],
 )
 def test_removed_watchdog_makes_runs_fail(

@@ -75,7 +75,7 @@ def test_unknown_run_names_the_nearest(folders: dict[str, Path]) -> None:
         (["--campaign", "--pairs", "-1"], "the number of pairs is -1; it must be 0 or greater"),
         (["--campaign", "--seed", "-1"], "the seed is -1; it must be 0 or greater"),
         (["--campaign", "--rehearsal", "ready"], "--rehearsal runs declared rehearsals"),
-        (["--campaign", "--evidence", "nowhere"], "--evidence is of single runs"),
+        (["--list", "--evidence", "nowhere"], "--list runs none"),
     ],
 )
 def test_unusable_options_are_refused(folders: dict[str, Path], arguments: list[str], words: str) -> None:
@@ -160,3 +160,18 @@ def test_folder_whose_rehearsals_all_have_faults_has_no_campaign(folders: dict[s
     rehearsals["rehearsals"] = [{**entry, "faults": [fault]} for entry in rehearsals["rehearsals"]]
     (folder / "rehearsals.json").write_text(json.dumps(rehearsals), encoding="utf-8")
     assert_refused(run("mock", str(folder), "--campaign"), "has no rehearsal without faults to run a campaign over")
+
+
+@pytest.mark.usefixtures("few_faults")
+@pytest.mark.parametrize("option", ["--campaign", "--gates"])
+def test_report_shows_the_matrix_and_judges_gates_by_it(option: str, folders: dict[str, Path], tmp_path: Path) -> None:
+    pytest.importorskip("mcap")
+    ran = run("mock", str(folders["minimal"]), option, "--jobs", "1", "--evidence", str(tmp_path / "kept"))
+    assert ran.code == 0, ran.err
+    page = (tmp_path / "kept" / "report.html").read_text(encoding="utf-8")
+    row = page.partition("<td>protective_stop:arm</td>")[2].partition("</tr>")[0]
+    assert row.count(">stop<") == 3
+    assert "ready/protective_stop:arm@2: protective_stop" in row
+    line = page.partition("Every fault at every step ends in a named outcome within its bound")[2]
+    assert "runs of the campaign" in line[:200]
+    assert (tmp_path / "kept" / "ready.mcap").is_file()
