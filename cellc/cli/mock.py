@@ -20,7 +20,9 @@ import click
 @click.option("--gates", is_flag=True, help="Run rehearsals and campaign, and judge gates L6, G1, G2 by them.")
 @click.option("--json", "as_json", is_flag=True, help="Write the results as JSON.")
 @click.option("--records", type=click.Path(path_type=str, dir_okay=False), help="Write attempt records as JSON lines.")
-@click.option("--evidence", type=click.Path(path_type=str, file_okay=False), help="Write bags, figures and a report.")
+@click.option(
+    "--evidence", type=click.Path(path_type=str, file_okay=False), help="Write bags, records, key figures and a report."
+)
 @click.option("--seed", default=0, show_default=True, help="Seed of planning, of seeded faults and of pairs.")
 def mock(
     folder: str,
@@ -44,8 +46,8 @@ def mock(
 
     if names and (campaign or list_only or replayed or gates):
         raise click.UsageError("--rehearsal runs declared rehearsals; it does not go with the options of the campaign.")
-    if evidence is not None and (campaign or list_only or gates):
-        raise click.UsageError("--evidence is of single runs; it goes with --rehearsal or --replay.")
+    if evidence is not None and list_only:
+        raise click.UsageError("--evidence is of runs; --list runs none.")
     options = CampaignOptions(seed=seed, jobs=jobs, pairs=pairs, as_json=as_json, records=records, evidence=evidence)
     if list_only:
         code = list_runs(folder, options)

@@ -27,14 +27,14 @@ def main() -> int:
         "--rehearsal", action="append", default=[], metavar="NAME", help="run this one only; repeatable"
     )
     parser.add_argument("--records", metavar="FILE", help="write the attempt records as JSON lines")
-    parser.add_argument("--evidence", metavar="FOLDER", help="write bags, figures and a report")
+    parser.add_argument("--evidence", metavar="FOLDER", help="write bags, records, key figures and a report")
     parser.add_argument("--seed", type=int, default=0, help="seed of everything drawn (default 0)")
     options = parser.parse_args()
     in_campaign = options.campaign or options.list or options.replay or options.gates
     if options.rehearsal and in_campaign:
         parser.error("--rehearsal runs declared rehearsals; it does not go with the options of the campaign")
-    if options.evidence and (options.campaign or options.list or options.gates):
-        parser.error("--evidence is of single runs; it goes with --rehearsal or --replay")
+    if options.evidence and options.list:
+        parser.error("--evidence is of runs; --list runs none")
     # Imported here, so that Ctrl-C while the planning libraries load ends without a traceback too.
     return _run_campaign(options) if in_campaign else _run_rehearsals(options)
 

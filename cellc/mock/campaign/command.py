@@ -35,7 +35,7 @@ class CampaignOptions:
         jobs: processes; None for as many as there are cores.
         pairs: number of runs with two faults.
         records: file that the attempt records of all runs are written to, as JSON lines.
-        evidence: folder that bags and the report of replayed runs are written to.
+        evidence: folder that bags and the report are written to, of replayed runs or of the declared rehearsals.
     """
 
     program: str = "cellc mock"
@@ -61,6 +61,7 @@ def run_campaign(folder: str, options: CampaignOptions) -> int:
     try:
         cell = load_checked(folder, options)
         campaign = conduct_all(cell, options)
+        keep_evidence_of(cell, campaign, options)
     except (MockError, KeyboardInterrupt) as stop:
         return stopped(stop)
     replay = partial(_replay_command, folder, options)
@@ -90,6 +91,16 @@ def replay_runs(folder: str, identifiers: Sequence[str], options: CampaignOption
     else:
         print("\n".join(line for end in campaign.ends for line in end_lines(end, replay(end.run.identifier))))
     return 0 if all(end.passed for end in campaign.ends) else 1
+
+
+def keep_evidence_of(cell: MockCell, campaign: Campaign, options: CampaignOptions) -> None:
+    """Write bags of the declared rehearsals and a report over them and the campaign, where evidence is asked for."""
+    if options.evidence is None:
+        return
+    with begin_evidence(cell, Path(options.evidence), cell.rehearsals, campaign.seed) as collector:
+        for name in cell.rehearsals:
+            collector.run(name)
+        collector.settle(campaign)
 
 
 def _keep_evidence(cell: MockCell, campaign: Campaign, folder: Path) -> None:

@@ -1,8 +1,9 @@
-"""The matrix of a campaign for people: fault by step, each with the outcome that it led to."""
+"""The matrix of a campaign: fault by step, each with the outcome that it led to."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 from cellc.contract.rehearsals import RehearsalEntry, StepEntry
 from cellc.mock.campaign.run import RunEnd
@@ -25,20 +26,47 @@ SHORT = {
 """Outcomes as the matrix has them; one that is not here stands in full."""
 
 
-def matrix_lines(entry: RehearsalEntry, ends: Sequence[RunEnd]) -> Iterator[str]:
-    """Yield the matrix of a rehearsal's runs with one fault; a run that failed has an exclamation mark."""
-    cells: dict[str, dict[int, list[str]]] = {}
+@dataclass(frozen=True, slots=True)
+class Matrix:
+    """The runs of one rehearsal with one fault each.
+
+    Attributes:
+        steps: titles of the steps, in order.
+        rows: fault, and for each step the runs whose fault begins with it.
+    """
+
+    rehearsal: str
+    steps: tuple[str, ...]
+    rows: tuple[tuple[str, tuple[tuple[RunEnd, ...], ...]], ...]
+
+
+def matrix_of(entry: RehearsalEntry, ends: Sequence[RunEnd]) -> Matrix:
+    """Return the matrix of a rehearsal from the runs of its campaign."""
+    cells: dict[str, list[list[RunEnd]]] = {}
     for end in ends:
         if len(end.run.hits) == 1 and end.run.rehearsal == entry.name:
             hit = end.run.hits[0]
-            cells.setdefault(hit.fault, {}).setdefault(hit.step, []).append(_label(end))
-    rows = {fault: [_joined(steps.get(number, [])) for number in _numbers(entry)] for fault, steps in cells.items()}
-    widths = [max([len(str(number)), *(len(row[number - 1]) for row in rows.values())]) for number in _numbers(entry)]
-    name_width = max([len("fault"), *(len(fault) for fault in rows)])
-    yield f"{entry.name}: {', '.join(f'{number} {_title(step)}' for number, step in enumerate(entry.steps, start=1))}"
-    yield "  ".join(["fault".ljust(name_width), *_padded([str(number) for number in _numbers(entry)], widths)]).rstrip()
-    for fault, row in rows.items():
-        yield "  ".join([fault.ljust(name_width), *_padded(row, widths)]).rstrip()
+            cells.setdefault(hit.fault, [[] for _ in entry.steps])[hit.step - 1].append(end)
+    rows = tuple((fault, tuple(tuple(cell) for cell in row)) for fault, row in cells.items())
+    return Matrix(entry.name, tuple(_title(step) for step in entry.steps), rows)
+
+
+def matrix_lines(matrix: Matrix) -> Iterator[str]:
+    """Yield a matrix for a terminal; a run that failed has an exclamation mark."""
+    numbers = [str(number) for number in range(1, len(matrix.steps) + 1)]
+    rows = [(fault, [cell_text(cell) for cell in row]) for fault, row in matrix.rows]
+    widths = [max([len(number), *(len(row[place]) for _, row in rows)]) for place, number in enumerate(numbers)]
+    name_width = max([len("fault"), *(len(fault) for fault, _ in rows)])
+    steps = ", ".join(f"{number} {title}" for number, title in zip(numbers, matrix.steps, strict=True))
+    yield f"{matrix.rehearsal}: {steps}"
+    for name, row in (("fault", numbers), *rows):
+        yield "  ".join([name.ljust(name_width), *_padded(row, widths)]).rstrip()
+
+
+def cell_text(ends: Sequence[RunEnd]) -> str:
+    """Return the short outcomes of the runs of one fault at one step, once where they are the same."""
+    labels = [_label(end) for end in ends]
+    return labels[0] if len(set(labels)) == 1 else "/".join(labels)
 
 
 def legend(ends: Sequence[RunEnd]) -> str:
@@ -48,10 +76,6 @@ def legend(ends: Sequence[RunEnd]) -> str:
     return f"a/b: at the start of the step / as its joints begin to move; {', '.join(pairs)}"
 
 
-def _numbers(entry: RehearsalEntry) -> range:
-    return range(1, len(entry.steps) + 1)
-
-
 def _title(step: StepEntry) -> str:
     return " ".join(word for word in (step.kind, step.command or "", step.target) if word)
 
@@ -59,10 +83,6 @@ def _title(step: StepEntry) -> str:
 def _label(end: RunEnd) -> str:
     label = SHORT.get(end.result.outcome, end.result.outcome)
     return label if end.passed else f"{label}!"
-
-
-def _joined(labels: Sequence[str]) -> str:
-    return labels[0] if len(set(labels)) == 1 else "/".join(labels)
 
 
 def _padded(texts: Sequence[str], widths: Sequence[int]) -> list[str]:

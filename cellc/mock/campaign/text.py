@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 
 from cellc.mock.campaign.campaign import Campaign
 from cellc.mock.campaign.limits_report import CommandStep, LimitsReport
-from cellc.mock.campaign.matrix import legend, matrix_lines
+from cellc.mock.campaign.matrix import legend, matrix_lines, matrix_of
 from cellc.mock.campaign.run import SUCCEEDED, RunEnd
 from cellc.mock.summary import reason
 
@@ -25,12 +25,12 @@ ReplayCommand = Callable[[str], str]
 def campaign_lines(campaign: Campaign, replay: ReplayCommand) -> Iterator[str]:
     """Yield the matrix of each rehearsal, pairs, outcomes with their bounds, limits, and what failed."""
     for baseline in campaign.baselines:
-        yield from matrix_lines(baseline.run.entry, campaign.ends)
+        yield from matrix_lines(matrix_of(baseline.run.entry, campaign.ends))
         yield ""
     if campaign.ends:
         yield legend(campaign.ends)
         yield ""
-    yield from _outcome_lines(campaign.ends)
+    yield from outcome_lines(campaign.ends)
     yield from limit_lines(campaign.limits)
     for end in campaign.failed:
         yield from failure_lines(end, replay(end.run.identifier))
@@ -90,7 +90,7 @@ def limit_lines(limits: LimitsReport) -> Iterator[str]:
         yield f"        set points, whose speed is the device's own and UNKNOWN here: {', '.join(joints)}"
 
 
-def _outcome_lines(ends: Sequence[RunEnd]) -> Iterator[str]:
+def outcome_lines(ends: Sequence[RunEnd]) -> Iterator[str]:
     """Yield how many runs ended in each outcome, and the one that came nearest to its bound."""
     for outcome in sorted({end.result.outcome for end in ends}):
         these = [end for end in ends if end.result.outcome == outcome]

@@ -7,6 +7,7 @@ from pathlib import Path
 from types import TracebackType
 
 from cellc.contract.rehearsals import RehearsalEntry
+from cellc.mock.campaign.campaign import Campaign
 from cellc.mock.cell import MockCell
 from cellc.mock.evidence.bag.bag import Bag
 from cellc.mock.evidence.file_names import file_names
@@ -16,7 +17,7 @@ from cellc.mock.evidence.onlooker import Onlooker
 from cellc.mock.evidence.run_bag import RunBag
 from cellc.mock.evidence.tolerances import path_tolerances
 from cellc.mock.evidence.trace.run_trace import RunTrace, TraceResult
-from cellc.mock.gates import rehearsal_witnesses, sign_gates
+from cellc.mock.gates import campaign_witnesses, rehearsal_witnesses, sign_gates
 from cellc.mock.plant import Plant
 from cellc.mock.record import to_json_lines
 from cellc.mock.report_page.content import ReportContent, RunEvidence
@@ -81,16 +82,21 @@ class EvidenceCollector:
         self._runs.append(RunEvidence(entry, result, trace, figures, self._tolerances, files))
         return result
 
-    def settle(self) -> None:
+    def settle(self, campaign: Campaign | None = None) -> None:
         """Write the report and put everything in its place.
+
+        Args:
+            campaign: what a campaign found, which the report shows and the gates are judged by too.
 
         Raises:
             MockError: the folder cannot take it.
         """
         contract = self._cell.contract
         witnesses = rehearsal_witnesses(self._cell.entries, [run.result for run in self._runs])
+        if campaign is not None:
+            witnesses = (*witnesses, *campaign_witnesses(campaign))
         gates = sign_gates(self._cell.folder, witnesses, self._seed)
-        content = ReportContent(contract, self._cell.notes, self._seed, tuple(self._runs), gates)
+        content = ReportContent(contract, self._cell.notes, self._seed, tuple(self._runs), gates, campaign)
         self._folder.write(REPORT, to_report(content))
         self._folder.settle({"cell": contract.cell, "configuration_id": contract.configuration_id, "seed": self._seed})
 

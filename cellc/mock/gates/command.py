@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 
-from cellc.mock.campaign.command import CampaignOptions, conduct_all, load_checked, stopped
+from cellc.mock.campaign.command import CampaignOptions, conduct_all, keep_evidence_of, load_checked, stopped
 from cellc.mock.errors import MockError
 from cellc.mock.gates.gate import GateResult, Verdict
 from cellc.mock.gates.sign import sign_gates
@@ -22,6 +22,7 @@ def run_gates(folder: str, options: CampaignOptions) -> int:
         cell = load_checked(folder, options)
         results = [cell.run(name, seed=options.seed) for name in cell.rehearsals]
         campaign = conduct_all(cell, options)
+        keep_evidence_of(cell, campaign, options)
     except (MockError, KeyboardInterrupt) as stop:
         return stopped(stop)
     witnesses = (*rehearsal_witnesses(cell.entries, results), *campaign_witnesses(campaign))

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from cellc.contract.contract import Contract
 from cellc.contract.rehearsals import RehearsalEntry
+from cellc.mock.campaign.campaign import Campaign
 from cellc.mock.evidence.kpis import Kpi
 from cellc.mock.evidence.trace.run_trace import TraceResult
 from cellc.mock.gates.gate import GateResult
@@ -37,6 +38,7 @@ class ReportContent:
     Attributes:
         notes: what is odd about the generated folder.
         seed: of everything that was drawn.
+        campaign: every fault at every step; None where it was not run.
     """
 
     contract: Contract
@@ -44,3 +46,4 @@ class ReportContent:
     seed: int
     runs: tuple[RunEvidence, ...]
     gates: tuple[GateResult, ...]
+    campaign: Campaign | None = None

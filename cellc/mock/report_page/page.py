@@ -6,6 +6,7 @@ from importlib.resources import files
 from xml.etree.ElementTree import Element
 
 from cellc.mock.report_page.boundary import gate_section, identity, unproven
+from cellc.mock.report_page.campaign_section import campaign_section
 from cellc.mock.report_page.content import ReportContent
 from cellc.mock.report_page.element import tag, to_page
 from cellc.mock.report_page.overview import header, key_figures, outcomes
@@ -21,6 +22,7 @@ def to_report(content: ReportContent) -> str:
         header(content),
         outcomes(content),
         key_figures(content),
+        *campaign_section(content.campaign),
         gate_section(content.gates),
         *runs,
         identity(content.contract),
