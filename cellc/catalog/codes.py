@@ -172,18 +172,6 @@ _CATALOGUE = (
         "Everything derived from the device rests on it: joints, interfaces, versions, limits.",
         "mend the value that is marked; CONTRIBUTING.md walks through a device",
     ),
-    _page(
-        "unknown-controller-kind",
-        "the catalogue has no controller kind of that name",
-        "Plugin, claims and parameters of a controller come from its kind.",
-        "use a kind that the catalogue or the device lists",
-    ),
-    _page(
-        "unknown-device",
-        "the catalogue has no device of that name",
-        "Joints, frames, limits and interfaces of a device come from its entry.",
-        "use a device that the catalogue lists, or name a folder with your own `device.yaml`",
-    ),
 )
 
 CODES: tuple[CodePage, ...] = (*_CATALOGUE, *_URDF, *_XACRO, *_XML)

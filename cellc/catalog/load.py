@@ -16,7 +16,7 @@ from cellc.catalog.message_model import InterfaceTypeTable
 from cellc.catalog.qos_model import QosTable
 from cellc.catalog.read_description import read_catalogue_description, read_description
 from cellc.catalog.read_model import ModelT, read_model
-from cellc.diagnostics import Diagnostic, Outcome, Severity, Span, YamlPath, did_you_mean
+from cellc.diagnostics import Diagnostic, Outcome, Severity, YamlPath, did_you_mean
 from cellc.disk import unrecorded
 from cellc.source.document import SourceDocument
 
@@ -52,13 +52,14 @@ def controller_kinds() -> tuple[str, ...]:
 def load_device(name: str) -> Outcome[CatalogDevice]:
     """Load a device of the catalogue.
 
-    Returns:
-        The device, or ``unknown-device`` with the nearest names; its span is of no file, link puts the user's there.
+    Args:
+        name: one of ``device_names()``.
+
+    Raises:
+        KeyError: the catalogue lists no such device; who asks for a name of the user's tells the user first.
     """
     if name not in device_names():
-        help_text = did_you_mean(name, device_names(), "devices of the catalogue")
-        message = f"the catalogue has no device `{name}`"
-        return Outcome(None, (Diagnostic("unknown-device", Severity.ERROR, message, _nowhere(), help=help_text),))
+        raise KeyError(name)
     devices = CATALOGUE / "devices"
     shown = f"{_SHOWN}/devices"
 
@@ -151,12 +152,16 @@ def _named_joints(model: DeviceModel, joints: set[str]) -> list[_NamedThing]:
 
 @lru_cache(maxsize=32)
 def load_controller_kind(kind: str) -> Outcome[ControllerKind]:
-    """Load a neutral controller kind; ``unknown-controller-kind`` with the nearest names where there is none."""
+    """Load a neutral controller kind.
+
+    Args:
+        kind: one of ``controller_kinds()``.
+
+    Raises:
+        KeyError: the catalogue lists no such kind; who asks for a name of the user's tells the user first.
+    """
     if kind not in controller_kinds():
-        help_text = did_you_mean(kind, controller_kinds(), "controller kinds")
-        message = f"the catalogue has no controller kind `{kind}`"
-        found = Diagnostic("unknown-controller-kind", Severity.ERROR, message, _nowhere(), help=help_text)
-        return Outcome(None, (found,))
+        raise KeyError(kind)
     return _table(f"controllers/{kind}.yaml", ControllerKind)
 
 
@@ -188,7 +193,3 @@ def _table(file: str, model: type[ModelT]) -> Outcome[ModelT]:
     with unrecorded():
         read = read_model(CATALOGUE / file, f"{_SHOWN}/{file}", model)
     return Outcome(None if read.value is None else read.value[0], read.diagnostics)
-
-
-def _nowhere() -> Span:
-    return Span(_SHOWN, 1, 1, 1, 1)

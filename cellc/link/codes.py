@@ -13,7 +13,7 @@ def _page(code: str, title: str, why: str, fix: str) -> CodePage:
 def _unknown(code: str, thing: str, where: str) -> CodePage:
     return _page(
         code,
-        f"a reference names a {thing} that does not exist",
+        f"a reference names {'an' if thing[0] in 'aeiou' else 'a'} {thing} that does not exist",
         f"Names are references: {where}. ROS itself would start and wait for ever for a name that nothing has, so a "
         "misspelt one is found here, with the nearest names that exist.",
         f"name an existing {thing}, or declare it",
@@ -86,7 +86,7 @@ CODES: tuple[CodePage, ...] = (
         "unknown-controller-kind",
         "a controller is of a kind that neither the catalogue nor its device has",
         "The plugin, the claims and the action follow from the kind.",
-        "use a kind of the catalogue",
+        "use a kind that the catalogue or the device lists",
     ),
     _page(
         "unknown-distro",

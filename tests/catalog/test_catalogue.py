@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -109,16 +110,11 @@ def test_home_lies_within_the_limits(name: str) -> None:
         assert joint.limit.lower <= position.si <= joint.limit.upper
 
 
-def test_misspelt_device_names_the_nearest() -> None:
-    (found,) = load_device("ur5").diagnostics
-    assert found.code == "unknown-device"
-    assert "`ur5e`" in found.help
-
-
-def test_misspelt_controller_kind_names_the_nearest() -> None:
-    (found,) = load_controller_kind("joint_trajectry").diagnostics
-    assert found.code == "unknown-controller-kind"
-    assert "`joint_trajectory`" in found.help
+@pytest.mark.parametrize("load", [load_device, load_controller_kind])
+@pytest.mark.parametrize("name", ["ur5", "joint_trajectry", "", "../devices/ur5e"])
+def test_name_that_is_not_listed_is_refused(load: Callable[[str], object], name: str) -> None:
+    with pytest.raises(KeyError):
+        load(name)
 
 
 def test_device_of_the_user_with_a_wrong_value_is_reported_on_its_line(tmp_path: Path) -> None:
