@@ -14,6 +14,7 @@ from cellc.contract.adapter import ContractAdapter
 from cellc.contract.base import ContractModel, ContractPose
 from cellc.contract.clock import ContractClock
 from cellc.contract.network import ContractNetwork
+from cellc.contract.simulated_joint import ContractSimulatedJoint
 
 
 class ContractFiles(ContractModel):
@@ -266,6 +267,9 @@ class Contract(ContractModel):
     )
     plugin_behaviours: dict[str, str] = Field(description="Behaviour of each controller plugin.")
     devices: dict[str, ContractDevice] = Field(description="Devices by name.")
+    simulated_joints: dict[str, ContractSimulatedJoint] = Field(
+        default_factory=dict, description="What the mock adds to joints, by joint."
+    )
     adapters: dict[str, ContractAdapter] = Field(
         default_factory=dict, description="Devices behind an adapter, by name."
     )

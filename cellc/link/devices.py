@@ -17,7 +17,7 @@ from cellc.link.placement import pose
 from cellc.link.unknown import unknown_name
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
-from cellc.spec.devices import DeviceSpec
+from cellc.spec.devices import EVERY_JOINT, DeviceSpec
 from cellc.transforms import identity
 
 
@@ -38,8 +38,20 @@ def link_devices(spec: CellSpec, document: SourceDocument) -> Outcome[tuple[Devi
         parent = _parent_frame(name, written, spec, document, entries)
         problems += parent.diagnostics
         if parent.value is not None:
-            devices.append(_device(name, written, spec, document, entries[name], parent.value))
+            device = _device(name, written, spec, document, entries[name], parent.value)
+            problems += _unknown_simulated_joints(device, document)
+            devices.append(device)
     return Outcome(tuple(devices), tuple(problems))
+
+
+def _unknown_simulated_joints(device: Device, document: SourceDocument) -> list[Diagnostic]:
+    names = [joint.name.removeprefix(device.prefix) for joint in device.actuated_joints]
+    path = ("devices", device.name, "simulated_joints")
+    return [
+        unknown_name("unknown-joint", name, "joint", names, document, (*path, name))
+        for name in device.spec.simulated_joints
+        if name not in (*names, EVERY_JOINT)
+    ]
 
 
 def prefix_of(name: str, written: DeviceSpec) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import partial
+from math import inf
 
 from cellc.contract.contract import Contract, ContractFrame, ContractInterface
 from cellc.mock.adapter.server import AdapterServer
@@ -13,7 +14,7 @@ from cellc.mock.bus.network import Network
 from cellc.mock.bus.topic import Topic
 from cellc.mock.clocks import DEFAULT, TimeJump, build_clocks
 from cellc.mock.connections import joint_state_feeds, stream_edge, watch_deadlines
-from cellc.mock.control import ControllerManager, DeclaredInterfaces
+from cellc.mock.control import ControllerManager, DeclaredInterfaces, JointFault, Noise
 from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.engine.simulation import Simulation
 from cellc.mock.folder import GeneratedFolder
@@ -45,7 +46,7 @@ def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int) -> Plant:
     """
     contract = folder.contract
     horizon_s = max([DEFAULT_BUFFER_S, *(frame.buffer_s or 0.0 for frame in contract.frames.values())])
-    control = ControlStack(_managers(folder), contract.managers, horizon_s, _adapters(contract))
+    control = ControlStack(_managers(folder, seed), contract.managers, horizon_s, _adapters(contract))
     simulation = Simulation(control)
     task = task_node(contract)
     clocks = build_clocks(contract.clocks, contract.clock_of, lambda: simulation.now_ns)
@@ -89,9 +90,9 @@ def _note_jump(plant: Plant, jump: TimeJump) -> None:
     plant.requests.changed.fire(jump.at_ns)
 
 
-def _managers(folder: GeneratedFolder) -> Mapping[str, ControllerManager]:
+def _managers(folder: GeneratedFolder, seed: int) -> Mapping[str, ControllerManager]:
     contract = folder.contract
-    return {
+    managers = {
         name: ControllerManager(
             folder.urdf,
             folder.parameters[name],
@@ -105,6 +106,14 @@ def _managers(folder: GeneratedFolder) -> Mapping[str, ControllerManager]:
         )
         for name, manager in contract.managers.items()
     }
+    for joint, facts in contract.simulated_joints.items():
+        nature = JointFault(
+            time_constant_s=facts.lag_s, max_velocity=inf if facts.max_velocity is None else facts.max_velocity
+        )
+        noise = Noise.of_joint(joint, facts.noise, seed) if facts.noise else None
+        for manager in managers.values():
+            manager.disturbances.nature(joint, nature, noise)
+    return managers
 
 
 def _adapters(contract: Contract) -> Mapping[str, AdapterServer]:

@@ -7,7 +7,16 @@ from typing import Literal
 from pydantic import Field
 
 from cellc.spec.base import FrameReference, Name, Pin, SpecModel, Text
-from cellc.spec.quantity import Drift, Duration, Mass, Position, Ratio, RollPitchYaw
+from cellc.spec.quantity import (
+    Drift,
+    Duration,
+    JointPosition,
+    JointVelocity,
+    Mass,
+    Position,
+    Ratio,
+    RollPitchYaw,
+)
 
 
 class PlacementSpec(SpecModel):
@@ -85,6 +94,22 @@ class AdapterSpec(SpecModel):
     stop_time: Duration | None = Field(None, description="Longest time from a hold to standstill.", examples=["100 ms"])
 
 
+EVERY_JOINT = "*"
+"""Key of `simulated_joints` for every joint that is commanded."""
+
+
+class SimulatedJointSpec(SpecModel):
+    """How a joint of the mock differs from one that is where it was commanded at once."""
+
+    lag: Duration | None = Field(None, description="Time constant of a first-order lag.", examples=["20 ms"])
+    noise: JointPosition | None = Field(
+        None, description="Largest error of the measured position, evenly distributed.", examples=["0.0002 rad"]
+    )
+    velocity: JointVelocity | None = Field(
+        None, description="Speed at which the joint saturates.", examples=["1.5 rad/s"]
+    )
+
+
 class DeviceSpec(SpecModel):
     """One device: a catalogue entry, where it is mounted, and the exact thing that stands there."""
 
@@ -110,6 +135,11 @@ class DeviceSpec(SpecModel):
     )
     adapter: AdapterSpec | None = Field(
         None, description="Watchdog of a direct SDK.", examples=[{"command_timeout": "20 ms", "stop_time": "100 ms"}]
+    )
+    simulated_joints: dict[Text, SimulatedJointSpec] = Field(
+        default_factory=dict,
+        description="What the mock adds to joints, by their names in the description; `*` is every joint.",
+        examples=[{"*": {"lag": "20 ms"}}],
     )
     revision: Pin = Field("UNKNOWN", description="Hardware revision.", examples=["UNKNOWN"])
     serial: Pin = Field("UNKNOWN", description="Serial number on the nameplate.", examples=["20235500001"])

@@ -20,6 +20,7 @@ from cellc.emit.contract.devices import devices
 from cellc.emit.contract.frames import calibrations, frames
 from cellc.emit.contract.interfaces import interfaces
 from cellc.emit.contract.motion import disabled_collisions, goals, groups, poses
+from cellc.emit.contract.simulated_joints import simulated_joints
 from cellc.formats.attempt_fields import attempt_fields
 from cellc.formats.header import Header
 from cellc.formats.json_text import render
@@ -53,6 +54,7 @@ def _contract(graph: CellGraph, configuration_id: str) -> Contract:
         clock_of=clock_of(cell),
         plugin_behaviours=dict(cell.behaviours),
         devices=devices(cell),
+        simulated_joints=simulated_joints(cell),
         adapters=adapters(cell),
         joint_limits=joint_limits(cell),
         groups=groups(cell),

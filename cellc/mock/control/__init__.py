@@ -17,7 +17,7 @@ from cellc.mock.control.events import (
     TrajectoryEnded,
     TrajectoryFeedback,
 )
-from cellc.mock.control.hardware import Disturbances
+from cellc.mock.control.hardware import Disturbances, JointFault, Noise
 from cellc.mock.control.log import LogLevel, LogLine
 from cellc.mock.control.manager import ControllerManager
 from cellc.mock.control.manager.spawner import SpawnResponse
@@ -50,11 +50,13 @@ __all__ = [
     "GripperGoal",
     "HardwareChanged",
     "HardwareStateResponse",
+    "JointFault",
     "JointStateBlock",
     "JointTolerance",
     "LogLevel",
     "LogLine",
     "ManagerAborted",
+    "Noise",
     "ParameterResponse",
     "Recording",
     "ServiceResponse",

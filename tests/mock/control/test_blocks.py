@@ -13,8 +13,10 @@ from cellc.mock.control import (
     ControlEvent,
     ControllerManager,
     GripperGoal,
+    JointFault,
     JointStateBlock,
     JointTolerance,
+    Noise,
     Recording,
     Strictness,
     TrajectoryGoal,
@@ -128,6 +130,14 @@ STORIES: dict[str, Story] = {
             (0, lambda m: m.send_goal("arm", _MOVE)),
             (103 * MS, lambda m: m.disturbances.stick("b")),
             (1500 * MS, lambda m: m.send_goal("arm", _MOVE)),
+        )
+    ),
+    "lagging by nature, with noise": Story(
+        (
+            (0, lambda m: m.disturbances.nature("a", JointFault(time_constant_s=0.02), Noise.of_joint("a", 1e-4, 0))),
+            (5 * MS, lambda m: m.send_goal("arm", _MOVE)),
+            (400 * MS, lambda m: m.disturbances.slow("a", 0.1)),
+            (450 * MS, lambda m: m.disturbances.clear("a")),
         )
     ),
     "slow and lagging": Story(

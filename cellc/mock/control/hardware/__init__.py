@@ -1,7 +1,8 @@
 """Simulated hardware: mock_components/GenericSystem, its limits and its disturbances."""
 
-from cellc.mock.control.hardware.disturbances import Disturbances
+from cellc.mock.control.hardware.disturbances import Disturbances, JointFault
 from cellc.mock.control.hardware.generic_system import GenericSystem
 from cellc.mock.control.hardware.limiter import CommandLimiter
+from cellc.mock.control.hardware.noise import Noise
 
-__all__ = ["CommandLimiter", "Disturbances", "GenericSystem"]
+__all__ = ["CommandLimiter", "Disturbances", "GenericSystem", "JointFault", "Noise"]

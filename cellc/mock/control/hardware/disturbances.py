@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from cellc.mock.control.hardware.noise import Noise
 from cellc.mock.control.hardware.ramp import rate_limit
 from cellc.mock.control.interfaces import Array
 
@@ -45,12 +46,26 @@ class JointFault:
         """
         if self.stuck:
             return np.full_like(wanted, previous)
+        if len(wanted) > 1 and self.time_constant_s > 0.0 and self._is_bounded:
+            return self._follow_singly(wanted, previous, period_s)
         moved = wanted + self.offset
         if self.time_constant_s > 0.0:
             moved = _lag(moved, previous, period_s / (self.time_constant_s + period_s))
         if math.isfinite(self.max_velocity):
             moved, _ = rate_limit(moved, previous, self.max_velocity * period_s, self.lower, self.upper)
         return np.minimum(np.maximum(moved, self.lower), self.upper)
+
+    @property
+    def _is_bounded(self) -> bool:
+        return math.isfinite(self.max_velocity) or math.isfinite(self.lower) or math.isfinite(self.upper)
+
+    def _follow_singly(self, wanted: Array, previous: float, period_s: float) -> Array:
+        """Follow cycle by cycle: the lag of each begins where a bound left the joint in the one before."""
+        moved = np.empty_like(wanted)
+        for cycle in range(len(wanted)):
+            moved[cycle : cycle + 1] = self.follow(wanted[cycle : cycle + 1], previous, period_s)
+            previous = float(moved[cycle])
+        return moved
 
 
 def _lag(wanted: Array, previous: float, share: float) -> Array:
@@ -84,6 +99,8 @@ class Disturbances:
         self._set_state = set_state
         self._stand = stand
         self._joints: dict[str, JointFault] = {}
+        self._nature: dict[str, JointFault] = {}
+        self._noise: dict[str, Noise] = {}
         self._deaf: set[str] = set()
         self._failing_read: set[str] = set()
         self._failing_write: set[str] = set()
@@ -91,12 +108,28 @@ class Disturbances:
 
     @property
     def disturbs_joints(self) -> bool:
-        """Whether any joint has a fault."""
-        return bool(self._joints)
+        """Whether any joint differs from one that follows its command at once."""
+        return bool(self._joints or self._nature)
 
     def fault_of(self, joint: str) -> JointFault | None:
-        """The fault of a joint, None for a healthy one."""
-        return self._joints.get(joint)
+        """How a joint differs from one that follows its command at once, None where it does not."""
+        return self._joints.get(joint) or self._nature.get(joint)
+
+    def noise_of(self, joint: str) -> Noise | None:
+        """The noise of a joint's measured position, None where there is none."""
+        return self._noise.get(joint)
+
+    @property
+    def has_noise(self) -> bool:
+        """Whether any joint has noise."""
+        return bool(self._noise)
+
+    def nature(self, joint: str, nature: JointFault, noise: Noise | None) -> None:
+        """Say how a joint is when it is healthy; faults come on top and go."""
+        self._changed()
+        self._nature[joint] = nature
+        if noise is not None:
+            self._noise[joint] = noise
 
     def is_deaf(self, component: str) -> bool:
         """Whether a component ignores its commands."""
@@ -122,29 +155,32 @@ class Disturbances:
         """Whether a read or write is to fail."""
         return bool(self._failing_read or self._failing_write)
 
+    def _present(self, joint: str) -> JointFault:
+        return self.fault_of(joint) or JointFault()
+
     def _change(self, joint: str, fault: JointFault) -> None:
         self._changed()
         self._joints[joint] = fault
 
     def stick(self, joint: str) -> None:
         """Let a joint stand still whatever is commanded."""
-        self._change(joint, replace(self._joints.get(joint, JointFault()), stuck=True))
+        self._change(joint, replace(self._present(joint), stuck=True))
 
     def slow(self, joint: str, max_velocity: float) -> None:
         """Let a joint not exceed a velocity (rad/s or m/s)."""
-        self._change(joint, replace(self._joints.get(joint, JointFault()), max_velocity=max_velocity))
+        self._change(joint, replace(self._present(joint), max_velocity=max_velocity))
 
     def lag(self, joint: str, time_constant_s: float) -> None:
         """Let a joint lag behind its command."""
-        self._change(joint, replace(self._joints.get(joint, JointFault()), time_constant_s=time_constant_s))
+        self._change(joint, replace(self._present(joint), time_constant_s=time_constant_s))
 
     def offset(self, joint: str, offset: float) -> None:
         """Let a joint stand beside its command by a constant (rad or m)."""
-        self._change(joint, replace(self._joints.get(joint, JointFault()), offset=offset))
+        self._change(joint, replace(self._present(joint), offset=offset))
 
     def block(self, joint: str, lower: float = -math.inf, upper: float = math.inf) -> None:
         """Block a joint's way, as an object between the fingers does."""
-        self._change(joint, replace(self._joints.get(joint, JointFault()), lower=lower, upper=upper))
+        self._change(joint, replace(self._present(joint), lower=lower, upper=upper))
 
     def clear(self, joint: str) -> None:
         """Let a joint be healthy again."""

@@ -42,6 +42,7 @@ class GenericSystem:
         self.info = info
         self._table = table
         self._disturbances = disturbances
+        self._first_cycle = self._read_cycles = 0
         parameters = info.parameters
         self._dynamics = parse_bool(parameters.get("calculate_dynamics", "false"))
         self.commands_disabled = parse_bool(parameters.get("disable_commands", "false"))
@@ -158,6 +159,7 @@ class GenericSystem:
             How many leading cycles were computed; a single cycle always is.
         """
         self._motion = None
+        self._first_cycle = self._read_cycles
         if self.commands_disabled or self._disturbances.is_deaf(self.info.name):
             return len(command)
         cycles = self._computable(command)
@@ -177,9 +179,19 @@ class GenericSystem:
             indices, columns = self._state_columns[kind]
             if len(indices):
                 state[:, columns] = values[:, indices]
+        self._add_noise(state)
         self._mirror(command, state)
         self._motion = motion
         return cycles
+
+    def _add_noise(self, state: Array) -> None:
+        """Add noise to what is measured; where the joint really is stays without."""
+        if not self._disturbances.has_noise:
+            return
+        for index, column in zip(*self._state_columns["position"], strict=True):
+            noise = self._disturbances.noise_of(self._names[index])
+            if noise is not None:
+                state[:, column] += noise.values(self._first_cycle, len(state))
 
     def _computable(self, command: Array) -> int:
         """All cycles, or none where they depend on each other in a way that only single cycles can follow."""
@@ -250,6 +262,7 @@ class GenericSystem:
 
     def commit(self, cycles: int) -> None:
         """Adopt the joints' values after the first cycles of what `read` computed last."""
+        self._read_cycles = self._first_cycle + cycles
         motion = self._motion
         if motion is None:
             return

@@ -1,0 +1,33 @@
+"""What a spec says of simulated joints is what the mock's joints do."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from cellc.mock import load
+from cellc.output.write import write
+from cellc.pipeline import check, compile_cell
+
+SPEC = Path(__file__).resolve().parents[2] / "corpus" / "valid" / "simulated_joints.yaml"
+
+
+def test_figures_of_a_joint_count_before_those_of_all(tmp_path: Path) -> None:
+    artifacts = compile_cell(check(SPEC)).value
+    assert artifacts is not None
+    assert write(artifacts, tmp_path / "demo").ok
+    cell = load(tmp_path / "demo")
+    assert {name: (j.lag_s, j.max_velocity) for name, j in cell.contract.simulated_joints.items()} == {
+        "stage_turn": (0.01, None),
+        "stage_slide": (0.005, 0.2),
+    }
+    plants: list[Plant] = []
+    entry = cell.entries[0]
+    assert cell.rehearse(entry, seed=0, watch=plants.append).outcome == entry.expect
+    disturbances = plants[0].control.managers["stages"].disturbances
+    turn, slide = disturbances.fault_of("stage_turn"), disturbances.fault_of("stage_slide")
+    assert turn is not None
+    assert slide is not None
+    assert (turn.time_constant_s, slide.time_constant_s, slide.max_velocity) == (0.01, 0.005, 0.2)
+    noise = disturbances.noise_of("stage_turn")
+    assert noise is not None
+    assert abs(noise.amplitude - 0.000174533) < 1e-9  # 0.01 deg
