@@ -71,6 +71,6 @@ class Stops:
     def recover(self) -> None:
         """Let every stopped component be active again; each begins from where its joints stand."""
         for stop in self.present():
-            for manager in self._control.managers_of_component(stop.component):
-                manager.disturbances.recover(stop.component)
+            for server in self._control.servers_of_component(stop.component):
+                server.disturbances.recover(stop.component)
             self._states.pop(stop.component, None)

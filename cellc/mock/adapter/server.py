@@ -9,6 +9,7 @@ import numpy as np
 from cellc.adapter import FollowerResult, FollowerStatus, Phase, TrajectoryFollower
 from cellc.contract.adapter import ContractAdapter
 from cellc.contract.contract import ContractJointLimits
+from cellc.mock.adapter.disturbances import AdapterDisturbances
 from cellc.mock.adapter.goal import adapter_model, first_refusal, read_goal
 from cellc.mock.adapter.simulated import SimulatedAdapter
 from cellc.mock.control import (
@@ -41,6 +42,7 @@ class AdapterServer:
 
     Attributes:
         adapter: the device.
+        disturbances: its faults.
         period_ns: of commands and states.
         now_ns: time that is reached.
     """
@@ -53,6 +55,7 @@ class AdapterServer:
         self.period_ns = round(facts.command_period_s * 1e9)
         model = adapter_model(device, facts, limits, clock)
         self.adapter = SimulatedAdapter(model, facts.start_positions, lambda: self.now_ns)
+        self.disturbances = AdapterDisturbances(self.adapter)
         self._device = device
         self._next_ns = 0
         self._events: list[ControlEvent] = []
@@ -96,6 +99,10 @@ class AdapterServer:
     def cancel_all(self, controller: str) -> CancelResponse:
         """Cancel the goal that executes, if there is one."""
         return CancelResponse(0) if self._follower is None else self.cancel_goal(self._goals)
+
+    def joint_positions(self) -> dict[str, float]:
+        """Return where the joints stand."""
+        return dict(zip(self.adapter.model.joint_names, self.adapter.read().positions, strict=True))
 
     def advance(self, until_ns: int) -> int:
         """Run the periods up to ``until_ns``, or up to the first that has something to tell."""

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+import numpy as np
+
 from cellc.adapter import AdapterModel, DeviceState, JointCommand, Phase, Refusal, check_command
+from cellc.mock.control.hardware.disturbances import JointFault
 
 WATCHDOG_FAULT = "no command within the watchdog's time"
 
@@ -13,12 +16,12 @@ class SimulatedAdapter:
     """A device in simulated time; joints reach a command one period after it was taken.
 
     Attributes:
-        stuck: joints that no longer follow, set by a fault.
+        joint_faults: of the joints that do not follow their commands as they should.
     """
 
     def __init__(self, model: AdapterModel, positions: tuple[float, ...], now_ns: Callable[[], int]) -> None:
         """Bind the device at its initial positions; ``now_ns`` is its clock."""
-        self.stuck: set[str] = set()
+        self.joint_faults: dict[str, JointFault] = {}
         self._model = model
         self._clock = now_ns
         self._phase = Phase.UNCONFIGURED
@@ -105,6 +108,15 @@ class SimulatedAdapter:
         if self._streaming:
             self._brake(self.now_ns())
 
+    def disturb(self, joint: str, fault: JointFault) -> None:
+        """Let a joint have a fault from now on in place of the one it had; an offset moves it at once."""
+        shift = fault.offset - self.joint_faults.get(joint, JointFault()).offset
+        column = self._model.joint_names.index(joint)
+        self._from, self._to = (
+            (*ends[:column], ends[column] + shift, *ends[column + 1 :]) for ends in (self._from, self._to)
+        )
+        self.joint_faults[joint] = fault
+
     def trip(self, reason: str) -> None:
         """Let the vendor's safety stop the device until ``release``."""
         self._safety_stop = reason
@@ -133,10 +145,19 @@ class SimulatedAdapter:
         self._from, self._taken_ns, self._stop_velocity = positions, at_ns, velocities
 
     def _reachable(self, wanted: tuple[float, ...], at: tuple[float, ...]) -> tuple[float, ...]:
-        if not self.stuck:
+        """Return where the joints are one period after a command."""
+        if not self.joint_faults:
             return wanted
-        names = self._model.joint_names
-        return tuple(here if name in self.stuck else there for name, here, there in zip(names, at, wanted, strict=True))
+        return tuple(
+            self._followed(name, here, there)
+            for name, here, there in zip(self._model.joint_names, at, wanted, strict=True)
+        )
+
+    def _followed(self, joint: str, at: float, wanted: float) -> float:
+        fault = self.joint_faults.get(joint)
+        if fault is None:
+            return wanted
+        return float(fault.follow(np.array([wanted]), at, self._model.command_period_s)[0])
 
     def _motion(self, at_ns: int) -> tuple[tuple[float, ...], tuple[float, ...]]:
         """Return positions and velocities at an instant since the last command or brake."""

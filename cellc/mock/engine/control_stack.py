@@ -67,6 +67,11 @@ class ControlStack:
             history = JointStateHistory(horizon_s, server.period_ns, broadcaster=device)
             self.histories[(device, device)] = history
 
+    @property
+    def longest_period_ns(self) -> int:
+        """The time after which every manager and every adapter has gone through a cycle."""
+        return max((server.period_ns for server in self._servers()), default=0)
+
     def manager_of(self, controller: str) -> ControllerManager:
         """Return the manager of a controller of the contract."""
         return self.managers[self._manager_of[controller]]
@@ -75,11 +80,20 @@ class ControlStack:
         """Return what takes the goals of a controller, or of a device behind an adapter."""
         return self.adapters[name] if name in self.adapters else self.manager_of(name)
 
-    def manager_of_joint(self, joint: str) -> Iterator[ControllerManager]:
-        """Yield the managers whose hardware has a joint."""
+    def servers_of_joint(self, joint: str) -> Iterator[GoalServer]:
+        """Yield the managers whose hardware has a joint, or the adapter whose device has it."""
         for manager in self.managers.values():
             if joint in manager.joint_positions():
                 yield manager
+        for server in self.adapters.values():
+            if joint in server.adapter.model.joint_names:
+                yield server
+
+    def servers_of_component(self, component: str) -> Iterator[GoalServer]:
+        """Yield the managers that have a hardware component, or the adapter of the device of this name."""
+        yield from self.managers_of_component(component)
+        if component in self.adapters:
+            yield self.adapters[component]
 
     def managers_of_component(self, component: str) -> Iterator[ControllerManager]:
         """Yield the managers that have a hardware component."""

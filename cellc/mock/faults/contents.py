@@ -11,17 +11,24 @@ def controllers(contract: Contract) -> dict[str, ContractController]:
 
 
 def driven_joints(contract: Contract) -> dict[str, str]:
-    """Return the controller that moves each joint after start-up."""
-    return {
+    """Return the controller that moves each joint after start-up, or the device whose adapter does."""
+    driven = {
         joint: name
         for name, facts in controllers(contract).items()
         if facts.active and facts.action is not None
         for joint in facts.joints
     }
+    return driven | {joint: device for device, facts in contract.adapters.items() for joint in facts.joints}
+
+
+def device_of(contract: Contract, controller: str) -> str | None:
+    """Return the device that a controller moves; what is commanded behind an adapter is the device itself."""
+    facts = controllers(contract).get(controller)
+    return controller if facts is None else facts.device
 
 
 def first_joints(contract: Contract) -> dict[str, str]:
-    """Return one joint of every controller that takes goals: the first, which stands for the others."""
+    """Return one joint of everything that takes goals: the first, which stands for the others."""
     firsts: dict[str, str] = {}
     for joint, controller in driven_joints(contract).items():
         firsts.setdefault(controller, joint)
@@ -34,8 +41,15 @@ def components(contract: Contract) -> dict[str, str]:
     return {name: component for name, component in found.items() if component is not None}
 
 
+def stoppable(contract: Contract) -> dict[str, str]:
+    """Return what stops of every device that stops by itself: its hardware component, or the device on its adapter."""
+    return components(contract) | {device: device for device in contract.adapters}
+
+
 def joints_of_device(contract: Contract, device: str) -> tuple[str, ...]:
-    """Return the joints that the controllers of a device drive, sorted."""
+    """Return the joints that the controllers of a device or its adapter drive, sorted."""
+    if device in contract.adapters:
+        return tuple(sorted(contract.adapters[device].joints))
     facts = controllers(contract).values()
     return tuple(sorted({joint for each in facts if each.device == device for joint in each.joints}))
 

@@ -7,7 +7,6 @@ states are published with new stamps until then.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import partial
 
 from cellc.contract.contract import Contract
@@ -24,12 +23,15 @@ KEEP_ALIVE_S = 0.02
 """Silence after which a robot and its driver give each other up: ten cycles at 500 Hz."""
 
 
-@dataclass(frozen=True, slots=True)
 class CutNetwork:
-    """Cuts a device off; ``component`` is None for a device without hardware of ros2_control."""
+    """Cuts a device off; a cut that is over before the driver gives up is borne."""
 
-    device: str
-    component: str | None
+    def __init__(self, device: str, component: str | None) -> None:
+        """Bind the fault to a device; ``component`` is None for one without hardware of ros2_control."""
+        self.device = device
+        self.component = component
+        self._cut = False
+        self._given_up = False
 
     @classmethod
     def of(cls, entry: FaultEntry, contract: Contract) -> CutNetwork | None:
@@ -43,18 +45,26 @@ class CutNetwork:
         if self.component is None:
             plant.network.cut({plant.cameras[self.device].device})
             return
+        self._cut = True
         for manager in plant.control.managers_of_component(self.component):
             manager.disturbances.ignore_commands(self.component)
         plant.simulation.at(plant.now_ns + round(KEEP_ALIVE_S * 1e9), partial(self._give_up, plant, self.component))
 
     def end(self, plant: Plant) -> None:
         """Connect again; a driver that gave up lets nothing move before somebody acknowledges."""
+        self._cut = False
         if self.component is None:
             plant.network.mend()
-        else:
+        elif self._given_up:
             plant.stops.end_cause(self.component)
+        else:
+            for manager in plant.control.managers_of_component(self.component):
+                manager.disturbances.heed_commands(self.component)
 
     def _give_up(self, plant: Plant, component: str) -> None:
+        if not self._cut:
+            return
+        self._given_up = True
         plant.stops.enter(component, FAULT)
         for manager in plant.control.managers_of_component(component):
             manager.disturbances.lose(component)

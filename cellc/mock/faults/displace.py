@@ -33,13 +33,13 @@ class Displace:
 
     def begin(self, plant: Plant) -> None:
         """Displace."""
-        for manager in plant.control.manager_of_joint(self.joint):
-            manager.disturbances.offset(self.joint, self.displacement)
+        for server in plant.control.servers_of_joint(self.joint):
+            server.disturbances.offset(self.joint, self.displacement)
 
     def end(self, plant: Plant) -> None:
         """Stand at the command again."""
-        for manager in plant.control.manager_of_joint(self.joint):
-            manager.disturbances.clear(self.joint)
+        for server in plant.control.servers_of_joint(self.joint):
+            server.disturbances.clear(self.joint)
 
 
 def cases(contract: Contract) -> Iterator[FaultCase]:

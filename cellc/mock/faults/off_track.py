@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from cellc.mock.bus.matching import served_actions
 from cellc.mock.faults.bounds import Bounds
 from cellc.mock.faults.case import BORNE, SUCCEEDED, Ending, ends_in
 from cellc.mock.faults.cell_steps import CellStep
-from cellc.mock.faults.contents import controllers
 
 
 def ending_off_track(bounds: Bounds, controller: str, *more: str) -> Callable[[CellStep], Ending]:
@@ -19,8 +19,8 @@ def ending_off_track(bounds: Bounds, controller: str, *more: str) -> Callable[[C
     Args:
         more: outcomes that this fault may have besides.
     """
-    facts = controllers(bounds.contract)[controller]
-    interface = bounds.contract.interfaces.get(facts.action or "")
+    action = served_actions(bounds.contract)[controller]
+    interface = bounds.contract.interfaces.get(action or "")
     unbounded = interface is None or interface.timeout_s is None
     patience = ("timeout",) if unbounded else ()
 

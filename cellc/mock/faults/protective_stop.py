@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from cellc.contract.contract import Contract
 from cellc.contract.rehearsals import FaultEntry
 from cellc.mock.faults.case import FaultCase
-from cellc.mock.faults.contents import components
+from cellc.mock.faults.contents import stoppable
 from cellc.mock.faults.stopping import stopping_case
 from cellc.mock.plant import Plant
 from cellc.mock.stops import PROTECTIVE_STOP
@@ -22,15 +22,15 @@ class ProtectiveStop:
 
     @classmethod
     def of(cls, entry: FaultEntry, contract: Contract) -> ProtectiveStop | None:
-        """Return the fault of an entry; None where its target has no hardware."""
-        component = components(contract).get(entry.target)
+        """Return the fault of an entry; None where nothing of its target can stop."""
+        component = stoppable(contract).get(entry.target)
         return None if component is None else cls(component)
 
     def begin(self, plant: Plant) -> None:
         """Stop."""
         plant.stops.enter(self.component, PROTECTIVE_STOP)
-        for manager in plant.control.managers_of_component(self.component):
-            manager.disturbances.protective_stop(self.component)
+        for server in plant.control.servers_of_component(self.component):
+            server.disturbances.protective_stop(self.component)
 
     def end(self, plant: Plant) -> None:
         """Let what stopped it be over; it stays stopped until that is acknowledged."""
@@ -38,6 +38,6 @@ class ProtectiveStop:
 
 
 def cases(contract: Contract) -> Iterator[FaultCase]:
-    """Yield every device with hardware."""
-    for device in components(contract):
+    """Yield every device with hardware or an adapter."""
+    for device in stoppable(contract):
         yield stopping_case("protective_stop", device, "protective_stop", contract)

@@ -35,13 +35,13 @@ class Slow:
 
     def begin(self, plant: Plant) -> None:
         """Slow down."""
-        for manager in plant.control.manager_of_joint(self.joint):
-            manager.disturbances.slow(self.joint, self.velocity)
+        for server in plant.control.servers_of_joint(self.joint):
+            server.disturbances.slow(self.joint, self.velocity)
 
     def end(self, plant: Plant) -> None:
         """Follow as fast as commanded."""
-        for manager in plant.control.manager_of_joint(self.joint):
-            manager.disturbances.clear(self.joint)
+        for server in plant.control.servers_of_joint(self.joint):
+            server.disturbances.clear(self.joint)
 
 
 def cases(contract: Contract) -> Iterator[FaultCase]:

@@ -27,13 +27,13 @@ class Stick:
 
     def begin(self, plant: Plant) -> None:
         """Stick."""
-        for manager in plant.control.manager_of_joint(self.joint):
-            manager.disturbances.stick(self.joint)
+        for server in plant.control.servers_of_joint(self.joint):
+            server.disturbances.stick(self.joint)
 
     def end(self, plant: Plant) -> None:
         """Follow again."""
-        for manager in plant.control.manager_of_joint(self.joint):
-            manager.disturbances.clear(self.joint)
+        for server in plant.control.servers_of_joint(self.joint):
+            server.disturbances.clear(self.joint)
 
 
 def cases(contract: Contract) -> Iterator[FaultCase]:

@@ -14,7 +14,7 @@ from cellc.contract.rehearsals import FaultEntry
 from cellc.mock.faults.bounds import Bounds
 from cellc.mock.faults.case import BORNE, SUCCEEDED, Ending, FaultCase, ends_in, fault_case
 from cellc.mock.faults.cell_steps import CellStep
-from cellc.mock.faults.contents import components, controllers, joints_of_device
+from cellc.mock.faults.contents import device_of, joints_of_device, stoppable
 from cellc.mock.plant import Plant
 from cellc.mock.stops import PROTECTIVE_STOP
 
@@ -35,8 +35,8 @@ class WrongPayload:
 
     @classmethod
     def of(cls, entry: FaultEntry, contract: Contract) -> WrongPayload | None:
-        """Return the fault of an entry; None where its target is no arm with hardware."""
-        component = components(contract).get(entry.target)
+        """Return the fault of an entry; None where its target is no arm that can stop."""
+        component = stoppable(contract).get(entry.target)
         if component is None or contract.devices[entry.target].kind != "arm":
             return None
         return cls(component, joints_of_device(contract, entry.target))
@@ -64,17 +64,17 @@ class WrongPayload:
         """Stop at once; what made the robot stop is over as soon as it stands."""
         plant.stops.enter(self._component, PROTECTIVE_STOP)
         plant.stops.end_cause(self._component)
-        for manager in plant.control.managers_of_component(self._component):
-            manager.disturbances.protective_stop(self._component)
+        for server in plant.control.servers_of_component(self._component):
+            server.disturbances.protective_stop(self._component)
 
     def _positions(self, plant: Plant) -> dict[str, float]:
-        managers = plant.control.managers_of_component(self._component)
-        return {joint: manager.joint_positions()[joint] for manager in managers for joint in self._joints}
+        servers = plant.control.servers_of_component(self._component)
+        return {joint: server.joint_positions()[joint] for server in servers for joint in self._joints}
 
 
 def cases(contract: Contract) -> Iterator[FaultCase]:
     """Yield every arm."""
-    for device in components(contract):
+    for device in stoppable(contract):
         if contract.devices[device].kind == "arm":
             entry = FaultEntry(kind="wrong_payload", target=device)
             yield fault_case(entry, contract, partial(_ending, Bounds(contract), device))
@@ -82,6 +82,6 @@ def cases(contract: Contract) -> Iterator[FaultCase]:
 
 def _ending(bounds: Bounds, device: str, step: CellStep) -> Ending:
     """A step that leaves the arm where it stands bears the fault."""
-    if not any(controllers(bounds.contract)[name].device == device for name in step.controllers):
+    if not any(device_of(bounds.contract, name) == device for name in step.controllers):
         return BORNE
     return ends_in("protective_stop", SUCCEEDED, within_s=bounds.execution_s(step))

@@ -74,9 +74,8 @@ class TaskContext:
         self.check_cell()
 
     def let_take_effect(self) -> Waiting[None]:
-        """Wait until what was asked of the controller managers at this instant has been carried out."""
-        periods = (manager.period_ns for manager in self.plant.control.managers.values())
-        until_ns = self.now_ns + max(periods, default=0)
+        """Wait until what was asked of controller managers and adapters at this instant has been carried out."""
+        until_ns = self.now_ns + self.plant.control.longest_period_ns
         while self.now_ns < until_ns:
             yield Wait(until_ns)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from cellc.contract.contract import ContractGripper
-from cellc.mock.control import GripperEnded, GripperGoal
+from cellc.mock.control import GripperGoal
 from cellc.mock.engine.process import Waiting
 from cellc.mock.task.arrival import state_since
 from cellc.mock.task.attempt import Attempt
@@ -28,27 +28,16 @@ def grip(context: TaskContext, attempt: Attempt, device: str, command: str) -> W
     if facts is None or facts.controller is None:
         raise AttemptError(Outcome.GOAL_REJECTION, f"no controller drives gripper {device}")
     between = _object_between(context, device) if command == "close" else None
-    if between is not None:
-        _block(context, facts)
-    elif command == "open":
-        _free(context, facts)
     target = facts.closed if command == "close" else facts.open
     goal = _goal(context, facts, target)
     ended = yield from execute(context, attempt, "grip", facts.controller, goal, GRIP_TIMEOUT_S)
-    holds = between is not None and isinstance(ended, GripperEnded) and ended.stalled
-    if not holds:  # fingers that stall on an object have done what they were told
-        require_success(ended, context)
+    require_success(ended, context)
     state = yield from state_since(context, ended.decided_ns)
-    _require_arrival(state, facts, target if between is None else _stop(facts, target))
+    _require_arrival(state, facts, target)
     if between is not None:
         _take(context, device, between)
     elif command == "open":
         _release(context, device)
-
-
-def _stop(facts: ContractGripper, target: float) -> float:
-    """Return where the fingers come to rest on an object."""
-    return target if facts.held_object_position is None else facts.held_object_position
 
 
 def _require_arrival(state: CurrentState, facts: ContractGripper, expected: float) -> None:
@@ -97,22 +86,6 @@ def _tip_link(context: TaskContext, device: str) -> str | None:
                 break
             frame = contract.frames[frame].parent
     return None
-
-
-def _block(context: TaskContext, facts: ContractGripper) -> None:
-    """Let the object stop the fingers where the contract says that it does."""
-    if facts.held_object_position is None:
-        return
-    closing = facts.closed > facts.open
-    lower = -math.inf if closing else facts.held_object_position
-    upper = facts.held_object_position if closing else math.inf
-    for manager in context.plant.control.manager_of_joint(facts.joint):
-        manager.disturbances.block(facts.joint, lower, upper)
-
-
-def _free(context: TaskContext, facts: ContractGripper) -> None:
-    for manager in context.plant.control.manager_of_joint(facts.joint):
-        manager.disturbances.block(facts.joint, -math.inf, math.inf)
 
 
 def _take(context: TaskContext, device: str, name: str) -> None:

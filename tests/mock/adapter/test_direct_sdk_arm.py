@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from cellc.adapter import Phase
-from cellc.contract.rehearsals import FaultEntry, RehearsalEntry, StepEntry
+from cellc.contract.rehearsals import FaultEntry, FaultKind, RehearsalEntry, StepEntry
 from cellc.mock import MockCell, RehearsalResult, load
 from cellc.mock.control import GripperGoal, TrajectoryGoal, TrajectoryPoint
 from cellc.mock.faults.possible import possible_faults
@@ -32,7 +32,11 @@ def cell(tmp_path_factory: pytest.TempPathFactory) -> MockCell:
 
 
 def run(
-    cell: MockCell, *faults: FaultEntry, at_s: float = 1.0, action: Callable[[Plant], None] | None = None
+    cell: MockCell,
+    *faults: FaultEntry,
+    steps: tuple[StepEntry, ...] = REACH,
+    at_s: float = 1.0,
+    action: Callable[[Plant], None] | None = None,
 ) -> tuple[RehearsalResult, Plant]:
     """Rehearse the reach; ``action`` happens at a simulated time after the bring-up began."""
     plants: list[Plant] = []
@@ -42,7 +46,7 @@ def run(
         if action is not None:
             plant.simulation.at(round(at_s * 1e9), lambda: action(plant))
 
-    entry = RehearsalEntry(name="reach", steps=REACH, faults=faults, expect="succeeded", within_s=None, timeout_s=60.0)
+    entry = RehearsalEntry(name="reach", steps=steps, faults=faults, expect="succeeded", within_s=None, timeout_s=60.0)
     return cell.rehearse(entry, watch=watch), plants[0]
 
 
@@ -96,13 +100,53 @@ def test_stop_by_the_vendor_ends_the_rehearsal_as_a_protective_stop(cell: MockCe
 
 
 def test_arm_that_sticks_is_a_tolerance_violation(cell: MockCell) -> None:
-    def stick(plant: Plant) -> None:
-        adapter = plant.control.adapters["arm"].adapter
-        adapter.stuck.add(adapter.model.joint_names[0])
-
-    result, _ = run(cell, action=stick)
+    joint = cell.contract.adapters["arm"].joints[0]
+    result, _ = run(cell, FaultEntry(kind="stick", target=joint, at_s=0.5))
     assert result.outcome == "tolerance_violation"
     assert "away from its command" in result.attempts[-2].fault_code
+
+
+@pytest.mark.parametrize(("kind", "changes"), [("slow", {"velocity": 0.01}), ("displace", {"displacement": 0.2})])
+def test_joint_that_is_slow_or_displaced_is_a_tolerance_violation(
+    cell: MockCell, kind: FaultKind, changes: dict[str, float]
+) -> None:
+    fault = FaultEntry(kind=kind, target=cell.contract.adapters["arm"].joints[0], at_s=0.5, **changes)
+    result, _ = run(cell, fault)
+    assert result.outcome == "tolerance_violation"
+    assert "away from its command" in result.attempts[-2].fault_code
+
+
+def test_displaced_joint_moves_at_once_and_back_when_that_is_over(cell: MockCell) -> None:
+    joint = cell.contract.adapters["arm"].joints[1]
+    still = (StepEntry(kind="wait", target="", duration_s=1.0),)
+    _, plant = run(
+        cell, FaultEntry(kind="displace", target=joint, at_s=0.2, displacement=0.2, lasting_s=0.4), steps=still
+    )
+    history = plant.control.histories[("arm", "arm")]
+    column = history.positions[:, history.names.index(joint)]
+    assert column.max() - column[0] == pytest.approx(0.2, abs=1e-12)
+    assert column[-1] == pytest.approx(column[0], abs=1e-12)
+
+
+STOPS: tuple[tuple[FaultKind, str], ...] = (
+    ("protective_stop", "protective_stop"),
+    ("emergency_stop", "emergency_stop"),
+    ("wrong_payload", "protective_stop"),
+)
+
+
+@pytest.mark.parametrize(("kind", "outcome"), STOPS)
+def test_stop_of_the_device_has_its_own_outcome_and_lasts_until_it_is_acknowledged(
+    cell: MockCell, kind: FaultKind, outcome: str
+) -> None:
+    acknowledge = StepEntry(kind="acknowledge", target=cell.contract.safety.acknowledge)
+    steps = (*REACH[:2], StepEntry(kind="wait", target="", duration_s=2.0), REACH[0], acknowledge, *REACH)
+    result, plant = run(cell, FaultEntry(kind=kind, target="arm", at_s=0.5, lasting_s=1.0), steps=steps)
+    outcomes = [record.outcome for record in result.attempts[: len(steps)]]
+    assert outcomes == ["succeeded", outcome, "succeeded", outcome, *["succeeded"] * 4]
+    stopped, refused = result.attempts[1], result.attempts[3]
+    assert (stopped.action_goal_id is None, refused.action_goal_id) == (False, None)
+    assert plant.control.adapters["arm"].adapter.phase is Phase.ACTIVE
 
 
 def test_runs_are_the_same_to_the_last_bit(cell: MockCell) -> None:
@@ -151,7 +195,10 @@ def test_periods_that_the_adapter_misses_are_missed_cycles_and_trip_its_watchdog
 
 
 def test_every_fault_at_every_step_ends_in_a_named_outcome(cell: MockCell) -> None:
-    for case in possible_faults(cell.contract):
+    cases = possible_faults(cell.contract)
+    kinds = {case.entry.kind for case in cases}
+    assert {"stick", "slow", "displace", "freeze", "wrong_payload", "protective_stop", "emergency_stop"} <= kinds
+    for case in cases:
         outcomes = case.outcomes(REACH, 2)
         entry = RehearsalEntry(
             name="reach", steps=REACH, faults=(case.at(2),), expect="succeeded", within_s=None, timeout_s=60.0

@@ -16,6 +16,7 @@ from cellc.adapter import (
     Waypoint,
 )
 from cellc.mock.adapter.simulated import SimulatedAdapter
+from cellc.mock.control.hardware.disturbances import JointFault
 
 PERIOD_S = 0.002
 
@@ -86,7 +87,7 @@ def test_cancel_ends_at_standstill_before_the_stop_time_is_over() -> None:
 def test_joint_that_sticks_ends_in_a_violated_path_tolerance() -> None:
     arm = Arm(rest_to_rest(1.0, 2.0))
     arm.run(0.5)
-    arm.adapter.stuck.add("joint")
+    arm.adapter.disturb("joint", JointFault(stuck=True))
     result = arm.run(1.0)
     assert result is not None
     assert result.status is FollowerStatus.PATH_TOLERANCE_VIOLATED

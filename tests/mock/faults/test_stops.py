@@ -53,6 +53,11 @@ def test_nothing_moves_after_the_reconnect_before_a_new_goal_is_sent(
     assert done.travel(home.started_ns, home.ended_ns) > 0.01
 
 
+def test_cut_that_is_over_before_the_driver_gives_up_is_borne(run: Rehearse) -> None:
+    done = run(during(3, "cut_network", "arm", lasting_s=0.01))
+    assert done.result.outcome == "succeeded"
+
+
 def test_reconnect_alone_leaves_the_arm_stopped(run: Rehearse) -> None:
     done = run(during(3, "restart_driver", "arm", lasting_s=0.2), steps=(HOME, DETECT, PICK, wait(5.0), HOME))
     assert done.result.outcome == "hardware_fault"
