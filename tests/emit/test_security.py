@@ -56,7 +56,7 @@ def test_only_declared_sources_may_publish() -> None:
 def test_only_the_bring_up_may_switch_controllers() -> None:
     policy = _policy("ur5e_pick")
     holders = _holders(policy, "services", "request", "/controller_manager/switch_controller")
-    assert holders == {"spawner_joint_states", "bring_up"}
+    assert holders == {"bring_up"}
     assert _holders(policy, "services", "reply", "/controller_manager/switch_controller") == {"controller_manager"}
 
 

@@ -39,14 +39,14 @@ def _enclaves(cell: Cell) -> Iterator[Element]:
             yield _enclave(enclave_of(cell, node), [node_profile(cell, node)])
     for manager in cell.managers:
         yield _enclave(manager_enclave(cell, manager), manager_process(cell, manager))
-        yield _enclave(spawner_enclave(cell, manager), _spawners(manager))
+        yield _enclave(spawner_enclave(cell, manager), _spawners(cell, manager))
     yield _enclave(bring_up_enclave(cell), [*bring_up_profiles(cell)])
 
 
-def _spawners(manager: ControllerManager) -> Iterator[Profile]:
+def _spawners(cell: Cell, manager: ControllerManager) -> Iterator[Profile]:
     # The spawner names itself after its first controller.
     for one in spawnings(manager):
-        yield manager_client(manager, f"spawner_{one.controllers[0]}")
+        yield manager_client(cell, manager, f"spawner_{one.controllers[0]}")
 
 
 def _enclave(path: str, profiles: Iterator[Profile] | list[Profile]) -> Element:

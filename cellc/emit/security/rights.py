@@ -44,6 +44,7 @@ _MANAGER = (
     "switch_controller",
     "unload_controller",
 )
+_OF_SPAWNER = ("configure_controller", "list_controllers", "load_controller")  # what `spawner --inactive` calls
 _CLEANUP = "cleanup_controller"  # Jazzy and later
 _CONTROLLER_STATE = "~/controller_state"
 
@@ -121,18 +122,10 @@ def _own(controller: Controller, name: str) -> str:
     return JOINT_STATES if name == "joint_states" else f"{controller.namespace}/{name}"
 
 
-def manager_client(manager: ControllerManager, node: str) -> Profile:
-    """Return the rights of a spawner: to ask the manager and to set the parameters of what it loads."""
-    name = manager.node
-    asked = (*(f"{name}/{service}" for service in (*_MANAGER, _CLEANUP)), f"{name}/set_parameters")
-    return Profile(
-        namespace=manager.namespace,
-        node=node,
-        publish=_PUBLISH,
-        subscribe=_SUBSCRIBE,
-        reply=(*_PARAMETERS, _TYPE_DESCRIPTION),
-        request=(*asked, f"{name}/get_parameters", f"{name}/describe_parameters", f"{name}/list_parameters"),
-    )
+def manager_client(cell: Cell, manager: ControllerManager, node: str) -> Profile:
+    """Return the rights of a spawner that loads and configures: it can activate nothing, and sets no parameters."""
+    asked = tuple(f"{manager.node}/{service}" for service in _OF_SPAWNER)
+    return replace(_granted(cell, f"{manager.namespace}/{node}", ()), request=asked)
 
 
 def _granted(cell: Cell, full_name: str, services: tuple[str, ...]) -> Profile:
