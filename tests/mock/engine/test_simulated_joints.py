@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from cellc.mock import load
+from cellc.mock.plant import Plant
 from cellc.output.write import write
 from cellc.pipeline import check, compile_cell
 

@@ -14,13 +14,16 @@ class SpeedScaling:
 
     Args:
         context: the controller's context.
-        scaled: whether `speed_scaling_interface_name` names the state interface.
+        scaled: whether `speed_scaling_interface_name` names the state interface where the upstream parameter does not;
+            vendors' scaled controllers have the one or the other.
     """
 
     def __init__(self, context: Context, scaled: bool) -> None:
         parameters = context.parameters
         self._context = context
-        self._state = parameters.text("speed_scaling_interface_name" if scaled else "speed_scaling.state_interface")
+        self._state = parameters.text("speed_scaling.state_interface")
+        if scaled and not self._state:
+            self._state = parameters.text("speed_scaling_interface_name")
         self._command = parameters.text("speed_scaling.command_interface")
         self._column: int | None = None
         self.factor = parameters.number("speed_scaling.initial_scaling_factor")
