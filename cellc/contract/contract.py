@@ -140,7 +140,6 @@ class ContractGripper(ContractModel):
     open: float = Field(description="Position when open.")
     closed: float = Field(description="Position when closed on nothing.")
     max_effort: float = Field(description="Largest effort, N or Nm.")
-    held_object_position: float | None = Field(None, description="Joint position at which a grasped object stops it.")
 
 
 class ContractCamera(ContractModel):

@@ -62,7 +62,6 @@ def _gripper(cell: Cell, device: Device) -> ContractGripper | None:
         open=facts.open.si,
         closed=facts.closed.si,
         max_effort=facts.max_force.si,
-        held_object_position=None,
     )
 
 
