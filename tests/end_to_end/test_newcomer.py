@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.refused import process
-from tests.cli.run import PICK, ROOT, Ran
+from tests.cli.run import PICK, ROOT, Ran, run
 
 INIT = ("init", "bench", "arm=ur5e", "gripper=robotiq_2f_85")
 
@@ -17,6 +17,20 @@ def _ran(folder: Path, line: str) -> Ran:
     ran = process(*line.split(), cwd=folder)
     assert ran.code == 0, ran.out + ran.err
     return ran
+
+
+@pytest.fixture(name="empty")
+def empty_fixture(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Return an empty folder, which is the current one."""
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def _ran_here(line: str) -> str:
+    """Run a command in this process: what processes of their own add, the steps of the README hold."""
+    ran = run(*line.split())
+    assert ran.code == 0, ran.out + ran.err
+    return ran.out
 
 
 def _commands_of_readme() -> list[str]:
@@ -38,17 +52,19 @@ def test_readme_leads_from_an_empty_folder_to_a_rehearsed_cell(tmp_path: Path) -
 
 
 @pytest.mark.parametrize("ros", ["humble", "jazzy", "kilted", "lyrical"])
-def test_cell_of_init_passes_on_every_distribution(ros: str, tmp_path: Path) -> None:
-    _ran(tmp_path, f"{' '.join(INIT)} --ros {ros}")
-    _ran(tmp_path, "build cells/bench/cell.yaml")
-    assert "passed  ready" in _ran(tmp_path, "mock generated/bench").out
+@pytest.mark.usefixtures("empty")
+def test_cell_of_init_passes_on_every_distribution(ros: str) -> None:
+    _ran_here(f"{' '.join(INIT)} --ros {ros}")
+    _ran_here("build cells/bench/cell.yaml")
+    assert "passed  ready" in _ran_here("mock generated/bench")
 
 
 @pytest.mark.parametrize("models", ["ur5e", "robotiq_2f_85", "realsense_d435i", "ur5e ur5e robotiq_2f_85"])
-def test_cell_of_init_builds_and_runs_with_any_devices(models: str, tmp_path: Path) -> None:
-    _ran(tmp_path, f"init bench {models}")
-    _ran(tmp_path, "build cells/bench/cell.yaml")
-    _ran(tmp_path, "mock generated/bench")
+@pytest.mark.usefixtures("empty")
+def test_cell_of_init_builds_and_runs_with_any_devices(models: str) -> None:
+    _ran_here(f"init bench {models}")
+    _ran_here("build cells/bench/cell.yaml")
+    _ran_here("mock generated/bench")
 
 
 def test_init_tells_the_next_step_and_the_editor_finds_the_schema(tmp_path: Path) -> None:
@@ -71,21 +87,21 @@ def test_build_writes_the_same_bytes_from_any_folder(pick: Path, tmp_path: Path)
     assert built == again
 
 
-def test_edited_file_is_kept_and_named_until_it_is_forced(tmp_path: Path) -> None:
-    _ran(tmp_path, " ".join(INIT))
-    _ran(tmp_path, "build cells/bench/cell.yaml")
-    file = tmp_path / "generated/bench/config/controllers.yaml"
+def test_edited_file_is_kept_and_named_until_it_is_forced(empty: Path) -> None:
+    _ran_here(" ".join(INIT))
+    _ran_here("build cells/bench/cell.yaml")
+    file = empty / "generated/bench/config/controllers.yaml"
     file.write_text(file.read_text() + "# mine\n")
-    (tmp_path / "generated/bench/notes.md").write_text("mine")
+    (empty / "generated/bench/notes.md").write_text("mine")
     for arguments in (("build",), ("build", "--check")):
-        ran = process(*arguments, "cells/bench/cell.yaml", cwd=tmp_path)
+        ran = run(*arguments, "cells/bench/cell.yaml")
         assert ran.code == 1
         assert "generated/bench/config/controllers.yaml" in ran.out
     assert file.read_text().endswith("# mine\n")
-    _ran(tmp_path, "build --force cells/bench/cell.yaml")
+    _ran_here("build --force cells/bench/cell.yaml")
     assert "# mine" not in file.read_text()
-    assert (tmp_path / "generated/bench/notes.md").read_text() == "mine"
-    assert "as the cell makes it" in _ran(tmp_path, "build --check cells/bench/cell.yaml").out
+    assert (empty / "generated/bench/notes.md").read_text() == "mine"
+    assert "as the cell makes it" in _ran_here("build --check cells/bench/cell.yaml")
 
 
 def _contents(folder: Path) -> dict[str, bytes]:
