@@ -23,6 +23,7 @@ from cellc.rules.control import (
     uneven_update_rate,
     unknown_controller_parameter,
     unscaled_trajectory,
+    wrong_joint_count,
     wrong_parameter_type,
 )
 
@@ -47,5 +48,6 @@ RULES = (
     uneven_update_rate.RULE,
     unknown_controller_parameter.RULE,
     unscaled_trajectory.RULE,
+    wrong_joint_count.RULE,
     wrong_parameter_type.RULE,
 )

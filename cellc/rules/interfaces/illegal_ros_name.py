@@ -44,12 +44,17 @@ def check(graph: CellGraph) -> Iterator[Finding]:
     for interface in graph.cell.interfaces:
         longest = _LONGEST[interface.kind]
         if _NAME.fullmatch(interface.name) is None:
-            legal = "/" + re.sub(r"[^A-Za-z0-9_/]", "_", interface.name).strip("/")
             message = f"`{interface.name}` is no full ROS name"
-            yield found(graph, interface.path, message, f"write `{legal}`, as the nodes do")
+            yield found(graph, interface.path, message, f"write `{_legal(interface.name)}`, as the nodes do")
         elif len(interface.name) > longest:
             message = f"`{interface.name[:40]}…` has {len(interface.name)} characters, at most {longest} are allowed"
             yield found(graph, interface.path, message, "shorten the name")
+
+
+def _legal(name: str) -> str:
+    """Return the nearest full name that is legal: other characters as `_`, and `_` before a digit that begins a part."""
+    parts = (re.sub(r"[^A-Za-z0-9]+", "_", part).strip("_") for part in name.split("/"))
+    return "".join(f"/_{part}" if part[0].isdigit() else f"/{part}" for part in parts if part) or "/name"
 
 
 RULE = define("illegal-ros-name", Severity.ERROR, check, __doc__)

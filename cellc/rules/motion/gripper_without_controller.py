@@ -43,4 +43,4 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             yield found(graph, step.path, message, "add a controller of type `parallel_gripper` for it")
 
 
-RULE = define("gripper-without-controller", Severity.ERROR, check, __doc__)
+RULE = define("gripper-without-controller", Severity.ERROR, check, __doc__, assumes=("wrong-joint-count",))

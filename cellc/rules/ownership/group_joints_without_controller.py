@@ -49,4 +49,4 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             yield found(graph, path, message, "give the controller all joints of the group", related)
 
 
-RULE = define("group-joints-without-controller", Severity.ERROR, check, __doc__)
+RULE = define("group-joints-without-controller", Severity.ERROR, check, __doc__, assumes=("wrong-joint-count",))

@@ -44,4 +44,4 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             yield found(graph, group.path, message, "add a trajectory controller for them")
 
 
-RULE = define("group-without-controller", Severity.ERROR, check, __doc__)
+RULE = define("group-without-controller", Severity.ERROR, check, __doc__, assumes=("wrong-joint-count",))

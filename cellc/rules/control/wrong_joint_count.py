@@ -1,0 +1,54 @@
+"""A controller drives more joints than its kind can, or none.
+
+It is loaded and fails when it is configured: a trajectory controller refuses an empty list of joints, a gripper
+controller takes one name. Everything that waits for its claims waits for ever.
+
+Example that is reported:
+
+```yaml
+control:
+  controllers:
+    gripper_action: {device: camera}
+```
+
+Example that is accepted:
+
+```yaml
+control:
+  controllers:
+    gripper_action: {device: gripper}
+```
+
+Fix: name the device whose joints it drives, or the joints themselves.
+
+Source: parameter declarations of the controllers, in the catalogue with their source: `joints` may not be empty, and
+`joint` of a gripper controller is one name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.diagnostics import Severity
+from cellc.graph.cell_graph import CellGraph
+from cellc.graph.controller_kinds import kind_of
+from cellc.rule import Finding
+from cellc.rules.define import define
+from cellc.rules.finding import found
+
+
+def check(graph: CellGraph) -> Iterator[Finding]:
+    """Yield controllers without a joint where their kind names joints, or with several where it names one."""
+    for controller in graph.cell.controllers:
+        kind = kind_of(graph.cell, controller)
+        number = len(controller.joints)
+        if kind is None or kind.joints_parameter is None or number == 1 or (number and not kind.single_joint):
+            continue
+        due = "one joint" if kind.single_joint else "at least one joint"
+        has = f"`{controller.device}` has none that is driven" if number == 0 else f"not {number}"
+        message = f"`{controller.name}` of kind `{controller.kind}` drives {due}, {has}"
+        help_text = "name the device whose joints it drives" if number == 0 else "name the one joint under `joints`"
+        yield found(graph, (*controller.path, "device"), message, help_text)
+
+
+RULE = define("wrong-joint-count", Severity.ERROR, check, __doc__)
