@@ -85,7 +85,9 @@ class TrajectoryFollower:
             return
         now_ns = self._adapter.now_ns()
         elapsed_s = (now_ns - self._begun_ns) / 1e9
-        if elapsed_s > self._trajectory.duration_s + self._adapter.model.command_period_s and _stands_still(state):
+        # After two periods the end was commanded twice: what is left is no motion that a hold would have to brake.
+        settled_s = self._trajectory.duration_s + 2.0 * self._adapter.model.command_period_s
+        if elapsed_s > settled_s and _stands_still(state):
             self._adapter.hold()
             self.result = FollowerResult(FollowerStatus.SUCCEEDED)
             return

@@ -23,11 +23,14 @@ from cellc.mock.control import (
     TrajectoryEnded,
     TrajectoryGoal,
 )
+from cellc.mock.control.journal import Cause, CommandJournal
 
 PATH_TOLERANCE = 0.05
 """rad or m by which a joint may be away from its command; nothing in a contract states it for an adapter."""
 GOAL_TIME_S = 0.5
 """Time after the end of a trajectory within which its joints have to stand still."""
+_SAME = 1e-9
+"""rad or m: a position nearer than this to the last command is the commanded one."""
 _ENDINGS = {
     FollowerStatus.SUCCEEDED: (GoalStatus.SUCCEEDED, 0),
     FollowerStatus.CANCELLED: (GoalStatus.CANCELED, 0),
@@ -43,6 +46,7 @@ class AdapterServer:
     Attributes:
         adapter: the device.
         disturbances: its faults.
+        journal: of the commands that it took.
         period_ns: of commands and states.
         now_ns: time that is reached.
     """
@@ -56,8 +60,11 @@ class AdapterServer:
         model = adapter_model(device, facts, limits, clock)
         self.adapter = SimulatedAdapter(model, facts.start_positions, lambda: self.now_ns)
         self.disturbances = AdapterDisturbances(self.adapter)
+        self.journal = CommandJournal()
+        self.journal.interface_names += [f"{name}/position" for name in facts.joints]
         self._device = device
         self._next_ns = 0
+        self._commanded = facts.start_positions
         self._events: list[ControlEvent] = []
         self._goals = 0
         self._follower: TrajectoryFollower | None = None
@@ -81,6 +88,7 @@ class AdapterServer:
         refused = first_refusal(trajectory, model)
         if refused:
             return GoalResponse(False, log_reason=refused)
+        self._note_start(trajectory.positions(0.0))
         self._goals += 1
         self._follower = TrajectoryFollower(
             self.adapter, trajectory, path_tolerance=PATH_TOLERANCE, goal_time_s=GOAL_TIME_S
@@ -149,6 +157,7 @@ class AdapterServer:
         self.now_ns = self._next_ns
         self._next_ns += self.period_ns
         result = None if self._follower is None else self._follower.step()
+        self._keep_command()
         state = self.adapter.read()
         self._stamps.append(self.now_ns)
         self._positions.append(state.positions)
@@ -156,6 +165,20 @@ class AdapterServer:
             self._tell_phase(state.phase, state.fault)
         if result is not None:
             self._tell_result(result)
+
+    def _keep_command(self) -> None:
+        command = self.adapter.fresh_command
+        if command is None:
+            return
+        self._commanded = command
+        if self.journal.listening:
+            stamps = np.array([self.now_ns], dtype=np.int64)
+            self.journal.add(self._device, range(len(command)), stamps, np.array([command]))
+
+    def _note_start(self, start: tuple[float, ...]) -> None:
+        """Note where a trajectory starts beside the last command: after a stop, or from a joint that did not follow."""
+        if any(abs(a - b) > _SAME for a, b in zip(start, self._commanded, strict=True)):
+            self.journal.note(self.now_ns + 1, self._device, Cause.OFF_COMMAND)
 
     def _tell_phase(self, phase: Phase, fault: str) -> None:
         stopped = Phase.STOPPED in (phase, self._phase)

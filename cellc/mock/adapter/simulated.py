@@ -44,6 +44,11 @@ class SimulatedAdapter:
         """Where the device stands; readable without a connection."""
         return self._phase
 
+    @property
+    def fresh_command(self) -> tuple[float, ...] | None:
+        """Positions of the command that was taken at this instant; None where none was."""
+        return self._commanded if self._streaming and self._taken_ns == self.now_ns() else None
+
     def now_ns(self) -> int:
         """Return the device's time."""
         return self._clock()

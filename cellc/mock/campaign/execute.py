@@ -28,9 +28,9 @@ def execute(cell: MockCell, run: CampaignRun, seed: int) -> RunEnd:
     journals: list[CommandJournal] = []
 
     def watch(plant: Plant) -> None:
-        for manager in plant.control.managers.values():
-            manager.journal.listening = True
-            journals.append(manager.journal)
+        for server in plant.control.servers():
+            server.journal.listening = True
+            journals.append(server.journal)
 
     try:
         result = cell.rehearse(run.entry, seed=seed, watch=watch)

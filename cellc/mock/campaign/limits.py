@@ -74,6 +74,8 @@ def _of_controller(contract: Contract, samples: CommandSamples, interruptions: S
 
 
 def _sends_trajectories(contract: Contract, controller: str) -> bool:
+    if controller in contract.adapters:
+        return True
     entries = (manager.controllers.get(controller) for manager in contract.managers.values())
     return any(entry is not None and entry.behaviour in _TRAJECTORIES for entry in entries)
 

@@ -70,7 +70,7 @@ class ControlStack:
     @property
     def longest_period_ns(self) -> int:
         """The time after which every manager and every adapter has gone through a cycle."""
-        return max((server.period_ns for server in self._servers()), default=0)
+        return max((server.period_ns for server in self.servers()), default=0)
 
     def manager_of(self, controller: str) -> ControllerManager:
         """Return the manager of a controller of the contract."""
@@ -132,7 +132,7 @@ class ControlStack:
         A single manager or adapter stops at its events. Several go on together in short steps, and are heard after
         each step.
         """
-        servers = self._servers()
+        servers = self.servers()
         if len(servers) == 1:
             servers[0].advance(until_ns)
             until_ns = servers[0].now_ns
@@ -148,7 +148,7 @@ class ControlStack:
 
     def dispatch(self, now_ns: int) -> None:
         """Hand what happened, and what was asked for just now, to the listeners; then wake who waits for it."""
-        for server in self._servers():
+        for server in self.servers():
             self.events += server.take_events()
         if not self.events:
             return
@@ -181,7 +181,8 @@ class ControlStack:
                 for watcher in self._watchers:
                     watcher.joint_states(manager, controller, block)
 
-    def _servers(self) -> tuple[GoalServer, ...]:
+    def servers(self) -> tuple[GoalServer, ...]:
+        """Return every manager, then every adapter."""
         return (*self.managers.values(), *self.adapters.values())
 
     def _take_joint_states(self, manager: str, controller: str) -> JointStateBlock:

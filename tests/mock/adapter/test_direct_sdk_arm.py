@@ -10,7 +10,11 @@ import pytest
 from cellc.adapter import Phase
 from cellc.contract.rehearsals import FaultEntry, FaultKind, RehearsalEntry, StepEntry
 from cellc.mock import MockCell, RehearsalResult, load
+from cellc.mock.campaign.execute import execute
+from cellc.mock.campaign.limits import check_limits
+from cellc.mock.campaign.run import CampaignRun
 from cellc.mock.control import GripperGoal, TrajectoryGoal, TrajectoryPoint
+from cellc.mock.control.journal import CommandJournal
 from cellc.mock.faults.possible import possible_faults
 from cellc.mock.plant import Plant
 from cellc.output.write import write
@@ -192,6 +196,31 @@ def test_periods_that_the_adapter_misses_are_missed_cycles_and_trip_its_watchdog
     assert result.outcome in ("missed_cycle", "protective_stop")
     state = plant.control.adapters["arm"].adapter.read()
     assert (state.phase, state.fault) == (Phase.STOPPED, "no command within the watchdog's time")
+
+
+def test_commands_are_held_to_the_limits_of_the_cell(cell: MockCell) -> None:
+    entry = RehearsalEntry(name="reach", steps=REACH, faults=(), expect="succeeded", within_s=None, timeout_s=60.0)
+    report = execute(cell, CampaignRun.undisturbed(entry), 0).limits
+    # A motion of 40 degrees on the quickest profile comes to its limits of acceleration and jerk.
+    shares = {peak.quantity: peak.share for peak in report.peaks}
+    assert [shares["acceleration"], shares["jerk"]] == pytest.approx([1.0, 1.0], abs=1e-3)
+    assert (report.held, report.steps, report.unchecked) == (True, (), ())
+
+
+def test_command_beyond_a_limit_is_an_excess_of_the_device(cell: MockCell) -> None:
+    joint = cell.contract.adapters["arm"].joints[0]
+    halved = cell.contract.joint_limits[joint].model_copy(update={"jerk": cell.contract.joint_limits[joint].jerk / 2})
+    contract = cell.contract.model_copy(update={"joint_limits": {**cell.contract.joint_limits, joint: halved}})
+    journals: list[CommandJournal] = []
+
+    def listen(plant: Plant) -> None:
+        journals.append(plant.control.adapters["arm"].journal)
+        journals[0].listening = True
+
+    entry = RehearsalEntry(name="reach", steps=REACH, faults=(), expect="succeeded", within_s=None, timeout_s=60.0)
+    cell.rehearse(entry, watch=listen)
+    (excess,) = check_limits(contract, *journals[0].take()).excesses
+    assert (excess.controller, excess.joint, excess.quantity) == ("arm", joint, "jerk")
 
 
 def test_every_fault_at_every_step_ends_in_a_named_outcome(cell: MockCell) -> None:
