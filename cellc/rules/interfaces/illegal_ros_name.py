@@ -52,7 +52,7 @@ def check(graph: CellGraph) -> Iterator[Finding]:
 
 
 def _legal(name: str) -> str:
-    """Return the nearest full name that is legal: other characters as `_`, and `_` before a digit that begins a part."""
+    """Return the nearest legal full name: other characters as `_`, and `_` before a digit that begins a part."""
     parts = (re.sub(r"[^A-Za-z0-9]+", "_", part).strip("_") for part in name.split("/"))
     return "".join(f"/_{part}" if part[0].isdigit() else f"/{part}" for part in parts if part) or "/name"
 
