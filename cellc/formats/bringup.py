@@ -13,6 +13,7 @@ from cellc.cell.cell import Cell
 from cellc.cell.control import ControllerManager
 from cellc.cell.frame import WORLD, FrameKind
 from cellc.cell.interface import InterfaceKind, Node
+from cellc.formats.described_by import described_by
 from cellc.formats.hosts import host_of, host_of_manager
 from cellc.formats.movers import is_mover, movers
 from cellc.formats.spawning import Spawning, spawnings
@@ -57,7 +58,7 @@ def steps(cell: Cell) -> tuple[Step, ...]:
 def ready_to_move(cell: Cell, target: str) -> tuple[str, ...]:
     """Return what must show before a node that asks for motion is started: claims, actions, states.
 
-    For the mock that nothing but the mock runs: its argument is a word, and the description is what moves.
+    For the mock that no manager runs anything but the mock: a target is a word, and the description is what moves.
     """
     asking = {node.name for node in movers(cell)}
     claimed = (
@@ -71,7 +72,8 @@ def ready_to_move(cell: Cell, target: str) -> tuple[str, ...]:
         for one in cell.interfaces
         if one.kind is InterfaceKind.ACTION and target in one.targets and any(end.node in asking for end in one.sinks)
     )
-    return (*(("mocked",) if target == "mock" else ()), *claimed, *actions, *_states(cell))
+    mocked = (f"mocked {node}" for node in described_by(cell)) if target == "mock" else ()
+    return (*mocked, *claimed, *actions, *_states(cell))
 
 
 def activation(node: Node) -> str:

@@ -31,6 +31,6 @@ case "$1 $2" in
     echo "- Translation: [0.000, 0.000, 0.000]"
     ;;
   "action list") cat "$STATE/actions" ;;
-  "param get") cat "$STATE/description" ;;
+  "param get") cat "$STATE/description$4" ;; # --no-daemon NODE NAME
   *) exit 64 ;;
 esac

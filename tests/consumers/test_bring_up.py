@@ -64,6 +64,16 @@ def test_conditions_name_what_the_cell_has(cell: str, distro: str) -> None:
 
 
 @every_build
+def test_mover_of_the_mock_looks_at_the_description_of_every_manager(cell: str, distro: str) -> None:
+    # Each host is started with a target of its own, so that one manager may run the mock and another a robot.
+    managers = [namespace for namespace, _ in written_managers(cell)]
+    alone = f"/{'robot_state' if len(managers) == 1 else 'description'}_publisher"
+    asked = "/controller_manager" if distro == "humble" else alone
+    step = steps(cell, distro).get("move_mock", "")
+    assert re.findall(r"needs mocked (\S+)\n", step) == ([f"{one}{asked}" for one in managers] if step else [])
+
+
+@every_build
 def test_everything_is_activated_once_and_alternates_never(cell: str, distro: str) -> None:
     for target in ("mock", "real"):
         for namespace, manager in written_managers(cell):
@@ -96,7 +106,9 @@ def test_policy_lets_the_steps_ask_and_act(cell: str, distro: str) -> None:
             assert {f"{named[0]}/{one}" for one in ("list_controllers", "switch_controller")} <= may
         elif kind == "lifecycle":
             assert {f"{named[0]}/{one}" for one in ("get_state", "change_state", "get_available_transitions")} <= may
-    assert {"/tf", "/tf_static", "/robot_state_publisher/get_parameters"} <= may
+        elif kind == "mocked":
+            assert f"{named[0]}/get_parameters" in may
+    assert {"/tf", "/tf_static"} <= may
     # To wait is not to move: neither a goal nor a command may come from here.
     assert not [kind for profile in enclave.iter("profile") for kind in profile if kind.tag == "actions"]
 
@@ -110,7 +122,8 @@ class Stack:
             (self.state / name).mkdir(parents=True)
         (self.state / "log").touch()
         (self.state / "actions").write_text("/move_action\n/gripper_action/gripper_cmd\n")
-        (self.state / "description").write_text("<plugin>mock_components/GenericSystem</plugin>")
+        (self.state / "description").mkdir()
+        (self.state / "description" / "robot_state_publisher").write_text("<plugin>mock_components/GenericSystem</plugin>")
         tools = folder / "bin"
         tools.mkdir()
         (tools / "ros2").write_text((HERE / "fake_ros2.bash").read_text(encoding="utf-8"))
@@ -184,7 +197,7 @@ def test_mover_of_the_mock_is_not_started_on_real_hardware(tmp_path: Path, targe
     (stack.state / "nodes" / "perception").write_text("active\n")
     if target == "real":
         plugins = "<plugin>mock_components/GenericSystem</plugin><plugin>a_driver/Hardware</plugin>"
-        (stack.state / "description").write_text(plugins)
+        (stack.state / "description" / "robot_state_publisher").write_text(plugins)
     mover = stack.start("move_mock", "echo", "it moves", wait_s=1)
     said, _ = mover.communicate(timeout=60)
     assert ("it moves" in said) is (target == "mock")

@@ -62,6 +62,13 @@ def test_commands_only_read(page: str, cell: str) -> None:
         assert re.sub(r"^timeout \d+ ", "", command).startswith(_ALLOWED), command
 
 
+@pytest.mark.parametrize("cell", CELLS)
+def test_command_path_is_shown_by_runs_that_cancel_and_violate(cell: str) -> None:
+    # Declared rehearsals need not do either; the campaign behind --gates does both to every controller.
+    section = artifacts_of(cell)["gates/network.md"].split("## L6")[1]
+    assert f"cellc mock generated/{cell} --gates\n" in section
+
+
 def test_first_motion_is_said_with_all_its_bounds() -> None:
     text = artifacts_of("ur5e_pick")["gates/promotion.md"]
     assert "joint arm/wrist_3_joint, direction +, at most 5 deg, 5 deg/s, ends within 5 s" in text

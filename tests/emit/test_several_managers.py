@@ -108,3 +108,10 @@ def test_every_parameter_key_carries_its_namespace() -> None:
     joints = sections["/left/trajectory"]["ros__parameters"]["joints"]
     assert len(joints) == 6
     assert all(joint.startswith("left_") for joint in joints)
+
+
+def test_network_gate_looks_at_each_description_and_counts_each_source() -> None:
+    gates = _artifacts()["gates/network.md"]
+    for side in ("left", "right"):
+        assert f"ros2 param get /{side}/description_publisher robot_description | grep plugin" in gates
+    assert "`/joint_states` arrives at 500 Hz from each of 2 sources" in gates

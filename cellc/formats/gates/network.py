@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from cellc.cell.cell import Cell
 from cellc.cell.interface import Endpoint, Interface, InterfaceKind
+from cellc.formats.described_by import described_by
 from cellc.formats.gates.gate import Check, Gate
 from cellc.formats.gates.releases import start_mock
 from cellc.formats.movers import movers, started_by_a_person
@@ -104,9 +105,10 @@ def _data(cell: Cell) -> Gate:
 def _freshness(cell: Cell) -> Iterator[Check]:
     for interface in cell.interfaces:
         if interface.kind is InterfaceKind.TOPIC and interface.rate_hz is not None and "real" in interface.targets:
+            each = f" from each of {len(interface.sources)} sources" if len(interface.sources) > 1 else ""
             age = "" if interface.max_age_s is None else f", no sample older than {shortest(interface.max_age_s)} s"
             yield Check(
-                f"`{interface.name}` arrives at {shortest(interface.rate_hz)} Hz{age}",
+                f"`{interface.name}` arrives at {shortest(interface.rate_hz)} Hz{each}{age}",
                 (f"timeout 60 ros2 topic hz {interface.name}", f"timeout 60 ros2 topic delay {interface.name}"),
             )
 
@@ -153,11 +155,11 @@ def _command(cell: Cell) -> Gate:
             Check("The real target has ended, and the mock runs in its place", (start_mock(cell),)),
             Check(
                 "Every plugin of the description that runs is a mock",
-                ("ros2 param get /robot_state_publisher robot_description | grep plugin",),
+                tuple(f"ros2 param get {node} robot_description | grep plugin" for node in described_by(cell)),
             ),
             Check(
                 "A goal reaches the mock's controller, is cancelled, and violates a tolerance",
-                (f"cellc mock generated/{cell.name}",),
+                (f"cellc mock generated/{cell.name} --gates",),
             ),
         ),
         evidence="L6-command.md",

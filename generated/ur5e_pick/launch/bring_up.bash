@@ -18,14 +18,14 @@ holds() {
     topic) timeout 5 ros2 topic echo --no-daemon --once "$2" > /dev/null ;;
     action) ros2 action list | grep -Fqx -- "$2" ;;
     transform) timeout 5 ros2 run tf2_ros tf2_echo "$2" "$3" | grep -q -m 1 -- "- Translation:" ;;
-    mocked) [ "$(plugins)" = "<plugin>mock_components/GenericSystem" ] ;;
+    mocked) [ "$(plugins "$2")" = "<plugin>mock_components/GenericSystem" ] ;;
     *) return 1 ;;
   esac
 }
 
-# The hardware plugins of the description that runs, whatever a launch argument says.
+# The hardware plugins of the description that a manager runs, whatever a launch argument says.
 plugins() {
-  ros2 param get --no-daemon /robot_state_publisher robot_description | grep -o "<plugin>[^<]*" | sort -u
+  ros2 param get --no-daemon "$1" robot_description | grep -o "<plugin>[^<]*" | sort -u
 }
 
 # Waits until a condition holds; a bring-up that has no proof of it stops here.
@@ -72,7 +72,7 @@ case "$step" in
     act ros2 control switch_controllers --activate arm_trajectory gripper_action --strict -c /controller_manager
     ;;
   move_mock) # by a person; what stands behind the step is started then
-    needs mocked
+    needs mocked /robot_state_publisher
     needs controller /controller_manager arm_trajectory active
     needs controller /controller_manager gripper_action active
     needs action /move_action
