@@ -123,7 +123,9 @@ class Stack:
         (self.state / "log").touch()
         (self.state / "actions").write_text("/move_action\n/gripper_action/gripper_cmd\n")
         (self.state / "description").mkdir()
-        (self.state / "description" / "robot_state_publisher").write_text("<plugin>mock_components/GenericSystem</plugin>")
+        (self.state / "description" / "robot_state_publisher").write_text(
+            "<plugin>mock_components/GenericSystem</plugin>"
+        )
         tools = folder / "bin"
         tools.mkdir()
         (tools / "ros2").write_text((HERE / "fake_ros2.bash").read_text(encoding="utf-8"))
