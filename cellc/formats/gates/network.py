@@ -105,12 +105,16 @@ def _data(cell: Cell) -> Gate:
 def _freshness(cell: Cell) -> Iterator[Check]:
     for interface in cell.interfaces:
         if interface.kind is InterfaceKind.TOPIC and interface.rate_hz is not None and "real" in interface.targets:
-            each = f" from each of {len(interface.sources)} sources" if len(interface.sources) > 1 else ""
             age = "" if interface.max_age_s is None else f", no sample older than {shortest(interface.max_age_s)} s"
             yield Check(
-                f"`{interface.name}` arrives at {shortest(interface.rate_hz)} Hz{each}{age}",
+                f"`{interface.name}` arrives at {_rate(interface.rate_hz, len(interface.sources))}{age}",
                 (f"timeout 60 ros2 topic hz {interface.name}", f"timeout 60 ros2 topic delay {interface.name}"),
             )
+
+
+def _rate(rate_hz: float, sources: int) -> str:
+    # What is measured is the sum of all sources, and the interface has the rate of the slowest controller manager.
+    return f"{shortest(rate_hz)} Hz" if sources < 2 else f"{shortest(rate_hz)} Hz or more: {sources} sources add up"
 
 
 def _time(cell: Cell) -> Gate:
