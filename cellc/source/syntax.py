@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import yaml
 
 from cellc.diagnostics import Diagnostic, Related, Span
@@ -26,6 +28,9 @@ _MEANINGS: tuple[tuple[str, str, str], ...] = (
     ("expected the node content", "a value is missing here", "write the value, or quote text that begins with it"),
 )
 
+_TOO_DEEP = "the line stands deeper than the one above, and so continues its value"
+_ALIGN = "align the line with its siblings"
+
 
 def syntax_finding(error: yaml.YAMLError | ValueError, file: str, text: str) -> Diagnostic:
     """Return the finding for an exception of the YAML parser."""
@@ -34,6 +39,8 @@ def syntax_finding(error: yaml.YAMLError | ValueError, file: str, text: str) -> 
     tab = _tab_near(span, text)
     if tab is not None:
         return tab_finding(tab)
+    if _continues(problem, span, text):
+        return finding("not-yaml", f"not valid YAML: {_TOO_DEEP}", _begin_of(span, text), advice=_ALIGN)
     meaning, advice = _explain(problem)
     start = _span(getattr(error, "context_mark", None), file)
     related = (Related("the part began here", start),) if start.line != span.line and meaning else ()
@@ -51,6 +58,19 @@ def leading_tab(line: str) -> int | None:
     indentation = line[: len(line) - len(line.lstrip(" \t"))]
     index = indentation.find("\t")
     return index if index >= 0 else None
+
+
+def _continues(problem: str, span: Span, text: str) -> bool:
+    """Whether the first `: ` of a line is one too many, because the line hangs on the value of one above."""
+    before = text.split("\n")[span.line - 1][: span.column - 1]
+    return "values are not allowed" in problem and re.search(r":\s", before) is None
+
+
+def _begin_of(span: Span, text: str) -> Span:
+    """Return the first character of a line that is not its indentation."""
+    line = text.split("\n")[span.line - 1]
+    column = len(line) - len(line.lstrip(" ")) + 1
+    return Span(span.file, span.line, column, span.line, column + 1)
 
 
 def _explain(problem: str) -> tuple[str, str]:

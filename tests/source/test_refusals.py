@@ -56,6 +56,18 @@ def test_first_place_of_a_duplicate_key_is_told(tmp_path: Path) -> None:
     assert found.yaml_path == ("a",)
 
 
+@pytest.mark.parametrize(
+    ("text", "place"), [("a:\n  b: c\n   d: e\n", (3, 4)), ("a:\n  - x\n   y: 2\n", (3, 4)), ("a: x\n b:\n", (2, 2))]
+)
+def test_line_that_is_indented_too_far_is_told_by_its_indentation(
+    tmp_path: Path, text: str, place: tuple[int, int]
+) -> None:
+    (found,) = read_bytes(tmp_path, text).diagnostics
+    assert (found.code, found.span.line, found.span.column) == ("not-yaml", *place)
+    assert "the line stands deeper than the one above" in found.message
+    assert found.help == "align the line with its siblings"
+
+
 @pytest.mark.parametrize("opening", ["[", "{a: ", "- ", "? "])
 def test_ten_thousand_levels_are_refused(tmp_path: Path, opening: str) -> None:
     assert codes(read_bytes(tmp_path, opening * 10_000)) == ["too-deep"]
