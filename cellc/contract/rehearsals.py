@@ -7,47 +7,7 @@ from typing import Literal
 from pydantic import Field
 
 from cellc.contract.base import ContractModel
-
-OutcomeName = Literal[
-    "succeeded",
-    "cancelled",
-    "stale_state",
-    "tf_failure",
-    "planning_failure",
-    "goal_rejection",
-    "tolerance_violation",
-    "missed_cycle",
-    "protective_stop",
-    "emergency_stop",
-    "hardware_fault",
-    "wrong_owner",
-    "timeout",
-]
-
-FaultKind = Literal[
-    "freeze",
-    "delay",
-    "drop_frame",
-    "double_frame",
-    "jump_clock",
-    "mismatch_qos",
-    "unresponsive",
-    "unreachable",
-    "reject",
-    "cancel",
-    "second_commander",
-    "switch",
-    "stick",
-    "slow",
-    "displace",
-    "scale_speed",
-    "skip_cycles",
-    "wrong_payload",
-    "protective_stop",
-    "emergency_stop",
-    "restart_driver",
-    "cut_network",
-]
+from cellc.contract.closed_lists import FaultKind, OutcomeName
 
 
 class StepEntry(ContractModel):

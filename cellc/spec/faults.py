@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, Union
+from typing import Annotated, Literal, Union, get_args
 
 from pydantic import Discriminator, Field, Tag
 
+from cellc.contract.closed_lists import FaultKind
 from cellc.spec.base import FrameReference, Name, SpecModel, Text, shape_of
 from cellc.spec.quantity import Duration, JointPosition, JointVelocity, Ratio
 
@@ -181,30 +182,7 @@ class CutNetworkFault(FaultFields):
     cut_network: Name = Field(..., description="Device.", examples=["arm"])
 
 
-FAULT_KEYS = (
-    "freeze",
-    "delay",
-    "drop_frame",
-    "double_frame",
-    "jump_clock",
-    "mismatch_qos",
-    "unresponsive",
-    "unreachable",
-    "reject",
-    "cancel",
-    "second_commander",
-    "switch",
-    "stick",
-    "slow",
-    "displace",
-    "scale_speed",
-    "skip_cycles",
-    "wrong_payload",
-    "protective_stop",
-    "emergency_stop",
-    "restart_driver",
-    "cut_network",
-)
+FAULT_KEYS: tuple[str, ...] = get_args(FaultKind)
 
 
 def first_key(value: object, keys: tuple[str, ...]) -> str | None:

@@ -6,25 +6,10 @@ from typing import Annotated, Literal, Union
 
 from pydantic import Discriminator, Field, Tag
 
+from cellc.contract.closed_lists import OutcomeName
 from cellc.spec.base import Name, SpecModel
 from cellc.spec.faults import FaultsSpec, first_key
 from cellc.spec.quantity import Duration
-
-OutcomeName = Literal[
-    "succeeded",
-    "cancelled",
-    "stale_state",
-    "tf_failure",
-    "planning_failure",
-    "goal_rejection",
-    "tolerance_violation",
-    "missed_cycle",
-    "protective_stop",
-    "emergency_stop",
-    "hardware_fault",
-    "wrong_owner",
-    "timeout",
-]
 
 
 class MoveStep(SpecModel):

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from cellc.contract.closed_lists import FaultKind
 from cellc.contract.contract import Contract
-from cellc.contract.rehearsals import FaultEntry, FaultKind
+from cellc.contract.rehearsals import FaultEntry
 from cellc.mock.faults.bounds import Bounds
 from cellc.mock.faults.case import FaultCase, ends_in, fault_case
 

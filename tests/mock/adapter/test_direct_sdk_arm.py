@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 from cellc.adapter import Phase
-from cellc.contract.rehearsals import FaultEntry, FaultKind, RehearsalEntry, StepEntry
+from cellc.contract.closed_lists import FaultKind
+from cellc.contract.rehearsals import FaultEntry, RehearsalEntry, StepEntry
 from cellc.mock import MockCell, RehearsalResult, load
 from cellc.mock.campaign.execute import execute
 from cellc.mock.campaign.limits import check_limits

@@ -10,7 +10,8 @@ from typing import Any, Literal
 import numpy as np
 import pytest
 
-from cellc.contract.rehearsals import FaultEntry, FaultEvent, FaultKind, RehearsalEntry, StepEntry
+from cellc.contract.closed_lists import FaultKind
+from cellc.contract.rehearsals import FaultEntry, FaultEvent, RehearsalEntry, StepEntry
 from cellc.mock import MockCell, load
 from cellc.mock.plant import Plant
 from cellc.mock.record import AttemptRecord

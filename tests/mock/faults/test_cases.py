@@ -7,7 +7,8 @@ from typing import Any
 
 import pytest
 
-from cellc.contract.rehearsals import FaultEntry, FaultEvent, FaultKind, RehearsalEntry, StepEntry
+from cellc.contract.closed_lists import FaultKind
+from cellc.contract.rehearsals import FaultEntry, FaultEvent, RehearsalEntry, StepEntry
 from cellc.mock import MockCell
 from cellc.mock.errors import MockError
 from cellc.mock.faults.case import BORNE, FaultCase, ends_in

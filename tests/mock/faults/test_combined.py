@@ -6,7 +6,8 @@ from itertools import pairwise
 
 import pytest
 
-from cellc.contract.rehearsals import FaultEntry, FaultKind, RehearsalEntry
+from cellc.contract.closed_lists import FaultKind
+from cellc.contract.rehearsals import FaultEntry, RehearsalEntry
 from cellc.mock import MockCell
 from cellc.mock.faults.possible import possible_faults
 from cellc.mock.record import to_json_lines

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from cellc.contract.rehearsals import FaultKind
+from cellc.contract.closed_lists import FaultKind
 from cellc.mock import MockCell
 from tests.mock.faults.conftest import Rehearse, during
 
