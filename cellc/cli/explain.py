@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from cellc.diagnostics import did_you_mean
+from cellc.output.whole_file import write_whole
 from cellc.report.handbook import render_handbook
 from cellc.report.pages import all_pages, render_page
 
@@ -26,8 +27,7 @@ def explain(code: str | None, everything: bool, output: Path | None) -> None:
     if output is not None:
         if not everything:
             raise click.UsageError("--output writes the document of all codes: give --all too")
-        output.parent.mkdir(parents=True, exist_ok=True)
-        output.write_text(render_handbook(), encoding="utf-8", newline="\n")
+        write_whole(output, render_handbook())
         click.echo(f"wrote {output.as_posix()}")
     elif everything:
         click.echo("\n".join(render_page(page) for page in pages.values()), nl=False)

@@ -50,10 +50,6 @@ class StartupGraph:
         graph.add_edges_from((need.needs, need.part) for need in self.needs)
         return tuple(networkx.lexicographical_topological_sort(graph))
 
-    def proofs(self, part: str) -> tuple[Need, ...]:
-        """Return what must be seen before a part may start."""
-        return tuple(need for need in self.needs if need.part == part)
-
     def _predecessors(self) -> Mapping[str, list[str]]:
         predecessors: dict[str, list[str]] = {part: [] for part in self.parts}
         for need in self.needs:

@@ -49,8 +49,6 @@ MASS = _dimension("mass", {"kg": "1", "g": "0.001"})
 RATIO = _dimension("ratio", {"%": "0.01"})
 DRIFT = _dimension("clock drift", {"ppm": "0.000001"})
 FORCE = _dimension("force", {"N": "1", "kN": "1000"})
-TORQUE = _dimension("torque", {"Nm": "1"})
-INERTIA = _dimension("inertia", {"kg m^2": "1", "kg*m^2": "1"})
 VELOCITY = _dimension("velocity", {"m/s": "1", "mm/s": "0.001"})
 ACCELERATION = _dimension("acceleration", {"m/s^2": "1", "mm/s^2": "0.001"})
 JERK = _dimension("jerk", {"m/s^3": "1", "mm/s^3": "0.001"})
@@ -152,18 +150,13 @@ def _written(value: Quantity | QuantityVector) -> str:
 
 
 Length = Annotated[Quantity, QuantityType((LENGTH,), "162 mm")]
-Angle = Annotated[Quantity, QuantityType((ANGLE,), "90 deg")]
 Duration = Annotated[Quantity, QuantityType((DURATION,), "200 ms")]
 Frequency = Annotated[Quantity, QuantityType((FREQUENCY,), "500 Hz")]
 Mass = Annotated[Quantity, QuantityType((MASS,), "0.9 kg")]
 Ratio = Annotated[Quantity, QuantityType((RATIO,), "50 %")]
 Drift = Annotated[Quantity, QuantityType((DRIFT,), "20 ppm")]
 Force = Annotated[Quantity, QuantityType((FORCE,), "60 N")]
-Torque = Annotated[Quantity, QuantityType((TORQUE,), "28 Nm")]
 Velocity = Annotated[Quantity, QuantityType((VELOCITY,), "0.25 m/s")]
-AngularVelocity = Annotated[Quantity, QuantityType((ANGULAR_VELOCITY,), "5 deg/s")]
-AngularAcceleration = Annotated[Quantity, QuantityType((ANGULAR_ACCELERATION,), "5 rad/s^2")]
-AngularJerk = Annotated[Quantity, QuantityType((ANGULAR_JERK,), "50 rad/s^3")]
 JointPosition = Annotated[Quantity, QuantityType((ANGLE, LENGTH), "0.2 rad")]
 JointVelocity = Annotated[Quantity, QuantityType((ANGULAR_VELOCITY, VELOCITY), "30 deg/s")]
 JointAcceleration = Annotated[Quantity, QuantityType((ANGULAR_ACCELERATION, ACCELERATION), "2 rad/s^2")]

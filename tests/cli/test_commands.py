@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 from pathlib import Path
 
@@ -80,6 +81,20 @@ def test_explain_of_an_unknown_code_names_the_nearest() -> None:
     ran = run("explain", "reversed-limit")
     assert ran.code == 2
     assert "`reversed-limits`" in ran.err
+
+
+def test_document_of_all_codes_is_replaced_as_a_whole_or_not_at_all(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(_source: object, _target: object) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    document = tmp_path / "rules.md"
+    document.write_text("the old one")
+    monkeypatch.setattr("cellc.output.whole_file.os.replace", full)
+    ran = run("explain", "--all", "-o", document.as_posix())
+    assert (ran.code, ran.err) == (1, f"error: {document.as_posix()}: no space left on device\n")
+    assert [(file.name, file.read_text()) for file in tmp_path.iterdir()] == [("rules.md", "the old one")]
 
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])

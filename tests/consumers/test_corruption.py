@@ -61,7 +61,7 @@ _CHECKS: tuple[Callable[[str, str], None], ...] = (
     test_security.test_controllers_serve_their_own_actions_alone_and_their_clients_alone_may_call,
     test_security.test_what_one_node_hears_another_may_say,
     test_security.test_descriptions_and_joint_states_pass,
-    test_security.test_managers_serve_what_they_have_and_spawners_may_call_what_they_need,
+    test_security.test_managers_serve_what_they_have_and_spawners_may_call_what_they_need_and_no_more,
     test_security.test_what_one_node_calls_another_serves,
     test_security.test_who_serves_parameters_serves_them_all,
     test_parameters.test_controllers_declare_what_they_are_told_and_are_told_what_they_need,
