@@ -14,15 +14,18 @@ from cellc.kinematics.model import PinTransform
 
 POSITION_TOLERANCE_M = 1e-6
 ROTATION_TOLERANCE_RAD = 1e-6
-# Below this the error is rounding of the pose itself; the spline of a Cartesian path needs its waypoints that clean.
+# Below this the error is rounding of the pose itself: where a descent ends does not depend on where it came from.
 _CONVERGED = 1e-12
+# Decimals of a configuration in rad or m: far finer than a tip is placed, far coarser than what linear algebra libraries
+# and processors leave different in the last bits.
+_DECIMALS = 9
 _MAX_ITERATIONS = 60
 _MAX_STEP_RAD = 0.6
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Descent:
-    """Where a descent ended.
+    """Where a descent ended; errors and Jacobian are those before the configuration was rounded.
 
     Attributes:
         position_error: distance of the tip from the target in metres.
@@ -68,6 +71,9 @@ def descend(chain: GroupChain, target_to_world: PinTransform, seed: Array, limit
         if lower is not None and upper is not None:
             configuration = np.minimum(np.maximum(configuration, lower), upper)
     away, turned = (math.sqrt(float(part @ part)) for part in (least[:3], least[3:]))
+    best = np.round(best, _DECIMALS)
+    if lower is not None and upper is not None:
+        best = np.minimum(np.maximum(best, lower), upper)
     return Descent(best, away, turned, there)
 
 

@@ -58,10 +58,25 @@ def _second_derivatives(values: Array, width: float) -> Array:
     if count == 3:
         second[:] = bends[0]
         return second
-    system = np.zeros((count, count))
-    system[0, :3] = system[-1, -3:] = (1.0, -2.0, 1.0)
-    inner = np.arange(1, count - 1)
-    system[inner, inner - 1] = system[inner, inner + 1] = 1.0
-    system[inner, inner] = 4.0
-    right_side = np.vstack((second[:1], 6.0 * bends, second[:1]))
-    return np.asarray(np.linalg.solve(system, right_side))
+    # The ends continue the line through their two neighbours, which makes 6 times the second and the last but one known.
+    # The rest by elimination in a fixed order: a library solver differs in its last bits from processor to processor.
+    second[1], second[-2] = bends[0], bends[-1]
+    right_side = 6.0 * bends[1:-1]
+    right_side[:1] -= second[1]
+    right_side[-1:] -= second[-2]
+    second[2:-2] = _eliminated(right_side)
+    second[0], second[-1] = 2.0 * second[1] - second[2], 2.0 * second[-2] - second[-3]
+    return second
+
+
+def _eliminated(right_side: Array) -> Array:
+    """Solve the system with 4 on the diagonal and 1 beside it, one column a joint (Thomas)."""
+    solution, pivots = right_side.copy(), [4.0]
+    for row in range(1, len(solution)):
+        solution[row] -= solution[row - 1] / pivots[-1]
+        pivots.append(4.0 - 1.0 / pivots[-1])
+    for row in reversed(range(len(solution))):
+        if row + 1 < len(solution):
+            solution[row] -= solution[row + 1]
+        solution[row] /= pivots[row]
+    return solution
