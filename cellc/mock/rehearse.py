@@ -113,4 +113,5 @@ def _findings(plant: Plant) -> tuple[str, ...]:
         *plant.buffer.conflicts,
         *plant.buffer.warnings.lines(),
         *plant.requests.findings,
+        *plant.control.dangers,
     )

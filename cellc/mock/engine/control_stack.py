@@ -16,6 +16,7 @@ from cellc.mock.control import (
     JointStateBlock,
     TrajectoryGoal,
 )
+from cellc.mock.engine.dangers import dangers
 from cellc.mock.engine.process import Signal
 from cellc.mock.engine.watcher import ControlWatcher, GoalSent
 from cellc.mock.world.joint_states import JointStateHistory
@@ -34,6 +35,7 @@ class ControlStack:
         adapters: of devices that no manager drives, by device.
         changed: fires after a manager had something to tell.
         unready_hardware: hardware components that are not active, with their state.
+        dangers: what was dangerous in goals that controllers accepted all the same.
     """
 
     def __init__(
@@ -49,6 +51,7 @@ class ControlStack:
         self.changed = Signal()
         self.events: list[ControlEvent] = []
         self.unready_hardware: dict[str, str] = {}
+        self.dangers: list[str] = []
         self.histories: dict[tuple[str, str], JointStateHistory] = {}
         self._listeners: list[Callable[[ControlEvent], None]] = []
         self._watchers: list[ControlWatcher] = []
@@ -115,6 +118,8 @@ class ControlStack:
         response = server.send_goal(controller, goal)
         for watcher in self._watchers:
             watcher.goal_sent(GoalSent(server.now_ns, controller, goal, response))
+        if response.accepted:
+            self.dangers += [danger for danger in dangers(controller, goal) if danger not in self.dangers]
         return response
 
     def subscribe_joint_states(self) -> None:
