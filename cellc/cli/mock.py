@@ -40,14 +40,20 @@ def mock(
 ) -> None:
     """Execute the rehearsals of the generated FOLDER; exit 1 where one does not end as it should."""
     # Planning libraries load only for this command.
+    from cellc.mock.asked import contradiction
     from cellc.mock.campaign.command import CampaignOptions, list_runs, replay_runs, run_campaign
     from cellc.mock.command import run_command
     from cellc.mock.gates.command import run_gates
 
-    if names and (campaign or list_only or replayed or gates):
-        raise click.UsageError("--rehearsal runs declared rehearsals; it does not go with the options of the campaign.")
-    if evidence is not None and list_only:
-        raise click.UsageError("--evidence is of runs; --list runs none.")
+    problem = contradiction(
+        rehearsals=bool(names),
+        modes={"--campaign": campaign, "--list": list_only, "--replay": bool(replayed), "--gates": gates},
+        pairs=pairs != 0,
+        jobs=jobs is not None,
+        paths={"--evidence": evidence, "--records": records},
+    )
+    if problem:
+        raise click.UsageError(f"{problem}.")
     options = CampaignOptions(seed=seed, jobs=jobs, pairs=pairs, as_json=as_json, records=records, evidence=evidence)
     if list_only:
         code = list_runs(folder, options)

@@ -16,8 +16,8 @@ POSITION_TOLERANCE_M = 1e-6
 ROTATION_TOLERANCE_RAD = 1e-6
 # Below this the error is rounding of the pose itself: where a descent ends does not depend on where it came from.
 _CONVERGED = 1e-12
-# Decimals of a configuration in rad or m: far finer than a tip is placed, far coarser than what linear algebra libraries
-# and processors leave different in the last bits.
+# Decimals of a configuration in rad or m: far finer than a tip is placed, far coarser than the last bits in which
+# linear algebra libraries and processors differ.
 _DECIMALS = 9
 _MAX_ITERATIONS = 60
 _MAX_STEP_RAD = 0.6

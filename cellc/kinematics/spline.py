@@ -58,8 +58,8 @@ def _second_derivatives(values: Array, width: float) -> Array:
     if count == 3:
         second[:] = bends[0]
         return second
-    # The ends continue the line through their two neighbours, which makes 6 times the second and the last but one known.
-    # The rest by elimination in a fixed order: a library solver differs in its last bits from processor to processor.
+    # The ends continue the line through their two neighbours, which makes the second and the last but one known. The
+    # rest by elimination in a fixed order: a library solver differs in its last bits from processor to processor.
     second[1], second[-2] = bends[0], bends[-1]
     right_side = 6.0 * bends[1:-1]
     right_side[:1] -= second[1]
@@ -71,7 +71,8 @@ def _second_derivatives(values: Array, width: float) -> Array:
 
 def _eliminated(right_side: Array) -> Array:
     """Solve the system with 4 on the diagonal and 1 beside it, one column a joint (Thomas)."""
-    solution, pivots = right_side.copy(), [4.0]
+    solution: Array = right_side.copy()
+    pivots = [4.0]
     for row in range(1, len(solution)):
         solution[row] -= solution[row - 1] / pivots[-1]
         pivots.append(4.0 - 1.0 / pivots[-1])

@@ -1,8 +1,31 @@
 """The mock backend: executes a generated folder, and knows nothing of the compiler that wrote it."""
 
-from cellc.mock.cell import MockCell, load, run_all
-from cellc.mock.errors import MockError
-from cellc.mock.record import AttemptRecord, to_json_lines
-from cellc.mock.result import RehearsalResult
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from cellc.mock.cell import MockCell, load, run_all
+    from cellc.mock.errors import MockError
+    from cellc.mock.record import AttemptRecord, to_json_lines
+    from cellc.mock.result import RehearsalResult
 
 __all__ = ["AttemptRecord", "MockCell", "MockError", "RehearsalResult", "load", "run_all", "to_json_lines"]
+
+_HOMES = {
+    "AttemptRecord": "cellc.mock.record",
+    "MockCell": "cellc.mock.cell",
+    "MockError": "cellc.mock.errors",
+    "RehearsalResult": "cellc.mock.result",
+    "load": "cellc.mock.cell",
+    "run_all": "cellc.mock.cell",
+    "to_json_lines": "cellc.mock.record",
+}
+
+
+def __getattr__(name: str) -> object:
+    """Load what is asked for: `python -m cellc.mock` passes here before it can answer Ctrl-C in words."""
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(_HOMES[name]), name)

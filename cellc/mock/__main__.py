@@ -7,6 +7,8 @@ import contextlib
 import os
 import sys
 
+from cellc.mock.asked import contradiction
+
 
 def main() -> int:
     """Parse the command line and run."""
@@ -30,13 +32,23 @@ def main() -> int:
     parser.add_argument("--evidence", metavar="FOLDER", help="write bags, records, key figures and a report")
     parser.add_argument("--seed", type=int, default=0, help="seed of everything drawn (default 0)")
     options = parser.parse_args()
-    in_campaign = options.campaign or options.list or options.replay or options.gates
-    if options.rehearsal and in_campaign:
-        parser.error("--rehearsal runs declared rehearsals; it does not go with the options of the campaign")
-    if options.evidence and options.list:
-        parser.error("--evidence is of runs; --list runs none")
-    # Imported here, so that Ctrl-C while the planning libraries load ends without a traceback too.
-    return _run_campaign(options) if in_campaign else _run_rehearsals(options)
+    modes = {
+        "--campaign": options.campaign,
+        "--list": options.list,
+        "--replay": bool(options.replay),
+        "--gates": options.gates,
+    }
+    problem = contradiction(
+        rehearsals=bool(options.rehearsal),
+        modes=modes,
+        pairs=options.pairs != 0,
+        jobs=options.jobs is not None,
+        paths={"--evidence": options.evidence, "--records": options.records},
+    )
+    if problem:
+        parser.error(problem)
+    # Imported by these, so that Ctrl-C while the planning libraries load ends without a traceback too.
+    return _run_campaign(options) if any(modes.values()) else _run_rehearsals(options)
 
 
 def _run_rehearsals(options: argparse.Namespace) -> int:
@@ -83,7 +95,8 @@ def _discard_output() -> None:
 if __name__ == "__main__":
     try:
         code = main()
-        sys.stdout.flush()
+        if sys.stdout is not None:  # closed by who called
+            sys.stdout.flush()
     except BrokenPipeError:  # who read the output has seen enough, as `head` does
         _discard_output()
         code = 1

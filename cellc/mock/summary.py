@@ -41,6 +41,8 @@ def to_lines(timed: Sequence[TimedResult], notes: Sequence[str]) -> Iterator[str
     """Yield the summary for people: one line a rehearsal, the reason below where it is not a plain success."""
     for note in notes:
         yield f"note: {note}"
+    if not timed:
+        yield "note: no rehearsal is declared; nothing was run, and nothing is shown"
     for each in timed:
         result = each.result
         verdict = "passed" if result.passed else "FAILED"

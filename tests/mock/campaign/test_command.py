@@ -175,3 +175,42 @@ def test_report_shows_the_matrix_and_judges_gates_by_it(option: str, folders: di
     line = page.partition("Every fault at every step ends in a named outcome within its bound")[2]
     assert "runs of the campaign" in line[:200]
     assert (tmp_path / "kept" / "ready.mcap").is_file()
+
+
+@pytest.mark.parametrize(
+    ("options", "problem"),
+    [
+        (("--list", "--gates"), "--list does not go with --gates"),
+        (("--replay", "x", "--gates"), "--replay does not go with --gates"),
+        (("--jobs", "2"), "--jobs is of a campaign; add --campaign"),
+        (("--pairs", "2"), "--pairs is of a campaign; add --campaign"),
+        (("--list", "--records", "all.jsonl"), "--records is of runs; --list runs none"),
+        (("--evidence", ""), "--evidence needs a path"),
+    ],
+)
+def test_options_that_would_be_ignored_are_refused_by_both_front_ends(
+    folders: dict[str, Path], options: tuple[str, ...], problem: str
+) -> None:
+    assert_refused(run("mock", str(folders["minimal"]), *options), problem)
+    alone = subprocess.run(
+        [sys.executable, "-m", "cellc.mock", str(folders["minimal"]), *options],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (alone.returncode, problem in alone.stderr) == (2, True)
+
+
+def test_package_of_the_mock_loads_nothing_before_the_command_can_be_interrupted() -> None:
+    script = (
+        "import sys, cellc.mock; print('numpy' in sys.modules, 'pinocchio' in sys.modules, cellc.mock.load.__name__)"
+    )
+    ran = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True)
+    assert ran.stdout.split() == ["False", "False", "load"]
+
+
+def test_closed_output_is_no_traceback(folders: dict[str, Path]) -> None:
+    command = f'exec "{sys.executable}" -m cellc.mock "{folders["minimal"]}" >&-'
+    ran = subprocess.run(["sh", "-c", command], cwd=ROOT, capture_output=True, text=True, check=False)
+    assert (ran.returncode, ran.stderr) == (0, "")
