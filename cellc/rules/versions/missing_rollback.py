@@ -30,6 +30,11 @@ from cellc.rule import Finding
 from cellc.rules.define import define
 from cellc.rules.finding import found
 
+_ANSWERS = {
+    "image": "the digest of the last image that ran",
+    "configuration": "the id of the last configuration that ran, such as `cfg-0123456789ab`",
+}
+
 
 def check(graph: CellGraph) -> Iterator[Finding]:
     """Yield the unknown parts of the rollback in one finding."""
@@ -39,7 +44,8 @@ def check(graph: CellGraph) -> Iterator[Finding]:
     if missing:
         names = " and ".join(f"`{part}`" for part in missing)
         path = ("versions", "rollback", missing[0])
-        yield found(graph, path, f"the rollback {names} is UNKNOWN", "write the digest of the last image that ran")
+        message = f"the rollback {names} {'are' if len(missing) > 1 else 'is'} UNKNOWN"
+        yield found(graph, path, message, f"write {' and '.join(_ANSWERS[part] for part in missing)}")
 
 
 RULE = define("missing-rollback", Severity.BLOCKER, check, __doc__)
