@@ -28,4 +28,4 @@ def contradiction(
     if "--list" in alone and any(path is not None for path in paths.values()):
         return f"{next(option for option, path in paths.items() if path is not None)} is of runs; --list runs none"
     empty = [option for option, path in paths.items() if path == ""]
-    return f"{empty[0]} needs a path" if empty else ""
+    return f"{empty[0]} cannot be written: its path is empty" if empty else ""

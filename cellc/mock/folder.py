@@ -20,6 +20,9 @@ MANIFEST_FILE = "manifest.json"
 MAX_BYTES = 50_000_000
 """A larger file is not one that the compiler wrote."""
 
+LONGEST_S = 1e9
+"""Times are counted in nanoseconds, of which 64 bits hold 292 years."""
+
 _Model = TypeVar("_Model", bound=BaseModel)
 
 
@@ -52,6 +55,7 @@ def read_folder(folder: Path) -> GeneratedFolder:
         raise MockError(folder.as_posix(), f"holds no {CONTRACT_FILE}; name a folder that `cellc build` wrote")
     contract = _read_model(folder, CONTRACT_FILE, Contract)
     rehearsals = _read_model(folder, contract.files.rehearsals, Rehearsals)
+    _check_rehearsals(contract.files.rehearsals, rehearsals)
     manifest = _read_model(folder, MANIFEST_FILE, Manifest)
     missing = sorted(set(contract.managers) - set(contract.files.parameters))
     if missing:
@@ -63,6 +67,26 @@ def read_folder(folder: Path) -> GeneratedFolder:
         parameters={name: _read_text(folder, path) for name, path in contract.files.parameters.items()},
         notes=tuple(_notes(folder, contract, rehearsals, manifest)),
     )
+
+
+def _check_rehearsals(file: str, rehearsals: Rehearsals) -> None:
+    """Refuse what no spec makes: a name that a terminal would obey or that is given twice, and endless times."""
+    known: set[str] = set()
+    for entry in rehearsals.rehearsals:
+        if not entry.name.isprintable() or entry.name in known:
+            raise MockError(file, f"has a second rehearsal or an unprintable one of the name {entry.name!a}")
+        known.add(entry.name)
+        if any(abs(time_s) > LONGEST_S for time_s in _times(entry)):
+            raise MockError(file, f"states a time of more than {LONGEST_S:g} s in rehearsal `{entry.name}`")
+
+
+def _times(entry: RehearsalEntry) -> Iterator[float]:
+    yield entry.timeout_s
+    for step in entry.steps:
+        yield step.duration_s or 0.0
+    for fault in entry.faults:
+        after_s = 0.0 if fault.event is None else fault.event.after_s
+        yield from (fault.at_s or 0.0, after_s, fault.lasting_s or 0.0, fault.delay_s or 0.0, fault.jump_s or 0.0)
 
 
 def _read_model(folder: Path, name: str, model: type[_Model]) -> _Model:

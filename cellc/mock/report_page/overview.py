@@ -24,7 +24,7 @@ def header(content: ReportContent) -> Element:
     """Return the title, the verdict and the identity of what was judged."""
     contract = content.contract
     passed = sum(run.result.passed for run in content.runs)
-    good = passed == len(content.runs)
+    good = 0 < passed == len(content.runs)
     verdict = tag(
         "p", _mark(good), f" {passed} of {count(len(content.runs), 'rehearsal')} ended as expected, within the bounds"
     )

@@ -185,7 +185,7 @@ def test_report_shows_the_matrix_and_judges_gates_by_it(option: str, folders: di
         (("--jobs", "2"), "--jobs is of a campaign; add --campaign"),
         (("--pairs", "2"), "--pairs is of a campaign; add --campaign"),
         (("--list", "--records", "all.jsonl"), "--records is of runs; --list runs none"),
-        (("--evidence", ""), "--evidence needs a path"),
+        (("--evidence", ""), "--evidence cannot be written: its path is empty"),
     ],
 )
 def test_options_that_would_be_ignored_are_refused_by_both_front_ends(

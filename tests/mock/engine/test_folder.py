@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 import subprocess
 import sys
@@ -46,6 +47,27 @@ def test_missing_file_is_named(folder: Path, name: str) -> None:
 def test_spoilt_json_is_refused(folder: Path, name: str, content: bytes) -> None:
     (folder / name).write_bytes(content)
     assert refusal(folder).file == name
+
+
+@pytest.mark.parametrize(
+    ("changes", "reason"),
+    [
+        ({"name": "a\n\x1b[31mb"}, "an unprintable one of the name 'a\\n\\x1b[31mb'"),
+        ({"timeout_s": 1e300}, "a time of more than 1e+09 s in rehearsal `faulty`"),
+        ({"steps": [{"kind": "wait", "target": "", "duration_s": 1e10}]}, "a time of more than 1e+09 s"),
+    ],
+)
+def test_rehearsal_that_no_spec_makes_is_refused(load_with: LoadWith, changes: dict[str, Any], reason: str) -> None:
+    with pytest.raises(MockError, match=re.escape(reason)):
+        load_with(**changes)
+
+
+def test_two_rehearsals_of_one_name_are_refused(folder: Path) -> None:
+    file = folder / "rehearsals.json"
+    told = json.loads(file.read_text())
+    told["rehearsals"].append(told["rehearsals"][0])
+    file.write_text(json.dumps(told))
+    assert "a second rehearsal" in refusal(folder).reason
 
 
 @pytest.mark.parametrize("content", ["", "<robot", "<sdf/>", "<robot name='empty'/>"])

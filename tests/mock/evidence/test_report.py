@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
 
 from cellc.mock import MockCell
+from cellc.mock.cell import cell_of
 from tests.mock.evidence.conftest import Written, received, write_evidence
 
 
@@ -120,3 +122,10 @@ def test_names_of_the_spec_are_text_and_never_markup(generated: Path, tmp_path: 
     names = sorted(path.name for path in tmp_path.iterdir())
     assert names == ["cell", "evidence"]
     assert len(list(out.glob("*.mcap"))) == 1
+
+
+def test_page_of_no_rehearsal_is_no_success(cell: MockCell, tmp_path: Path) -> None:
+    empty = cell_of(replace(cell.folder, rehearsals=()))
+    write_evidence(empty, tmp_path / "out")
+    words = " ".join(Page((tmp_path / "out" / "report.html").read_text(encoding="utf-8")).words.split())
+    assert "✗ FAILED 0 of 0 rehearsals ended as expected" in words
