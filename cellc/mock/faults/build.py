@@ -58,12 +58,12 @@ _BUILDERS: Mapping[str, Callable[[FaultEntry, Contract], Fault | None]] = {
 
 
 def build_fault(entry: FaultEntry, contract: Contract) -> Fault:
-    """Return the fault of an entry; raise MockError where it has no moment or names what the contract does not have."""
+    """Return the fault of an entry; raise MockError where it has no moment or names what it cannot hit."""
     if (entry.at_s is None) == (entry.event is None):
         reason = f"fault `{entry.kind}` needs either a time or an event that begins it"
         raise MockError(contract.files.rehearsals, reason)
     fault = _BUILDERS[entry.kind](entry, contract)
     if fault is None:
-        reason = f"fault `{entry.kind}` names `{entry.target}`, which the contract does not have"
+        reason = f"fault `{entry.kind}` names `{entry.target}`, which it cannot hit in this cell"
         raise MockError(contract.files.rehearsals, reason)
     return fault
