@@ -35,7 +35,7 @@ def run_command(
         seed: of everything that is drawn.
 
     Returns:
-        0 where every rehearsal passed, 1 where one did not, 2 where the folder or a name is unusable.
+        0 where every rehearsal passed, 1 where one did not or there is none, 2 where the folder or a name is unusable.
     """
     try:
         if seed < 0:
@@ -55,7 +55,7 @@ def run_command(
         print(to_summary_json(cell.contract.configuration_id, timed, cell.notes))
     else:
         print("\n".join(to_lines(timed, cell.notes)))
-    return 0 if all(each.result.passed for each in timed) else 1
+    return 0 if timed and all(each.result.passed for each in timed) else 1
 
 
 def _run(cell: MockCell, names: Sequence[str], seed: int) -> list[TimedResult]:

@@ -18,6 +18,7 @@ from cellc.mock.plant import Plant
 from cellc.mock.record import AttemptRecord
 from cellc.mock.result import BRINGUP_FAILURE, RehearsalResult, StageEvidence
 from cellc.mock.task.context import TaskContext
+from cellc.mock.task.outcome import Outcome
 from cellc.mock.task.task import Task
 
 SUCCEEDED = "succeeded"
@@ -59,6 +60,7 @@ def rehearse(
         injection.schedule(plant, begun_ns)
     task = Task(rehearsal, TaskContext(plant, begun_ns + round(rehearsal.timeout_s * 1e9), seed))
     plant.simulation.run_process(task.run())
+    absent = tuple(injection.describe_absence() for injection in injections if injection.begun_ns is None)
     return RehearsalResult(
         name=rehearsal.name,
         outcome=task.outcome.value,
@@ -68,7 +70,8 @@ def rehearse(
         within_s=rehearsal.within_s,
         attempts=tuple(task.records),
         bringup=tuple(bringup.evidence),
-        findings=(*_findings(plant), *(each.describe_absence() for each in injections if each.begun_ns is None)),
+        findings=(*_findings(plant), *absent),
+        vacuous=bool(absent) and (len(absent) == len(injections) or task.outcome is Outcome.SUCCEEDED),
     )
 
 

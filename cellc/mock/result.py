@@ -39,6 +39,7 @@ class RehearsalResult:
         response_s: simulated time from the fault taking effect to the bounded end; None without a fault.
         within_s: bound of ``response_s``; None where there is none.
         findings: what was odd, such as endpoints that do not connect or a second authority of a frame.
+        vacuous: it shows nothing of a fault, which never began although no other one ended the run; a finding says why.
     """
 
     name: str
@@ -50,6 +51,7 @@ class RehearsalResult:
     attempts: tuple[AttemptRecord, ...]
     bringup: tuple[StageEvidence, ...]
     findings: tuple[str, ...]
+    vacuous: bool = False
 
     @property
     def in_time(self) -> bool:
@@ -58,5 +60,5 @@ class RehearsalResult:
 
     @property
     def passed(self) -> bool:
-        """Tell whether the rehearsal ended as expected and within its bound."""
-        return self.outcome == self.expected and self.in_time
+        """Tell whether the rehearsal met its faults, and ended as expected and within its bound."""
+        return self.outcome == self.expected and self.in_time and not self.vacuous

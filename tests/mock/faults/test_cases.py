@@ -88,6 +88,8 @@ def test_event_that_never_comes_injects_nothing_and_that_is_told(run: Rehearse) 
 def test_time_after_the_end_injects_nothing_and_that_is_told(run: Rehearse) -> None:
     result = run(FaultEntry(kind="protective_stop", target="arm", at_s=100.0)).result
     assert result.findings[-1] == "fault `protective_stop arm` never began: the rehearsal was over before 100 s"
+    assert result.outcome == result.expected
+    assert not result.passed  # it shows nothing about the fault that it is for
 
 
 @pytest.mark.parametrize("moment", [{}, {"at_s": 1.0, "event": FaultEvent(step=1)}])
