@@ -173,6 +173,7 @@ def _fails(check: Callable[[], None]) -> bool:
     return False
 
 
+@needs_oracles
 def test_build_itself_is_found_without_fault() -> None:
     assert caught_by(build(_CELL, _DISTRO)) == ""
 
