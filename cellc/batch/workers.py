@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import signal
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Sequence
 from concurrent.futures.process import BrokenProcessPool, ProcessPoolExecutor
 from functools import partial
 from multiprocessing import get_context
@@ -16,8 +16,8 @@ from cellc.disk import Record
 _T = TypeVar("_T")
 
 
-def in_workers(kind: Kind, files: Sequence[str], number: int) -> Iterator[tuple[Answer, Record]]:
-    """Yield answers in the order of the specs, however many processes compute them.
+def in_workers(kind: Kind, files: Sequence[str], number: int) -> Generator[tuple[Answer, Record], None, None]:
+    """Yield answers in the order of the specs, however many processes compute them; closing it ends them all.
 
     Raises:
         KeyboardInterrupt: what had not begun was dropped, and no process is left.

@@ -73,13 +73,17 @@ def read_urdf(text: str, file: str, origins: Origins | None = None) -> Outcome[D
 
 
 def _read_each(elements: Iterable[XmlElement], read: Callable[[XmlElement], _T], found: list[Diagnostic]) -> list[_T]:
-    values = []
-    for element in elements:
-        try:
-            values.append(read(element))
-        except UrdfError as refusal:  # noqa: PERF203 - one finding for each link or joint is the point
-            found.append(refusal.diagnostic)
-    return values
+    """Read every element that can be read, and find something at each of the others."""
+    values = (_read_or_find(element, read, found) for element in elements)
+    return [value for value in values if value is not None]
+
+
+def _read_or_find(element: XmlElement, read: Callable[[XmlElement], _T], found: list[Diagnostic]) -> _T | None:
+    try:
+        return read(element)
+    except UrdfError as refusal:
+        found.append(refusal.diagnostic)
+        return None
 
 
 def _move_spans(root: XmlElement, origins: Origins) -> None:

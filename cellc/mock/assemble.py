@@ -42,7 +42,7 @@ def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int) -> Plant:
     """Create every node of the cell at time zero; nothing runs yet.
 
     Raises:
-        ManagerAborted: a controller manager ended while it started.
+        ManagerAbortedError: a controller manager ended while it started.
     """
     contract = folder.contract
     horizon_s = max([DEFAULT_BUFFER_S, *(frame.buffer_s or 0.0 for frame in contract.frames.values())])

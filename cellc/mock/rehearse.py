@@ -9,7 +9,7 @@ from cellc.contract.rehearsals import RehearsalEntry
 from cellc.mock.assemble import assemble, start_nodes
 from cellc.mock.bringup.sequence import Bringup
 from cellc.mock.bus.matching import unmatched_pairs
-from cellc.mock.control import ManagerAborted
+from cellc.mock.control import ManagerAbortedError
 from cellc.mock.faults.build import build_fault
 from cellc.mock.faults.injection import Injection
 from cellc.mock.folder import GeneratedFolder
@@ -45,7 +45,7 @@ def rehearse(
     injections = [Injection(entry, build_fault(entry, folder.contract)) for entry in rehearsal.faults]
     try:
         plant = assemble(folder, memory, seed)
-    except ManagerAborted as aborted:
+    except ManagerAbortedError as aborted:
         evidence = StageEvidence("discover", (), (f"the controller manager ended: {aborted.reason}",))
         return _not_up(rehearsal, (evidence,), unmatched_pairs(folder.contract))
     if watch is not None:

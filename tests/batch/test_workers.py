@@ -35,7 +35,7 @@ def test_workers_compile_as_this_process_does() -> None:
 def test_a_caller_that_stops_early_leaves_no_process() -> None:
     answers = in_workers("check", FILES, 2)
     assert next(answers) == compute("check", FILES[0])
-    answers.close()  # type: ignore[attr-defined]  # a generator, told as the iterator that callers need
+    answers.close()
     assert multiprocessing.active_children() == []
 
 

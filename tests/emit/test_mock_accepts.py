@@ -6,9 +6,8 @@ import json
 
 import pytest
 
+from cellc.mock import control
 from tests.emit.cells import CELLS, DISTROS, artifacts_of
-
-control = pytest.importorskip("cellc.mock.control", reason="the mock is not there yet")
 
 
 @pytest.mark.parametrize("distro", DISTROS)

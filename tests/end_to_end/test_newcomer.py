@@ -41,7 +41,6 @@ def _commands_of_readme() -> list[str]:
     return [line.partition("#")[0].strip().removeprefix("cellc ") for line in block[1].splitlines()]
 
 
-@pytest.mark.skipif(not (ROOT / "README.md").exists(), reason="no README beside the package")
 def test_readme_leads_from_an_empty_folder_to_a_rehearsed_cell(tmp_path: Path) -> None:
     commands = _commands_of_readme()
     assert [command.split()[0] for command in commands] == ["init", "check", "build", "mock", "explain"]

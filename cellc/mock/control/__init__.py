@@ -6,7 +6,7 @@ Time is simulated, in integer nanoseconds; nothing sleeps and nothing is random.
 from cellc.mock.control.controllers.base import DeclaredInterfaces
 from cellc.mock.control.controllers.joint_state_broadcaster import JointStateBlock
 from cellc.mock.control.controllers.joint_trajectory.recorder import Recording
-from cellc.mock.control.errors import ManagerAborted
+from cellc.mock.control.errors import ManagerAbortedError
 from cellc.mock.control.events import (
     ControlEvent,
     ControllerChanged,
@@ -55,7 +55,7 @@ __all__ = [
     "JointTolerance",
     "LogLevel",
     "LogLine",
-    "ManagerAborted",
+    "ManagerAbortedError",
     "Noise",
     "ParameterResponse",
     "Recording",

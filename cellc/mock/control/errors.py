@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 
-class ManagerAborted(Exception):  # noqa: N818 - a word of the domain: the process aborted
+class ManagerAbortedError(Exception):
     """The process of the controller manager ended while it started.
 
     Args:

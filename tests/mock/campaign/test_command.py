@@ -142,7 +142,6 @@ def test_failing_run_is_told_with_the_command_that_replays_it(
 
 
 def test_replayed_run_leaves_its_evidence(folders: dict[str, Path], tmp_path: Path) -> None:
-    pytest.importorskip("mcap")
     name = "ready/protective_stop:arm@2"
     ran = run("mock", str(folders["minimal"]), "--replay", name, "--replay", name, "--evidence", str(tmp_path / "kept"))
     assert ran.code == 0, ran.err
@@ -165,7 +164,6 @@ def test_folder_whose_rehearsals_all_have_faults_has_no_campaign(folders: dict[s
 @pytest.mark.usefixtures("few_faults")
 @pytest.mark.parametrize("option", ["--campaign", "--gates"])
 def test_report_shows_the_matrix_and_judges_gates_by_it(option: str, folders: dict[str, Path], tmp_path: Path) -> None:
-    pytest.importorskip("mcap")
     ran = run("mock", str(folders["minimal"]), option, "--jobs", "1", "--evidence", str(tmp_path / "kept"))
     assert ran.code == 0, ran.err
     page = (tmp_path / "kept" / "report.html").read_text(encoding="utf-8")

@@ -11,7 +11,7 @@ from cellc.mock.control import (
     ControllerManager,
     GripperEnded,
     GripperGoal,
-    ManagerAborted,
+    ManagerAbortedError,
     TrajectoryEnded,
     TrajectoryGoal,
     TrajectoryPoint,
@@ -104,7 +104,7 @@ def _plain(text: str) -> str:
 def test_manager_answers_as_recorded(path: Path) -> None:
     observed = read_yaml(path)
     if not observed["manager_survives"]:
-        with pytest.raises(ManagerAborted):
+        with pytest.raises(ManagerAbortedError):
             _start(path.parent, observed)
         return
     manager = _start(path.parent, observed)
@@ -132,6 +132,6 @@ def test_manager_that_aborts_says_why(case: str, reason: str) -> None:
     path = found.values[0]
     if path is None:
         pytest.skip("recorded answers are absent")
-    with pytest.raises(ManagerAborted) as aborted:
+    with pytest.raises(ManagerAbortedError) as aborted:
         _start(path.parent, read_yaml(path))
     assert reason in aborted.value.reason

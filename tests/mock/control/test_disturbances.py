@@ -11,7 +11,7 @@ from cellc.mock.control import (
     GripperEnded,
     GripperGoal,
     HardwareChanged,
-    ManagerAborted,
+    ManagerAbortedError,
     TrajectoryEnded,
     TrajectoryGoal,
     TrajectoryPoint,
@@ -159,7 +159,7 @@ def test_document_type_in_the_description_is_refused() -> None:
 
 
 def test_tab_in_the_parameter_file_ends_the_process() -> None:
-    with pytest.raises(ManagerAborted):
+    with pytest.raises(ManagerAbortedError):
         ControllerManager(urdf(), "controller_manager:\n\tros__parameters: {}")
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from cellc.mock.control import ControllerManager, ManagerAborted, Strictness
+from cellc.mock.control import ControllerManager, ManagerAbortedError, Strictness
 
 from .bench import Value, bench, parameters, urdf, wait
 
@@ -15,7 +15,7 @@ def _manager(manager: dict[str, object] | None = None, description: str = "", **
 
 @pytest.mark.parametrize("rate", [0, 100.0])
 def test_refused_update_rate_ends_the_process(rate: float) -> None:
-    with pytest.raises(ManagerAborted):
+    with pytest.raises(ManagerAbortedError):
         _manager({"update_rate": rate})
 
 

@@ -109,7 +109,7 @@ def assemble(urdf: str, parameters: str, options: NodeOptions, changed: Callable
         changed: called before each change that comes from outside.
 
     Raises:
-        ManagerAborted: where the real process would end while it starts.
+        ManagerAbortedError: where the real process would end while it starts.
     """
     log, table, late = Log(), InterfaceTable(), _Late()
     events: list[ControlEvent] = []

@@ -47,7 +47,7 @@ class ControllerManager:
         declared: interfaces of controllers that only the cell tells, by name.
 
     Raises:
-        ManagerAborted: where the real process would end while it starts.
+        ManagerAbortedError: where the real process would end while it starts.
     """
 
     def __init__(

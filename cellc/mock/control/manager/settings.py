@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import lru_cache
 
-from cellc.mock.control.errors import ManagerAborted
+from cellc.mock.control.errors import ManagerAbortedError
 from cellc.mock.control.parameters import Parameter, ParameterError, ParameterFile, ParameterFileError, ParameterSet
 
 NODE_NAME = "controller_manager"
@@ -27,12 +27,12 @@ def read_file(text: str) -> ParameterFile:
     """Read the parameter file of the manager's process; kept, since every run of a cell starts from the same text.
 
     Raises:
-        ManagerAborted: where rcl refuses it.
+        ManagerAbortedError: where rcl refuses it.
     """
     try:
         return ParameterFile(text)
     except ParameterFileError as error:
-        raise ManagerAborted(
+        raise ManagerAbortedError(
             "failed to initialize rcl: Couldn't parse params file: '--params-file controllers.yaml'. "
             f"Error: {error.reason}"
         ) from None
@@ -42,14 +42,14 @@ def read_settings(parameters: ParameterSet, distro: str) -> ManagerSettings:
     """Declare and read the parameters of the manager.
 
     Raises:
-        ManagerAborted: where its process would end.
+        ManagerAbortedError: where its process would end.
     """
     # Command limits are enforced by default since Kilted (facts/ros2_control.md §3.1).
     enforced = distro in ("kilted", "lyrical")
     initial = "hardware_components_initial_state."
     given = parameters.given("update_rate")
     if isinstance(given, float):
-        raise ManagerAborted(
+        raise ManagerAbortedError(
             "Exception thrown while initializing controller manager parameters: expected [integer] got [double]"
         )
     try:
@@ -62,12 +62,12 @@ def read_settings(parameters: ParameterSet, distro: str) -> ManagerSettings:
             )
         )
     except ParameterError as error:
-        raise ManagerAborted(
+        raise ManagerAbortedError(
             f"Exception thrown while initializing controller manager parameters: {error.reason}"
         ) from None
     rate = int(parameters.number("update_rate"))
     if rate <= 0:
-        raise ManagerAborted("cannot store a negative time point in rclcpp::Time")
+        raise ManagerAbortedError("cannot store a negative time point in rclcpp::Time")
     return ManagerSettings(
         rate,
         parameters.flag("enforce_command_limits") and distro != "humble",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import BinaryIO
 
@@ -70,7 +70,8 @@ class Bag:
     def finish(self) -> None:
         """Write what is left, the summary and the footer."""
         self._flush()
-        self._writer.finish()  # type: ignore[no-untyped-call]  # the one method that mcap left without a type
+        finish: Callable[[], object] = self._writer.finish
+        finish()
 
     def _flush(self) -> None:
         for each in sorted(self._pending, key=lambda message: message.log_ns):
