@@ -8,7 +8,7 @@ from pathlib import Path
 
 from cellc import __version__
 
-_ANSWERING = ("geometry", "kinematics")
+_ANSWERING = ("feasibility", "planning", "description")
 """Packages whose code decides the answers; a change of theirs makes every kept answer a stranger."""
 
 

@@ -8,14 +8,14 @@ from functools import lru_cache
 from pathlib import Path
 
 from cellc.catalog.controller_kind import ControllerKind
-from cellc.catalog.description import Description
 from cellc.catalog.device_controller import PASSIVE
 from cellc.catalog.device_model import DeviceModel
 from cellc.catalog.distro_model import ControllerManagerFacts, DistroTable
 from cellc.catalog.message_model import InterfaceTypeTable
 from cellc.catalog.qos_model import QosTable
-from cellc.catalog.read_description import read_catalogue_description, read_description
 from cellc.catalog.read_model import ModelT, read_model
+from cellc.description.model import Description
+from cellc.description.read_description import read_catalogue_description, read_description
 from cellc.diagnostics import Diagnostic, Outcome, Severity, YamlPath, did_you_mean
 from cellc.disk import unrecorded
 from cellc.source.document import SourceDocument

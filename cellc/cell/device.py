@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from cellc.catalog.description import Description
 from cellc.catalog.device_model import DeviceModel
 from cellc.cell.entity import Entity
+from cellc.description.model import Description
 from cellc.spec.devices import DeviceSpec
 from cellc.transforms import Pose
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from cellc.catalog.description import Joint, Link
 from cellc.cell.cell import Cell
 from cellc.cell.device import Device
+from cellc.description.model import Joint, Link
 from cellc.diagnostics import Span, YamlPath
 
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from cellc.catalog.description import Description, Joint
 from cellc.catalog.device_control import GroupInterfaces, JointInterfaces
 from cellc.catalog.device_model import AccelerationLimit, DeviceModel, JerkLimit
 from cellc.catalog.load import CatalogDevice, device_names, load_device
 from cellc.cell.device import Device, DeviceDriver, DeviceJoint, HardwareComponent, InterfaceGroup
 from cellc.cell.frame import WORLD
+from cellc.description.model import Description, Joint
 from cellc.diagnostics import Diagnostic, Outcome, Severity, did_you_mean
 from cellc.link.local_device import local_device
 from cellc.link.placeholders import Placeholders, placeholders

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from cellc.geometry import BodyContact
+from cellc.feasibility import BodyContact
 from cellc.graph.cell_graph import CellGraph
 
 

@@ -213,8 +213,8 @@ def test_the_cache_can_be_turned_off(folder: Path, computed: Counting, monkeypat
 def test_an_answer_cut_short_by_the_time_it_took_is_not_kept(
     folder: Path, computed: Counting, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("cellc.catalog.xacro_expander.WALL_SECONDS", 0.0)
-    monkeypatch.setattr("cellc.catalog.xacro_expander.expand_xacro.__defaults__", (0.0,))
+    monkeypatch.setattr("cellc.description.xacro_expander.WALL_SECONDS", 0.0)
+    monkeypatch.setattr("cellc.description.xacro_expander.expand_xacro.__defaults__", (0.0,))
     assert "xacro-too-large" in {found.code for found in answer("cell.yaml").findings.diagnostics}
     monkeypatch.undo()
     assert not (folder.parent / "cache").exists()

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from cellc.catalog.description import Description, Joint
+from cellc.description.model import Description, Joint
 
 Matrix = npt.NDArray[np.float64]
 

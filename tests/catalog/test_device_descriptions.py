@@ -13,9 +13,9 @@ import numpy as np
 import pinocchio
 import pytest
 
-from cellc.catalog.description import Box, Description, Inertial
-from cellc.catalog.expansion import expand_here
 from cellc.catalog.load import CATALOGUE, device_names, load_device
+from cellc.description.model import Box, Description, Inertial
+from cellc.description.xacro_expansion import expand_here
 from tests.catalog.chains import Matrix, axis_rotation, transform
 
 # Classic DH of the arm as the vendor publishes it: a, alpha, d; theta is the joint.
@@ -191,7 +191,7 @@ def test_gripper_does_not_touch_itself(angle: float) -> None:
 def test_expansion_is_the_same_under_any_hash_seed() -> None:
     program = (
         "from cellc.catalog.load import device_names, CATALOGUE\n"
-        "from cellc.catalog.expansion import expand_here\n"
+        "from cellc.description.xacro_expansion import expand_here\n"
         "d = CATALOGUE / 'devices'\n"
         "for n in device_names():\n"
         "    print(expand_here(f'{d}/{n}/{n}.urdf.xacro', {}, str(d)).value)\n"

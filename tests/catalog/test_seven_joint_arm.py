@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from cellc.catalog.description import Box
 from cellc.catalog.load import CatalogDevice, load_device
 from cellc.catalog.starter import starter_spec
+from cellc.description.model import Box
 from tests.catalog.chains import Matrix, transform
 
 PI = math.pi

@@ -12,7 +12,7 @@ from pathlib import Path
 from tests.cli.run import ROOT
 
 # The mock, the format between it and the compiler, and the mathematics that both use.
-NEEDED = ("mock", "contract", "transforms", "kinematics", "adapter")
+NEEDED = ("mock", "contract", "transforms", "planning", "adapter")
 
 
 def test_mock_runs_a_folder_where_the_compiler_is_absent(pick: Path, tmp_path: Path) -> None:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from cellc.cell.cell import Cell
 from cellc.cell.motion import CartesianGoal, PlanningGroup
 from cellc.contract.contract import ContractDisabledCollision, ContractGoal, ContractGroup, ContractPoseTarget
+from cellc.feasibility import disabled_links
 from cellc.formats.contract_pose import contract_pose
-from cellc.geometry import disabled_links
 from cellc.graph.adapters import adapter_of_group
 from cellc.graph.cell_graph import CellGraph
 

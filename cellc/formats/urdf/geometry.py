@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from xml.etree.ElementTree import Element
 
-from cellc.catalog.description import Box, Collision, Cylinder, Geometry, Inertial, Mesh, Sphere, Visual
+from cellc.description.model import Box, Collision, Cylinder, Geometry, Inertial, Mesh, Sphere, Visual
 from cellc.formats.numbers import settled, shortest
 from cellc.formats.xml_text import element
 from cellc.transforms import Pose

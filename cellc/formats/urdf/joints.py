@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from xml.etree.ElementTree import Element
 
-from cellc.catalog.description import Joint, JointDynamics, Mimic, SafetyController
 from cellc.cell.device import DeviceJoint
+from cellc.description.model import Joint, JointDynamics, Mimic, SafetyController
 from cellc.formats.numbers import settled, shortest
 from cellc.formats.urdf.geometry import numbers, origin
 from cellc.formats.xml_text import element

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from xml.etree.ElementTree import Element
 
-from cellc.catalog.description import Box, Collision, Link, Visual
 from cellc.cell.frame import SceneBox
+from cellc.description.model import Box, Collision, Link, Visual
 from cellc.formats.urdf.geometry import collision, inertial, numbers, visual
 from cellc.formats.urdf.materials import Palette
 from cellc.formats.xml_text import element

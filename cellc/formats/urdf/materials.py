@@ -10,8 +10,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from xml.etree.ElementTree import Element
 
-from cellc.catalog.description import Visual
 from cellc.cell.device import Device
+from cellc.description.model import Visual
 from cellc.formats.urdf.geometry import numbers
 from cellc.formats.xml_text import element
 

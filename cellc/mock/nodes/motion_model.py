@@ -7,7 +7,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from cellc.contract.contract import Contract, ContractGroup, ContractJointLimits
-from cellc.kinematics import (
+from cellc.mock.errors import MockError
+from cellc.mock.world.links import LinkTree
+from cellc.planning import (
     CollisionScene,
     JointLimits,
     LimitsError,
@@ -16,8 +18,6 @@ from cellc.kinematics import (
     PlanningGroup,
     RobotModel,
 )
-from cellc.mock.errors import MockError
-from cellc.mock.world.links import LinkTree
 from cellc.transforms import Pose, identity
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections import OrderedDict
 from collections.abc import Mapping
 
-from cellc.kinematics import Box, PlanFailure
 from cellc.mock.nodes.motion_model import MotionModel
 from cellc.mock.nodes.motion_request import GoalPose, MotionRequest, PlannedMotion, SceneState, build_scene, plan_motion
+from cellc.planning import Box, PlanFailure
 from cellc.transforms import Pose
 
 PLANNING_LATENCY_S = 0.05

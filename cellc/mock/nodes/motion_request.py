@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import lru_cache
 
-from cellc.kinematics import (
+from cellc.mock.nodes.motion_model import GroupModel, MotionModel
+from cellc.planning import (
     Box,
     CollisionScene,
     FailureReason,
@@ -17,7 +18,6 @@ from cellc.kinematics import (
     TimedTrajectory,
     time_parameterize,
 )
-from cellc.mock.nodes.motion_model import GroupModel, MotionModel
 from cellc.transforms import Pose, Vector3
 
 _IK_ATTEMPTS = 4

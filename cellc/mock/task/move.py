@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from cellc.contract.contract import ContractPoseTarget
-from cellc.kinematics import PlanFailure, TimedTrajectory
 from cellc.mock.control import TrajectoryGoal, TrajectoryPoint
 from cellc.mock.engine.process import Waiting
 from cellc.mock.nodes.motion_planner import PLANNING_LATENCY_S
@@ -18,6 +17,7 @@ from cellc.mock.task.goal_frame import check_observation, locate_goal
 from cellc.mock.task.joint_state import CurrentState, current_state
 from cellc.mock.task.outcome import AttemptError, Outcome
 from cellc.mock.task.response import await_response
+from cellc.planning import PlanFailure, TimedTrajectory
 
 ARRIVAL_TOLERANCE = 0.05
 """rad or m by which a joint may miss the end of a trajectory that its controller calls a success."""

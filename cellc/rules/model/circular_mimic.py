@@ -32,7 +32,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cellc.catalog.description import Description, Joint
+from cellc.description.model import Description, Joint
 from cellc.diagnostics import Severity
 from cellc.graph.cell_graph import CellGraph
 from cellc.rule import Finding

@@ -30,7 +30,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cellc.catalog.description import Inertial
+from cellc.description.model import Inertial
 from cellc.diagnostics import Severity
 from cellc.graph.cell_graph import CellGraph
 from cellc.rule import Finding

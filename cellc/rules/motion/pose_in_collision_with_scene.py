@@ -32,7 +32,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cellc.diagnostics import Severity
-from cellc.geometry import motion_answer
+from cellc.feasibility import motion_answer
 from cellc.graph.cell_graph import CellGraph
 from cellc.rule import Finding
 from cellc.rules.contacts import named, with_scene

@@ -9,7 +9,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cellc.kinematics import RobotModel
 from cellc.mock.clocks import Clocks
 from cellc.mock.control import JointStateBlock
 from cellc.mock.nodes.joint_state_feed import JointStateFeed
@@ -21,6 +20,7 @@ from cellc.mock.tf.warnings import TfWarnings
 from cellc.mock.world.joint_states import JointStateHistory, LateArrival
 from cellc.mock.world.links import LinkTree, read_links
 from cellc.mock.world.objects import World
+from cellc.planning import RobotModel
 from cellc.transforms import Pose, from_xyz_rpy, identity
 
 MS = 1_000_000

@@ -1,0 +1,50 @@
+"""The one door from a description file, URDF or xacro, to a Description."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from cellc.description.model import Description
+from cellc.description.urdf_reader import read_urdf
+from cellc.description.xacro_expander import expand_xacro
+from cellc.description.xacro_expansion import Expansion, expand_here
+from cellc.description.xacro_files import ConfinedFiles, XacroRefusedError
+from cellc.diagnostics import Diagnostic, Outcome, Severity, Span
+
+
+def read_description(file: Path, arguments: Mapping[str, str], root: Path) -> Outcome[Description]:
+    """Read a description that the user brought: ``.xacro`` is expanded in a child process, all else is URDF.
+
+    Args:
+        file: the description, as the user named it.
+        arguments: values of ``<xacro:arg>``; a plain URDF takes none.
+        root: the folder that the description and all it includes must lie under.
+    """
+    if file.suffix == ".xacro":
+        return _read_expanded(file, expand_xacro(file, arguments, root))
+    start = Span(file.as_posix(), 1, 1, 1, 1)
+    if arguments:
+        message = f"`{file.name}` is URDF and takes no arguments"
+        found = Diagnostic("xacro-unknown-argument", Severity.ERROR, message, start, help="remove `arguments:`")
+        return Outcome(None, (found,))
+    try:
+        text = ConfinedFiles(root.as_posix()).read(file.as_posix())
+    except XacroRefusedError as refusal:
+        found = Diagnostic(refusal.code, Severity.ERROR, refusal.message, start, help=refusal.help_text)
+        return Outcome(None, (found,))
+    return read_urdf(text, file.as_posix())
+
+
+def read_catalogue_description(
+    file: Path, arguments: Mapping[str, str], root: Path, shown_root: str
+) -> Outcome[Description]:
+    """Read a description that ships with the catalogue, in this process."""
+    return _read_expanded(file, expand_here(file.as_posix(), arguments, root.as_posix(), shown_root))
+
+
+def _read_expanded(file: Path, expanded: Outcome[Expansion]) -> Outcome[Description]:
+    if expanded.value is None:
+        return Outcome(None, expanded.diagnostics)
+    read = read_urdf(expanded.value.text, file.as_posix(), expanded.value.origins)
+    return Outcome(read.value, expanded.diagnostics + read.diagnostics)

@@ -1,0 +1,116 @@
+"""The files that an expansion may read: regular ones under one folder, of bounded size."""
+
+from __future__ import annotations
+
+import math
+import os
+from typing import Any
+
+import xacro
+import yaml
+
+from cellc import disk
+from cellc.description.xacro_expression import evaluate, functions
+from cellc.description.xml_tree import MAX_BYTES
+from cellc.diagnostics import Span
+
+MAX_YAML_BYTES = 1024 * 1024
+_UNITS = {
+    "!radians": 1.0,
+    "!degrees": math.pi / 180.0,
+    "!meters": 1.0,
+    "!millimeters": 0.001,
+    "!foot": 0.3048,
+    "!inches": 0.0254,
+}  # the tags that xacro gives to values in YAML
+
+
+class XacroRefusedError(xacro.XacroException):  # type: ignore[misc]  # the library has no types
+    """Ends an expansion with a code of ours; ``span`` where the place is not that of the element in work."""
+
+    def __init__(
+        self, code: str, message: str, help_text: str = "", span: Span | None = None, cause: OSError | None = None
+    ) -> None:
+        # xacro looks for an OSError in `exc` to know that an optional include is merely absent.
+        super().__init__(message, exc=cause)
+        self.code, self.message, self.help_text, self.span = code, message, help_text, span
+
+
+class ConfinedFiles:
+    """Reads under ``root``; links are resolved before the comparison. ``shown_root`` stands for it in messages."""
+
+    def __init__(self, root: str, shown_root: str | None = None) -> None:
+        self.root = root
+        self._shown_root = shown_root
+        self._real_root = disk.real_path(root)
+        self._bytes_read = 0
+
+    def checked(self, path: str) -> str:
+        """Return ``path`` unless it leads out of the root."""
+        real = disk.real_path(path)
+        if real != self._real_root and not real.startswith(self._real_root.rstrip(os.sep) + os.sep):
+            raise XacroRefusedError(
+                "xacro-outside-root",
+                f"`{path[:200]}` leads out of the folder `{self.shown(self.root)}`",
+                "copy the file beside the description",
+            )
+        return path
+
+    def shown(self, path: str) -> str:
+        """Return a path as diagnostics show it."""
+        if self._shown_root is not None:
+            path = os.path.join(self._shown_root, os.path.relpath(path, self.root))
+        return os.path.normpath(path).replace(os.sep, "/")
+
+    def read(self, path: str) -> str:
+        """Return the text of a file."""
+        self.checked(path)
+        if disk.kind_of(path) != "file":
+            missing = FileNotFoundError(path)
+            raise XacroRefusedError("xacro-file-not-found", f"`{self.shown(path)}` is not a file", cause=missing)
+        data = self._read_bytes(path)
+        try:
+            return data.decode("utf-8-sig")
+        except UnicodeDecodeError as error:
+            message = f"`{self.shown(path)}` is not UTF-8 text (byte {error.start})"
+            raise XacroRefusedError("xacro-not-text", message, "save it as UTF-8") from None
+
+    def _read_bytes(self, path: str) -> bytes:
+        remaining = MAX_BYTES - self._bytes_read
+        try:
+            data = disk.contents(path, remaining)
+        except OSError as error:
+            message = f"`{self.shown(path)}` cannot be read: {error.strerror}"
+            raise XacroRefusedError("xacro-file-not-found", message, cause=error) from None
+        if len(data) > remaining:
+            raise XacroRefusedError("xacro-too-large", f"the files are larger than {MAX_BYTES // 2**20} MiB together")
+        self._bytes_read += len(data)
+        return data
+
+    def load_yaml(self, path: str) -> Any:
+        """Read a YAML file of parameters, as ``xacro.load_yaml`` does, without anchors."""
+        text = self.read(path)
+        shown = self.shown(path)
+        if len(text) > MAX_YAML_BYTES:
+            raise XacroRefusedError("xacro-too-large", f"`{shown}` is larger than {MAX_YAML_BYTES // 2**20} MiB")
+        try:
+            # One alias of an alias of an alias is a text of gigabytes once it is written out.
+            if any(isinstance(event, yaml.AliasEvent) for event in yaml.parse(text, Loader=_UnitLoader)):
+                raise XacroRefusedError("xacro-bad-yaml", f"`{shown}` uses aliases", "write the values out")
+            return yaml.load(text, Loader=_UnitLoader)  # a SafeLoader
+        except (yaml.YAMLError, ValueError, RecursionError) as error:
+            reason = str(error).split("\n", 1)[0]
+            raise XacroRefusedError("xacro-bad-yaml", f"`{shown}` is not readable YAML: {reason}") from None
+
+
+class _UnitLoader(yaml.SafeLoader):
+    """SafeLoader that knows xacro's unit tags."""
+
+
+def _with_unit(loader: yaml.SafeLoader, suffix: str, node: yaml.Node) -> float:
+    if not isinstance(node, yaml.ScalarNode) or f"!{suffix}" not in _UNITS:
+        raise yaml.constructor.ConstructorError(None, None, f"unknown tag `!{suffix}`", node.start_mark)
+    return float(evaluate(str(node.value), functions())) * _UNITS[f"!{suffix}"]
+
+
+_UnitLoader.add_multi_constructor("!", _with_unit)

@@ -1,0 +1,21 @@
+"""What a cell's shapes and joints allow, computed with the planner and kept in the cache.
+
+The robot library is imported where an answer has to be computed and not before: a warm check does without.
+"""
+
+from cellc.feasibility.answers import BodyContact, DisabledAnswer, DisabledLinks, GoalAnswer, MotionAnswer, PoseAnswer
+from cellc.feasibility.disabled import MARGIN_M, RNG_SEED, disabled_links
+from cellc.feasibility.motion import motion_answer
+
+__all__ = [
+    "MARGIN_M",
+    "RNG_SEED",
+    "BodyContact",
+    "DisabledAnswer",
+    "DisabledLinks",
+    "GoalAnswer",
+    "MotionAnswer",
+    "PoseAnswer",
+    "disabled_links",
+    "motion_answer",
+]

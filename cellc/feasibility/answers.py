@@ -1,0 +1,78 @@
+"""Answers about geometry: plain values, so that they can be kept."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class DisabledLinks:
+    """Two links that need no collision check, the lesser name first; ``reason`` is adjacent, never or always."""
+
+    first: str
+    second: str
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class DisabledAnswer:
+    """All such pairs, sorted by name.
+
+    Attributes:
+        samples: number of configurations that "never" and "always" rest on.
+        refused: why the description cannot be used, empty where it can.
+    """
+
+    pairs: tuple[DisabledLinks, ...]
+    samples: int
+    refused: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class BodyContact:
+    """Two links, or a link and a box of the scene, that touch."""
+
+    first: str
+    second: str
+
+
+@dataclass(frozen=True, slots=True)
+class PoseAnswer:
+    """What touches when all groups of a named pose stand in it."""
+
+    name: str
+    contacts: tuple[BodyContact, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class GoalAnswer:
+    """Whether a goal can be taken, from the solution nearest to where the cell begins.
+
+    Attributes:
+        failure: word of the planner for why the tip cannot be there, empty where it can.
+        detail: one line with figures.
+        approach_failure: why no straight line leads to the goal, empty where one does or none is asked for.
+        min_singular_value: least singular value of the tip's Jacobian at the goal, rows in m and rad.
+        limit_joint: joint nearest to one of its limits there, as a share of its range; empty where none has a range.
+        limit_share: its distance to that limit as a share of its range.
+        limit_distance: the same in rad or m.
+    """
+
+    name: str
+    failure: str = ""
+    detail: str = ""
+    approach_failure: str = ""
+    min_singular_value: float | None = None
+    limit_joint: str = ""
+    limit_share: float = 1.0
+    limit_distance: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class MotionAnswer:
+    """All answers of a cell; ``refused`` says why the description cannot be used, empty where it can."""
+
+    start: tuple[BodyContact, ...] = ()
+    poses: tuple[PoseAnswer, ...] = ()
+    goals: tuple[GoalAnswer, ...] = ()
+    refused: str = ""

@@ -1,0 +1,103 @@
+"""Computes the answers with the planner; imported where an answer is not in the cache."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from cellc.cell.frame import WORLD
+from cellc.feasibility.answers import BodyContact, DisabledLinks, GoalAnswer, MotionAnswer, PoseAnswer
+from cellc.feasibility.question import GoalQuestion, GroupQuestion, MotionQuestion
+from cellc.planning import (
+    CollisionScene,
+    IkFailure,
+    JointLimits,
+    JointPath,
+    LimitsError,
+    ModelError,
+    PlanFailure,
+    Planner,
+    PlanningGroup,
+    RobotModel,
+)
+from cellc.transforms import Pose
+
+IK_SEEDS = 24
+"""Descents to a goal before it counts as unreachable."""
+APPROACH_ATTEMPTS = 4
+"""Configurations before a goal from which a straight line is tried, as many as the mock tries."""
+
+Configuration = tuple[float, ...]
+
+
+def answer(question: MotionQuestion, disabled: tuple[DisabledLinks, ...]) -> MotionAnswer:
+    """Answer all parts of a question in the scene of the cell, every joint not asked about at its start."""
+    try:
+        robot = RobotModel.from_urdf(question.urdf)
+        start = {joint: value for joint, value in question.start if joint in robot.joints}
+        pairs = [(pair.first, pair.second) for pair in disabled]
+        scene = CollisionScene(robot, disabled_collisions=pairs, other_positions=start)
+        asked = {goal.group for goal in question.goals}
+        planners = {group.name: _planner(group, robot, scene) for group in question.groups if group.name in asked}
+    except (ModelError, LimitsError) as error:
+        return MotionAnswer(refused=str(error))
+    return MotionAnswer(
+        start=_contacts(scene, start),
+        poses=tuple(PoseAnswer(pose.name, _contacts(scene, start | dict(pose.positions))) for pose in question.poses),
+        goals=tuple(_goal(goal, planners[goal.group], robot, start) for goal in question.goals),
+    )
+
+
+def _planner(group: GroupQuestion, robot: RobotModel, scene: CollisionScene) -> Planner:
+    # No time is planned here: any limits of speed do.
+    free = (1.0,) * len(group.joints)
+    limits = JointLimits(group.joints, group.lower, group.upper, free, free, free)
+    return Planner(robot, PlanningGroup(group.name, group.joints, group.base_link, group.tip_link), limits, scene)
+
+
+def _contacts(scene: CollisionScene, positions: Mapping[str, float]) -> tuple[BodyContact, ...]:
+    movable = {joint: value for joint, value in positions.items() if joint in scene.model.joints}
+    return tuple(BodyContact(*pair) for pair in scene.contacts(scene.model.configuration(movable)))
+
+
+def _goal(goal: GoalQuestion, planner: Planner, robot: RobotModel, start: Mapping[str, float]) -> GoalAnswer:
+    base_in_world = robot.link_pose(planner.group.base_link, start, base_link=WORLD)
+    target = base_in_world.inverse() @ goal.target
+    begin = tuple(start.get(joint, 0.0) for joint in planner.group.joints)
+    solution = planner.inverse_kinematics(target, begin, seeds=IK_SEEDS)
+    if isinstance(solution, IkFailure):
+        return GoalAnswer(goal.name, failure=solution.reason.value, detail=solution.detail)
+    if goal.before is None:
+        return _margins(goal.name, planner, solution.configuration)
+    line = _approach(planner, base_in_world.inverse() @ goal.before, target, begin)
+    if isinstance(line, str):
+        return GoalAnswer(goal.name, approach_failure=line)
+    return _margins(goal.name, planner, line)
+
+
+def _approach(planner: Planner, before: Pose, target: Pose, begin: Configuration) -> Configuration | str:
+    """Return the configuration at the end of a straight line to the goal, or why the first attempt had none."""
+    first = ""
+    for attempt in range(APPROACH_ATTEMPTS):
+        solution = planner.inverse_kinematics(before, begin, rng_seed=attempt)
+        if isinstance(solution, IkFailure):
+            first = first or f"before the approach {solution.detail}"
+            continue
+        line = planner.plan_cartesian(solution.configuration, target)
+        if isinstance(line, JointPath):
+            return line.goal
+        assert isinstance(line, PlanFailure)
+        first = first or line.detail
+    return first
+
+
+def _margins(name: str, planner: Planner, configuration: Configuration) -> GoalAnswer:
+    nearest = ("", 1.0, 0.0)
+    limits = planner.limits
+    for joint, value, lower, upper in zip(limits.joints, configuration, limits.lower, limits.upper, strict=True):
+        distance = min(value - lower, upper - value)
+        if distance < nearest[1] * (upper - lower):
+            nearest = (joint, distance / (upper - lower), distance)
+    least = planner.min_singular_value(configuration)
+    return GoalAnswer(
+        name, min_singular_value=least, limit_joint=nearest[0], limit_share=nearest[1], limit_distance=nearest[2]
+    )

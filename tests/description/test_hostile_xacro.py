@@ -1,0 +1,125 @@
+"""Descriptions from a stranger end in a diagnostic, fast, whatever they try."""
+
+from __future__ import annotations
+
+import os
+import time
+from pathlib import Path
+
+import pytest
+
+from cellc.description.xacro_expander import expand_xacro
+from cellc.diagnostics import Diagnostic
+
+_HEAD = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="stranger">'
+
+# Body of the description, and the code that it must end in.
+ATTACKS = {
+    "include_outside": ('<xacro:include filename="../../secret.xacro"/>', "xacro-outside-root"),
+    "include_absolute": ('<xacro:include filename="/etc/passwd"/>', "xacro-outside-root"),
+    "include_wildcard_outside": ('<xacro:include filename="../*.xacro"/>', "xacro-outside-root"),
+    "include_optional_outside": ('<xacro:include filename="/etc/passwd" optional="true"/>', "xacro-outside-root"),
+    "yaml_outside": ("<a b=\"${xacro.load_yaml('/etc/passwd')}\"/>", "xacro-outside-root"),
+    "abs_filename_outside": ("<a b=\"${xacro.abs_filename('../secret.xacro')}\"/>", "xacro-outside-root"),
+    "environment": ('<a b="$(env HOME)"/>', "xacro-refused-substitution"),
+    "optional_environment": ('<a b="$(optenv HOME none)"/>', "xacro-refused-substitution"),
+    "substitution_eval": ('<a b="$(eval 1 + 1)"/>', "xacro-refused-substitution"),
+    "current_folder": ('<a b="$(cwd)"/>', "xacro-refused-substitution"),
+    "package_outside": ('<xacro:include filename="$(find ../..)/secret.xacro"/>', "xacro-package-not-found"),
+    "class_attribute": ("<a b=\"${''.__class__.__mro__}\"/>", "xacro-refused-expression"),
+    "class_by_format": ("<a b=\"${'x'.format(1)}\"/>", "xacro-refused-expression"),
+    "type_function": ('<a b="${python.type(1)}"/>', "xacro-refused-expression"),
+    "vars_function": ('<a b="${vars()}"/>', "xacro-failed"),
+    "import_function": ("<a b=\"${__import__('os')}\"/>", "xacro-refused-expression"),
+    "lambda": ('<a b="${(lambda: 1)()}"/>', "xacro-refused-expression"),
+    "comprehension": ('<a b="${[i for i in range(9999) for j in range(9999)]}"/>', "xacro-refused-expression"),
+    "huge_power": ('<a b="${9**9**9}"/>', "xacro-refused-expression"),
+    "power_of_power": ('<a b="${((9.0**99)**99)**99}"/>', "xacro-failed"),
+    "huge_text": ("<a b=\"${'a' * 10**12}\"/>", "xacro-refused-expression"),
+    "huge_range": ('<a b="${len(python.range(10**12))}"/>', "xacro-refused-expression"),
+    "padded_format": ("<a b=\"${'%999999999d' % 1}\"/>", "xacro-refused-expression"),
+    "huge_shift": ('<a b="${1 &lt;&lt; 10**9}"/>', "xacro-refused-expression"),
+    "includes_itself": ('<xacro:include filename="robot.urdf.xacro"/>', "xacro-too-large"),
+    "macro_calls_itself": ('<xacro:macro name="m"><xacro:m/></xacro:macro><xacro:m/>', "xacro-too-large"),
+    "property_needs_itself": ('<xacro:property name="p" value="${p}"/><a b="${p}"/>', "xacro-failed"),
+    "unknown_macro": ("<xacro:no_such_macro/>", "xacro-failed"),
+    "deep_nesting": ("<a>" * 5000 + "</a>" * 5000, "xml-too-deep"),
+    "not_closed": ("<a>", "xml-not-well-formed"),
+}
+
+
+def _write(folder: Path, text: str) -> Path:
+    file = folder / "robot.urdf.xacro"
+    file.write_text(text, encoding="utf-8")
+    return file
+
+
+def _reported(file: Path, root: Path) -> tuple[Diagnostic, ...]:
+    start = time.monotonic()
+    outcome = expand_xacro(file, {}, root)
+    assert time.monotonic() - start < 9.0  # the wall of 10 s was not what ended it
+    assert outcome.value is None
+    return outcome.diagnostics
+
+
+@pytest.mark.parametrize("name", sorted(ATTACKS))
+def test_hostile_description_ends_in_one_diagnostic(name: str, tmp_path: Path) -> None:
+    body, code = ATTACKS[name]
+    root = tmp_path / "cells" / "stranger"
+    root.mkdir(parents=True)
+    for place in (tmp_path, tmp_path / "cells"):
+        (place / "secret.xacro").write_text(f"{_HEAD}<link name='secret'/></robot>", encoding="utf-8")
+    (found,) = _reported(_write(root, f"{_HEAD}\n{body}</robot>"), root)
+    assert found.code == code
+    assert "\n" not in found.message
+    assert found.span.file.endswith("robot.urdf.xacro")
+
+
+def test_exponential_macros_are_counted(tmp_path: Path) -> None:
+    doubling = "".join(
+        f'<xacro:macro name="m{i}"><xacro:m{i - 1}/><xacro:m{i - 1}/></xacro:macro>' for i in range(1, 40)
+    )
+    body = f'<xacro:macro name="m0"><a/></xacro:macro>{doubling}<xacro:m39/>'
+    (found,) = _reported(_write(tmp_path, f"{_HEAD}{body}</robot>"), tmp_path)
+    assert found.code == "xacro-too-large"
+
+
+def test_entity_bomb_is_refused(tmp_path: Path) -> None:
+    entities = "".join(f'<!ENTITY e{i} "{f"&e{i - 1};" * 10}">' for i in range(1, 20))
+    text = f'<!DOCTYPE robot [<!ENTITY e0 "x">{entities}]>{_HEAD}&e19;</robot>'
+    (found,) = _reported(_write(tmp_path, text), tmp_path)
+    assert found.code == "xml-entities"
+
+
+def test_alias_bomb_in_parameters_is_refused(tmp_path: Path) -> None:
+    lines = ["a0: &a0 x"] + [f"a{i}: &a{i} [{', '.join([f'*a{i - 1}'] * 9)}]" for i in range(1, 20)]
+    (tmp_path / "bomb.yaml").write_text("\n".join(lines), encoding="utf-8")
+    text = f"{_HEAD}<a b=\"${{xacro.load_yaml('bomb.yaml')['a19']}}\"/></robot>"
+    (found,) = _reported(_write(tmp_path, text), tmp_path)
+    assert found.code == "xacro-bad-yaml"
+
+
+def test_symbolic_link_out_of_the_root_is_refused(tmp_path: Path) -> None:
+    root = tmp_path / "cell"
+    root.mkdir()
+    (tmp_path / "secret.xacro").write_text(f"{_HEAD}</robot>", encoding="utf-8")
+    os.symlink(tmp_path / "secret.xacro", root / "innocent.xacro")
+    file = _write(root, f'{_HEAD}<xacro:include filename="innocent.xacro"/></robot>')
+    (found,) = _reported(file, root)
+    assert found.code == "xacro-outside-root"
+
+
+def test_endless_expansion_is_ended_by_the_wall(tmp_path: Path) -> None:
+    loops = "".join(f'<a{i} b="${{python.sorted(python.range(9999))[0]}}"/>' for i in range(5000))
+    outcome = expand_xacro(_write(tmp_path, f"{_HEAD}{loops}</robot>"), {}, tmp_path, wall_seconds=0.5)
+    assert [found.code for found in outcome.diagnostics] == ["xacro-too-large"]
+
+
+def test_import_path_is_not_the_strangers_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "xacro.py").write_text("raise SystemExit('the stranger runs')", encoding="utf-8")
+    (tmp_path / "json.py").write_text("raise SystemExit('the stranger runs')", encoding="utf-8")
+    _write(tmp_path, f"{_HEAD}<link name='a'/></robot>")
+    monkeypatch.chdir(tmp_path)
+    outcome = expand_xacro(Path("robot.urdf.xacro"), {}, Path())
+    assert outcome.value is not None, outcome.diagnostics
+    assert '<link name="a"/>' in outcome.value.text

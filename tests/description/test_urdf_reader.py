@@ -1,0 +1,212 @@
+"""What the reader of URDF keeps, and what it refuses."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from cellc.description.model import Box, Cylinder, Description, Mesh, Sphere
+from cellc.description.urdf_reader import read_urdf
+from cellc.diagnostics import Diagnostic, Span
+
+ROBOT = """<?xml version="1.0"?>
+<robot name="r">
+  <material name="grey"><color rgba="0.5 0.5 0.5 1"/></material>
+  <link name="a">
+    <inertial>
+      <origin xyz="1 2 3" rpy="0 0 1.5707963267948966"/>
+      <mass value="-2"/>
+      <inertia ixx="1" ixy="0.1" ixz="0.2" iyy="9" iyz="0.3" izz="1"/>
+    </inertial>
+    <visual name="v"><geometry><sphere radius="0.1"/></geometry><material name="grey"/></visual>
+    <collision><geometry><box size="1 2 3"/></geometry></collision>
+    <collision><geometry><cylinder radius="0.1" length="-1"/></geometry></collision>
+    <collision><geometry><mesh filename="package://p/m.stl" scale="0.001 0.001 0.001"/></geometry></collision>
+  </link>
+  <link name="b"/><link
+    name="c"/>
+  <joint name="j" type="revolute">
+    <parent link="a"/><child link="b"/><axis xyz="0 0 0"/>
+    <limit lower="2" upper="-2" velocity="1" effort="3"/>
+    <dynamics damping="0.5"/>
+    <safety_controller k_velocity="20" soft_lower_limit="-1" soft_upper_limit="1"/>
+  </joint>
+  <joint name="k" type="continuous">
+    <origin xyz="0 0 1"/><parent link="b"/><child link="c"/><mimic joint="nothing" multiplier="-1"/>
+  </joint>
+</robot>
+"""
+
+
+def _read(text: str) -> Description:
+    outcome = read_urdf(text, "r.urdf")
+    assert outcome.value is not None, outcome.diagnostics
+    return outcome.value
+
+
+def _refused(body: str) -> Diagnostic:
+    outcome = read_urdf(f'<robot name="r">\n{body}\n</robot>', "r.urdf")
+    assert outcome.value is None
+    (found,) = outcome.diagnostics
+    return found
+
+
+def test_shapes_keep_their_dimensions() -> None:
+    link = _read(ROBOT).link("a")
+    assert link is not None
+    assert [collision.geometry for collision in link.collisions] == [
+        Box((1.0, 2.0, 3.0)),
+        Cylinder(0.1, -1.0),
+        Mesh("package://p/m.stl", (0.001, 0.001, 0.001)),
+    ]
+    (visual,) = link.visuals
+    assert (visual.geometry, visual.material, visual.rgba) == (Sphere(0.1), "grey", (0.5, 0.5, 0.5, 1.0))
+
+
+def test_what_is_wrong_survives_for_the_rules() -> None:
+    description = _read(ROBOT)
+    joint, link = description.joint("j"), description.link("a")
+    assert joint is not None
+    assert joint.limit is not None
+    assert (joint.limit.lower, joint.limit.upper, joint.axis) == (2.0, -2.0, (0.0, 0.0, 0.0))
+    assert link is not None
+    assert link.inertial is not None
+    assert (link.inertial.mass, link.inertial.iyy) == (-2.0, 9.0)
+
+
+def test_what_is_absent_takes_the_defaults_of_the_specification() -> None:
+    joint = _read(ROBOT).joint("k")
+    assert joint is not None
+    assert joint.axis == (1.0, 0.0, 0.0)
+    assert joint.limit is None
+    assert joint.mimic is not None
+    assert (joint.mimic.joint, joint.mimic.multiplier, joint.mimic.offset) == ("nothing", -1.0, 0.0)
+
+
+def test_absent_limits_are_none_and_not_zero() -> None:
+    text = ROBOT.replace('lower="2" upper="-2" ', "")
+    joint = _read(text).joint("j")
+    assert joint is not None
+    assert joint.limit is not None
+    assert (joint.limit.lower, joint.limit.upper, joint.limit.velocity) == (None, None, 1.0)
+
+
+def test_soft_limits_are_read() -> None:
+    joint = _read(ROBOT).joint("j")
+    assert joint is not None
+    assert joint.safety is not None
+    assert (joint.safety.soft_lower, joint.safety.soft_upper, joint.safety.k_velocity) == (-1.0, 1.0, 20.0)
+
+
+def test_inertial_pose_turns_fixed_axes() -> None:
+    link = _read(ROBOT).link("a")
+    assert link is not None
+    assert link.inertial is not None
+    assert link.inertial.pose.position == (1.0, 2.0, 3.0)
+    assert link.inertial.pose.quaternion == pytest.approx((0, 0, math.sqrt(0.5), math.sqrt(0.5)))
+
+
+def test_span_of_a_link_is_its_start_tag() -> None:
+    description = _read(ROBOT)
+    spans = {link.name: link.span for link in description.links}
+    assert spans["a"] == Span("r.urdf", 4, 3, 4, 18)
+    assert spans["b"] == Span("r.urdf", 15, 3, 15, 19)
+    assert spans["c"] == Span("r.urdf", 15, 19, 16, 15)
+
+
+def test_prefix_reaches_every_reference() -> None:
+    renamed = _read(ROBOT).renamed("left_")
+    assert [link.name for link in renamed.links] == ["left_a", "left_b", "left_c"]
+    joint = renamed.joint("left_k")
+    assert joint is not None
+    assert joint.mimic is not None
+    assert (joint.parent, joint.child, joint.mimic.joint) == ("left_b", "left_c", "left_nothing")
+
+
+def test_roots_are_the_links_that_are_nobodys_child() -> None:
+    assert _read(ROBOT).roots() == ("a",)
+    assert _read('<robot name="r"><link name="a"/><link name="b"/></robot>').roots() == ("a", "b")
+
+
+def test_duplicate_names_survive_for_the_rules() -> None:
+    description = _read('<robot name="r"><link name="a"/><link name="a"/></robot>')
+    assert [link.name for link in description.links] == ["a", "a"]
+
+
+def _shape(shape: str) -> str:
+    return f'<link name="a"><collision><geometry>{shape}</geometry></collision></link>'
+
+
+REFUSALS = {
+    "nan": (_shape('<sphere radius="nan"/>'), "bad-number"),
+    "inf": (_shape('<sphere radius="inf"/>'), "bad-number"),
+    "overflow": (_shape('<sphere radius="1e999"/>'), "bad-number"),
+    "underscore": (_shape('<sphere radius="1_0"/>'), "bad-number"),
+    "comma": (_shape('<sphere radius="1,5"/>'), "bad-number"),
+    "two_numbers": (_shape('<box size="1 2"/>'), "bad-number"),
+    "no_link_name": ("<link/>", "missing-attribute"),
+    "empty_link_name": ('<link name=" "/>', "missing-attribute"),
+    "no_joint_type": ('<joint name="j"><parent link="a"/><child link="b"/></joint>', "missing-attribute"),
+    "no_parent": ('<joint name="j" type="fixed"><child link="b"/></joint>', "missing-element"),
+    "no_mass": ('<link name="a"><inertial><inertia/></inertial></link>', "missing-element"),
+    "two_shapes": (_shape('<sphere radius="1"/><sphere radius="1"/>'), "bad-geometry"),
+    "no_shape": ('<link name="a"><visual><geometry/></visual></link>', "bad-geometry"),
+    "unknown_shape": ('<link name="a"><visual><geometry><cone/></geometry></visual></link>', "bad-geometry"),
+    "unknown_type": ('<joint name="j" type="rotary"><parent link="a"/><child link="b"/></joint>', "unknown-joint-type"),
+    "xacro_left": ("<xacro:include filename='x'/>", "not-expanded"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", sorted(REFUSALS))
+def test_malformed_element_is_reported_on_its_line(name: str) -> None:
+    body, code = REFUSALS[name]
+    found = _refused(body)
+    assert (found.code, found.span.line) == (f"urdf-{code}", 2)
+
+
+def test_every_malformed_link_is_reported_at_once() -> None:
+    outcome = read_urdf('<robot name="r"><link/><link name="a"/><joint/><link/></robot>', "r.urdf")
+    assert [found.code for found in outcome.diagnostics] == ["urdf-missing-attribute"] * 3
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [
+        ("", "xml-not-well-formed"),
+        ("name: cell", "xml-not-well-formed"),
+        ("<sdf/>", "urdf-not-a-robot"),
+        ('<!DOCTYPE r [<!ENTITY a "b">]><robot name="r"/>', "xml-entities"),
+        ("<a>" * 65 + "</a>" * 65, "xml-too-deep"),
+        (f"<robot name='r'><!--{'x' * 9_000_000}--></robot>", "xml-too-large"),
+    ],
+    ids=["empty", "yaml", "sdf", "entity", "deep", "large"],
+)
+def test_what_is_no_urdf_is_refused(text: str, code: str) -> None:
+    outcome = read_urdf(text, "r.urdf")
+    assert outcome.value is None
+    assert [found.code for found in outcome.diagnostics] == [code]
+
+
+_FRAGMENTS = st.sampled_from(
+    ["<robot name='r'>", "</robot>", "<link name='a'>", "</link>", "<joint name='j' type='fixed'>", "</joint>",
+     "<origin xyz='0 0'/>", "<geometry>", "</geometry>", "<box size='1 1 1'/>", "<limit lower='", "'/>", "&#0;", "&a;",
+     "<![CDATA[", "]]>", "<!--", "<?xml version='1.0' encoding='utf-16'?>", "\x00", "\ud800", "\u2028",
+     "<mass value='1e5'/>"]
+)  # fmt: skip
+
+
+@settings(max_examples=300, deadline=None)
+@given(st.one_of(st.binary().map(lambda data: data.decode("latin-1")), st.text(), st.lists(_FRAGMENTS).map("".join)))
+def test_reader_answers_any_text(text: str) -> None:
+    outcome = read_urdf(text, "r.urdf")
+    assert (outcome.value is None) == bool(outcome.diagnostics)
+
+
+@settings(max_examples=200, deadline=None)
+@given(st.integers(0, len(ROBOT)), st.integers(0, 40), _FRAGMENTS)
+def test_reader_answers_any_damage(start: int, length: int, patch: str) -> None:
+    outcome = read_urdf(ROBOT[:start] + patch + ROBOT[start + length :], "r.urdf")
+    assert (outcome.value is None) == bool(outcome.diagnostics)

@@ -1,0 +1,109 @@
+"""Answers about poses and goals against figures worked out by hand, in a cell whose arm is a chain of 0.8 m."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+import yaml
+
+from cellc.feasibility import MotionAnswer, disabled_links, motion_answer
+from cellc.graph.cell_graph import CellGraph, build_graph
+from cellc.link.link import link
+from cellc.source.read import read
+from cellc.spec.parse import parse
+
+DEVICES = Path(__file__).resolve().parents[1] / "corpus" / "invalid" / "base"
+_BAR = '<collision><origin xyz="0.2 0 0"/><geometry><box size="0.38 0.04 0.04"/></geometry></collision>'
+_LIMIT = '<limit lower="-3" upper="3" velocity="1" effort="1"/>'
+ARM = f"""<robot name="bars">
+  <link name="base"/>
+  <link name="upper">{_BAR}</link>
+  <link name="lower">{_BAR}</link>
+  <link name="hand"><collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision></link>
+  <joint name="one" type="revolute"><parent link="base"/><child link="upper"/><axis xyz="0 0 1"/>{_LIMIT}</joint>
+  <joint name="two" type="revolute">
+    <parent link="upper"/><child link="lower"/><origin xyz="0.4 0 0"/><axis xyz="0 0 1"/>{_LIMIT}</joint>
+  <joint name="three" type="revolute">
+    <parent link="lower"/><child link="hand"/><origin xyz="0.4 0 0"/><axis xyz="0 0 1"/>{_LIMIT}</joint>
+</robot>"""
+
+
+def _graph(folder: Path, **sections: object) -> CellGraph:
+    shutil.copytree(DEVICES / "stage", folder / "bars")
+    (folder / "bars" / "stage.urdf").write_text(ARM)
+    spec = {
+        "format": 1,
+        "cell": "flat",
+        "versions": {"ros": "jazzy"},
+        "devices": {"arm": {"model": "./bars", "mount": {"parent": "world"}}},
+        "motion": {"groups": {"bars": {"base": "arm/base", "tip": "arm/hand"}}},
+        **sections,
+    }
+    file = folder / "cell.yaml"
+    file.write_text(yaml.safe_dump(spec, sort_keys=False))
+    document = read(file).value
+    assert document is not None
+    parsed = parse(document)
+    assert parsed.value is not None, parsed.diagnostics
+    cell = link(parsed.value, document)
+    assert cell.value is not None, cell.diagnostics
+    return build_graph(cell.value)
+
+
+def _motion(**parts: object) -> dict[str, object]:
+    return {"groups": {"bars": {"base": "arm/base", "tip": "arm/hand"}}, **parts}
+
+
+def _answer(folder: Path, **sections: object) -> MotionAnswer:
+    answer = motion_answer(_graph(folder, **sections))
+    assert answer.refused == ""
+    return answer
+
+
+def test_box_on_a_bar_is_touched_and_box_beside_it_is_not(tmp_path: Path) -> None:
+    # Stretched along x the bars reach from y = -0.02 to 0.02 m.
+    scene = {
+        "on": {"parent": "world", "xyz": "600 0 0 mm", "box": "20 20 20 mm"},
+        "beside": {"parent": "world", "xyz": "600 40 0 mm", "box": "20 20 20 mm"},
+    }
+    poses = {"stretched": {"bars": "0 0 0 deg"}, "away": {"bars": "90 0 0 deg"}}
+    answer = _answer(tmp_path, scene=scene, motion=_motion(poses=poses))
+    touched = {pose.name: [(c.first, c.second) for c in pose.contacts] for pose in answer.poses}
+    assert touched == {"stretched": [("arm_lower", "on")], "away": []}
+
+
+def test_folded_hand_touches_the_first_bar(tmp_path: Path) -> None:
+    # With the elbow at 171 degrees the middle of the hand is 0.4 * sin 9 deg = 63 mm beside the first bar: less than
+    # the 20 mm that the bar and the 50 mm that the hand is wide to that side. At 150 degrees it is 200 mm.
+    poses = {"folded": {"bars": "0 171 0 deg"}, "bent": {"bars": "0 150 0 deg"}}
+    folded, bent = _answer(tmp_path, motion=_motion(poses=poses)).poses
+    assert [(contact.first, contact.second) for contact in folded.contacts] == [("arm_hand", "arm_upper")]
+    assert bent.contacts == ()
+
+
+@pytest.mark.parametrize(
+    ("x_mm", "reached"), [(500, True), (790, True), (810, False)], ids=["inside", "just inside", "outside"]
+)
+def test_stretched_length_bounds_the_reach(tmp_path: Path, x_mm: int, reached: bool) -> None:
+    frames = {"spot": {"parent": "world", "xyz": f"{x_mm} 0 0 mm", "designed": True}}
+    answer = _answer(tmp_path, frames=frames, motion=_motion(goals={"go": {"frame": "spot"}}))
+    (goal,) = answer.goals
+    assert goal.failure == ("" if reached else "no_ik_solution")
+
+
+def test_goal_in_a_frame_that_moves_is_not_asked(tmp_path: Path) -> None:
+    answer = _answer(tmp_path, motion=_motion(goals={"go": {"frame": "arm/lower"}}))
+    assert answer.goals == ()
+
+
+def test_no_group_asks_nothing(tmp_path: Path) -> None:
+    assert motion_answer(_graph(tmp_path, motion={})) == MotionAnswer()
+
+
+def test_pairs_of_a_cell_are_neighbours_alone_where_all_else_can_meet(tmp_path: Path) -> None:
+    pairs = {(pair.first, pair.second): pair.reason for pair in disabled_links(_graph(tmp_path)).pairs}
+    assert pairs["arm_lower", "arm_upper"] == "adjacent"
+    assert pairs["arm_hand", "arm_lower"] == "adjacent"
+    assert len(pairs) == 2  # the hand meets the upper bar where the arm is folded
