@@ -24,8 +24,9 @@ from cellc.catalog.load import (
     load_message_types,
     load_qos_profiles,
 )
+from tests.oracles import UPSTREAM
 
-PARAMETERS = Path(__file__).resolve().parents[3] / "shared" / "oracles" / "parameters"
+PARAMETERS = UPSTREAM / "parameters"
 PLACEHOLDERS = {"device", "prefix", "bare_prefix", "stem", "address", "port", "host_address", "carrier_address"}
 ARMS = ("franka_fr3", "ur5e")
 # Upstream files behind each kind; on humble the gripper comes from another package.
@@ -180,7 +181,7 @@ def _comparable(value: Any) -> Any:
 
 def _upstream(kind: str, distro: Distro) -> dict[str, dict[str, Any]]:
     if not PARAMETERS.is_dir():
-        pytest.skip("the oracles are not beside this checkout")
+        pytest.skip("upstream's own files are not beside this checkout")
     file = DECLARATIONS[kind]
     if kind == "parallel_gripper" and distro == "humble":
         file = "gripper_controllers__gripper_action_controller_parameters"

@@ -10,7 +10,7 @@ from typing import Any
 
 import yaml
 
-from tests.consumers.matrix import ORACLES
+from tests.oracles import UPSTREAM
 
 _FILES = {
     "joint_trajectory_controller/JointTrajectoryController": "joint_trajectory_controller__joint_trajectory_controller",
@@ -78,7 +78,7 @@ def declared(distro: str, plugin: str) -> dict[str, Parameter]:
     """Return the declarations of a controller by name, with ``__map_…`` parts where a key of any name fits."""
     if (distro, plugin) == ("humble", "controller_manager"):  # declared in code there: controller_manager.cpp
         return {"update_rate": Parameter("int", True, {"gt": 0})}
-    file = ORACLES / "parameters" / distro / f"{_FILES[plugin]}_parameters.yaml"
+    file = UPSTREAM / "parameters" / distro / f"{_FILES[plugin]}_parameters.yaml"
     (tree,) = yaml.safe_load(file.read_text(encoding="utf-8")).values()
     return dict(_walk({**tree, **_IN_CODE.get(plugin, {})}, ""))
 
@@ -161,5 +161,5 @@ def _accepted(name: str, value: Any, said: Any) -> bool:
 @lru_cache(maxsize=8)
 def known_plugins(distro: str) -> set[str]:
     """Return the controller types of a distribution whose declarations are known here."""
-    folder = ORACLES / "parameters" / distro
+    folder = UPSTREAM / "parameters" / distro
     return {plugin for plugin, file in _FILES.items() if (folder / f"{file}_parameters.yaml").is_file()}

@@ -19,13 +19,11 @@ from cellc.pipeline import check, compile_cell
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-ORACLES = ROOT.parent / "shared" / "oracles"
 SPECS = {path.parent.name: path for path in sorted(ROOT.glob("cells/*/cell.yaml"))} | {
     "two_arms": HERE / "two_arms.yaml"
 }
 DISTROS = ("humble", "jazzy", "kilted", "lyrical")
 
-needs_oracles = pytest.mark.skipif(not ORACLES.is_dir(), reason="the oracles are not beside this checkout")
 every_build = pytest.mark.parametrize(("cell", "distro"), [(cell, distro) for cell in SPECS for distro in DISTROS])
 PLANNING = tuple(cell for cell, path in SPECS.items() if "move_group" in path.read_text(encoding="utf-8"))
 every_planning_build = pytest.mark.parametrize(

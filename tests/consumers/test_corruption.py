@@ -39,7 +39,8 @@ from tests.consumers import (
     test_xsd,
 )
 from tests.consumers.corruption import corruptions
-from tests.consumers.matrix import Build, build, in_place, needs_oracles
+from tests.consumers.matrix import Build, build, in_place
+from tests.oracles import needs_upstream
 
 _SEED = 20260822
 _SAMPLE = 50
@@ -173,7 +174,7 @@ def _fails(check: Callable[[], None]) -> bool:
     return False
 
 
-@needs_oracles
+@needs_upstream
 def test_build_itself_is_found_without_fault() -> None:
     assert caught_by(build(_CELL, _DISTRO)) == ""
 
@@ -189,7 +190,7 @@ def test_golden_record_sees_every_fault_and_where_it_is(tmp_path: Path, capsys: 
     assert [[(found.path, found.line) for found in one] for one in seen] == [[(one.path, one.line)] for one in sample]
 
 
-@needs_oracles
+@needs_upstream
 def test_most_faults_in_single_lines_are_seen_without_a_golden_record(capsys: pytest.CaptureFixture[str]) -> None:
     built = build(_CELL, _DISTRO)
     sample = list(corruptions(built, _SEED, _SAMPLE))

@@ -8,11 +8,12 @@ from typing import Any
 import pytest
 
 from tests.consumers.declared import complaints
-from tests.consumers.matrix import DISTROS, build, every_build, needs_oracles
+from tests.consumers.matrix import DISTROS, build, every_build
 from tests.consumers.parameter_files import sections, told
 from tests.consumers.starting import node_name, processes
+from tests.oracles import needs_upstream
 
-pytestmark = needs_oracles
+pytestmark = needs_upstream
 
 
 def controllers(cell: str, distro: str) -> Iterator[tuple[str, str, dict[str, Any]]]:

@@ -7,14 +7,13 @@ from typing import Any
 import pytest
 import yaml
 
-from tests.consumers.matrix import ORACLES, build, every_build, needs_oracles
+from tests.consumers.matrix import build, every_build
 from tests.consumers.refused_description import description_faults
 from tests.consumers.refused_parameters import parameter_faults
 from tests.consumers.starting import activated, processes
+from tests.oracles import RECORDED
 
-pytestmark = needs_oracles
-
-CASES = ORACLES / "controller_manager" / "cases"
+CASES = RECORDED / "controller_manager" / "cases"
 _MOCK = {"mock_components/GenericSystem"}
 # The type string that a driver's package registers, by what its URDF and pluginlib description say: ros2_control.md.
 _REAL = {

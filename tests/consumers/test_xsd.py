@@ -9,9 +9,10 @@ import pytest
 import xmlschema
 from lxml import etree
 
-from tests.consumers.matrix import ORACLES, build, every_build, needs_oracles
+from tests.consumers.matrix import build, every_build
+from tests.oracles import UPSTREAM, needs_upstream
 
-pytestmark = needs_oracles
+pytestmark = needs_upstream
 
 _SCHEMAS = {
     "package.xml": "package_format3.xsd",
@@ -28,7 +29,7 @@ _ELSEWHERE = (".launch.xml", ".srdf", ".svg")
 @lru_cache(maxsize=8)
 def schema(name: str) -> etree.XMLSchema:
     """Return a schema of version 1.0; what it imports is taken from beside it, never from the network."""
-    file = ORACLES / "xsd" / name
+    file = UPSTREAM / "xsd" / name
     text = file.read_bytes().replace(b"http://www.w3.org/2001/03/xml.xsd", b"xml.xsd")
     parser = etree.XMLParser(no_network=True)
     return etree.XMLSchema(etree.fromstring(text, parser, base_url=str(file)))
@@ -37,7 +38,7 @@ def schema(name: str) -> etree.XMLSchema:
 @lru_cache(maxsize=1)
 def launch_schema() -> xmlschema.XMLSchema11:
     """Return the schema of launch files, which needs version 1.1."""
-    return xmlschema.XMLSchema11(ORACLES / "xsd" / "launch.0.1.1.xsd")
+    return xmlschema.XMLSchema11(UPSTREAM / "xsd" / "launch.0.1.1.xsd")
 
 
 @lru_cache(maxsize=256)

@@ -12,7 +12,6 @@ from cellc.source import read
 from cellc.spec.parse import parse
 
 ROOT = Path(__file__).resolve().parents[2]
-ORACLES = ROOT.parent / "shared" / "oracles"
 CELLS = ("ur5e_pick", "minimal")
 DISTROS = ("humble", "jazzy", "kilted", "lyrical")
 

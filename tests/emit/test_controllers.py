@@ -9,7 +9,8 @@ from typing import Any
 import pytest
 import yaml
 
-from tests.emit.cells import CELLS, DISTROS, ORACLES, artifacts_of, emitted, spec_text
+from tests.emit.cells import CELLS, DISTROS, artifacts_of, emitted, spec_text
+from tests.oracles import UPSTREAM, needs_upstream
 
 _TRAJECTORY = "joint_trajectory_controller__joint_trajectory_controller"
 _DECLARED_IN = {
@@ -42,14 +43,14 @@ def _flat(tree: dict[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
 
 def _declared(distro: str, plugin: str, joints: list[str]) -> dict[str, str]:
     """Return the type of each parameter that the real controller declares, maps over joints filled in."""
-    file = ORACLES / "parameters" / distro / f"{_DECLARED_IN[plugin]}_parameters.yaml"
+    file = UPSTREAM / "parameters" / distro / f"{_DECLARED_IN[plugin]}_parameters.yaml"
     (tree,) = yaml.safe_load(file.read_text()).values()
     found = {name[: -len(".type")]: value for name, value in _flat(tree) if name.endswith(".type")}
     per_joint = {name.replace("__map_joints", joint): value for name, value in found.items() for joint in joints}
     return found | per_joint | _OWN.get(plugin, {})
 
 
-@pytest.mark.skipif(not ORACLES.is_dir(), reason="the oracles are not beside this checkout")
+@needs_upstream
 @pytest.mark.parametrize("distro", DISTROS)
 @pytest.mark.parametrize("cell", CELLS)
 def test_every_parameter_is_declared_with_its_type(cell: str, distro: str) -> None:

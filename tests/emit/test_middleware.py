@@ -10,11 +10,11 @@ import pytest
 import xmlschema
 import yaml
 
-from tests.emit.cells import DISTROS, ORACLES, artifacts_of, emitted, spec_text
+from tests.emit.cells import DISTROS, artifacts_of, emitted, spec_text
+from tests.oracles import UPSTREAM, needs_upstream
 
 CONTROL_CARD = "192.168.56.10"
 SECOND_HOST = "\n  vision_pc:\n    nics: {bulk: {address: 10.10.0.11/24, carries: [camera]}}\nnetwork:"
-_SCHEMAS = pytest.mark.skipif(not ORACLES.is_dir(), reason="the oracles are not beside this checkout")
 
 
 def _text(rmw: str, discovery: str, distro: str = "jazzy") -> str:
@@ -29,12 +29,12 @@ def _of_middleware(artifacts: dict[str, str]) -> dict[str, str]:
     return {path: text for path, text in artifacts.items() if path.startswith("middleware/")}
 
 
-@_SCHEMAS
+@needs_upstream
 @pytest.mark.parametrize("distro", DISTROS)
 @pytest.mark.parametrize("discovery", ["multicast", "unicast", "localhost", "off"])
 def test_fast_dds_profile_is_what_fast_dds_declares(distro: str, discovery: str, tmp_path: Path) -> None:
     files = emitted(tmp_path, _text("rmw_fastrtps_cpp", discovery, distro))
-    schema = xmlschema.XMLSchema11(ORACLES / "xsd" / "fastdds_profiles.xsd")
+    schema = xmlschema.XMLSchema11(UPSTREAM / "xsd" / "fastdds_profiles.xsd")
     for host in ("control_pc", "vision_pc"):
         # Version 2 has another namespace than the schema, which is that of version 3.
         old = "http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles"
@@ -43,11 +43,11 @@ def test_fast_dds_profile_is_what_fast_dds_declares(distro: str, discovery: str,
         schema.validate(text.replace(old, "http://www.eprosima.com"))
 
 
-@_SCHEMAS
+@needs_upstream
 @pytest.mark.parametrize("discovery", ["multicast", "unicast", "localhost", "off"])
 def test_cyclone_profile_is_what_cyclone_declares(discovery: str, tmp_path: Path) -> None:
     files = emitted(tmp_path, _text("rmw_cyclonedds_cpp", discovery))
-    schema = xmlschema.XMLSchema(ORACLES / "xsd" / "cyclonedds.xsd")
+    schema = xmlschema.XMLSchema(UPSTREAM / "xsd" / "cyclonedds.xsd")
     for host in ("control_pc", "vision_pc"):
         schema.validate(files[f"middleware/{host}.cyclonedds.xml"])
 

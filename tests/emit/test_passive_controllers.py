@@ -14,7 +14,8 @@ import yaml
 
 from cellc.catalog.load import load_device
 from cellc.mock.control import ControllerManager, DeclaredInterfaces
-from tests.emit.cells import ORACLES, emitted, spec_text
+from tests.emit.cells import emitted, spec_text
+from tests.oracles import UPSTREAM, needs_upstream
 from tests.rules.examples import diagnose
 
 SCALING = "      scaling: {type: speed_scaling_state_broadcaster, device: arm}\n"
@@ -84,9 +85,9 @@ def test_parameters_are_given_in_the_types_that_the_vendor_declares() -> None:
     assert state == {"arm_prefix": "", "convenience_publish_rate": 1000, "robot_type": "fr3"}
 
 
-@pytest.mark.skipif(not ORACLES.is_dir(), reason="the oracles are not beside this checkout")
+@needs_upstream
 def test_declared_parameters_are_those_of_the_vendor() -> None:
-    text = (ORACLES / "parameters" / "ur" / "speed_scaling_state_broadcaster_parameters.yaml").read_text("utf-8")
+    text = (UPSTREAM / "parameters" / "ur" / "speed_scaling_state_broadcaster_parameters.yaml").read_text("utf-8")
     (declared,) = yaml.safe_load(text).values()
     device = load_device("ur5e").value
     assert device is not None

@@ -7,7 +7,8 @@ from xml.etree import ElementTree
 import pytest
 import xmlschema
 
-from tests.emit.cells import CELLS, DISTROS, ORACLES, artifacts_of
+from tests.emit.cells import CELLS, DISTROS, artifacts_of
+from tests.oracles import UPSTREAM, needs_upstream
 
 
 def _policy(cell: str, distro: str = "jazzy") -> ElementTree.Element:
@@ -25,11 +26,11 @@ def _holders(policy: ElementTree.Element, plural: str, right: str, name: str) ->
     }
 
 
-@pytest.mark.skipif(not ORACLES.is_dir(), reason="the oracles are not beside this checkout")
+@needs_upstream
 @pytest.mark.parametrize("distro", DISTROS)
 @pytest.mark.parametrize("cell", CELLS)
 def test_policy_is_what_sros2_declares(cell: str, distro: str) -> None:
-    folder = ORACLES / "xsd"
+    folder = UPSTREAM / "xsd"
     schema = xmlschema.XMLSchema(
         folder / "sros2_policy.xsd", locations={"http://www.w3.org/XML/1998/namespace": str(folder / "xml.xsd")}
     )

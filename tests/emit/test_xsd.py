@@ -8,13 +8,14 @@ from xml.etree import ElementTree
 import pytest
 import xmlschema
 
-from tests.emit.cells import CELLS, ORACLES, artifacts_of
+from tests.emit.cells import CELLS, artifacts_of
+from tests.oracles import UPSTREAM, needs_upstream
 
-pytestmark = pytest.mark.skipif(not ORACLES.is_dir(), reason="the oracles are not beside this checkout")
+pytestmark = needs_upstream
 
 
 def _schema(name: str) -> Path:
-    return ORACLES / "xsd" / name
+    return UPSTREAM / "xsd" / name
 
 
 @pytest.mark.parametrize("cell", CELLS)

@@ -7,16 +7,14 @@ import re
 import shutil
 from pathlib import Path
 
-import pytest
 import yaml
 
 from tests.cli.refused import process
-from tests.cli.run import ROOT
+from tests.oracles import RECORDED
 
-OBSERVED = ROOT.parent / "shared/oracles/controller_manager/cases/y_badjoint/observed.yaml"
+OBSERVED = RECORDED / "controller_manager/cases/y_badjoint/observed.yaml"
 
 
-@pytest.mark.skipif(not OBSERVED.exists(), reason="the recorded answers of the real controller manager are not here")
 def test_wrong_joint_name_fails_as_in_the_real_controller_manager(pick: Path, tmp_path: Path) -> None:
     folder = Path(shutil.copytree(pick, tmp_path / "pick"))
     file = folder / "config/controllers.yaml"

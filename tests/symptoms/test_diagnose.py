@@ -17,11 +17,11 @@ from cellc.symptoms.diagnose import diagnose
 from cellc.symptoms.diagnosis import Step
 from cellc.symptoms.knowledge_model import LAYERS, Observation, Symptom
 from cellc.symptoms.load import knowledge
+from tests.oracles import RECORDED
 
 ROOT = Path(__file__).resolve().parents[2]
 # The recordings are long: libyaml reads them in a tenth of the time, where PyYAML has it.
 _LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-ORACLES = ROOT.parent / "shared" / "oracles"
 EVERY_SYMPTOM = [symptom for layer in knowledge() for symptom in layer.symptoms]
 
 # The rows of the chapter's table "Symptom-driven troubleshooting", and where its "first layer" stands in prompt C.
@@ -36,7 +36,7 @@ CHAPTER = [
     ("RViz TCP differs from real", "time", "offset"),
 ]
 
-# Lines as the real programs wrote them (shared/oracles; rclcpp and tf2 sources), with the layer of their cause.
+# Lines as the real programs wrote them (tests/oracles; rclcpp and tf2 sources), with the layer of their cause.
 LINES = [
     (
         "[WARN] [controller_manager]: Unable to activate controller 'arm_controller' since the command interface "
@@ -102,11 +102,10 @@ def test_line_of_a_real_program_is_recognised(line: str, layer: str, named: set[
     assert set(best.named) == named
 
 
-@pytest.mark.skipif(not ORACLES.exists(), reason="no recorded answers beside the checkout")
 def test_errors_of_the_recorded_runs_are_recognised() -> None:
     # Two warnings of the recordings have no cause in a cell: a resized buffer and a deprecated call.
     harmless = ("Trajectory to stop on cancel exceeds", "Casting bool to double")
-    lines = {line for file in sorted(ORACLES.rglob("*.yaml")) for line in _lines(file)}
+    lines = {line for file in sorted(RECORDED.rglob("*.yaml")) for line in _lines(file)}
     problems = [line for line in lines if re.search(r"\[(WARN|ERROR|FATAL)\]", line)]
     assert len(problems) > 100
     unknown = [line for line in problems if not classify(line, knowledge())]

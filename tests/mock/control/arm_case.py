@@ -22,8 +22,9 @@ from cellc.mock.control import (
     TrajectoryPoint,
     TrajectoryStateResponse,
 )
+from tests.oracles import RECORDED, Case, read_yaml
 
-from .recorded import MS, ORACLES, Case, S, read_yaml
+from .arm_of_two import MS, S
 
 Answer = (
     CancelResponse | HardwareStateResponse | ParameterResponse | ServiceResponse | TrajectoryStateResponse | str | None
@@ -46,7 +47,7 @@ def _merge(base: Case, changes: Case) -> Case:
 
 
 def _yaml_text(case: Case) -> str:
-    base = read_yaml(ORACLES / "joint_trajectory" / "base_controllers.yaml")
+    base = read_yaml(RECORDED / "joint_trajectory" / "base_controllers.yaml")
     arm = _merge(base["arm_controller"]["ros__parameters"], case["parameters"]["arm_controller_differs_from_base"])
     base["arm_controller"]["ros__parameters"] = arm
     base["controller_manager"]["ros__parameters"].update(case["parameters"].get("controller_manager", {}))
@@ -63,7 +64,7 @@ def _dump(value: object) -> str:
 
 
 def _urdf_text(case: Case) -> str:
-    text = (ORACLES / "joint_trajectory" / "base_cell.urdf").read_text()
+    text = (RECORDED / "joint_trajectory" / "base_cell.urdf").read_text()
     parameters = case["hardware"]["mock_parameters"]
     lines = "".join(f'<param name="{name}">{value}</param>' for name, value in parameters.items())
     text = text.replace('<param name="calculate_dynamics">true</param>', lines)

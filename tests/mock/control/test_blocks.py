@@ -24,7 +24,7 @@ from cellc.mock.control import (
 )
 from cellc.mock.control.manager.cycles import CycleRunner
 
-from .recorded import MS, S
+from .arm_of_two import MS, S
 
 _JOINTS = ("a", "b", "c")
 

@@ -16,8 +16,9 @@ from cellc.mock.control import (
     TrajectoryGoal,
     TrajectoryPoint,
 )
+from tests.oracles import Case, read_yaml, recorded_cases
 
-from .recorded import MS, Case, S, case_parameters, read_yaml
+from .arm_of_two import MS, S
 
 
 def _start(folder: Path, observed: Case) -> ControllerManager:
@@ -100,7 +101,7 @@ def _plain(text: str) -> str:
     return text.split("...")[0].strip()[:100]
 
 
-@pytest.mark.parametrize("path", case_parameters("controller_manager", "cases/*/observed.yaml"))
+@pytest.mark.parametrize("path", recorded_cases("controller_manager", "cases/*/observed.yaml"))
 def test_manager_answers_as_recorded(path: Path) -> None:
     observed = read_yaml(path)
     if not observed["manager_survives"]:
@@ -128,7 +129,7 @@ def test_manager_answers_as_recorded(path: Path) -> None:
     ],
 )
 def test_manager_that_aborts_says_why(case: str, reason: str) -> None:
-    found = case_parameters("controller_manager", f"cases/{case}/observed.yaml")[0]
+    found = recorded_cases("controller_manager", f"cases/{case}/observed.yaml")[0]
     path = found.values[0]
     if path is None:
         pytest.skip("recorded answers are absent")

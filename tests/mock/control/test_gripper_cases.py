@@ -7,15 +7,16 @@ from pathlib import Path
 import pytest
 
 from cellc.mock.control import ControllerManager, GoalResponse, GripperEnded, GripperGoal
+from tests.oracles import RECORDED, Case, read_yaml, recorded_cases
 
-from .recorded import MS, ORACLES, Case, S, case_parameters, read_yaml
+from .arm_of_two import MS, S
 
 _START_NS = 2 * S
 _NAME = "gripper_controller"
 
 
 def _urdf_text(case: Case) -> str:
-    text = (ORACLES / "controller_manager" / "cases" / "base" / "cell.urdf").read_text()
+    text = (RECORDED / "controller_manager" / "cases" / "base" / "cell.urdf").read_text()
     parameters = "".join(f'<param name="{name}">{value}</param>' for name, value in case["hardware"].items())
     plain = "<hardware><plugin>mock_components/GenericSystem</plugin></hardware>"
     return text.replace(plain, plain.replace("</hardware>", f"{parameters}</hardware>"))
@@ -106,7 +107,7 @@ def _check_motion(replay: _Replay, observed: Case) -> None:
         )
 
 
-@pytest.mark.parametrize("path", case_parameters("gripper", "cases/*.yaml"))
+@pytest.mark.parametrize("path", recorded_cases("gripper", "cases/*.yaml"))
 def test_gripper_does_as_recorded(path: Path) -> None:
     case = read_yaml(path)
     observed = case["observed"]

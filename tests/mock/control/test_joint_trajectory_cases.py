@@ -15,9 +15,10 @@ from cellc.mock.control import (
     TrajectoryEnded,
     TrajectoryFeedback,
 )
+from tests.oracles import Case, read_yaml, recorded_cases
 
 from .arm_case import ArmCase, rows_near
-from .recorded import MS, Case, S, case_parameters, read_yaml
+from .arm_of_two import MS, S
 
 # The error meets its tolerance exactly in one cycle, so jitter decided which cycle holds, and the ramp of the limited
 # command starts 5 mrad elsewhere.
@@ -124,7 +125,7 @@ def _check_log(repeated: ArmCase, observed: Case) -> None:
         assert any(text in other for other in written), line
 
 
-@pytest.mark.parametrize("path", case_parameters("joint_trajectory", "cases/*.yaml"))
+@pytest.mark.parametrize("path", recorded_cases("joint_trajectory", "cases/*.yaml"))
 def test_trajectory_controller_does_as_recorded(path: Path) -> None:
     case = read_yaml(path)
     repeated = ArmCase(case)

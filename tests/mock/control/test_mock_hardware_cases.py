@@ -8,8 +8,9 @@ from pathlib import Path
 import pytest
 
 from cellc.mock.control import ControllerManager
+from tests.oracles import Case, read_yaml, recorded_cases
 
-from .recorded import MS, Case, S, case_parameters, read_yaml
+from .arm_of_two import MS, S
 
 _START_NS = 2 * S
 
@@ -105,7 +106,7 @@ def _agrees(row: list[object], values: list[float]) -> bool:
     return True
 
 
-@pytest.mark.parametrize("path", case_parameters("mock_hardware", "cases/*.yaml"))
+@pytest.mark.parametrize("path", recorded_cases("mock_hardware", "cases/*.yaml"))
 def test_mock_hardware_does_as_recorded(path: Path) -> None:
     case = read_yaml(path)
     observed = case["observed"]

@@ -7,11 +7,10 @@ from typing import Any
 import pytest
 
 from cellc.mock.control import ControllerManager, ServiceResponse, Strictness
+from tests.oracles import RECORDED, Case, read_yaml
 
-from .recorded import ORACLES, Case, read_yaml
-
-_FOLDER = ORACLES / "switching"
-_URDF = (ORACLES / "joint_trajectory" / "base_cell.urdf").read_text() if _FOLDER.exists() else ""
+_FOLDER = RECORDED / "switching"
+_URDF = (RECORDED / "joint_trajectory" / "base_cell.urdf").read_text()
 _FORWARD = "forward_command_controller/ForwardCommandController"
 _TYPES = """
 controller_manager:
@@ -54,8 +53,6 @@ pid_low2:
 
 
 def _requests() -> list[Any]:
-    if not _FOLDER.exists():
-        return [pytest.param(None, marks=pytest.mark.skip(reason="recorded answers are absent: switching"))]
     recorded = read_yaml(_FOLDER / "switch_controller.yaml")["requests"]
     return [pytest.param(request, id=request["name"]) for request in recorded]
 
@@ -112,7 +109,6 @@ def _call(manager: ControllerManager, step: Case) -> ServiceResponse:
     return services[step["call"]](name)
 
 
-@pytest.mark.skipif(not _FOLDER.exists(), reason="recorded answers are absent: switching")
 def test_sequence_of_services_is_answered_as_recorded() -> None:
     manager = ControllerManager(_URDF, _TYPES)
     for step in read_yaml(_FOLDER / "services_sequence.yaml")["sequence"]:

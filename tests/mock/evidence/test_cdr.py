@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,8 +13,8 @@ from cellc.mock.evidence.bag import messages
 from cellc.mock.evidence.bag.definitions import schema
 from cellc.mock.evidence.bag.shapes import CONTROLLER_STATE, Point, controller_state_rows, joint_state_shape
 from cellc.transforms import Pose
+from tests.oracles import UPSTREAM, needs_upstream
 
-ORACLE = Path(__file__).resolve().parents[4] / "shared/oracles/interfaces"
 STANDARD = (
     messages.JOINT_STATE,
     messages.TF_MESSAGE,
@@ -70,9 +69,9 @@ def test_definition_has_the_type_hash_of_the_distribution(name: str, distro: str
     assert ours.hash_rihs01(name) == reference.hash_rihs01(name)
 
 
-@pytest.mark.skipif(not ORACLE.exists(), reason="the recorded interfaces are not here")
+@needs_upstream
 def test_controller_state_is_the_recorded_one() -> None:
-    text = (ORACLE / "control_msgs/msg/JointTrajectoryControllerState.msg").read_text(encoding="utf-8")
+    text = (UPSTREAM / "interfaces/control_msgs/msg/JointTrajectoryControllerState.msg").read_text(encoding="utf-8")
     recorded = [line.split() for line in text.splitlines() if line and not line.startswith("#")]
     ours = schema(CONTROLLER_STATE, "jazzy").split("=" * 80)[0]
     assert [line.split() for line in ours.splitlines()] == recorded

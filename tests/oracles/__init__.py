@@ -1,0 +1,36 @@
+"""What the real programs answered: our own inputs and recordings beside this file, and upstream's files outside.
+
+OBSERVED.md tells the versions, the format of a case and what surprised us. The files of upstream projects (schemas,
+declared parameters, messages, vendors' demands) are not ours to copy: they lie in a folder beside the checkout, and
+what reads them is skipped where it is absent.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+
+RECORDED = Path(__file__).resolve().parent
+UPSTREAM = RECORDED.parents[2] / "shared" / "oracles"
+
+needs_upstream = pytest.mark.skipif(not UPSTREAM.is_dir(), reason="upstream's own files are not beside this checkout")
+
+# The content of a recorded case is data of another program: plain YAML without a type of ours.
+Case = dict[str, Any]
+
+
+def read_yaml(path: Path) -> Case:
+    """Read one recorded case; libyaml takes a tenth of the time where PyYAML has it."""
+    loaded = yaml.load(path.read_text(encoding="utf-8"), Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+    assert isinstance(loaded, dict)
+    return loaded
+
+
+def recorded_cases(folder: str, pattern: str) -> list[Any]:
+    """Return one pytest parameter per recorded case, named by its file, or by its folder where a case has one."""
+    paths = sorted((RECORDED / folder).glob(pattern))
+    assert paths, f"no recorded case in {folder}/{pattern}"
+    return [pytest.param(path, id=path.parent.name if pattern.startswith("cases/*/") else path.stem) for path in paths]
