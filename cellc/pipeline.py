@@ -69,9 +69,8 @@ def compile_cell(checked: Checked) -> Outcome[tuple[Artifact, ...]]:
     if checked.graph is None or not checked.ok:
         return Outcome(None)
     # Emitters and foreign parsers are imported here: a check does not pay for them.
+    from cellc.deploy.configuration import configuration_id, configuration_inputs, version_tuple
     from cellc.emit.emit_all import emit_all
-    from cellc.formats.configuration import configuration_id, configuration_inputs
-    from cellc.formats.version_tuple import version_tuple
     from cellc.output.manifest import with_manifest
     from cellc.verify.verify import verify
 

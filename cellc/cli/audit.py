@@ -20,9 +20,8 @@ def audit(file: str) -> None:
     if checked.graph is None:
         show_findings([checked.findings], "text")
         raise click.exceptions.Exit(1)
+    from cellc.deploy.configuration import configuration_id, configuration_inputs, header_of
     from cellc.emit.audit.audit import emit
-    from cellc.formats.configuration import configuration_id, configuration_inputs
-    from cellc.formats.header import header_of
 
     cell = checked.graph.cell
     header = header_of(cell, configuration_id(configuration_inputs(cell)))

@@ -12,8 +12,8 @@ from collections.abc import Iterator
 from cellc.artifact import Artifact
 from cellc.cell.control import Controller, ControllerManager
 from cellc.cell.interface import ParameterValue
+from cellc.deploy.files import controllers_file
 from cellc.formats.header import Header
-from cellc.formats.package_files import controllers_file
 from cellc.formats.parameter_file import NodeParameters, parameter_file
 from cellc.graph.cell_graph import CellGraph
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 from cellc.artifact import Artifact
+from cellc.deploy.configuration import configuration_id, configuration_inputs, header_of
 from cellc.emit import (
     cmake,
     controllers,
@@ -28,8 +29,7 @@ from cellc.emit.moveit import moveit
 from cellc.emit.picture import picture
 from cellc.emit.readme import readme
 from cellc.emit.security import policy
-from cellc.formats.configuration import configuration_id, configuration_inputs
-from cellc.formats.header import Header, header_of
+from cellc.formats.header import Header
 from cellc.graph.cell_graph import CellGraph
 
 EMITTERS: tuple[Callable[[CellGraph, Header], Iterator[Artifact]], ...] = (

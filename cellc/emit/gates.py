@@ -10,9 +10,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cellc.artifact import Artifact
-from cellc.formats.gates.gate import Check, Gate
-from cellc.formats.gates.network import network_gates
-from cellc.formats.gates.promotion import promotion_gates
+from cellc.deploy.gates import Check, Gate, promotion_gates
+from cellc.deploy.network_gates import network_gates
 from cellc.formats.header import Header
 from cellc.graph.cell_graph import CellGraph
 

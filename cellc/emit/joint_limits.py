@@ -11,8 +11,8 @@ from collections.abc import Iterator
 
 from cellc.artifact import Artifact
 from cellc.cell.device import DeviceJoint
+from cellc.deploy.files import JOINT_LIMITS, plans
 from cellc.formats.header import Header
-from cellc.formats.moveit_files import JOINT_LIMITS, plans
 from cellc.formats.parameter_file import ANY_NODE
 from cellc.formats.yaml_text import Tree, render
 from cellc.graph.cell_graph import CellGraph

@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cellc.artifact import Artifact
+from cellc.deploy.files import node_file
 from cellc.formats.header import Header
-from cellc.formats.package_files import node_file
 from cellc.formats.parameter_file import NodeParameters, parameter_file
 from cellc.graph.cell_graph import CellGraph
 

@@ -14,8 +14,8 @@ from cellc.artifact import Artifact
 from cellc.catalog.load import load_controller_kind
 from cellc.cell.cell import Cell
 from cellc.cell.control import Controller
+from cellc.deploy.files import plans
 from cellc.formats.header import Header
-from cellc.formats.moveit_files import plans
 from cellc.formats.urdf.hardware import share_folders
 from cellc.formats.xml_text import comment, element, render
 from cellc.graph.cell_graph import CellGraph

@@ -11,10 +11,9 @@ from collections.abc import Iterator
 
 from cellc.artifact import Artifact
 from cellc.cell.interface import NodeSource
+from cellc.deploy.files import QOS_OVERRIDES
 from cellc.formats.header import Header
-from cellc.formats.package_files import QOS_OVERRIDES
-from cellc.formats.parameter_file import NodeParameters, parameter_file
-from cellc.formats.qos_parameters import qos_parameters
+from cellc.formats.parameter_file import NodeParameters, parameter_file, qos_parameters
 from cellc.graph.cell_graph import CellGraph
 
 

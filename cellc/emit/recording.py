@@ -11,9 +11,9 @@ from collections.abc import Iterator
 
 from cellc.artifact import Artifact
 from cellc.cell.interface import Qos
+from cellc.deploy.files import RECORDING
+from cellc.deploy.recording import record_command, recorded_topics
 from cellc.formats.header import Header
-from cellc.formats.package_files import RECORDING
-from cellc.formats.recorded_topics import record_command, recorded_topics
 from cellc.formats.yaml_text import Tree, render
 from cellc.graph.cell_graph import CellGraph
 

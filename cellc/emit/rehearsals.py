@@ -11,9 +11,9 @@ from collections.abc import Iterator
 from cellc.artifact import Artifact
 from cellc.cell.rehearsal import Fault, Rehearsal, Step
 from cellc.contract.rehearsals import FaultEntry, RehearsalEntry, Rehearsals, StepEntry
+from cellc.deploy.files import REHEARSALS
 from cellc.formats.header import Header
 from cellc.formats.json_text import render
-from cellc.formats.package_files import REHEARSALS
 from cellc.graph.cell_graph import CellGraph
 
 

@@ -14,9 +14,8 @@ from collections.abc import Iterator
 from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
 from cellc.cell.interface import Endpoint, Interface, InterfaceKind
-from cellc.formats.claim_label import claim_facts, driver_facts, stop_facts
+from cellc.deploy.labels import claim_facts, driver_facts, interface_facts, stop_facts
 from cellc.formats.header import Header
-from cellc.formats.interface_label import interface_facts
 from cellc.graph.cell_graph import CellGraph
 
 _BOLD = "stroke-width:5px,stroke:#000,fill:none"

@@ -13,9 +13,9 @@ from xml.etree.ElementTree import Element
 from cellc.artifact import Artifact
 from cellc.cell.device import Device
 from cellc.cell.motion import NamedPose
+from cellc.deploy.files import plans, semantic_file
 from cellc.feasibility import MARGIN_M, RNG_SEED, disabled_links
 from cellc.formats.header import Header
-from cellc.formats.moveit_files import plans, semantic_file
 from cellc.formats.numbers import shortest
 from cellc.formats.xml_text import comment, element, render
 from cellc.graph.cell_graph import CellGraph

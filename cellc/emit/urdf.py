@@ -12,8 +12,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cellc.artifact import Artifact
+from cellc.deploy.files import description_file, manager_description_file
 from cellc.formats.header import Header
-from cellc.formats.package_files import description_file, manager_description_file
 from cellc.formats.urdf.robot import manager_description, robot_description
 from cellc.formats.xml_text import render
 from cellc.graph.cell_graph import CellGraph

@@ -5,7 +5,7 @@ from __future__ import annotations
 from cellc.cache import recall
 from cellc.feasibility.answers import DisabledAnswer, DisabledLinks
 from cellc.feasibility.question import shapes_and_joints
-from cellc.formats.touching_links import touching_links
+from cellc.feasibility.touching_links import touching_links
 from cellc.graph.cell_graph import CellGraph
 
 SAMPLES = 10_000

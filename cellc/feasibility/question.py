@@ -11,8 +11,7 @@ from cellc.cell.device import DeviceJoint
 from cellc.cell.frame import FrameKind
 from cellc.cell.motion import CartesianGoal, PlanningGroup
 from cellc.feasibility.standing import pose_in_world
-from cellc.formats.urdf.robot import manager_description
-from cellc.formats.urdf.start import start_positions
+from cellc.formats.urdf.robot import manager_description, start_positions
 from cellc.formats.xml_text import render
 from cellc.graph.cell_graph import CellGraph
 from cellc.graph.frame_tree import FrameTree

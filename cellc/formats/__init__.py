@@ -1,1 +1,1 @@
-"""How values become the text of files: numbers, XML, YAML, JSON, headers, the URDF and the configuration id."""
+"""How values become the text of files: numbers, XML, YAML, JSON, headers, parameter files, the URDF."""

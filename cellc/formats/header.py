@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import PurePosixPath
-
-from cellc.cell.cell import Cell
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,12 +35,3 @@ class Header:
     def commented(self, mark: str) -> str:
         """Return the header behind a line comment's mark, such as ``#``, and an empty line."""
         return "".join(f"{mark} {line}\n" for line in self.lines) + "\n"
-
-
-def header_of(cell: Cell, configuration_id: str) -> Header:
-    """Build the header of a cell's files.
-
-    The user may have named the spec from anywhere, so that the command names it from where cells are kept.
-    """
-    file = PurePosixPath(cell.document.file).name
-    return Header(cell.name, configuration_id, f"cellc build cells/{cell.name}/{file}")

@@ -1,11 +1,12 @@
-"""A file of ROS parameters: one section a node, each with the spec path that it came from."""
+"""A file of ROS parameters: one section a node, each with the spec path that it came from; QoS as such parameters."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
-from cellc.cell.interface import ParameterValue
+from cellc.cell.cell import Cell
+from cellc.cell.interface import InterfaceKind, Node, ParameterValue, Qos
 from cellc.diagnostics import YamlPath
 from cellc.formats.header import Header
 from cellc.formats.yaml_text import nested, render
@@ -43,3 +44,33 @@ def _section(section: NodeParameters) -> str:
     plain = section.node.count("/") == 1 and section.node != ANY_NODE
     key = section.node.removeprefix("/") if plain else section.node
     return f"# {spec_path(section.origin)}\n" + render({key: {"ros__parameters": nested(section.parameters)}})
+
+
+_NANOSECONDS = 1_000_000_000
+
+
+def qos_parameters(cell: Cell, node: Node) -> dict[str, ParameterValue]:
+    """Return the overrides of a node for the topics that the spec writes; none for one that has no end there."""
+    found: dict[str, ParameterValue] = {}
+    for topic in cell.interfaces:
+        if topic.kind is not InterfaceKind.TOPIC or topic.derived:
+            continue
+        for side, ends in (("publisher", topic.sources), ("subscription", topic.sinks)):
+            for qos in (end.qos for end in ends if end.full_name == node.full_name):
+                prefix = f"qos_overrides.{topic.name}.{side}"
+                found |= {f"{prefix}.{policy}": value for policy, value in _policies(qos, side)}
+    return found
+
+
+def _policies(qos: Qos, side: str) -> Iterator[tuple[str, ParameterValue]]:
+    yield "reliability", qos.reliability
+    yield "durability", qos.durability
+    yield "history", qos.history
+    yield "depth", qos.depth
+    yield "liveliness", qos.liveliness
+    durations = {"deadline": qos.deadline_s, "liveliness_lease_duration": qos.lease_duration_s}
+    if side == "publisher":  # a lifespan belongs to the sample's writer
+        durations["lifespan"] = qos.lifespan_s
+    for name, seconds in durations.items():
+        if seconds is not None:
+            yield name, round(seconds * _NANOSECONDS)

@@ -16,9 +16,9 @@ from tempfile import TemporaryDirectory, mkdtemp
 import pytest
 
 from cellc.artifact import Artifact
+from cellc.deploy.configuration import configuration_id, configuration_inputs, header_of
 from cellc.emit.emit_all import EMITTERS
-from cellc.formats.configuration import configuration_id, configuration_inputs
-from cellc.formats.header import Header, header_of
+from cellc.formats.header import Header
 from cellc.graph.cell_graph import CellGraph
 from cellc.output.compare import compare
 from cellc.output.write import write

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from cellc.formats.configuration import configuration_id, configuration_inputs
+from cellc.deploy.configuration import configuration_id, configuration_inputs
 from tests.emit.cells import emitted, graph_of, spec_text
 
 

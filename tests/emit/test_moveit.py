@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 import pytest
 import yaml
 
-from cellc.formats.moveit_files import PARAMETER_FILES
+from cellc.deploy.files import PARAMETER_FILES
 from tests.emit.cells import DISTROS, artifacts_of
 
 

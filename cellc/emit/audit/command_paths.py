@@ -7,9 +7,8 @@ from collections.abc import Iterator
 from cellc.cell.cell import Cell
 from cellc.cell.control import Controller, ControllerManager
 from cellc.cell.interface import Endpoint, Interface, InterfaceKind
+from cellc.deploy.labels import frame_label, interface_facts, units, watchdog
 from cellc.emit.audit.table import table
-from cellc.formats.claim_label import units, watchdog
-from cellc.formats.interface_label import frame_label, interface_facts
 from cellc.formats.numbers import shortest
 from cellc.graph.cell_graph import CellGraph
 

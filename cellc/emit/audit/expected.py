@@ -6,11 +6,10 @@ from collections.abc import Iterable, Iterator
 
 from cellc.cell.cell import Cell
 from cellc.cell.interface import Endpoint, Interface, InterfaceKind, Node, NodeSource
+from cellc.deploy.files import QOS_OVERRIDES, controllers_file, is_planner, parameter_files, plans
+from cellc.deploy.labels import interface_facts
 from cellc.emit.audit.table import table
-from cellc.formats.interface_label import interface_facts
-from cellc.formats.moveit_files import is_planner, parameter_files, plans
-from cellc.formats.package_files import QOS_OVERRIDES, controllers_file
-from cellc.formats.qos_parameters import qos_parameters
+from cellc.formats.parameter_file import qos_parameters
 from cellc.graph.device_topics import device_topics
 from cellc.link.nodes import DESCRIPTION_PUBLISHER
 from cellc.link.placeholders import placeholders

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from cellc.cell.cell import Cell
 from cellc.cell.device import Device
+from cellc.deploy.configuration import OpenQuestion, open_questions
 from cellc.emit.audit.table import table
-from cellc.formats.open_questions import OpenQuestion, open_questions
 from cellc.formats.parameter_file import spec_path
 from cellc.graph.cell_graph import CellGraph
 from cellc.graph.compatibility import Answer, Judgement, compatibility

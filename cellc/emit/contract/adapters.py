@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from cellc.cell.cell import Cell
 from cellc.contract.adapter import ContractAdapter
-from cellc.formats.urdf.start import start_positions
+from cellc.formats.urdf.robot import start_positions
 from cellc.graph.adapters import AdaptedDevice, adapted_devices
 from cellc.spec.devices import AdapterSpec
 from cellc.spec.quantity import Quantity

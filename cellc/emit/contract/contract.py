@@ -13,6 +13,9 @@ from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
 from cellc.cell.frame import WORLD
 from cellc.contract.contract import Contract, ContractFiles, ContractKpis, ContractSafety
+from cellc.deploy.configuration import version_tuple
+from cellc.deploy.files import REHEARSALS, controllers_file, description_file
+from cellc.deploy.recording import attempt_fields
 from cellc.emit.contract.adapters import adapters
 from cellc.emit.contract.clocks import clock_of, clocks
 from cellc.emit.contract.control import joint_limits, managers
@@ -21,11 +24,8 @@ from cellc.emit.contract.frames import calibrations, frames
 from cellc.emit.contract.interfaces import interfaces
 from cellc.emit.contract.motion import disabled_collisions, goals, groups, poses
 from cellc.emit.contract.simulated_joints import simulated_joints
-from cellc.formats.attempt_fields import attempt_fields
 from cellc.formats.header import Header
 from cellc.formats.json_text import render
-from cellc.formats.package_files import REHEARSALS, controllers_file, description_file
-from cellc.formats.version_tuple import version_tuple
 from cellc.graph.cell_graph import CellGraph
 from cellc.spec.quantity import Quantity
 

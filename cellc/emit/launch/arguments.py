@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from xml.etree.ElementTree import Element
 
 from cellc.cell.cell import Cell
-from cellc.formats.confirmation import CONFIRMATION, MOTION_CONFIRMATION
+from cellc.deploy.releases import CONFIRMATION, MOTION_CONFIRMATION
 from cellc.formats.xml_text import element
 
 EVERYWHERE = "all"

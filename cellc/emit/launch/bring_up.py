@@ -13,10 +13,9 @@ from pathlib import Path
 
 from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
-from cellc.formats.bringup import MOVE, Step, ready_to_move, steps
-from cellc.formats.enclaves import bring_up_enclave
+from cellc.deploy.bringup import MOVE, Step, ready_to_move, steps
+from cellc.deploy.processes import bring_up_enclave, movers
 from cellc.formats.header import Header
-from cellc.formats.movers import movers
 
 FILE = "launch/bring_up.bash"
 _TARGETS = ("mock", "real")

@@ -12,11 +12,11 @@ from xml.etree.ElementTree import Element
 from cellc.cell.cell import Cell
 from cellc.cell.control import ControllerManager
 from cellc.cell.interface import Node
+from cellc.deploy.bringup import spawnings
+from cellc.deploy.files import controllers_file, manager_description_file
+from cellc.deploy.processes import manager_enclave, spawner_enclave
 from cellc.emit.launch.elements import description_parameter, enclave, identity, remap, remaps
 from cellc.emit.launch.substitutions import TARGET, only_on, share
-from cellc.formats.enclaves import manager_enclave, spawner_enclave
-from cellc.formats.package_files import controllers_file, manager_description_file
-from cellc.formats.spawning import spawnings
 from cellc.formats.xml_text import element
 from cellc.link.nodes import DESCRIPTION_PUBLISHER, description_home
 

@@ -7,8 +7,8 @@ from xml.etree.ElementTree import Element
 
 from cellc.cell.cell import Cell
 from cellc.cell.interface import Node
+from cellc.deploy.processes import enclave_of
 from cellc.emit.launch.substitutions import expanded
-from cellc.formats.enclaves import enclave_of
 from cellc.formats.xml_text import element
 
 

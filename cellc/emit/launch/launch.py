@@ -14,6 +14,7 @@ from xml.etree.ElementTree import Element
 
 from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
+from cellc.deploy.processes import launch_hosts, movers, started_by_a_person
 from cellc.emit.launch.arguments import (
     CONFIRM_MOTION,
     CONFIRM_REAL,
@@ -30,8 +31,6 @@ from cellc.emit.launch.nodes import moving_node
 from cellc.emit.launch.stages import stages
 from cellc.emit.launch.substitutions import HOST, ON_REAL, TARGET, on_host, share
 from cellc.formats.header import Header
-from cellc.formats.hosts import launch_hosts
-from cellc.formats.movers import movers, started_by_a_person
 from cellc.formats.parameter_file import spec_path
 from cellc.formats.xml_text import comment, element, render
 from cellc.graph.cell_graph import CellGraph

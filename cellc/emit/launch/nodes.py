@@ -7,14 +7,21 @@ from xml.etree.ElementTree import Element
 
 from cellc.cell.cell import Cell
 from cellc.cell.interface import Node, NodeSource
+from cellc.deploy.files import (
+    QOS_OVERRIDES,
+    description_file,
+    is_planner,
+    node_file,
+    parameter_files,
+    plans,
+    semantic_file,
+)
+from cellc.deploy.labels import TF_RATE_HZ
+from cellc.deploy.processes import host_of, launch_hosts
 from cellc.emit.launch.elements import description_parameter, identity, remaps
 from cellc.emit.launch.substitutions import ON_REAL, TARGET, on_host, share
-from cellc.formats.hosts import host_of, launch_hosts
-from cellc.formats.interface_label import TF_RATE_HZ
-from cellc.formats.moveit_files import is_planner, parameter_files, plans, semantic_file
 from cellc.formats.numbers import decimal
-from cellc.formats.package_files import QOS_OVERRIDES, description_file, node_file
-from cellc.formats.qos_parameters import qos_parameters
+from cellc.formats.parameter_file import qos_parameters
 from cellc.formats.xml_text import element
 
 

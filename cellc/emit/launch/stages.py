@@ -11,13 +11,12 @@ from xml.etree.ElementTree import Element
 
 from cellc.cell.cell import Cell
 from cellc.cell.interface import Node, NodeSource
+from cellc.deploy.bringup import Step, steps
+from cellc.deploy.processes import host_of, host_of_manager, started_by_a_person
 from cellc.emit.launch.bring_up import FILE
 from cellc.emit.launch.control import control, spawners
 from cellc.emit.launch.nodes import cell_node, driver_node, robot_state_publisher
 from cellc.emit.launch.substitutions import only_on, share
-from cellc.formats.bringup import Step, steps
-from cellc.formats.hosts import host_of, host_of_manager
-from cellc.formats.movers import started_by_a_person
 from cellc.formats.parameter_file import spec_path
 from cellc.formats.xml_text import comment, element
 from cellc.link.frames import ROBOT_STATE_PUBLISHER

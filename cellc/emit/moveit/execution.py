@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from cellc.cell.cell import Cell
 from cellc.cell.interface import ParameterValue
-from cellc.formats.moveit_files import is_planner
+from cellc.deploy.files import is_planner
 
 Parameters = Mapping[str, ParameterValue]
 

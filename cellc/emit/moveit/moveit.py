@@ -13,11 +13,11 @@ from collections.abc import Iterator, Mapping
 from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
 from cellc.cell.interface import TARGETS, ParameterValue
+from cellc.deploy.files import moveit_controllers_file, plans
 from cellc.diagnostics import YamlPath
 from cellc.emit.moveit.execution import controllers, planning_scene, trajectory_execution
 from cellc.emit.moveit.pipelines import planning_pipelines
 from cellc.formats.header import Header
-from cellc.formats.moveit_files import controllers_file, plans
 from cellc.formats.parameter_file import ANY_NODE, NodeParameters, parameter_file
 from cellc.graph.cell_graph import CellGraph
 
@@ -39,7 +39,7 @@ def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
     ):
         section = NodeParameters(ANY_NODE, origin, parameters)
         yield Artifact(f"config/moveit/{name}.yaml", parameter_file(header, [section]))
-    for file, target in {controllers_file(cell, target): target for target in TARGETS}.items():
+    for file, target in {moveit_controllers_file(cell, target): target for target in TARGETS}.items():
         section = NodeParameters(ANY_NODE, _CONTROL, controllers(cell, target))
         yield Artifact(file, parameter_file(header, [section]))
 

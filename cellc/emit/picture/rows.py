@@ -7,8 +7,7 @@ from dataclasses import dataclass
 
 from cellc.cell.cell import Cell
 from cellc.cell.interface import Interface, InterfaceKind
-from cellc.formats.claim_label import claim_facts, driver_facts, stop_facts
-from cellc.formats.interface_label import interface_facts
+from cellc.deploy.labels import claim_facts, driver_facts, interface_facts, stop_facts
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,13 +11,13 @@ from collections.abc import Iterator
 
 from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
+from cellc.deploy.configuration import open_questions
+from cellc.deploy.files import plans
+from cellc.deploy.processes import movers
+from cellc.deploy.releases import start_mock
 from cellc.emit.readme.sentence import bringup_sentence
 from cellc.emit.readme.walk import fenced, overview, shell_of, walk
-from cellc.formats.gates.releases import start_mock
 from cellc.formats.header import Header
-from cellc.formats.moveit_files import plans
-from cellc.formats.movers import movers
-from cellc.formats.open_questions import open_questions
 from cellc.formats.parameter_file import spec_path
 from cellc.graph.cell_graph import CellGraph
 

@@ -8,7 +8,7 @@ from cellc.cell.cell import Cell
 from cellc.cell.control import Controller
 from cellc.cell.frame import FrameKind
 from cellc.cell.interface import Interface, InterfaceKind
-from cellc.formats.real_mover import real_mover
+from cellc.deploy.labels import real_mover
 
 
 def bringup_sentence(cell: Cell) -> str:

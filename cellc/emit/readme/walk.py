@@ -6,9 +6,8 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from itertools import groupby
 
 from cellc.cell.cell import Cell
-from cellc.formats.gates.gate import Check, Gate, starts
-from cellc.formats.gates.network import network_gates
-from cellc.formats.gates.promotion import promotion_gates
+from cellc.deploy.gates import Check, Gate, promotion_gates, starts
+from cellc.deploy.network_gates import network_gates
 from cellc.formats.header import Header
 from cellc.graph.cell_graph import CellGraph
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from cellc.cell.cell import Cell
+from cellc.deploy.processes import described_by
 from cellc.emit.security.profile import Profile
 from cellc.emit.security.rights import common_profile
-from cellc.formats.described_by import described_by
 from cellc.link.derived_joint_states import JOINT_STATE_TYPE
 
 # What `ros2 lifecycle get|set`, `ros2 control list_controllers|switch_controllers` and `ros2 param get` call.

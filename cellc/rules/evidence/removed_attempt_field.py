@@ -24,8 +24,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from cellc.deploy.recording import STANDARD
 from cellc.diagnostics import Severity
-from cellc.formats.attempt_fields import STANDARD
 from cellc.graph.cell_graph import CellGraph
 from cellc.rule import Finding
 from cellc.rules.define import define

@@ -1,10 +1,10 @@
-"""What an attempt records: the topics of the motion path with the QoS that every publisher offers, and the command."""
+"""What an attempt records: the topics of the motion path with a QoS that suits every publisher, the command, the fields."""
 
 from __future__ import annotations
 
 from cellc.cell.cell import Cell
 from cellc.cell.interface import Interface, InterfaceKind, Qos
-from cellc.formats.package_files import RECORDING
+from cellc.deploy.files import RECORDING
 
 
 def record_command(cell: Cell, bag: str) -> tuple[str, ...]:
@@ -48,3 +48,28 @@ def _offered(interface: Interface) -> Qos:
         durability="volatile" if volatile else "transient_local",
         depth=max((qos.depth for qos in offered), default=10),
     )
+
+
+STANDARD = (
+    "attempt_id",
+    "version_tuple",
+    "calibration_id",
+    "goal_frame",
+    "goal_stamp",
+    "joint_state_age",
+    "tf_lookup_age",
+    "plan_result",
+    "controller_name",
+    "action_goal_id",
+    "speed_scaling",
+    "safety_state",
+    "fault_code",
+    "cancel/result",
+    "operator_intervention",
+)
+
+
+def attempt_fields(cell: Cell) -> tuple[str, ...]:
+    """Return the fields that every attempt of the cell records."""
+    written = cell.spec.recording.attempt_fields
+    return STANDARD if written == "standard" else tuple(written)

@@ -1,12 +1,16 @@
-"""Commands that start the cell at a gate; on real hardware a person opens it with the word that the gate asks for."""
+"""Commands that start the cell at a gate, and the words with which a person opens the real target."""
 
 from __future__ import annotations
 
 from cellc.cell.cell import Cell
-from cellc.formats.bringup import activation
-from cellc.formats.confirmation import CONFIRMATION, MOTION_CONFIRMATION
-from cellc.formats.hosts import launch_hosts
-from cellc.formats.movers import movers, started_by_a_person
+from cellc.deploy.bringup import activation
+from cellc.deploy.processes import launch_hosts, movers, started_by_a_person
+
+CONFIRMATION = "I_HAVE_PASSED_GATES_G0_TO_G2"
+"""Releases the real target: connecting, reading, claiming."""
+
+MOTION_CONFIRMATION = "I_HAVE_PASSED_GATES_G0_TO_G6"
+"""Releases motion on the real target: what sends goals is started."""
 
 
 def start_mock(cell: Cell) -> str:

@@ -6,10 +6,9 @@ from collections.abc import Iterator
 
 from cellc.cell.cell import Cell
 from cellc.cell.interface import Endpoint, Interface, InterfaceKind
-from cellc.formats.described_by import described_by
-from cellc.formats.gates.gate import Check, Gate
-from cellc.formats.gates.releases import start_mock
-from cellc.formats.movers import movers, started_by_a_person
+from cellc.deploy.gates import Check, Gate
+from cellc.deploy.processes import described_by, movers, started_by_a_person
+from cellc.deploy.releases import start_mock
 from cellc.formats.numbers import shortest
 from cellc.graph.cell_graph import CellGraph
 

@@ -1,9 +1,40 @@
-"""Which MoveIt files the package has, and which node reads them."""
+"""Paths inside the generated package, and which of its files MoveIt's move_group is given."""
 
 from __future__ import annotations
 
 from cellc.cell.cell import Cell
+from cellc.cell.control import ControllerManager
 from cellc.cell.interface import TARGETS, Node
+
+REHEARSALS = "rehearsals.json"
+"""What the mock executes."""
+
+RECORDING = "config/recording_qos.yaml"
+"""QoS with which an attempt is recorded."""
+
+QOS_OVERRIDES = "config/qos_overrides.yaml"
+"""QoS of the nodes that the spec names."""
+
+
+def description_file(cell: Cell, target: str) -> str:
+    """Return the path of the URDF for ``mock`` or ``real``."""
+    return f"urdf/{cell.name}.{target}.urdf"
+
+
+def manager_description_file(cell: Cell, manager: ControllerManager, target: str) -> str:
+    """Return the path of the URDF that a controller manager reads: the cell's, or one with its own hardware alone."""
+    return f"urdf/{cell.name}{'' if len(cell.managers) == 1 else f'.{manager.name}'}.{target}.urdf"
+
+
+def controllers_file(cell: Cell, manager: ControllerManager) -> str:
+    """Return the path of a controller manager's parameter file."""
+    return "config/controllers.yaml" if len(cell.managers) == 1 else f"config/{manager.name}.controllers.yaml"
+
+
+def node_file(node: Node) -> str:
+    """Return the path of a node's parameter file; there is none for a node without parameters."""
+    return f"config/{node.full_name.lstrip('/').replace('/', '.')}.yaml"
+
 
 JOINT_LIMITS = "config/joint_limits.yaml"
 CONTROLLERS = "config/moveit/controllers.yaml"
@@ -21,10 +52,10 @@ PARAMETER_FILES = (
 
 def parameter_files(cell: Cell, target: str) -> tuple[str, ...]:
     """Return the files that move_group is given on ``mock``, ``real`` or what a substitution makes of them."""
-    return tuple(controllers_file(cell, target) if file == CONTROLLERS else file for file in PARAMETER_FILES)
+    return tuple(moveit_controllers_file(cell, target) if file == CONTROLLERS else file for file in PARAMETER_FILES)
 
 
-def controllers_file(cell: Cell, target: str) -> str:
+def moveit_controllers_file(cell: Cell, target: str) -> str:
     """Return the path of the file with the controllers that move_group calls: one, unless the targets differ."""
     differs = any(one.active and one.action is not None and len(one.targets) < len(TARGETS) for one in cell.controllers)
     return CONTROLLERS.replace(".yaml", f".{target}.yaml") if differs else CONTROLLERS

@@ -10,13 +10,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from cellc.cell.cell import Cell
-from cellc.cell.control import ControllerManager
+from cellc.cell.control import Controller, ControllerManager
 from cellc.cell.frame import WORLD, FrameKind
-from cellc.cell.interface import InterfaceKind, Node
-from cellc.formats.described_by import described_by
-from cellc.formats.hosts import host_of, host_of_manager
-from cellc.formats.movers import is_mover, movers
-from cellc.formats.spawning import Spawning, spawnings
+from cellc.cell.interface import TARGETS, InterfaceKind, Node
+from cellc.deploy.processes import described_by, host_of, host_of_manager, is_mover, movers
 from cellc.link.derived_joint_states import JOINT_STATE_TYPE
 
 MOVE = "move"
@@ -145,3 +142,44 @@ def _states(cell: Cell) -> Iterator[str]:
 
 def _node(manager: ControllerManager) -> str:
     return f"{manager.namespace}/controller_manager"
+
+
+@dataclass(frozen=True, slots=True)
+class Spawning:
+    """What one spawner loads and configures, and what is activated of it; alternates are never.
+
+    Args:
+        controllers: all that the spawner is given.
+        observing: those to activate that read states and claim nothing.
+        claiming: those to activate that claim command interfaces.
+        only: the one target on which they are spawned; None for every target. On the others their hardware is no
+            component, or lacks what they need, and a spawner would fail.
+    """
+
+    controllers: tuple[str, ...]
+    observing: tuple[str, ...]
+    claiming: tuple[str, ...]
+    only: str | None
+
+    def on(self, target: str) -> bool:
+        """Tell whether it is started on a target."""
+        return self.only in (None, target)
+
+
+def spawnings(manager: ControllerManager) -> Iterator[Spawning]:
+    """Yield what the spawners of a manager are given, in order; the first failure in a list stops the rest of it."""
+    for only in (None, *TARGETS):
+        controllers = [one for one in manager.controllers if only_target(one) == only]
+        if controllers:
+            active = [one for one in controllers if one.active]
+            yield Spawning(
+                tuple(one.name for one in controllers),
+                tuple(one.name for one in active if not one.command_interfaces),
+                tuple(one.name for one in active if one.command_interfaces),
+                only,
+            )
+
+
+def only_target(controller: Controller) -> str | None:
+    """Return the one target on which a controller is spawned, or None for one that is spawned on every target."""
+    return controller.targets[0] if len(controller.targets) == 1 else None

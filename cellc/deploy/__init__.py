@@ -1,0 +1,1 @@
+"""How a cell is deployed: hosts, start order, gates, recording, files: what several emitters share."""

@@ -1,0 +1,158 @@
+"""What the arrows of the cell's graph say: of an interface, of a claim, of a driver, of the physical stop."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.cell.cell import Cell
+from cellc.cell.control import Controller, ControllerManager
+from cellc.cell.device import Device, DeviceDriver
+from cellc.cell.interface import Interface, InterfaceKind
+from cellc.formats.numbers import shortest
+
+TF_RATE_HZ = 20.0
+"""Default of robot_state_publisher's ``publish_frequency``; the launch file states it."""
+
+_TRANSFORMS = "tf2_msgs/msg/TFMessage"
+# What a type says where the spec need not: TF names two frames in each transform, joints have none.
+_FRAMES = {
+    _TRANSFORMS: "in each transform",
+    "sensor_msgs/msg/JointState": "joints",
+    "control_msgs/action/FollowJointTrajectory": "joints",
+    "control_msgs/action/GripperCommand": "joints",
+    "control_msgs/action/ParallelGripperCommand": "joints",
+    "std_msgs/msg/String": "none",
+    "sensor_msgs/msg/Image": "of its header",
+    "sensor_msgs/msg/PointCloud2": "of its header",
+    "sensor_msgs/msg/CameraInfo": "of its header",
+}
+_UNSTAMPED = ("std_msgs/msg/",)
+_PLAIN_TEXT = "std_msgs/msg/String"
+
+
+def interface_facts(interface: Interface) -> Iterator[str]:
+    """Yield type, frame, unit, rate, time source, owner and failure behaviour; what is not stated says so."""
+    yield f"{interface.kind.value} {interface.type}, {_rate(interface)}"
+    yield f"frame {frame_label(interface)}, unit {_unit(interface)}, time {_time(interface)}"
+    yield f"owner {interface.owner or 'not stated'}; {', '.join(_failures(interface)) or 'failure not stated'}"
+
+
+def frame_label(interface: Interface) -> str:
+    """Return the frame of an interface: the stated one, otherwise what its type says."""
+    return interface.frame or _FRAMES.get(interface.type, "not stated")
+
+
+def _unit(interface: Interface) -> str:
+    return interface.unit or ("none" if interface.type == _PLAIN_TEXT else "as the type")
+
+
+def _time(interface: Interface) -> str:
+    return interface.time_source or ("none, unstamped" if interface.type.startswith(_UNSTAMPED) else "not stated")
+
+
+def _rate(interface: Interface) -> str:
+    if interface.rate_hz is not None:
+        return f"{shortest(interface.rate_hz)} Hz"
+    if interface.kind is not InterfaceKind.TOPIC:
+        return "on request"
+    if _latched(interface):
+        return "once, kept for whoever comes later"
+    if interface.type == _TRANSFORMS:
+        others = ", dynamic frames at their own" if len(interface.sources) > 1 else ""
+        return f"{shortest(TF_RATE_HZ)} Hz{others}"
+    return "rate not stated"
+
+
+def _latched(interface: Interface) -> bool:
+    return bool(interface.sources) and all(one.qos.durability == "transient_local" for one in interface.sources)
+
+
+def _failures(interface: Interface) -> Iterator[str]:
+    if interface.on_stale is not None:
+        age = "" if interface.max_age_s is None else f" after {shortest(interface.max_age_s)} s"
+        yield f"stale{age}: {interface.on_stale}"
+    elif interface.kind is InterfaceKind.TOPIC and _latched(interface):
+        yield "missing: its readers wait"
+    if interface.on_timeout is not None:
+        bound = "" if interface.timeout_s is None else f" after {shortest(interface.timeout_s)} s"
+        yield f"timeout{bound}: {interface.on_timeout}"
+    if interface.cancel_within_s is not None:
+        yield f"cancel holds within {shortest(interface.cancel_within_s)} s"
+    if interface.on_error is not None:
+        yield f"error: {interface.on_error}"
+
+
+_NOT_STATED = "not stated"
+# REP-103: SI and radians; by the joint's type.
+_UNITS = {
+    "position": ("rad", "m"),
+    "velocity": ("rad/s", "m/s"),
+    "acceleration": ("rad/s^2", "m/s^2"),
+    "effort": ("Nm", "N"),
+}
+
+
+def claim_facts(cell: Cell, manager: ControllerManager, controller: Controller) -> Iterator[str]:
+    """Yield interfaces, frame, unit, rate, time source, owner, failure behaviour and hardware of a claim."""
+    device = cell.device(controller.device) if controller.device is not None else None
+    rate = controller.update_rate_hz or manager.update_rate_hz
+    yield ", ".join(controller.command_interfaces)
+    yield (
+        f"frame joints, unit {units(cell, controller)}, {shortest(rate)} Hz, time of the update loop on "
+        f"{manager.host or 'its host'}"
+    )
+    owner = cell.spec.owners.responsibilities.command
+    yield f"owner {owner}; on a violation: {controller.on_violation}; watchdog: {watchdog(cell, controller)}"
+    if device is not None:
+        state = "from start-up" if controller.active else "as an alternate, inactive at start-up"
+        through = f"through {real_mover(device)}" if "real" in controller.targets else "on the mock alone"
+        yield f"{through}; {state}; architecture: {device.spec.architecture}"
+
+
+def driver_facts(cell: Cell, device: Device, driver: DeviceDriver) -> Iterator[str]:
+    """Yield program, goals, owner and watchdog of what moves a device past every controller on real hardware."""
+    safety = device.facts.safety
+    goals = ", ".join(action for action, _ in driver.actions.values()) or "none declared"
+    yield f"{driver.program}, on real hardware; no controller claims anything there"
+    yield f"goals: {goals}; frame joints, on request, time of the driver"
+    watched = (None if safety is None else safety.watchdog) or _NOT_STATED
+    yield f"owner {cell.spec.owners.responsibilities.vendor_safety}; watchdog: {watched}"
+    yield f"architecture: {device.spec.architecture}"
+
+
+def stop_facts(cell: Cell) -> Iterator[str]:
+    """Yield path, independence and owner of the physical stop, which is no message."""
+    stop, recovery = cell.spec.safety.stop, cell.spec.safety.recovery
+    independent = ", ".join(stop.independent_of) or "nothing stated"
+    yield f"path {stop.path}, independent of {independent}; no message, frame or clock"
+    yield (
+        f"owner {cell.spec.owners.responsibilities.physical_stop}; recovery acknowledged by {recovery.acknowledge}, "
+        f"owned by {recovery.owner}"
+    )
+
+
+def units(cell: Cell, controller: Controller) -> str:
+    """Return the units of what a controller commands, each once."""
+    types = {joint.name: joint.type for device in cell.devices for joint in device.joints}
+    found = (
+        _UNITS[kind][types[joint] == "prismatic"] if joint in types and kind in _UNITS else f"as {kind} of the device"
+        for joint, _, kind in (name.rpartition("/") for name in controller.command_interfaces)
+    )
+    return ", ".join(dict.fromkeys(found))
+
+
+def watchdog(cell: Cell, controller: Controller) -> str:
+    """Return what stops the device when commands stay away, by its vendor."""
+    safety = cell.device(controller.device).facts.safety if controller.device is not None else None
+    return (safety.watchdog if safety is not None else None) or _NOT_STATED
+
+
+_NOTHING = "nothing that the catalogue names"
+
+
+def real_mover(device: Device) -> str:
+    """Return the plugin that moves a device on the real target, or the node with its program."""
+    plugin = None if device.hardware is None else device.hardware.plugins.get("real")
+    if plugin is not None:
+        return plugin
+    return _NOTHING if device.driver is None else f"{device.driver.node} ({device.driver.program})"

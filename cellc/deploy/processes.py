@@ -1,0 +1,92 @@
+"""Which processes a cell starts: where each runs, which ask for motion, and the security enclave of each."""
+
+from __future__ import annotations
+
+from cellc.cell.cell import Cell
+from cellc.cell.control import ControllerManager
+from cellc.cell.interface import InterfaceKind, Node, NodeSource
+from cellc.deploy.files import is_planner
+from cellc.link.frames import ROBOT_STATE_PUBLISHER
+from cellc.link.nodes import DESCRIPTION_PUBLISHER, description_home
+
+
+def launch_hosts(cell: Cell) -> tuple[str, ...]:
+    """Return the hosts on which something is started, in the order of the spec; empty where all runs in one place."""
+    used = {host_of(cell, node) for node in cell.nodes} | {host_of_manager(cell, one) for one in cell.managers}
+    hosts = tuple(host for host in cell.spec.hosts if host in used)
+    return hosts if len(hosts) > 1 else ()
+
+
+def host_of(cell: Cell, node: Node) -> str:
+    """Return the host of a node; one without a stated host runs beside the first controller manager."""
+    return node.host or _home(cell)
+
+
+def host_of_manager(cell: Cell, manager: ControllerManager) -> str:
+    """Return the host of an update loop."""
+    return manager.host or _home(cell)
+
+
+def _home(cell: Cell) -> str:
+    stated = [manager.host for manager in cell.managers if manager.host is not None]
+    return [*stated, *cell.spec.hosts, ""][0]
+
+
+def described_by(cell: Cell) -> tuple[str, ...]:
+    """Return the nodes whose parameter ``robot_description`` is what the managers run, each once.
+
+    Managers may have been started on several hosts, each with a target of its own: one answer does not tell of all.
+    """
+    return tuple(dict.fromkeys(_node(cell, manager) for manager in cell.managers))
+
+
+def _node(cell: Cell, manager: ControllerManager) -> str:
+    if cell.distro == "humble":  # its manager takes the description as a parameter, later ones from its publisher
+        return manager.node
+    if len(cell.managers) > 1:
+        return f"{description_home(manager)}/{DESCRIPTION_PUBLISHER}"
+    return f"/{ROBOT_STATE_PUBLISHER}"
+
+
+def is_mover(cell: Cell, node: Node) -> bool:
+    """Tell whether a node of the spec sends goals or commands without being asked.
+
+    One that serves an action itself, such as a planner, acts when it is told to; one with neither moves nothing.
+    """
+    if node.source is not NodeSource.SPEC or is_planner(node):
+        return False
+    actions = [one for one in cell.interfaces if one.kind is InterfaceKind.ACTION]
+    serves = any(end.node == node.name for action in actions for end in action.sources)
+    asks = any(end.node == node.name for action in actions for end in action.sinks)
+    commands = any(controller.client == node.name for controller in cell.controllers)
+    return (asks or commands) and not serves
+
+
+def started_by_a_person(cell: Cell, node: Node) -> bool:
+    """Tell whether a node runs only from the gate before motion on; a managed mover runs earlier, unactivated."""
+    return is_mover(cell, node) and not node.lifecycle
+
+
+def movers(cell: Cell) -> tuple[Node, ...]:
+    """Return the nodes that a person starts or activates before anything moves."""
+    return tuple(node for node in cell.nodes if is_mover(cell, node))
+
+
+def enclave_of(cell: Cell, node: Node) -> str:
+    """Return the enclave of a node's process."""
+    return f"/{cell.name}{node.full_name}"
+
+
+def manager_enclave(cell: Cell, manager: ControllerManager) -> str:
+    """Return the enclave of the process with a controller manager, its controllers and hardware."""
+    return f"/{cell.name}{manager.namespace}/controller_manager"
+
+
+def spawner_enclave(cell: Cell, manager: ControllerManager) -> str:
+    """Return the enclave of the processes that load and activate a manager's controllers."""
+    return f"/{cell.name}{manager.namespace}/spawner"
+
+
+def bring_up_enclave(cell: Cell) -> str:
+    """Return the enclave of the command-line tools with which the bring-up waits, configures and activates."""
+    return f"/{cell.name}/bring_up"
