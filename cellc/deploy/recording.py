@@ -1,4 +1,4 @@
-"""What an attempt records: the topics of the motion path with a QoS that suits every publisher, the command, the fields."""
+"""What an attempt records: topics with a QoS that suits every publisher, the command that does it, and the fields."""
 
 from __future__ import annotations
 
