@@ -33,12 +33,9 @@ def main() -> None:
     gc.set_threshold(70_000, 20, 20)
     _raise_lost_interrupts()
     try:
-        from cellc.cache.program import program_mark
-
-        program = program_mark()
         from cellc.cli.main import main as run
 
-        run(program=program)
+        run()
     except KeyboardInterrupt:
         print("error: interrupted; nothing was left half-written", file=sys.stderr)
         sys.exit(1)

@@ -17,7 +17,6 @@ from cellc.catalog.read_model import ModelT, read_model
 from cellc.description.model import Description
 from cellc.description.read_description import read_catalogue_description, read_description
 from cellc.diagnostics import Diagnostic, Outcome, Severity, YamlPath, did_you_mean
-from cellc.disk import unrecorded
 from cellc.source.document import SourceDocument
 
 CATALOGUE = Path(__file__).parent
@@ -66,8 +65,7 @@ def load_device(name: str) -> Outcome[CatalogDevice]:
     def read(file: Path, arguments: dict[str, str]) -> Outcome[Description]:
         return read_catalogue_description(file, arguments, devices, shown)
 
-    with unrecorded():
-        return _load(devices / name, f"{shown}/{name}", read)
+    return _load(devices / name, f"{shown}/{name}", read)
 
 
 def load_device_folder(folder: Path, root: Path) -> Outcome[CatalogDevice]:
@@ -190,6 +188,5 @@ def load_qos_profiles() -> Outcome[QosTable]:
 
 
 def _table(file: str, model: type[ModelT]) -> Outcome[ModelT]:
-    with unrecorded():
-        read = read_model(CATALOGUE / file, f"{_SHOWN}/{file}", model)
+    read = read_model(CATALOGUE / file, f"{_SHOWN}/{file}", model)
     return Outcome(None if read.value is None else read.value[0], read.diagnostics)

@@ -8,8 +8,7 @@ from pathlib import Path
 import click
 
 from cellc.artifact import Artifact
-from cellc.batch.answer import Answer
-from cellc.batch.answered import answered
+from cellc.cli.answers import Answer, answers
 from cellc.cli.findings import FAIL_ON, FORMAT, finish, number_hidden, show_findings
 from cellc.cli.selecting import IGNORE, SELECT, read_selection, selected_and_errors
 from cellc.diagnostics import Span
@@ -39,9 +38,7 @@ from cellc.report.progress import progress
 @IGNORE
 @FORMAT
 @FAIL_ON
-@click.pass_obj
 def build(
-    program: str | None,
     files: tuple[str, ...],
     output: Path,
     only_compare: bool,
@@ -62,10 +59,10 @@ def build(
     told: list[str] = []
     differs = False
     with progress("building") as update:
-        answers = answered("compile", files, program)
+        computed = answers("compile", files)
         for file in files:
             update(file)
-            answer = _unless_shared(next(answers), places)
+            answer = _unless_shared(next(computed), places)
             findings = answer.findings
             if answer.artifacts is not None and answer.cell is not None:
                 folder = output / answer.cell.name

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from cellc.batch.answered import answered
+from cellc.cli.answers import answers
 from cellc.cli.findings import FAIL_ON, FORMAT, finish, number_hidden, show_findings
 from cellc.cli.fixing import FIX, fix_file
 from cellc.cli.selecting import IGNORE, SELECT, read_selection, selected
@@ -18,9 +18,7 @@ from cellc.report.progress import progress
 @IGNORE
 @FORMAT
 @FAIL_ON
-@click.pass_obj
 def check(
-    program: str | None,
     files: tuple[str, ...],
     fix: bool,
     select: tuple[str, ...],
@@ -35,10 +33,10 @@ def check(
         for file in files if fix else ():
             update(file)
             fix_file(file)
-        answers = answered("check", files, program)
+        computed = answers("check", files)
         for file in files:
             update(file)
-            found.append(next(answers).findings)
+            found.append(next(computed).findings)
     shown = [selected(one, wanted) for one in found]
     show_findings(shown, output_format, hidden=number_hidden(found, shown))
     finish(shown, fail_on)

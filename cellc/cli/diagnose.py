@@ -21,9 +21,9 @@ def diagnose(symptom: str, file: str | None) -> None:
     With FILE, a cell spec, the commands name its own controllers, topics and frames. Nothing is executed, and nothing
     that is told bypasses a protection. Exit code 1 where no known symptom fits.
     """
+    from cellc.diagnose.diagnose import diagnose as suspicions_of
+    from cellc.diagnose.load import knowledge
     from cellc.report.diagnosis_text import render_suspicions
-    from cellc.symptoms.diagnose import diagnose as suspicions_of
-    from cellc.symptoms.load import knowledge
 
     suspicions = suspicions_of(symptom, _cell(file))
     if not suspicions:

@@ -12,7 +12,7 @@ import click
 from cellc.report.escape import escape
 
 if TYPE_CHECKING:
-    from cellc.fix.edit import Edit
+    from cellc.edit.edit import Edit
 
 FIX = click.option(
     "--fix",
@@ -25,9 +25,9 @@ _PASSES = 16
 
 def fix_file(file: str) -> None:
     """Mend a spec and what it includes, and say on standard error what was done."""
-    from cellc.fix.keys import misspelt_keys
-    from cellc.fix.modeline import missing_modeline
-    from cellc.fix.units import misspelt_units
+    from cellc.edit.keys import misspelt_keys
+    from cellc.edit.modeline import missing_modeline
+    from cellc.edit.units import misspelt_units
     from cellc.pipeline import check
     from cellc.source import read
 
@@ -45,7 +45,7 @@ def fix_file(file: str) -> None:
 
 
 def _rewrite(file: str, edits: Sequence[Edit], text: str) -> None:
-    from cellc.fix.rewrite import rewrite
+    from cellc.edit.rewrite import rewrite
 
     try:
         done = rewrite(Path(file), edits, text)

@@ -55,18 +55,17 @@ def cellc() -> None:
     """
 
 
-def main(arguments: Sequence[str] | None = None, program: str | None = None) -> None:
+def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command and leave with its exit code; a closed pipe, a full disk or Ctrl-C end without a traceback.
 
     Args:
         arguments: those of the process if None.
-        program: mark of the program from before its code was loaded, under which answers are kept; None keeps none.
     """
     _prepare_streams()
     try:
         given = None if arguments is None else list(arguments)
         # Outside standalone mode click returns the code of an Exit, and what a finished command returned: None.
-        code = cellc.main(args=given, prog_name="cellc", standalone_mode=False, obj=program)
+        code = cellc.main(args=given, prog_name="cellc", standalone_mode=False)
         sys.stdout.flush()
     except click.ClickException as problem:
         problem.show()

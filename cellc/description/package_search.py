@@ -9,8 +9,6 @@ from __future__ import annotations
 import os
 import re
 
-from cellc.disk import kind_of
-
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*", re.ASCII)
 
 
@@ -32,4 +30,4 @@ def find_package(name: str, root: str) -> str | None:
     """Return the first existing folder of a package, or None."""
     if _NAME.fullmatch(name) is None:
         return None
-    return next((folder for folder in searched_folders(name, root) if kind_of(folder) == "folder"), None)
+    return next((folder for folder in searched_folders(name, root) if os.path.isdir(folder)), None)

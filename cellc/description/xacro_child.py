@@ -8,7 +8,6 @@ import sys
 
 from cellc.description.xacro_expander import encode
 from cellc.description.xacro_expansion import expand_here
-from cellc.disk import recorded
 
 CPU_SECONDS = 8
 MEMORY_BYTES = 1024 * 1024 * 1024
@@ -19,9 +18,7 @@ def main() -> None:
     _limit_resources()
     request = json.load(sys.stdin)
     os.chdir(request["folder"])  # names in diagnostics stay those that the user wrote
-    with recorded() as record:
-        outcome = expand_here(request["file"], request["arguments"], request["root"])
-    json.dump({**encode(outcome), "asked": record.to_plain()}, sys.stdout)
+    json.dump(encode(expand_here(request["file"], request["arguments"], request["root"])), sys.stdout)
 
 
 def _limit_resources() -> None:

@@ -7,6 +7,7 @@ macros, includes and elements are counted.
 
 from __future__ import annotations
 
+import glob
 import os
 import re
 from collections.abc import Callable, Iterator, Mapping
@@ -22,7 +23,6 @@ from cellc.description.xacro_expression import evaluate, functions
 from cellc.description.xacro_files import ConfinedFiles, XacroRefusedError
 from cellc.description.xml_tree import XmlElement, read_xml
 from cellc.diagnostics import Span
-from cellc.disk import matches
 
 _PLACE = "cellc-place"
 _SUBSTITUTION = re.compile(r"\$\((\w+)\s*(.*?)\s*\)", re.DOTALL)
@@ -92,7 +92,7 @@ class Confinement:
         if not re.search(r"[*?\[]", path):
             yield path
             return
-        files = matches(path)
+        files = sorted(glob.glob(path))
         if not files:
             self.warnings.append(f"`{specification}` matches no file")
         yield from files

@@ -17,7 +17,6 @@ from typing import Any
 import cellc
 from cellc.description.xacro_expansion import Expansion
 from cellc.diagnostics import Diagnostic, Outcome, Severity, Span
-from cellc.disk import Record, include_in_work, not_to_be_kept
 
 WALL_SECONDS = 10.0
 
@@ -59,13 +58,10 @@ def expand_xacro(
         return _ended(f"the expansion takes longer than {wall_seconds:g} s", start)
     if answer.returncode != 0:
         return _ended("the expansion takes more time or memory than it may use", start)
-    decoded = json.loads(answer.stdout)
-    include_in_work(Record.from_plain(decoded["asked"]))
-    return _decoded(decoded)
+    return _decoded(json.loads(answer.stdout))
 
 
 def _ended(message: str, start: Span) -> Outcome[Expansion]:
-    not_to_be_kept()
     help_text = "look for a macro or an include that calls itself"
     return Outcome(None, (Diagnostic("xacro-too-large", Severity.ERROR, message, start, help=help_text),))
 

@@ -15,7 +15,6 @@ from cellc.description.xacro_expression import ExpressionError
 from cellc.description.xacro_files import XacroRefusedError
 from cellc.description.xml_tree import MAX_BYTES
 from cellc.diagnostics import Diagnostic, Outcome, Severity, Span, did_you_mean
-from cellc.disk import not_to_be_kept
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,7 +102,6 @@ def _failure(error: Exception, confinement: Confinement, start: Span) -> Diagnos
             help_text = "use numbers, texts, lists and the functions that xacro documents"
             return Diagnostic("xacro-refused-expression", Severity.ERROR, _one_line(str(cause)), place, help=help_text)
         if isinstance(cause, (RecursionError, MemoryError)):
-            not_to_be_kept()
             message = "the expansion does not end within the memory and depth that it may use"
             return Diagnostic("xacro-too-large", Severity.ERROR, message, place)
         cause = getattr(cause, "exc", None)

@@ -9,7 +9,6 @@ from typing import Any
 import xacro
 import yaml
 
-from cellc import disk
 from cellc.description.xacro_expression import evaluate, functions
 from cellc.description.xml_tree import MAX_BYTES
 from cellc.diagnostics import Span
@@ -42,12 +41,12 @@ class ConfinedFiles:
     def __init__(self, root: str, shown_root: str | None = None) -> None:
         self.root = root
         self._shown_root = shown_root
-        self._real_root = disk.real_path(root)
+        self._real_root = os.path.realpath(root)
         self._bytes_read = 0
 
     def checked(self, path: str) -> str:
         """Return ``path`` unless it leads out of the root."""
-        real = disk.real_path(path)
+        real = os.path.realpath(path)
         if real != self._real_root and not real.startswith(self._real_root.rstrip(os.sep) + os.sep):
             raise XacroRefusedError(
                 "xacro-outside-root",
@@ -65,7 +64,7 @@ class ConfinedFiles:
     def read(self, path: str) -> str:
         """Return the text of a file."""
         self.checked(path)
-        if disk.kind_of(path) != "file":
+        if not os.path.isfile(path):
             missing = FileNotFoundError(path)
             raise XacroRefusedError("xacro-file-not-found", f"`{self.shown(path)}` is not a file", cause=missing)
         data = self._read_bytes(path)
@@ -78,7 +77,8 @@ class ConfinedFiles:
     def _read_bytes(self, path: str) -> bytes:
         remaining = MAX_BYTES - self._bytes_read
         try:
-            data = disk.contents(path, remaining)
+            with open(path, "rb") as file:
+                data = file.read(remaining + 1)
         except OSError as error:
             message = f"`{self.shown(path)}` cannot be read: {error.strerror}"
             raise XacroRefusedError("xacro-file-not-found", message, cause=error) from None

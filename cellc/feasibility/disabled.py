@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from cellc.cache import recall
 from cellc.feasibility.answers import DisabledAnswer, DisabledLinks
 from cellc.feasibility.question import shapes_and_joints
 from cellc.feasibility.touching_links import touching_links
 from cellc.graph.cell_graph import CellGraph
+from cellc.store.cache import recall
 
 SAMPLES = 10_000
 """As many as MoveIt's Setup Assistant draws by default; fewer where many robots share a cell."""

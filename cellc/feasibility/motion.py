@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from cellc.cache import recall
 from cellc.feasibility.answers import MotionAnswer
 from cellc.feasibility.disabled import disabled_in
 from cellc.feasibility.question import MotionQuestion, motion_question
 from cellc.graph.cell_graph import CellGraph
+from cellc.store.cache import recall
 
 
 def motion_answer(graph: CellGraph) -> MotionAnswer:

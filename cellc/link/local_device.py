@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import replace
 from pathlib import Path
 
-from cellc import disk
 from cellc.catalog.load import CatalogDevice, load_device_folder
 from cellc.diagnostics import Diagnostic, Outcome, Related, Severity, Span, YamlPath
 
@@ -20,8 +20,8 @@ def local_device(model: str, place: Span, path: YamlPath) -> Outcome[CatalogDevi
     """
     root = Path(place.file).parent
     folder = root / model
-    if disk.kind_of(folder / "device.yaml") == "absent":
-        problem = "holds no `device.yaml`" if disk.kind_of(folder) == "folder" else "is no folder"
+    if not os.path.exists(folder / "device.yaml"):
+        problem = "holds no `device.yaml`" if os.path.isdir(folder) else "is no folder"
         shown = folder.as_posix()
         advice = "write the folder with its `device.yaml`, or name a model of the catalogue"
         missing = Diagnostic("unknown-model", Severity.ERROR, f"`{shown}` {problem}", place, path, advice)

@@ -12,8 +12,7 @@ from cellc.output.finding import finding
 from cellc.output.paths import check_paths
 from cellc.output.plan import Plan, check_places, plan
 from cellc.output.staging import fill, hashes_of_interrupted
-from cellc.replacement.staging import discard, is_alive, others, staging_of
-from cellc.replacement.swap import Swap
+from cellc.store.swap import Swap, discard, is_alive, others, staging_of
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from cellc.diagnose.diagnosis import Cause, Suspicion
 from cellc.report.colour import BLUE, BOLD, GREEN, paint
 from cellc.report.escape import escape
-from cellc.symptoms.diagnosis import Cause, Suspicion
 
 
 def render_suspicions(suspicions: tuple[Suspicion, ...], *, colour: bool) -> str:

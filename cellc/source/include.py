@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
-from cellc import disk
 from cellc.diagnostics import Diagnostic, Span
 from cellc.source.finding import finding
 from cellc.source.merge import INCLUDE
@@ -47,7 +47,7 @@ def resolve_include(line: IncludeLine, folder: Path, root_folder: Path) -> Path 
     if PurePosixPath(line.path).is_absolute() or Path(line.path).is_absolute():
         return finding("include-escape", f"`{line.path}` is an absolute path", line.span, path=(INCLUDE,))
     try:
-        real = Path(disk.real_path(folder / line.path))
+        real = Path(os.path.realpath(folder / line.path))
     except (OSError, ValueError):
         # A zero character in the name, say.
         return finding("file-unreadable", f"`{line.path}` leads to no file", line.span, path=(INCLUDE,))

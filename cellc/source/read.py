@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from pathlib import Path, PurePosixPath
 
-from cellc import disk
 from cellc.diagnostics import Diagnostic, Outcome, Span
 from cellc.source.compose import compose
 from cellc.source.document import SourceDocument
@@ -118,7 +117,7 @@ class _Reader:
 
 def _real(path: Path) -> Path:
     try:
-        return Path(disk.real_path(path))
+        return Path(os.path.realpath(path))
     except (OSError, ValueError):
         # A zero character in the name, say: reading it reports what is wrong.
         return path

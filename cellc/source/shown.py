@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from cellc import disk
 from cellc.diagnostics import Diagnostic
 from cellc.source.limits import MAX_FILE_BYTES
 from cellc.source.text import showable
@@ -27,7 +26,8 @@ def with_shown_texts(texts: Mapping[str, str], found: Iterable[Diagnostic]) -> d
 
 def _text(name: str) -> str | None:
     try:
-        content = disk.contents(name, MAX_FILE_BYTES)
+        with open(name, "rb") as file:
+            content = file.read(MAX_FILE_BYTES + 1)
     except (OSError, ValueError):
         return None
     return None if len(content) > MAX_FILE_BYTES else showable(content)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import re
+import stat
 from pathlib import Path
 
-from cellc import disk
 from cellc.diagnostics import Diagnostic, Outcome, Span, nearest
 from cellc.source.finding import finding
 from cellc.source.limits import MAX_FILE_BYTES
@@ -47,14 +48,15 @@ def showable(content: bytes) -> str | None:
 
 def _read_bytes(path: Path, name: str, place: Span) -> bytes | Diagnostic:
     try:
-        status = disk.status(path)
-        if status.kind != "file":
-            kind = "a folder" if status.kind == "folder" else "not a regular file"
+        status = path.stat()
+        if not stat.S_ISREG(status.st_mode):
+            kind = "a folder" if stat.S_ISDIR(status.st_mode) else "not a regular file"
             return finding("not-a-file", f"`{name}` is {kind}", place)
-        if status.size > MAX_FILE_BYTES:
-            return _too_large(name, f"{status.size / 1024**2:.1f} MiB", place)
+        if status.st_size > MAX_FILE_BYTES:
+            return _too_large(name, f"{status.st_size / 1024**2:.1f} MiB", place)
         # What is larger than allowed nevertheless grew meanwhile, or its size the system does not tell.
-        content = disk.contents(path, MAX_FILE_BYTES)
+        with path.open("rb") as file:
+            content = file.read(MAX_FILE_BYTES + 1)
     except (FileNotFoundError, NotADirectoryError):
         return finding("file-not-found", f"there is no file `{name}`", place, advice=_similar_file(path))
     except OSError as error:
@@ -72,7 +74,7 @@ def _too_large(name: str, size: str, place: Span) -> Diagnostic:
 
 def _similar_file(path: Path) -> str:
     try:
-        names = disk.names_in(path.parent)
+        names = sorted(os.listdir(path.parent))
     except OSError:
         return f"check the folder: `{path.parent.as_posix()}` cannot be listed"
     close = nearest(path.name, names)

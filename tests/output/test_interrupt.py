@@ -110,7 +110,7 @@ def _kill_at(replacement: int, folder: Path, monkeypatch: pytest.MonkeyPatch) ->
         real(source, target)
 
     monkeypatch.setattr(os, "replace", replace)
-    monkeypatch.setattr("cellc.replacement.swap.Swap.undo", lambda swap: None)
+    monkeypatch.setattr("cellc.store.swap.Swap.undo", lambda swap: None)
     monkeypatch.setattr("cellc.output.write.discard", lambda staging: None)
     # No process has this number: it is above the largest that Linux gives out.
     monkeypatch.setattr("os.getpid", lambda: 2**22 + 1)

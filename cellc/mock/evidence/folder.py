@@ -10,8 +10,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from cellc.mock.errors import MockError
-from cellc.replacement.staging import discard, is_alive, others, staging_of
-from cellc.replacement.swap import Swap
+from cellc.store.swap import Swap, discard, is_alive, others, staging_of
 
 INDEX = "evidence.json"
 """Names every file of the folder with its hash, by which the next call tells its own files from those of others."""

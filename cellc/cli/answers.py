@@ -1,0 +1,127 @@
+"""Check or compile the specs of one call, by several processes where that pays."""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Generator, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Literal
+
+from cellc.artifact import Artifact
+from cellc.diagnostics.findings import Findings
+from cellc.rules.shared_domain import Presence, presence_of, shared_domains
+
+Kind = Literal["check", "compile"]
+
+MOST_WORKERS = 8
+
+# A process loads the compiler first, which takes as long as checking so many cells or compiling so many.
+_CELLS_THAT_PAY: Mapping[Kind, int] = {"check": 16, "compile": 3}
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What a command needs of a spec that was checked, or compiled too; without the graph, so that it can be sent.
+
+    Args:
+        cell: as the other cells of the call see it; None where an error hides it.
+        artifacts: with the manifest over them; None where an error stops them, or nobody asked.
+    """
+
+    findings: Findings
+    cell: Presence | None = None
+    artifacts: tuple[Artifact, ...] | None = None
+
+
+def answers(kind: Kind, files: Sequence[str]) -> Iterator[Answer]:
+    """Yield the answer for each spec in the order of the call, with what the cells before it have against it.
+
+    Args:
+        files: specs as the user named them.
+    """
+    number = number_of_workers(kind, len(files))
+    computed = in_workers(kind, files, number) if number > 1 else (compute(kind, file) for file in files)
+    earlier: list[Presence] = []
+    for answer in computed:
+        if answer.cell is None:
+            yield answer
+            continue
+        against = tuple(shared_domains(answer.cell, earlier))
+        earlier.append(answer.cell)
+        # An error stops the artifacts.
+        yield replace(answer, findings=answer.findings.with_more(against), artifacts=None) if against else answer
+
+
+def compute(kind: Kind, file: str) -> Answer:
+    """Check a spec, or check and compile it."""
+    # A process that has others compute does not load the compiler.
+    from cellc.pipeline import check, compile_cell
+
+    checked = check(file)
+    if checked.graph is None:
+        return Answer(checked.findings)
+    if kind == "check":
+        return Answer(checked.findings, presence_of(checked.graph))
+    compiled = compile_cell(checked)
+    artifacts = compiled.value if compiled.ok else None
+    return Answer(checked.findings.with_more(compiled.diagnostics), presence_of(checked.graph), artifacts)
+
+
+def number_of_workers(kind: Kind, cells: int, cores: int | None = None) -> int:
+    """Return how many processes pay for so many cells; 1 is this process.
+
+    Args:
+        cores: as many as the system lets this process use, if None.
+    """
+    available = usable_cores() if cores is None else cores
+    return max(1, min(available, cells // _CELLS_THAT_PAY[kind], MOST_WORKERS))
+
+
+def usable_cores() -> int:
+    """Return the number of cores that the system lets this process use."""
+    affinity = getattr(os, "sched_getaffinity", None)
+    return len(affinity(0)) if affinity is not None else os.cpu_count() or 1
+
+
+def in_workers(kind: Kind, files: Sequence[str], number: int) -> Generator[Answer, None, None]:
+    """Yield answers in the order of the specs, however many processes compute them; closing it ends them all.
+
+    Raises:
+        KeyboardInterrupt: what had not begun was dropped, and no process is left.
+    """
+    # Python's machinery of processes takes longer to load than a small cell to check.
+    from concurrent.futures.process import BrokenProcessPool, ProcessPoolExecutor
+    from multiprocessing import get_context
+
+    # Spawned on every platform: nothing of this process, its locks and threads above all, is copied into them.
+    pool = ProcessPoolExecutor(number, get_context("spawn"))
+    done = 0
+    try:
+        with _interrupts_blocked():
+            computed = pool.map(partial(compute, kind), files)
+        for answer in computed:
+            done += 1
+            yield answer
+    except BrokenProcessPool:  # the system ended one, for want of memory say
+        yield from (compute(kind, file) for file in files[done:])
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+@contextmanager
+def _interrupts_blocked() -> Iterator[None]:
+    """Block Ctrl-C here and in the processes started meanwhile, which inherit it for good.
+
+    A terminal sends Ctrl-C to all of them: only this process sees it, and ends the others in good order.
+    """
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)

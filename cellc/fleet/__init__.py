@@ -1,1 +1,0 @@
-"""What the cells of one call have against each other."""

@@ -1,0 +1,1 @@
+"""What is kept between calls, and how files are put in place."""

@@ -1,0 +1,147 @@
+"""Answers that are expensive to compute, kept in the user's cache folder by what was asked.
+
+`CELLC_NO_CACHE=1` turns it off. The folder may be deleted at any time, and a result never depends on what is in it. An
+entry is packed, put in place in one step, and checked when it is read.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import sys
+import tempfile
+import zlib
+from collections.abc import Callable, Mapping
+from functools import cache
+from pathlib import Path
+from typing import TypeVar
+
+from pydantic import TypeAdapter, ValidationError
+
+from cellc import __version__
+
+OFF = "CELLC_NO_CACHE"
+MAX_BYTES = 10_000_000
+"""A larger entry is not one that cellc wrote."""
+
+MAX_ENTRIES = 2000
+"""Entries of one kind; when there are more, the older half goes."""
+
+_ANSWERING = ("feasibility", "planning", "description")
+"""Packages whose code decides the answers; an entry that other code wrote is not read."""
+
+_Answer = TypeVar("_Answer")
+
+
+def cache_folder(environment: Mapping[str, str] = os.environ, platform: str = sys.platform) -> Path | None:
+    """Return the folder of cellc in the user's cache folder; it need not exist.
+
+    `XDG_CACHE_HOME` counts on every platform, as the XDG Base Directory Specification has it where it is absolute.
+
+    Returns:
+        None where the cache is turned off, or the user has no home.
+    """
+    if environment.get(OFF, "") not in ("", "0"):
+        return None
+    chosen = Path(environment.get("XDG_CACHE_HOME", ""))
+    if chosen.is_absolute():
+        return chosen / "cellc"
+    try:
+        home = Path.home()
+    except RuntimeError:
+        return None
+    if platform == "win32":
+        return Path(environment.get("LOCALAPPDATA", "") or home / "AppData" / "Local") / "cellc" / "cache"
+    return home / ("Library/Caches" if platform == "darwin" else ".cache") / "cellc"
+
+
+def entry_name(kind: str, question: str) -> str:
+    """Return the path of an entry in the cache folder."""
+    digest = hashlib.sha256("\0".join((__version__, _program(), kind, question)).encode()).hexdigest()
+    return f"{kind}/{digest}.json"
+
+
+@cache
+def _program() -> str:
+    root = Path(__file__).resolve().parents[1]
+    digest = hashlib.sha256()
+    for package in _ANSWERING:
+        for file in sorted((root / package).glob("*.py")):
+            digest.update(f"{file.name}\0".encode() + file.read_bytes() + b"\0")
+    return digest.hexdigest()
+
+
+def recall(kind: str, question: str, answer: type[_Answer], compute: Callable[[], _Answer]) -> _Answer:
+    """Return the kept answer to a question, or compute it.
+
+    A missing, unreadable or damaged entry, and a folder that cannot be written, cost time and nothing else.
+
+    Args:
+        kind: folder of the entry.
+        question: everything that the answer depends on, apart from the program.
+        answer: a type that pydantic reads and writes, such as a dataclass.
+    """
+    if cache_folder() is None:
+        return compute()
+    adapter = TypeAdapter(answer)
+    name = entry_name(kind, question)
+    content = read_entry(name)
+    if content is not None:
+        try:
+            return adapter.validate_json(content)
+        except ValidationError:
+            pass  # of another release whose code looked the same
+    computed = compute()
+    write_entry(name, adapter.dump_json(computed))
+    return computed
+
+
+def read_entry(name: str) -> bytes | None:
+    """Return the content of an entry, or None where there is none, or it is not as this user wrote it."""
+    folder = cache_folder()
+    if folder is None:
+        return None
+    file = folder / name
+    try:
+        status = file.stat()
+        # In a folder that several users share, nobody takes the answer of another.
+        if status.st_size > MAX_BYTES or (hasattr(os, "getuid") and status.st_uid != os.getuid()):
+            return None
+        digest, _, packed = file.read_bytes().partition(b"\n")
+    except OSError:
+        return None
+    return zlib.decompress(packed) if digest == _digest(packed) else None
+
+
+def write_entry(name: str, content: bytes) -> None:
+    """Keep the content; where that is not possible, nothing happens."""
+    folder = cache_folder()
+    packed = zlib.compress(content, 1)
+    if folder is None or len(packed) >= MAX_BYTES:
+        return
+    file = folder / name
+    try:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        handle, part = tempfile.mkstemp(dir=file.parent, prefix=".", suffix=".part")
+    except OSError:
+        return
+    try:
+        with os.fdopen(handle, "wb") as stream:
+            stream.write(_digest(packed) + b"\n" + packed)
+        os.replace(part, file)  # no other process reads half of it
+        _prune(file.parent)
+    except OSError:
+        Path(part).unlink(missing_ok=True)
+
+
+def _digest(content: bytes) -> bytes:
+    return hashlib.sha256(content).hexdigest().encode()
+
+
+def _prune(folder: Path) -> None:
+    if len(os.listdir(folder)) <= MAX_ENTRIES:
+        return
+    with os.scandir(folder) as entries:
+        by_age = sorted((entry.stat().st_mtime_ns, entry.path) for entry in entries)
+    for _, path in by_age[: len(by_age) // 2]:
+        Path(path).unlink(missing_ok=True)

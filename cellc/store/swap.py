@@ -1,0 +1,123 @@
+"""Replace files of a folder at once or not at all.
+
+New files are made ready in a staging folder beside it, then moved; or every old file is put back. The staging folder is
+called ``.<name>.tmp-<process>``; one that a killed process left behind still holds what it was about to write.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import shutil
+from dataclasses import dataclass, field
+from pathlib import Path
+
+
+@dataclass
+class Swap:
+    """Replaces files of a folder one by one; each replacement is atomic, so that no reader sees half a file.
+
+    Each step is noted before it is taken, so that `undo` is right wherever an interrupt falls.
+
+    Args:
+        folder: the output folder.
+        staging: holds new files below ``new``; old ones are kept below ``old``.
+    """
+
+    folder: Path
+    staging: Path
+    _changed: list[str] = field(default_factory=list)
+    _absent: set[str] = field(default_factory=set)
+    _made: list[Path] = field(default_factory=list)
+
+    def put(self, path: str) -> None:
+        """Move a new file into its place."""
+        self.make_folder((self.folder / path).parent)
+        self._keep(path)
+        os.replace(self.staging / "new" / path, self.folder / path)
+
+    def remove(self, path: str) -> None:
+        """Take a file away."""
+        self._keep(path)
+        os.unlink(self.folder / path)
+
+    def make_folder(self, folder: Path) -> None:
+        """Make a folder and those above it."""
+        if folder.is_dir():
+            return
+        self.make_folder(folder.parent)
+        self._made.append(folder)
+        os.mkdir(folder)
+
+    def settle(self) -> None:
+        """Have the system put the names of the changed files on the disk, before the old files are let go."""
+        for folder in sorted({(self.folder / path).parent for path in self._changed}):
+            if os.name != "posix" or not folder.is_dir():
+                continue
+            descriptor = os.open(folder, os.O_RDONLY)
+            try:
+                os.fsync(descriptor)
+            finally:
+                os.close(descriptor)
+
+    def undo(self) -> None:
+        """Put back what was there, the same files with the same times, and remove what was not."""
+        for path in reversed(self._changed):
+            kept = self.staging / "old" / path
+            if path in self._absent:
+                (self.folder / path).unlink(missing_ok=True)
+            elif kept.exists():
+                os.replace(kept, self.folder / path)
+        # All that was kept is back in its place; the staging folder would hold the folder that was made around it.
+        shutil.rmtree(self.staging, ignore_errors=True)
+        for folder in reversed(self._made):
+            # One that holds a file of somebody else by now stays, and what ended the build is told, not this.
+            with contextlib.suppress(OSError):
+                folder.rmdir()
+
+    def _keep(self, path: str) -> None:
+        here, kept = self.folder / path, self.staging / "old" / path
+        if not os.path.lexists(here):
+            self._absent.add(path)
+            self._changed.append(path)
+            return
+        kept.parent.mkdir(parents=True, exist_ok=True)
+        self._changed.append(path)
+        try:
+            os.link(here, kept)
+        except OSError:  # a file system without hard links
+            shutil.copy2(here, kept)
+
+
+def staging_of(folder: Path) -> Path:
+    """Return the staging folder of this process for a folder."""
+    return folder.parent / f".{folder.name}.tmp-{os.getpid()}"
+
+
+def others(folder: Path) -> tuple[Path, ...]:
+    """Return staging folders that other processes made for the same folder."""
+    found = folder.parent.glob(f".{_literal(folder.name)}.tmp-*")
+    return tuple(sorted(path for path in found if path.is_dir() and not path.is_symlink()))
+
+
+def is_alive(staging: Path) -> bool:
+    """Whether the process that made the staging folder still runs."""
+    number = staging.name.rpartition("-")[2]
+    if os.name != "posix" or not number.isdigit() or int(number) in (0, os.getpid()):
+        return False
+    try:
+        os.kill(int(number), 0)
+    except (ProcessLookupError, OverflowError):
+        return False
+    except PermissionError:
+        return True
+    return True
+
+
+def discard(staging: Path) -> None:
+    """Remove a staging folder as far as the system lets."""
+    shutil.rmtree(staging, ignore_errors=True)
+
+
+def _literal(name: str) -> str:
+    return "".join(f"[{char}]" if char in "*?[" else char for char in name)

@@ -1,0 +1,77 @@
+"""Several processes answer as one does, in the order of the call."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import process
+from concurrent.futures.process import BrokenProcessPool
+
+import pytest
+
+from cellc.cli.answers import Answer, compute, in_workers, number_of_workers
+from tests.cli.run import MINIMAL, ROOT
+
+FILES = [file.as_posix() for file in sorted((ROOT / "tests/corpus/invalid").glob("un*.yaml"))[:6]]
+
+
+def test_workers_answer_as_this_process_does() -> None:
+    assert list(in_workers("check", FILES, 2)) == [compute("check", file) for file in FILES]
+    assert multiprocessing.active_children() == []
+
+
+def test_workers_compile_as_this_process_does() -> None:
+    assert list(in_workers("compile", [MINIMAL, FILES[0]], 2)) == [
+        compute("compile", MINIMAL),
+        compute("compile", FILES[0]),
+    ]
+
+
+def test_a_caller_that_stops_early_leaves_no_process() -> None:
+    answers = in_workers("check", FILES, 2)
+    assert next(answers) == compute("check", FILES[0])
+    answers.close()
+    assert multiprocessing.active_children() == []
+
+
+@pytest.mark.parametrize(
+    ("cells", "cores", "number"),
+    [(1, 8, 1), (31, 8, 1), (32, 8, 2), (100, 1, 1), (100, 2, 2), (100, 64, 6), (10_000, 64, 8), (0, 2, 1)],
+)
+def test_as_many_processes_check_as_pay(cells: int, cores: int, number: int) -> None:
+    assert number_of_workers("check", cells, cores) == number
+
+
+def test_a_few_cells_that_are_compiled_pay() -> None:
+    assert [number_of_workers("compile", cells, 2) for cells in (1, 5, 6)] == [1, 1, 2]
+
+
+@pytest.mark.skipif(not hasattr(os, "sched_setaffinity"), reason="the system cannot bind a process to cores")
+def test_a_process_bound_to_one_core_starts_no_others() -> None:
+    allowed = os.sched_getaffinity(0)
+    try:
+        os.sched_setaffinity(0, {min(allowed)})
+        assert number_of_workers("check", 1000) == 1
+    finally:
+        os.sched_setaffinity(0, allowed)
+
+
+class _PoolThatBreaks:
+    """Answers the first question and loses its processes then."""
+
+    def __init__(self, number: int, mp_context: object) -> None:
+        self.is_shut = False
+
+    def map(self, function: Callable[[str], Answer], files: Sequence[str]) -> Iterator[object]:
+        yield function(files[0])
+        raise BrokenProcessPool
+
+    def shutdown(self, *, cancel_futures: bool) -> None:
+        assert cancel_futures
+
+
+def test_what_a_lost_process_owes_is_computed_here(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(process, "ProcessPoolExecutor", _PoolThatBreaks)
+    files = [MINIMAL, *FILES[:2]]
+    assert list(in_workers("check", files, 2)) == [compute("check", file) for file in files]
