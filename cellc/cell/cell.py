@@ -7,10 +7,23 @@ from dataclasses import dataclass
 
 from cellc.cell.control import Controller, ControllerManager
 from cellc.cell.device import Device
+from cellc.cell.entity import Places
 from cellc.cell.frame import Frame, SceneBox
 from cellc.cell.interface import Interface, Node
 from cellc.cell.motion import CartesianGoal, NamedPose, PlanningGroup
 from cellc.cell.rehearsal import Rehearsal
+from cellc.cell.site import (
+    Bringup,
+    Calibration,
+    Host,
+    Kpis,
+    Network,
+    Owners,
+    Recording,
+    Safety,
+    Target,
+    Versions,
+)
 from cellc.diagnostics import Span
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
@@ -21,8 +34,8 @@ class Cell:
     """A linked cell; every tuple is sorted as the user wrote it, derived entities after written ones.
 
     Args:
-        spec: sections that hold nothing to bind: versions, hosts, network, owners, safety, bringup, kpis, recording.
-        document: the text behind the spec, for places.
+        spec, document: about to go; ask the fields below and `locate`, `states`, `text`.
+        places: where the user wrote what.
         distro: the pinned distribution, or UNKNOWN.
         behaviours: controller plugin type string → neutral behaviour, for the plugins in use.
     """
@@ -30,7 +43,19 @@ class Cell:
     name: str
     spec: CellSpec
     document: SourceDocument
+    places: Places
     distro: str
+    summary: str
+    versions: Versions
+    hosts: Mapping[str, Host]
+    network: Network
+    calibrations: Mapping[str, Calibration]
+    owners: Owners
+    safety: Safety
+    bringup: Bringup
+    kpis: Kpis
+    recording: Recording
+    targets: Mapping[str, Target]
     devices: tuple[Device, ...]
     frames: tuple[Frame, ...]
     scene: tuple[SceneBox, ...]
@@ -48,11 +73,15 @@ class Cell:
 
         Where a whole section is missing that is the cell's own name, not the first line of the file.
         """
-        return self.document.locate(path if self.document.has(path[:1]) else ("cell",))
+        return self.places.locate(path if self.places.has(path[:1]) else ("cell",))
 
     def states(self, *path: str | int) -> bool:
         """Tell whether the user wrote something at a YAML path."""
-        return self.document.has(path)
+        return self.places.has(path)
+
+    def text(self, *path: str | int) -> str:
+        """Return the scalar at a YAML path as the user wrote it, such as ``5 deg``; empty where nothing is written."""
+        return self.places.texts.get(path, "")
 
     @property
     def controllers(self) -> tuple[Controller, ...]:

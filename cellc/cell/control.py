@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
+from cellc.catalog.controller_kind import ControllerKind
 from cellc.cell.entity import Entity
 from cellc.cell.interface import ParameterValue
 
@@ -32,7 +33,11 @@ class Controller(Entity):
         plugin: type string for the controller manager.
         command_interfaces: full names that it claims, such as ``arm_elbow_joint/position``.
         state_interfaces: full names that it reads.
+        package: the ROS package of its plugin.
+        declared: what the catalogue says of its kind: parameters, topics, services.
+        plugin_parameters: names of parameters that the plugin of a device's own controller has besides.
         parameters: everything that goes to its node, dots for nesting, in the types that it declares.
+        written_parameters: those of them that stand under ``parameters:`` in the spec.
         action: fully qualified action name and its type, or None.
         path_tolerance, goal_tolerance: per joint, rad or m; None where not stated.
     """
@@ -45,11 +50,15 @@ class Controller(Entity):
     kind: str
     behaviour: str
     plugin: str
+    package: str = ""
+    declared: ControllerKind | None = None
+    plugin_parameters: frozenset[str] = frozenset()
     device: str | None
     joints: tuple[str, ...]
     command_interfaces: tuple[str, ...]
     state_interfaces: tuple[str, ...]
     parameters: Mapping[str, ParameterValue]
+    written_parameters: Mapping[str, ParameterValue] = field(default_factory=dict)
     active: bool
     client: str | None
     action: str | None

@@ -3,13 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from cellc.catalog.device_model import DeviceModel
+from cellc.catalog.device_operation import VersionRow
 from cellc.cell.entity import Entity
+from cellc.cell.interface import InterfaceKind
+from cellc.cell.site import UNKNOWN, Clock, JointFigure
 from cellc.description.model import Description
 from cellc.spec.devices import DeviceSpec
-from cellc.transforms import Pose
+from cellc.transforms import Pose, Vector3
+
+EVERY_JOINT = "*"
+"""Name of what the mock adds to every joint that is commanded."""
+
+_CAMERA_INFO = "sensor_msgs/msg/CameraInfo"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -77,12 +85,161 @@ class DeviceDriver:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class DeviceVersions:
+    """The parts of the version tuple that a device adds, as written."""
+
+    revision: str = UNKNOWN
+    serial: str = UNKNOWN
+    firmware: str = UNKNOWN
+    driver: str = UNKNOWN
+    sdk: str = UNKNOWN
+    description: str = UNKNOWN
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Connection:
+    """How the real device is reached; texts as written."""
+
+    host: str
+    nic: str | None = None
+    address: str | None = None
+    port: str | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LimitShares:
+    """Shares of the device's own limits that the cell allows; one that only tightens lies between 0 and 1."""
+
+    velocity: float = 1.0
+    acceleration: float = 1.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Stamp:
+    """What a sensor stamps (``source`` is hardware, driver, arrival or UNKNOWN), and the clock that it stamps with."""
+
+    source: str = UNKNOWN
+    clock: Clock = field(default_factory=lambda: Clock(domain=UNKNOWN))
+    exposure_s: float | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Payload:
+    """Load that the robot controller is told of: at the flange, centre of mass in the arm's tool0 in m."""
+
+    mass_kg: float
+    center_of_mass: Vector3
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Adapter:
+    """Watchdog of a direct SDK; None where the spec leaves it to the default."""
+
+    command_timeout_s: float | None = None
+    stop_time_s: float | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SimulatedJoint(Entity):
+    """What the mock adds to ``joints``; ``name`` is the key in the spec, ``*`` for every joint that is commanded."""
+
+    joints: tuple[str, ...]
+    lag_s: float | None = None
+    noise: JointFigure | None = None
+    velocity: JointFigure | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Gripper:
+    """A gripper as its joint moves it: positions in rad or m, the largest force in N."""
+
+    joint: str
+    open: float
+    closed: float
+    max_force: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CameraStream:
+    """One image stream with its camera info; ``frame`` is a prefixed link."""
+
+    topic: str
+    type: str
+    info_topic: str
+    frame: str
+    rate_hz: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Camera:
+    """A camera; the exposure is that of the spec, else of the catalogue, else zero."""
+
+    streams: tuple[CameraStream, ...]
+    exposure_s: float = 0.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OfferedInterface:
+    """What a driver offers whether the spec names it or not; ``node`` is the full name of the node behind it."""
+
+    kind: InterfaceKind
+    name: str
+    type: str
+    node: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NetworkNeeds:
+    """What a device asks of its network; ``realtime`` is required, recommended or not_needed."""
+
+    dedicated_link: bool
+    realtime: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SafetyState:
+    """A state of the device's safety controller, and how its driver reports it."""
+
+    name: str
+    stops: bool
+    reported: str | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RecoveryProcedure:
+    """The way out of one state: steps in order, the human ones first."""
+
+    state: str
+    steps: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class VendorSafety:
+    """The vendor's safety boundary; no software of the cell is part of it."""
+
+    states: tuple[SafetyState, ...] = ()
+    modes: tuple[str, ...] = ()
+    recovery: tuple[RecoveryProcedure, ...] = ()
+    watchdog: str | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Packages:
+    """Packages or libraries of the vendor as they stand in the version tuple; None where there is none."""
+
+    driver: str | None = None
+    sdk: str | None = None
+    description: str | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Device(Entity):
     """A robot, gripper or sensor where it stands.
 
     Args:
-        spec: the device as written: versions, connection, stamp, payload.
-        facts: the catalogue entry, in its own names and units.
+        spec, facts: about to go; ask the fields below.
+        model, vendor, kind: as the catalogue names them; the kind is arm, gripper or camera.
+        architecture: who owns the command path: ros2, direct_sdk or hybrid.
         description: links and joints with the prefix applied; frames as URDF.
         root_link: prefixed root link; its pose in ``parent_frame`` is ``transform_root_to_parent``.
         frames: short names of the catalogue and local link names → prefixed link names.
@@ -90,10 +247,24 @@ class Device(Entity):
         driver: what moves it on the real target where no component of ros2_control does.
         tool_frame: prefixed link where tools mount, for an arm.
         carries: devices mounted on this one, directly or on a frame of it.
+        versions, connection, limit_shares, stamp, payload, adapter, simulated_joints: what the spec states of it.
+        home: prefixed joint → position where the catalogue says a mock begins.
+        optical_frames: short names of frames that look along z.
+        payload_limit_kg: what may hang on the flange, tool included.
+        update_rates_hz: those that the device accepts; any where empty.
+        controller_kinds: kinds of controllers that only this device has.
+        speed_scaling: full name of the state interface that reports how far trajectories are slowed down.
+        offers: what the driver offers whether the spec names it or not.
+        version_rows: the matrix of versions that go together.
+        mock_cannot_prove: what no mock shows of it.
     """
 
     spec: DeviceSpec
     facts: DeviceModel
+    model: str
+    vendor: str
+    kind: str
+    architecture: str = "ros2"
     prefix: str
     description: Description
     root_link: str
@@ -104,7 +275,28 @@ class Device(Entity):
     hardware: HardwareComponent | None
     driver: DeviceDriver | None
     tool_frame: str | None
-    carries: tuple[str, ...]
+    carries: tuple[str, ...] = ()
+    versions: DeviceVersions = field(default_factory=DeviceVersions)
+    connection: Connection | None = None
+    limit_shares: LimitShares = field(default_factory=LimitShares)
+    stamp: Stamp | None = None
+    payload: Payload | None = None
+    adapter: Adapter | None = None
+    simulated_joints: tuple[SimulatedJoint, ...] = ()
+    home: Mapping[str, float] = field(default_factory=dict)
+    optical_frames: tuple[str, ...] = ()
+    payload_limit_kg: float | None = None
+    update_rates_hz: tuple[float, ...] = ()
+    controller_kinds: tuple[str, ...] = ()
+    speed_scaling: str | None = None
+    gripper: Gripper | None = None
+    camera: Camera | None = None
+    offers: tuple[OfferedInterface, ...] = ()
+    network: NetworkNeeds | None = None
+    safety: VendorSafety = field(default_factory=VendorSafety)
+    packages: Packages = field(default_factory=Packages)
+    version_rows: tuple[VersionRow, ...] = ()
+    mock_cannot_prove: tuple[str, ...] = ()
 
     def joint(self, name: str) -> DeviceJoint:
         """Return a joint by its prefixed name.
@@ -121,3 +313,16 @@ class Device(Entity):
     def actuated_joints(self) -> tuple[DeviceJoint, ...]:
         """Joints with a command interface."""
         return tuple(joint for joint in self.joints if joint.command_interfaces)
+
+    @property
+    def topics(self) -> Mapping[str, str]:
+        """Topics that the driver publishes → their types, camera streams included."""
+        streams = () if self.camera is None else self.camera.streams
+        types = {one.name: one.type for one in self.offers if one.kind is InterfaceKind.TOPIC}
+        types |= {stream.topic: stream.type for stream in streams}
+        return types | {stream.info_topic: _CAMERA_INFO for stream in streams}
+
+    def simulated(self, joint: str) -> tuple[SimulatedJoint, ...]:
+        """Return what the mock adds to a joint: what is said of it alone before what is said of all."""
+        found = [one for one in self.simulated_joints if joint in one.joints]
+        return tuple(sorted(found, key=lambda one: one.name == EVERY_JOINT))

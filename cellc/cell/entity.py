@@ -1,8 +1,10 @@
-"""What every entity of a cell carries: its name and the place where the user wrote it."""
+"""What every entity of a cell carries, its name and where the user wrote it, and the places of everything written."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import PurePosixPath
 
 from cellc.diagnostics import Span, YamlPath
 
@@ -20,3 +22,33 @@ class Entity:
     name: str
     path: YamlPath
     span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Places:
+    """Where the user wrote each value of the spec, and the scalars as written.
+
+    Args:
+        file: the root spec as the user named it.
+        spans: by YAML path; a list or mapping has the place of its key.
+        texts: scalars by YAML path, quotes removed, in the order of the files.
+    """
+
+    file: str
+    spans: Mapping[YamlPath, Span] = field(default_factory=dict)
+    texts: Mapping[YamlPath, str] = field(default_factory=dict)
+
+    @property
+    def file_name(self) -> str:
+        """Name of the root spec without its folders."""
+        return PurePosixPath(self.file).name
+
+    def has(self, path: YamlPath) -> bool:
+        """Return whether the user wrote a value at ``path``."""
+        return path in self.spans
+
+    def locate(self, path: YamlPath) -> Span:
+        """Return the place of ``path``, or of its nearest ancestor that the user wrote."""
+        while path and path not in self.spans:
+            path = path[:-1]
+        return self.spans[path] if path else Span(self.file, 1, 1, 1, 1)

@@ -95,11 +95,15 @@ def _controller(
         kind=written.type,
         behaviour=behaviour_of(plugin, device, kind, context.distro),
         plugin=plugin.type,
+        package=plugin.package,
+        declared=kind,
+        plugin_parameters=_plugin_parameters(written, device),
         device=written.device,
         joints=interfaces.joints,
         command_interfaces=interfaces.command,
         state_interfaces=interfaces.state,
         parameters=_parameters(written, device, plugin, kind, interfaces, context),
+        written_parameters=written.parameters,
         active=written.active,
         client=written.client,
         action=None if kind.action is None else f"{place.namespace}/{place.name}/{kind.action.suffix}",
@@ -110,6 +114,13 @@ def _controller(
         on_violation=written.on_violation,
         update_rate_hz=None if written.update_rate is None else written.update_rate.si,
     )
+
+
+def _plugin_parameters(written: ControllerSpec, device: Device | None) -> frozenset[str]:
+    """Name the parameters that a device's own controller has besides those of its kind."""
+    own = None if device is None else device.facts.controllers.get(written.type)
+    plugins = () if own is None else own.plugins.values()
+    return frozenset(name for plugin in plugins for name in plugin.parameters)
 
 
 def _parameters(

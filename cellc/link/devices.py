@@ -11,6 +11,21 @@ from cellc.cell.device import Device, DeviceDriver, DeviceJoint, HardwareCompone
 from cellc.cell.frame import WORLD
 from cellc.description.model import Description, Joint
 from cellc.diagnostics import Diagnostic, Outcome, Severity, did_you_mean
+from cellc.link.device_facts import (
+    bind_adapter,
+    bind_camera,
+    bind_connection,
+    bind_device_versions,
+    bind_gripper,
+    bind_limit_shares,
+    bind_network_needs,
+    bind_offers,
+    bind_packages,
+    bind_payload,
+    bind_simulated_joints,
+    bind_stamp,
+    bind_vendor_safety,
+)
 from cellc.link.local_device import local_device
 from cellc.link.placeholders import Placeholders, placeholders
 from cellc.link.placement import pose
@@ -121,6 +136,7 @@ def _device(
     facts = entry.model
     mount = written.mount
     known = placeholders(name, prefix, written, spec)
+    joints = _joints(name, written, document, facts, entry.description, prefix)
     return Device(
         name=name,
         path=path,
@@ -133,11 +149,36 @@ def _device(
         parent_frame=parent,
         transform_root_to_parent=identity() if mount is None else pose(mount.xyz, mount.rpy),
         frames={short: prefix + link for short, link in _frame_names(entry).items()},
-        joints=_joints(name, written, document, facts, entry.description, prefix),
+        joints=joints,
         hardware=_hardware(facts, known, prefix),
         driver=_driver(facts, known),
         tool_frame=None if facts.tool_frame is None else prefix + facts.frames.get(facts.tool_frame, facts.tool_frame),
         carries=_carried(name, spec),
+        model=facts.model,
+        vendor=facts.vendor,
+        kind=facts.kind,
+        architecture=written.architecture,
+        versions=bind_device_versions(written),
+        connection=bind_connection(written),
+        limit_shares=bind_limit_shares(written),
+        stamp=bind_stamp(written),
+        payload=bind_payload(written),
+        adapter=bind_adapter(written),
+        simulated_joints=bind_simulated_joints(written, path, document, joints),
+        home={prefix + joint: position.si for joint, position in (facts.home or {}).items()},
+        optical_frames=facts.optical_frames,
+        payload_limit_kg=None if facts.limits.payload is None else facts.limits.payload.value.si,
+        update_rates_hz=() if facts.control is None else tuple(rate.si for rate in facts.control.update_rates),
+        controller_kinds=tuple(facts.controllers),
+        speed_scaling=None if facts.speed_scaling is None else known.fill(facts.speed_scaling.state_interface),
+        gripper=bind_gripper(facts, prefix),
+        camera=bind_camera(facts, written, known, prefix),
+        offers=tuple(bind_offers(facts, known)),
+        network=bind_network_needs(facts),
+        safety=bind_vendor_safety(facts),
+        packages=bind_packages(facts),
+        version_rows=facts.versions,
+        mock_cannot_prove=facts.mock_cannot_prove,
     )
 
 

@@ -21,6 +21,19 @@ from cellc.link.motion import link_goals, link_groups, link_poses
 from cellc.link.nodes import link_nodes, standard_nodes
 from cellc.link.qos import QosResolver
 from cellc.link.rehearsals import link_rehearsals
+from cellc.link.site import (
+    bind_bringup,
+    bind_calibrations,
+    bind_hosts,
+    bind_kpis,
+    bind_network,
+    bind_owners,
+    bind_places,
+    bind_recording,
+    bind_safety,
+    bind_targets,
+    bind_versions,
+)
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
 
@@ -61,11 +74,24 @@ def _link_with_devices(
     poses = link_poses(spec, document, groups.value or ())
     goals = link_goals(spec, document, groups.value or (), names)
     rehearsals = link_rehearsals(spec, document, devices, loops, (*written, *derived), names)
+    places = bind_places(document)
     cell = Cell(
         name=spec.cell,
         spec=spec,
         document=document,
+        places=places,
         distro=distro,
+        summary=spec.summary,
+        versions=bind_versions(spec),
+        hosts=bind_hosts(spec, places),
+        network=bind_network(spec),
+        calibrations=bind_calibrations(spec, places),
+        owners=bind_owners(spec),
+        safety=bind_safety(spec),
+        bringup=bind_bringup(spec),
+        kpis=bind_kpis(spec),
+        recording=bind_recording(spec),
+        targets=bind_targets(spec),
         devices=devices,
         frames=all_frames,
         scene=scene.value or (),

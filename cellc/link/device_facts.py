@@ -1,0 +1,173 @@
+"""What the spec states of a device and the catalogue knows of it, in SI, prefixed, with placeholders filled."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.catalog.device_model import DeviceModel
+from cellc.cell.device import (
+    Adapter,
+    Camera,
+    CameraStream,
+    Connection,
+    DeviceJoint,
+    DeviceVersions,
+    Gripper,
+    LimitShares,
+    NetworkNeeds,
+    OfferedInterface,
+    Packages,
+    Payload,
+    RecoveryProcedure,
+    SafetyState,
+    SimulatedJoint,
+    Stamp,
+    VendorSafety,
+)
+from cellc.cell.interface import InterfaceKind
+from cellc.diagnostics import YamlPath
+from cellc.link.placeholders import Placeholders
+from cellc.link.placement import vector
+from cellc.link.site import bind_clock, joint_figure, si
+from cellc.source.document import SourceDocument
+from cellc.spec.devices import EVERY_JOINT, DeviceSpec
+
+
+def bind_device_versions(written: DeviceSpec) -> DeviceVersions:
+    """Return the parts of the version tuple that the device adds."""
+    return DeviceVersions(
+        revision=written.revision,
+        serial=written.serial,
+        firmware=written.firmware,
+        driver=written.driver,
+        sdk=written.sdk,
+        description=written.description,
+    )
+
+
+def bind_connection(written: DeviceSpec) -> Connection | None:
+    """Return how the real device is reached."""
+    one = written.connection
+    return None if one is None else Connection(host=one.host, nic=one.nic, address=one.address, port=one.port)
+
+
+def bind_limit_shares(written: DeviceSpec) -> LimitShares:
+    """Return the shares of the device's own limits; whole where nothing is written."""
+    limits = written.limits
+    if limits is None:
+        return LimitShares()
+    velocity, acceleration = si(limits.velocity), si(limits.acceleration)
+    return LimitShares(
+        velocity=1.0 if velocity is None else velocity, acceleration=1.0 if acceleration is None else acceleration
+    )
+
+
+def bind_stamp(written: DeviceSpec) -> Stamp | None:
+    """Return what a sensor stamps."""
+    stamp = written.stamp
+    if stamp is None:
+        return None
+    return Stamp(source=stamp.source, clock=bind_clock(stamp, stamp.clock), exposure_s=si(stamp.exposure))
+
+
+def bind_payload(written: DeviceSpec) -> Payload | None:
+    """Return the load that the arm is told of."""
+    payload = written.payload
+    if payload is None:
+        return None
+    return Payload(mass_kg=payload.mass.si, center_of_mass=vector(payload.center_of_mass))
+
+
+def bind_adapter(written: DeviceSpec) -> Adapter | None:
+    """Return the watchdog of a direct SDK."""
+    adapter = written.adapter
+    if adapter is None:
+        return None
+    return Adapter(command_timeout_s=si(adapter.command_timeout), stop_time_s=si(adapter.stop_time))
+
+
+def bind_simulated_joints(
+    written: DeviceSpec, path: YamlPath, document: SourceDocument, joints: tuple[DeviceJoint, ...]
+) -> tuple[SimulatedJoint, ...]:
+    """Return what the mock adds to joints, with the commanded joints that each key means."""
+    driven = [joint for joint in joints if joint.command_interfaces]
+    return tuple(
+        SimulatedJoint(
+            name=key,
+            path=(*path, "simulated_joints", key),
+            span=document.locate((*path, "simulated_joints", key)),
+            joints=tuple(joint.name for joint in driven if key in (EVERY_JOINT, joint.local_name)),
+            lag_s=si(one.lag),
+            noise=None if one.noise is None else joint_figure(one.noise),
+            velocity=None if one.velocity is None else joint_figure(one.velocity),
+        )
+        for key, one in written.simulated_joints.items()
+    )
+
+
+def bind_gripper(facts: DeviceModel, prefix: str) -> Gripper | None:
+    """Return the gripper that the device is."""
+    one = facts.gripper
+    if one is None:
+        return None
+    return Gripper(joint=prefix + one.joint, open=one.open.si, closed=one.closed.si, max_force=one.max_force.si)
+
+
+def bind_camera(facts: DeviceModel, written: DeviceSpec, known: Placeholders, prefix: str) -> Camera | None:
+    """Return the camera that the device is; an exposure of the spec counts before the catalogue's."""
+    camera = facts.camera
+    if camera is None:
+        return None
+    stamp = written.stamp
+    exposure = (None if stamp is None else stamp.exposure) or camera.exposure
+    return Camera(
+        streams=tuple(
+            CameraStream(
+                topic=known.fill(stream.topic),
+                type=stream.type,
+                info_topic=known.fill(stream.info_topic),
+                frame=prefix + stream.frame,
+                rate_hz=stream.rate.si,
+            )
+            for stream in camera.streams.values()
+        ),
+        exposure_s=0.0 if exposure is None else exposure.si,
+    )
+
+
+def bind_offers(facts: DeviceModel, known: Placeholders) -> Iterator[OfferedInterface]:
+    """Yield what the driver offers, topics first, then services and actions."""
+    offered = (
+        *((InterfaceKind.TOPIC, topic.name, topic.type, topic.publisher) for topic in facts.topics),
+        *((InterfaceKind.SERVICE, service.name, service.type, service.server) for service in facts.services),
+        *((InterfaceKind.ACTION, action.name, action.type, action.server) for action in facts.actions),
+    )
+    for kind, name, type_, node in offered:
+        yield OfferedInterface(kind=kind, name=known.fill(name), type=type_, node="/" + known.fill(node))
+
+
+def bind_network_needs(facts: DeviceModel) -> NetworkNeeds | None:
+    """Return what the device asks of its network."""
+    network = facts.network
+    if network is None:
+        return None
+    return NetworkNeeds(dedicated_link=network.dedicated_link, realtime=network.realtime)
+
+
+def bind_vendor_safety(facts: DeviceModel) -> VendorSafety:
+    """Return the vendor's safety boundary; empty where the catalogue has none."""
+    safety = facts.safety
+    if safety is None:
+        return VendorSafety()
+    return VendorSafety(
+        states=tuple(SafetyState(name=one.name, stops=one.stops, reported=one.reported) for one in safety.states),
+        modes=safety.modes,
+        recovery=tuple(RecoveryProcedure(state=one.state, steps=one.steps) for one in safety.recovery),
+        watchdog=safety.watchdog,
+    )
+
+
+def bind_packages(facts: DeviceModel) -> Packages:
+    """Return the vendor's packages and libraries."""
+    one = facts.packages
+    return Packages(driver=one.driver, sdk=one.sdk, description=one.description)

@@ -1,0 +1,223 @@
+"""Binds what surrounds the devices: hosts, network, versions, calibrations, owners, safety, bring-up, figures, targets.
+
+Defaults, ``standard`` lists and units are decided here.
+"""
+
+from __future__ import annotations
+
+import datetime
+from collections.abc import Mapping
+
+from cellc.cell.entity import Places
+from cellc.cell.site import (
+    ATTEMPT_FIELDS,
+    GATES,
+    LADDER,
+    TARGET_DEFAULTS,
+    ApprovalOwners,
+    Bringup,
+    Calibration,
+    Clock,
+    FirstMotion,
+    Host,
+    JointFigure,
+    Kpis,
+    Network,
+    NetworkCard,
+    Owners,
+    Recording,
+    Recovery,
+    ResponsibilityOwners,
+    Rollback,
+    Safety,
+    Stop,
+    Target,
+    Versions,
+)
+from cellc.diagnostics import Span, YamlPath
+from cellc.source.document import SourceDocument
+from cellc.source.node import Node
+from cellc.spec.cell_spec import CellSpec
+from cellc.spec.devices import StampSpec
+from cellc.spec.hosts import ClockSpec
+from cellc.spec.quantity import Quantity
+from cellc.spec.safety import FirstMotionSpec
+
+_LENGTHS = ("m", "mm", "cm", "um", "m/s", "mm/s")
+
+
+def bind_places(document: SourceDocument) -> Places:
+    """Return the place of every value of a document, and its scalars as written."""
+    spans: dict[YamlPath, Span] = {}
+    texts: dict[YamlPath, str] = {}
+
+    def gather(node: Node, path: YamlPath) -> None:
+        for key, child in node.children.items():
+            at = (*path, key)
+            spans[at] = child.place
+            if child.node.children:
+                gather(child.node, at)
+            elif child.node.text:
+                texts[at] = child.node.text
+
+    gather(document.root, ())
+    return Places(document.file, spans, texts)
+
+
+def bind_versions(spec: CellSpec) -> Versions:
+    """Return the version tuple of the cell."""
+    written = spec.versions
+    return Versions(
+        ros=written.ros,
+        os=written.os,
+        kernel=written.kernel,
+        rmw=written.rmw,
+        ros2_control=written.ros2_control,
+        moveit=written.moveit,
+        rollback=Rollback(image=written.rollback.image, configuration=written.rollback.configuration),
+    )
+
+
+def bind_hosts(spec: CellSpec, places: Places) -> Mapping[str, Host]:
+    """Return every computer with its clock and cards."""
+    return {
+        name: Host(
+            name=name,
+            path=("hosts", name),
+            span=places.locate(("hosts", name)),
+            scheduling=written.scheduling,
+            clock=bind_clock(written.clock, written.clock.domain),
+            nics={
+                nic: NetworkCard(address=card.address, interface=card.interface, carries=card.carries)
+                for nic, card in written.nics.items()
+            },
+        )
+        for name, written in spec.hosts.items()
+    }
+
+
+def bind_clock(written: ClockSpec | StampSpec, domain: str) -> Clock:
+    """Return the clock of a host or a sensor."""
+    return Clock(
+        domain=domain,
+        synchronised_by=written.synchronised_by,
+        max_offset_s=si(written.max_offset),
+        simulated_offset_s=si(written.simulated_offset) or 0.0,
+        simulated_drift=si(written.simulated_drift) or 0.0,
+    )
+
+
+def bind_network(spec: CellSpec) -> Network:
+    """Return how nodes find each other."""
+    written = spec.network
+    return Network(domain_id=written.domain_id, discovery=written.discovery, peers=written.peers)
+
+
+def bind_calibrations(spec: CellSpec, places: Places) -> Mapping[str, Calibration]:
+    """Return every calibration by its id."""
+    return {
+        name: Calibration(
+            name=name,
+            path=("calibrations", name),
+            span=places.locate(("calibrations", name)),
+            revision=written.revision,
+            measured=written.measured,
+            measured_on=_date(written.measured),
+            method=written.method,
+            samples=written.samples,
+            residual_m=si(written.residual),
+            owner=written.owner,
+        )
+        for name, written in spec.calibrations.items()
+    }
+
+
+def _date(text: str) -> datetime.date | None:
+    try:
+        return datetime.date.fromisoformat(text)
+    except ValueError:
+        return None
+
+
+def bind_owners(spec: CellSpec) -> Owners:
+    """Return who answers for what."""
+    return Owners(
+        responsibilities=ResponsibilityOwners(**dict(spec.owners.responsibilities)),
+        approvals=ApprovalOwners(**dict(spec.owners.approvals)),
+    )
+
+
+def bind_safety(spec: CellSpec) -> Safety:
+    """Return the safety boundary."""
+    stop, recovery = spec.safety.stop, spec.safety.recovery
+    return Safety(
+        stop=Stop(authority=stop.authority, path=stop.path, independent_of=stop.independent_of, evidence=stop.evidence),
+        recovery=Recovery(
+            states=recovery.states,
+            acknowledge=recovery.acknowledge,
+            on_reconnect=recovery.on_reconnect,
+            owner=recovery.owner,
+            observer=recovery.observer,
+        ),
+    )
+
+
+def bind_bringup(spec: CellSpec) -> Bringup:
+    """Return the gates, ``standard`` written out, and the first motion."""
+    gates, first = spec.bringup.gates, spec.bringup.first_motion
+    return Bringup(
+        gates=(*GATES, *LADDER) if gates == "standard" else tuple(gates),
+        first_motion=None if first is None else _first_motion(first),
+    )
+
+
+def _first_motion(written: FirstMotionSpec) -> FirstMotion:
+    return FirstMotion(
+        joint=written.joint,
+        direction=written.direction,
+        max_delta=joint_figure(written.max_delta),
+        velocity=joint_figure(written.velocity),
+        timeout_s=written.timeout.si,
+        stop_if=written.stop_if,
+    )
+
+
+def bind_kpis(spec: CellSpec) -> Kpis:
+    """Return the target figures."""
+    written = spec.kpis
+    return Kpis(
+        plan_to_execute_s=si(written.plan_to_execute),
+        cancel_s=si(written.cancel),
+        missed_cycles=written.missed_cycles,
+        stale_state_rejection=si(written.stale_state_rejection),
+        protective_stops=written.protective_stops,
+        recovery_time_s=si(written.recovery_time),
+        wrong_owner_events=written.wrong_owner_events,
+    )
+
+
+def bind_recording(spec: CellSpec) -> Recording:
+    """Return what is recorded, ``standard`` written out."""
+    written = spec.recording.attempt_fields
+    return Recording(
+        attempt_fields=ATTEMPT_FIELDS if written == "standard" else tuple(written), topics=spec.recording.topics
+    )
+
+
+def bind_targets(spec: CellSpec) -> Mapping[str, Target]:
+    """Return the targets that every cell has and those that the spec adds, each with its hardware and clock."""
+    targets = dict(TARGET_DEFAULTS)
+    for name, written in spec.targets.items():
+        clock = written.clock or ("sim" if name == "sim" else "wall")
+        targets[name] = Target(hardware=written.hardware or name, clock=clock)
+    return targets
+
+
+def si(quantity: Quantity | None) -> float | None:
+    """Return a quantity in SI, None where nothing is written."""
+    return None if quantity is None else quantity.si
+
+
+def joint_figure(quantity: Quantity) -> JointFigure:
+    """Return a position or speed of a joint, and whether the user wrote it as a length."""
+    return JointFigure(quantity.si, quantity.unit in _LENGTHS)
