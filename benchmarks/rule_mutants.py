@@ -22,8 +22,8 @@ sys.path.insert(0, str(ROOT))
 
 from cellc.graph.cell_graph import CellGraph, build_graph  # noqa: E402  the checkout comes before what is installed
 from cellc.link.link import link  # noqa: E402
-from cellc.rule import Rule  # noqa: E402
-from cellc.rules.all_rules import ALL_RULES  # noqa: E402
+from cellc.rules.kit import Rule  # noqa: E402
+from cellc.rules.run import ALL_RULES  # noqa: E402
 from cellc.source.read import read  # noqa: E402
 from cellc.spec.parse import parse  # noqa: E402
 from tests.rules import boundaries, examples  # noqa: E402
@@ -141,7 +141,7 @@ def killed(tree: ast.Module, rule: Rule, cases: list[tuple[CellGraph, Places]]) 
     module.__dict__["__doc__"] = rule.page
     try:
         exec(compile(tree, rule.code, "exec"), module.__dict__)
-        return any(places(module.__dict__["RULE"], graph) != due for graph, due in cases)
+        return any(places(module.__dict__["check"], graph) != due for graph, due in cases)
     except Exception:  # a mutant may raise anything, and is noticed by it
         return True
 

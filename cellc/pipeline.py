@@ -16,8 +16,7 @@ from cellc.diagnostics.findings import Findings
 from cellc.diagnostics.page import CodePage
 from cellc.graph.cell_graph import CellGraph, build_graph
 from cellc.link.link import link
-from cellc.rules.ignore_comment import ignore_comments
-from cellc.rules.ignores import apply_ignores, misused_ignores
+from cellc.rules.ignores import apply_ignores, ignore_comments, misused_ignores
 from cellc.rules.run import run_rules
 from cellc.source import read
 from cellc.source.shown import with_shown_texts

@@ -8,9 +8,9 @@ from cellc.catalog.codes import CODES as CATALOG_CODES
 from cellc.diagnostics.page import CodePage
 from cellc.link.codes import CODES as LINK_CODES
 from cellc.output.codes import CODES as OUTPUT_CODES
-from cellc.rules.all_rules import ALL_RULES
-from cellc.rules.define import FAMILIES
-from cellc.rules.ignore_codes import CODES as IGNORE_CODES
+from cellc.rules.ignores import CODES as IGNORE_CODES
+from cellc.rules.kit import FAMILIES
+from cellc.rules.run import ALL_RULES
 from cellc.rules.shared_domain import CODES as FLEET_CODES
 from cellc.source.codes import CODES as SOURCE_CODES
 from cellc.spec.codes import CODES as SPEC_CODES

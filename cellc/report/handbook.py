@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from cellc.diagnostics.page import CodePage
 from cellc.report.families import STAGES, codes_by_family
 from cellc.report.pages import all_pages, render_page
-from cellc.rules.define import FAMILIES
+from cellc.rules.kit import FAMILIES
 
 _HEAD = """# Every code of cellc
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from cellc.diagnostics.page import CodePage
 from cellc.report.families import STAGES
-from cellc.rules.all_rules import ALL_RULES
+from cellc.rules.run import ALL_RULES
 
 
 def all_pages() -> dict[str, CodePage]:

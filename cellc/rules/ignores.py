@@ -1,15 +1,51 @@
-"""Takes out the findings that the author of a cell excuses on their line, and judges the excuses."""
+"""Comments such as ``# cellc: ignore CODE reason``: read, applied to what was found, and judged."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 
 from cellc.diagnostics import Diagnostic, Severity, Span, did_you_mean
 from cellc.diagnostics.page import CodePage
 from cellc.link.codes import CODES as LINK_CODES
-from cellc.rules.all_rules import ALL_RULES
-from cellc.rules.ignore_codes import CODES
-from cellc.rules.ignore_comment import IgnoreComment, IgnoredCode
+from cellc.rules.run import ALL_RULES
+from cellc.source.comments import Comment, comments
+
+CODES: tuple[CodePage, ...] = (
+    CodePage(
+        "ignore-refused",
+        Severity.ERROR,
+        "a comment ignores a finding that nobody may ignore",
+        "Errors and blockers of safety, ownership and frames say that something can move that nobody stops, commands, "
+        "or knows the place of; errors of reading and linking say that the cell is not known. A comment can justify "
+        "neither, so both stay: the finding, and this one.",
+        "remove the comment and mend what the code reports",
+    ),
+    CodePage(
+        "ignore-without-reason",
+        Severity.ERROR,
+        "a comment ignores a finding and does not say why",
+        "Whoever reviews the cell later must be able to judge whether the exception still holds. Without a reason the "
+        "comment has no effect.",
+        "write `# cellc: ignore CODE reason`",
+    ),
+    CodePage(
+        "unknown-ignored-code",
+        Severity.ERROR,
+        "a comment ignores a code that does not exist",
+        "A misspelt code ignores nothing, and the finding that was meant looks as if it came back by itself.",
+        "write a code that `cellc explain` lists; several are separated by commas",
+    ),
+    CodePage(
+        "unused-ignore",
+        Severity.WARNING,
+        "a comment ignores a finding that is not there",
+        "What was excused is gone or stands on another line, and the comment would hide the next defect of its kind. "
+        "It counts at the end of the line that is reported.",
+        "delete the comment, or move it to the end of the reported line",
+    ),
+)
 
 # Who, where and what stops it: no comment justifies motion without these answers.
 _PROTECTED_FAMILIES = ("SAF", "OWN", "FRM")
@@ -18,6 +54,62 @@ _RULES = {rule.code: rule for rule in ALL_RULES}
 _PAGES = {page.code: page for page in CODES}
 # A code of a stage and of a rule stops the stage, whatever the family of the rule.
 _LINK_CODES = frozenset(page.code for page in LINK_CODES)
+_MARKER = re.compile(r"(?<!\S)#\s*cellc:\s*ignore\b")
+_CODE = re.compile(r"[\w-]+")
+_NEXT = re.compile(r"\s*,\s*")
+# What people put between the codes and the reason.
+_SEPARATORS = " \t:-–—("
+
+
+@dataclass(frozen=True, slots=True)
+class IgnoredCode:
+    """One code of a comment and where it is written."""
+
+    code: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class IgnoreComment:
+    """One comment: the codes that it ignores on its line, and why; the reason may be missing."""
+
+    span: Span
+    codes: tuple[IgnoredCode, ...]
+    reason: str
+
+
+def ignore_comments(texts: Mapping[str, str]) -> tuple[IgnoreComment, ...]:
+    """Return the comments of all files of a spec that ignore something.
+
+    Args:
+        texts: valid YAML by the name that spans carry.
+    """
+    return tuple(_read(file, comment) for file, text in texts.items() for comment in comments(text, _MARKER))
+
+
+def _read(file: str, comment: Comment) -> IgnoreComment:
+    head = _MARKER.match(comment.text)
+    assert head is not None  # the comment begins where the marker was found
+    codes, end = [], head.end()
+    for start, end in _codes(comment.text, head.end()):
+        codes.append(IgnoredCode(comment.text[start:end], _span(file, comment, start, end)))
+    reason = comment.text[end:].strip(_SEPARATORS)
+    return IgnoreComment(_span(file, comment, 0, len(comment.text)), tuple(codes), reason)
+
+
+def _codes(text: str, position: int) -> Iterator[tuple[int, int]]:
+    """Yield start and end of every code; the first word behind the codes begins the reason."""
+    start = position + len(text[position:]) - len(text[position:].lstrip())
+    while match := _CODE.match(text, start):
+        yield match.span()
+        following = _NEXT.match(text, match.end())
+        if following is None:
+            return
+        start = following.end()
+
+
+def _span(file: str, comment: Comment, start: int, end: int) -> Span:
+    return Span(file, comment.line, comment.column + start, comment.line, comment.column + end)
 
 
 def apply_ignores(

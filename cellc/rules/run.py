@@ -1,14 +1,27 @@
-"""Runs the rules over a cell."""
+"""Finds all rules in their folders, and runs them over a cell."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from graphlib import TopologicalSorter
+from importlib import import_module
+from pkgutil import iter_modules
 
 from cellc.diagnostics import Diagnostic
 from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Rule
-from cellc.rules.all_rules import ALL_RULES
+from cellc.rules.kit import FAMILIES, Rule
+
+
+def _rules_of(family: str) -> Iterator[Rule]:
+    """Yield the rule of every file in the folder of a family, in the order of their names."""
+    package = import_module(f"cellc.rules.{family}")
+    for name in sorted(module.name for module in iter_modules(package.__path__)):
+        made = import_module(f"{package.__name__}.{name}").check
+        assert isinstance(made, Rule), f"the check of {name} must carry @rule"
+        yield made
+
+
+ALL_RULES: tuple[Rule, ...] = tuple(rule for family in FAMILIES for rule in _rules_of(family))
 
 
 def run_rules(graph: CellGraph, rules: tuple[Rule, ...] = ALL_RULES) -> tuple[Diagnostic, ...]:
@@ -41,6 +54,6 @@ def _diagnostics(rule: Rule, graph: CellGraph) -> Iterator[Diagnostic]:
             message=found.message,
             span=found.span,
             yaml_path=found.path,
-            help=found.help,
+            help=found.help or rule.fix,
             related=found.related,
         )

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from cellc.rules.all_rules import ALL_RULES
+from cellc.rules.run import ALL_RULES
 from tests.rules.examples import diagnose
 
 CORPUS = Path(__file__).parent

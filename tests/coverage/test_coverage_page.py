@@ -10,7 +10,7 @@ import pytest
 from cellc.catalog.codes import CODES as CATALOG_CODES
 from cellc.link.codes import CODES as LINK_CODES
 from cellc.pipeline import check, compile_cell
-from cellc.rules.all_rules import ALL_RULES
+from cellc.rules.run import ALL_RULES
 from cellc.rules.shared_domain import CODES as FLEET_CODES
 from cellc.source import CODES as SOURCE_CODES
 from cellc.spec.codes import CODES as SPEC_CODES

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from cellc.report.handbook import render_handbook
 from cellc.report.pages import all_pages, render_page
-from cellc.rules.all_rules import ALL_RULES
+from cellc.rules.run import ALL_RULES
 from tests.cli.run import run
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -15,7 +15,7 @@ import yaml
 from cellc.diagnostics import Diagnostic
 from cellc.graph.cell_graph import build_graph
 from cellc.link.link import link
-from cellc.rule import Rule
+from cellc.rules.kit import Rule
 from cellc.rules.run import run_rules
 from cellc.source.read import read
 from cellc.spec.parse import parse

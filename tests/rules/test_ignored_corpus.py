@@ -11,7 +11,7 @@ import pytest
 from cellc.diagnostics import Severity
 from cellc.link.codes import CODES as LINK_CODES
 from cellc.pipeline import check
-from cellc.rules.all_rules import ALL_RULES
+from cellc.rules.run import ALL_RULES
 
 INVALID = Path(__file__).resolve().parents[1] / "corpus" / "invalid"
 _MARK = re.compile(r"# expect: ([a-z0-9, -]+)$", re.MULTILINE)

@@ -9,9 +9,8 @@ import pytest
 from cellc.diagnostics import Diagnostic, Severity, Span
 from cellc.pipeline import Checked, check
 from cellc.report.pages import all_pages
-from cellc.rules.all_rules import ALL_RULES
-from cellc.rules.ignore_comment import ignore_comments
-from cellc.rules.ignores import apply_ignores
+from cellc.rules.ignores import apply_ignores, ignore_comments
+from cellc.rules.run import ALL_RULES
 
 PICK = Path(__file__).resolve().parents[2] / "cells/ur5e_pick/cell.yaml"
 REVISION = "    revision: UNKNOWN\n    serial"

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from cellc.rule import Rule
-from cellc.rules.all_rules import ALL_RULES
+from cellc.rules.kit import FAMILIES, Rule
+from cellc.rules.run import ALL_RULES
 from tests.rules.examples import Example, diagnose_example, examples
 
 RULES = [pytest.param(rule, id=rule.code) for rule in ALL_RULES]
@@ -24,9 +24,17 @@ def test_every_code_is_declared_once() -> None:
     assert len(codes) == len(set(codes))
 
 
-def test_every_rule_file_stands_in_the_tuple_of_its_family() -> None:
-    files = {path.stem.replace("_", "-") for path in FOLDER.glob("*/*.py") if path.stem != "__init__"}
-    assert files == {rule.code for rule in ALL_RULES}
+def test_every_file_of_every_family_is_a_rule_that_runs() -> None:
+    files = [path for path in sorted(FOLDER.glob("*/*.py")) if path.stem != "__init__"]
+    assert {path.parent.name for path in files} == set(FAMILIES)
+    found = {(FAMILIES[path.parent.name], path.stem.replace("_", "-")) for path in files}
+    assert found == {(rule.family, rule.code) for rule in ALL_RULES}
+
+
+def test_families_and_their_rules_come_in_one_order_on_every_machine() -> None:
+    families = list(FAMILIES.values())
+    order = [(families.index(rule.family), rule.code.replace("-", "_")) for rule in ALL_RULES]
+    assert order == sorted(order)
 
 
 def test_assumed_codes_exist_and_assume_nothing_themselves_that_runs_later() -> None:

@@ -8,9 +8,8 @@ from pathlib import Path
 from cellc.diagnostics import Severity, Span
 from cellc.graph.cell_graph import CellGraph, build_graph
 from cellc.link.link import link
-from cellc.rule import Finding, Rule
-from cellc.rules.all_rules import ALL_RULES
-from cellc.rules.run import run_rules
+from cellc.rules.kit import Finding, Rule
+from cellc.rules.run import ALL_RULES, run_rules
 from cellc.source.read import read
 from cellc.spec.parse import parse
 
@@ -32,7 +31,7 @@ def rule(code: str, line: int | None, assumes: tuple[str, ...] = ()) -> Rule:
         if line is not None:
             yield Finding("found", Span("cell.yaml", line, 1, line, 2))
 
-    return Rule(code, "FRM", code, Severity.ERROR, "", check, assumes)
+    return Rule(code, "FRM", Severity.ERROR, check, "", assumes)
 
 
 def codes(*rules: Rule) -> list[str]:

@@ -28,11 +28,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from cellc.diagnostics import Severity, YamlPath
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, YamlPath, found, rule
 from cellc.source.plain import Plain
 
 _CREDENTIALS = (
@@ -42,7 +38,8 @@ _CREDENTIALS = (
 )
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR, assumes=("secret-in-spec",))
+def check(graph: CellGraph) -> Findings:
     """Yield texts that look like a credential, wherever they stand."""
     for path, text in _texts((), graph.cell.document.data):
         kind = next((kind for kind, pattern in _CREDENTIALS if pattern.search(text)), None)
@@ -60,6 +57,3 @@ def _texts(path: YamlPath, value: Plain) -> Iterator[tuple[YamlPath, str]]:
     elif isinstance(value, list):
         for index, item in enumerate(value):
             yield from _texts((*path, index), item)
-
-
-RULE = define("credential-in-text", Severity.ERROR, check, __doc__, assumes=("secret-in-spec",))

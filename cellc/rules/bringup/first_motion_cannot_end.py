@@ -35,16 +35,11 @@ Source: chapter 4, section 11, gate G6.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield a first motion whose delta needs more time at its velocity than allowed."""
     motion = graph.cell.spec.bringup.first_motion
     if motion is None or motion.velocity.si == 0.0:
@@ -54,6 +49,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         move = f"{motion.max_delta.text} at {motion.velocity.text}"
         message = f"{move} takes {needed:.3g} s, the timeout is {motion.timeout.text}"
         yield found(graph, ("bringup", "first_motion", "timeout"), message, f"allow more than {needed:.3g} s")
-
-
-RULE = define("first-motion-cannot-end", Severity.ERROR, check, __doc__)

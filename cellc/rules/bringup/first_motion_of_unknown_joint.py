@@ -35,16 +35,11 @@ Source: chapter 4, section 11, gate G6.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity, did_you_mean
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, did_you_mean, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield a first motion whose joint no device drives."""
     motion = graph.cell.spec.bringup.first_motion
     driven = [f"{device.name}/{joint.local_name}" for device in graph.cell.devices for joint in device.actuated_joints]
@@ -53,6 +48,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         yield found(
             graph, ("bringup", "first_motion", "joint"), message, did_you_mean(motion.joint, driven, "driven joints")
         )
-
-
-RULE = define("first-motion-of-unknown-joint", Severity.ERROR, check, __doc__)

@@ -36,19 +36,15 @@ Source: chapter 4, section 11, gate G6: reduced speed and range; 250 mm/s of red
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _LARGEST_RAD = math.radians(15.0)
 _LARGEST_M = 0.05
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield a delta or velocity above the bound of a first motion."""
     motion = graph.cell.spec.bringup.first_motion
     if motion is None:
@@ -60,6 +56,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             per = " per second" if field == "velocity" else ""
             message = f"the first motion has {field.replace('_', ' ')} {value.text}, at most {largest}{per} are allowed"
             yield found(graph, ("bringup", "first_motion", field), message, f"write at most {largest}{per}")
-
-
-RULE = define("first-motion-too-large", Severity.ERROR, check, __doc__)

@@ -24,21 +24,13 @@ Source: chapter 4, section 11: state the joint, sign, maximum delta, speed, time
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.BLOCKER)
+def check(graph: CellGraph) -> Findings:
     """Yield a cell that moves joints and does not state its first motion."""
     moves = any(controller.command_interfaces for controller in graph.cell.controllers)
     if moves and graph.cell.spec.bringup.first_motion is None:
         message = "the single-joint move of gate G6 is not stated"
         yield found(graph, ("bringup", "first_motion"), message, "add `bringup.first_motion`")
-
-
-RULE = define("missing-first-motion", Severity.BLOCKER, check, __doc__)

@@ -22,18 +22,13 @@ Source: chapter 4, sections 5 and 11: gates L1 to L6 and G0 to G7.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _LADDERS = (tuple(f"G{number}" for number in range(8)), tuple(f"L{number}" for number in range(1, 7)))
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield each ladder of gates that is not complete and in order."""
     gates = graph.cell.spec.bringup.gates
     if gates == "standard":
@@ -47,6 +42,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             order = ", ".join(written)
             message = f"gates are out of order: {order}"
             yield found(graph, ("bringup", "gates"), message, "write them in order, or `gates: standard`")
-
-
-RULE = define("removed-gate", Severity.ERROR, check, __doc__)

@@ -24,17 +24,12 @@ Source: chapter 4, section 6: automatic process restart deserves caution.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.interface import InterfaceKind
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield respawned nodes that send goals to a controller or to an action."""
     for node in graph.cell.nodes:
         if not node.respawn:
@@ -51,6 +46,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         if commands:
             message = f"`{node.name}` is restarted by itself and commands `{commands[0]}`"
             yield found(graph, (*node.path, "respawn"), message, "remove `respawn`; an operator starts it again")
-
-
-RULE = define("respawned-commander", Severity.ERROR, check, __doc__)

@@ -24,20 +24,16 @@ Source: chapter 4, section 6: parameter files separate secrets and environment-s
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 
 from cellc.cell.interface import NodeSource
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.written_parameters import written_parameters
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _SECRET = re.compile(r"(?i)(^|_|\.)(password|passwd|passphrase|secret|token|api_?key|private_?key|credential)s?$")
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield parameters of nodes and controllers whose name says that they are secret and that hold a text."""
     for node in graph.cell.nodes:
         if node.source is not NodeSource.SPEC:
@@ -51,6 +47,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         if written.value and isinstance(written.value, str) and _SECRET.search(written.name):
             message = f"parameter `{written.name}` of `{written.controller.name}` holds a secret"
             yield found(graph, written.path, message, "name a file or an environment variable that holds it")
-
-
-RULE = define("secret-in-spec", Severity.ERROR, check, __doc__)

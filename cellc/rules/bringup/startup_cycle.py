@@ -34,16 +34,11 @@ Source: chapter 4, section 6: each component must prove required state, interfac
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Related, Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR, assumes=("second-action-server",))
+def check(graph: CellGraph) -> Findings:
     """Yield a circle of parts that wait for each other, with what each waits for."""
     cycle = graph.startup.cycle()
     if not cycle:
@@ -56,6 +51,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
     path = ("interfaces", needs[0].proof)
     message = f"parts wait for each other at start: {names}"
     yield found(graph, path, message, "turn one of the calls into a topic", related[1:])
-
-
-RULE = define("startup-cycle", Severity.ERROR, check, __doc__, assumes=("second-action-server",))

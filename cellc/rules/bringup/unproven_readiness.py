@@ -25,17 +25,12 @@ and transforms.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.interface import NodeSource
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield nodes of the spec without a lifecycle, an interface, a frame or a controller that they command."""
     shown = {end.node for interface in graph.cell.interfaces for end in (*interface.sources, *interface.sinks)}
     shown |= {frame.authority for frame in graph.cell.frames}
@@ -44,6 +39,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         if node.source is NodeSource.SPEC and not node.lifecycle and node.name not in shown:
             message = f"no state, interface or transform shows that `{node.name}` is ready"
             yield found(graph, node.path, message, "add `lifecycle: true`, or declare what it publishes or serves")
-
-
-RULE = define("unproven-readiness", Severity.ERROR, check, __doc__)

@@ -25,17 +25,13 @@ Source: chapter 4, section 3: exposure delay, buffering and transport latency; m
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 
-from cellc.diagnostics import Related, Severity
 from cellc.graph.age_budget import age_chains
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR, assumes=("max-age-too-short",))
+def check(graph: CellGraph) -> Findings:
     """Yield topics whose age limit is below the sum of the shares of their chain."""
     chains = age_chains(graph.cell)
     for interface in graph.cell.interfaces:
@@ -51,6 +47,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         )
         advice = f"allow at least {math.ceil(needed * 1e3)} ms, or raise a rate of the chain"
         yield found(graph, (*interface.path, "max_age"), message, advice, related)
-
-
-RULE = define("age-budget-exceeded", Severity.ERROR, check, __doc__, assumes=("max-age-too-short",))

@@ -23,16 +23,11 @@ Source: chapter 4, section 3: measure both offset and observation age.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Related, Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield sensors whose clock offset reaches the age limit of one of their topics."""
     for device in graph.cell.devices:
         stamp = device.spec.stamp
@@ -49,6 +44,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             related = (Related("the age is limited here", graph.cell.locate(*shortest.path, "max_age")),)
             path = (*device.path, "stamp", "max_offset")
             yield found(graph, path, message, "tighten the synchronisation", related)
-
-
-RULE = define("clock-offset-beyond-age", Severity.ERROR, check, __doc__)

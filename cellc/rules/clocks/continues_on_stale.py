@@ -26,22 +26,14 @@ Source: chapter 4, section 3, acceptance gate 5: controller timeouts must fail c
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield topics on which a stale sample changes nothing."""
     for interface in graph.cell.interfaces:
         if interface.on_stale == "continue":
             message = f"`{interface.name}` is used although it is stale"
             path = (*interface.path, "on_stale")
             yield found(graph, path, message, "write `reject_goal`, `stop_and_hold` or `ignore_sample`")
-
-
-RULE = define("continues-on-stale", Severity.ERROR, check, __doc__)

@@ -26,21 +26,13 @@ Source: chapter 4, section 2: rather than an indefinitely blocked caller; sectio
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield services and actions whose timeout changes nothing."""
     for interface in graph.cell.interfaces:
         if interface.on_timeout == "continue":
             message = f"the client of `{interface.name}` goes on although no answer came"
             yield found(graph, (*interface.path, "on_timeout"), message, "write `cancel_and_hold` or `error`")
-
-
-RULE = define("continues-on-timeout", Severity.ERROR, check, __doc__)

@@ -29,16 +29,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cellc.cell.interface import Interface
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _OTHER = {"wall": "sim", "sim": "wall"}
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield interfaces whose time source is not that of a node or device that publishes them."""
     for interface in graph.cell.interfaces:
         if interface.derived or interface.time_source is None:
@@ -58,6 +55,3 @@ def _clocks(graph: CellGraph, interface: Interface) -> Iterator[tuple[str, str]]
     for source in interface.sources:
         stamp = stamps.get(source.node)
         yield source.node, clocks.get(source.node) or "ros" if stamp is None else stamp.source
-
-
-RULE = define("contradicting-time-source", Severity.ERROR, check, __doc__)

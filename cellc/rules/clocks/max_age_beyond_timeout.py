@@ -25,17 +25,12 @@ Source: chapter 4, section 3: timeouts; list of checks, family TIM.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.interface import InterfaceKind
-from cellc.diagnostics import Related, Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield topics that may be older than the timeout of an action that their subscriber calls."""
     actions = [
         interface
@@ -55,6 +50,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             related = (Related("the goal is bounded here", graph.cell.locate(*action.path, "timeout")),)
             yield found(graph, (*topic.path, "max_age"), message, "lower `max_age` below the timeout", related)
             break
-
-
-RULE = define("max-age-beyond-timeout", Severity.ERROR, check, __doc__)

@@ -28,16 +28,12 @@ Source: chapter 4, section 3: clock agreement still leaves exposure delay, buffe
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield topics whose age limit is below their budget."""
     exposures = {
         device.name: device.spec.stamp.exposure.si
@@ -58,6 +54,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             message = f"`{interface.name}` may be {age:g} ms old, needs {budget * 1e3:.4g}: {parts}"
             path = (*interface.path, "max_age")
             yield found(graph, path, message, f"allow at least {math.ceil(budget * 1e3)} ms, or raise the rate")
-
-
-RULE = define("max-age-too-short", Severity.ERROR, check, __doc__)

@@ -26,17 +26,12 @@ Source: chapter 4, sections 2 and 5: acceptable sample age; stale state presente
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.interface import InterfaceKind
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield topics without an age limit from which a way leads to a controller."""
     unlimited = [
         interface
@@ -49,6 +44,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             way = graph.data.way_to_motion(interface)
             message = f"`{interface.name}` feeds motion, {way}, and has no `max_age`"
             yield found(graph, interface.path, message, "state `max_age` and `on_stale`")
-
-
-RULE = define("missing-max-age", Severity.ERROR, check, __doc__)

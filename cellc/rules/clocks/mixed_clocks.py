@@ -24,16 +24,11 @@ Source: chapter 4, section 3: simulation nodes that consume /clock while another
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield nodes whose clock is not that of a target that starts them."""
     targets = {"mock": "wall", "real": "wall"}
     for name, target in graph.cell.spec.targets.items():
@@ -43,6 +38,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         if other is not None:
             message = f"node `{node.name}` runs on {node.clock} time, target `{other}` on {targets[other]} time"
             yield found(graph, (*node.path, "clock"), message, "remove `clock:` so that the node follows its target")
-
-
-RULE = define("mixed-clocks", Severity.ERROR, check, __doc__)

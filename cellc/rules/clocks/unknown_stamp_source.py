@@ -24,17 +24,12 @@ Source: chapter 4, section 3: in a real cell, document each camera's hardware-cl
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.responsibilities import UNKNOWN
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.BLOCKER)
+def check(graph: CellGraph) -> Findings:
     """Yield cameras whose stamp source or clock domain is UNKNOWN or not stated."""
     for device in graph.cell.devices:
         if device.facts.kind != "camera":
@@ -49,6 +44,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             yield found(
                 graph, (*path, "clock"), f"the clock domain of `{device.name}` is UNKNOWN", "write whose clock it is"
             )
-
-
-RULE = define("unknown-stamp-source", Severity.BLOCKER, check, __doc__)

@@ -25,21 +25,13 @@ Source: chapter 4, section 2: each case produces a visible, bounded state.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield topics with an age limit and nothing that follows from it."""
     for interface in graph.cell.interfaces:
         if not interface.derived and interface.max_age_s is not None and interface.on_stale is None:
             message = f"`{interface.name}` may be {interface.max_age_s:g} s old, but nothing happens to an older sample"
             yield found(graph, interface.path, message, "add `on_stale:`, such as `reject_goal`")
-
-
-RULE = define("unstated-stale-behaviour", Severity.ERROR, check, __doc__)

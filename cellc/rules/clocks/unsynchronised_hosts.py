@@ -27,16 +27,11 @@ Source: chapter 4, sections 3 and 5: synchronize hosts; record the offset.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.BLOCKER)
+def check(graph: CellGraph) -> Findings:
     """Yield hosts of a cell with several that are not synchronised within a bound."""
     hosts = graph.cell.spec.hosts
     if len(hosts) < 2:
@@ -47,6 +42,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             message = f"the clock of host `{name}` has no stated `{field}`"
             path = ("hosts", name, "clock", field)
             yield found(graph, path, message, "write `synchronised_by` and `max_offset`")
-
-
-RULE = define("unsynchronised-hosts", Severity.BLOCKER, check, __doc__)

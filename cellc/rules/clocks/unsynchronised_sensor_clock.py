@@ -24,17 +24,12 @@ Source: chapter 4, section 3: document each camera's hardware-clock domain and s
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.responsibilities import UNKNOWN
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.BLOCKER)
+def check(graph: CellGraph) -> Findings:
     """Yield stamps of a clock of their own without synchronisation or without a bound."""
     host_domains = {host.clock.domain for host in graph.cell.spec.hosts.values()} or {"ros"}
     for device in graph.cell.devices:
@@ -46,6 +41,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             message = f"clock `{stamp.clock}` of `{device.name}` has no stated `{field}`"
             path = (*device.path, "stamp", field)
             yield found(graph, path, message, "write `synchronised_by` and `max_offset`")
-
-
-RULE = define("unsynchronised-sensor-clock", Severity.BLOCKER, check, __doc__)

@@ -31,16 +31,11 @@ Source: chapter 4, section 7: such scaling semantics cannot be assumed on anothe
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield controllers that read a scaling factor though their device has none."""
     scaling = {device.name for device in graph.cell.devices if device.facts.speed_scaling is not None}
     for controller in graph.cell.controllers:
@@ -50,6 +45,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         if reads and controller.device is not None and controller.device not in scaling:
             message = f"`{controller.name}` follows a speed scaling that `{controller.device}` does not have"
             yield found(graph, controller.path, message, "use `type: joint_trajectory` without a scaling interface")
-
-
-RULE = define("assumed-speed-scaling", Severity.ERROR, check, __doc__)

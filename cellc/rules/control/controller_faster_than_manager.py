@@ -25,16 +25,11 @@ Source: controller_manager, parameter update_rate of a controller.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield controllers with a rate above that of their manager."""
     for manager in graph.cell.managers:
         for controller in manager.controllers:
@@ -45,6 +40,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
                 )
                 path = (*controller.path, "update_rate")
                 yield found(graph, path, message, f"write at most {manager.update_rate_hz:g} Hz")
-
-
-RULE = define("controller-faster-than-manager", Severity.ERROR, check, __doc__)

@@ -26,16 +26,11 @@ Source: joint_trajectory_controller, constraints.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.WARNING)
+def check(graph: CellGraph) -> Findings:
     """Yield controllers whose goal tolerance exceeds the path tolerance."""
     for controller in graph.cell.controllers:
         goal, way = controller.goal_tolerance, controller.path_tolerance
@@ -43,6 +38,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             message = f"`{controller.name}` allows {goal:g} at the goal but {way:g} on the way"
             path = (*controller.path, "goal_tolerance")
             yield found(graph, path, message, "swap the two, or tighten the goal tolerance")
-
-
-RULE = define("goal-looser-than-path", Severity.WARNING, check, __doc__)

@@ -22,16 +22,11 @@ Source: chapter 4, section 7: a plugin with wrong limits remains wrong.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield shares above 100 %."""
     for device in graph.cell.devices:
         limits = device.spec.limits
@@ -40,6 +35,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             if share is not None and share.si > 1.0:
                 message = f"`{device.name}` asks for {share.text} of its own {name} limit, at most 100 % are allowed"
                 yield found(graph, (*device.path, "limits", name), message, "write 100 % or less")
-
-
-RULE = define("limit-share-above-full", Severity.ERROR, check, __doc__)

@@ -21,16 +21,11 @@ Source: time parameterisation divides by the limit.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield shares of zero and below."""
     for device in graph.cell.devices:
         limits = device.spec.limits
@@ -39,6 +34,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             if share is not None and share.si <= 0.0:
                 message = f"`{device.name}` is left {share.text} of its {name} limit"
                 yield found(graph, (*device.path, "limits", name), message, "write a share above zero")
-
-
-RULE = define("limit-share-of-nothing", Severity.ERROR, check, __doc__)

@@ -26,16 +26,11 @@ Source: joint_trajectory_controller, parameter constraints.goal_time: 0 means no
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield trajectory controllers without the value, and with zero, which switches the check off."""
     for controller in graph.cell.controllers:
         if controller.behaviour not in ("joint_trajectory", "scaled_joint_trajectory"):
@@ -45,6 +40,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             path = controller.path if controller.goal_time_s is None else (*controller.path, "goal_time")
             message = f"`{controller.name}` {stated} `goal_time`"
             yield found(graph, path, message, "add `goal_time:`, such as `1 s`")
-
-
-RULE = define("missing-goal-time", Severity.ERROR, check, __doc__)

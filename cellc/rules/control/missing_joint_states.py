@@ -25,16 +25,11 @@ Source: chapter 4, section 10: move_group consumes joint states and TF.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield managers that drive joints without an active joint state broadcaster."""
     for manager in graph.cell.managers:
         publishing = any(c.behaviour == "joint_state_broadcaster" and c.active for c in manager.controllers)
@@ -42,6 +37,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             path = (*manager.path, "controllers")
             message = f"no controller of `{manager.name}` publishes joint states"
             yield found(graph, path, message, "add `joint_states: {type: joint_state_broadcaster}`")
-
-
-RULE = define("missing-joint-states", Severity.ERROR, check, __doc__)

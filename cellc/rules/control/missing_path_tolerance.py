@@ -25,16 +25,11 @@ Source: joint_trajectory_controller, parameter constraints.<joint>.trajectory: 0
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield trajectory controllers without the value, and with zero, which switches the check off."""
     for controller in graph.cell.controllers:
         if controller.behaviour not in ("joint_trajectory", "scaled_joint_trajectory"):
@@ -44,6 +39,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             path = controller.path if controller.path_tolerance is None else (*controller.path, "path_tolerance")
             message = f"`{controller.name}` {stated} `path_tolerance`"
             yield found(graph, path, message, "add `path_tolerance:`, such as `0.2 rad`")
-
-
-RULE = define("missing-path-tolerance", Severity.ERROR, check, __doc__)

@@ -22,22 +22,14 @@ Source: chapter 4, section 11: repeated protective stop, wrong load; gate G5: to
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.BLOCKER)
+def check(graph: CellGraph) -> Findings:
     """Yield arms that carry devices and state no payload."""
     for device in graph.cell.devices:
         if device.facts.kind == "arm" and device.carries and device.spec.payload is None:
             names = ", ".join(f"`{name}`" for name in device.carries)
             message = f"`{device.name}` carries {names}, but its payload is not stated"
             yield found(graph, device.path, message, "add `payload:` with mass and centre of mass at the flange")
-
-
-RULE = define("missing-payload", Severity.BLOCKER, check, __doc__)

@@ -23,16 +23,11 @@ Source: URDF specification, element limit: velocity is required.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR, assumes=("missing-joint-limits", "limit-share-of-nothing"))
+def check(graph: CellGraph) -> Findings:
     """Yield joints with a command interface and without a velocity limit above zero."""
     for device in graph.cell.devices:
         for joint in device.actuated_joints:
@@ -40,8 +35,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
                 stated = "no velocity limit" if joint.velocity is None else f"a velocity limit of {joint.velocity:g}"
                 message = f"joint `{joint.name}` has {stated}"
                 yield found(graph, (*device.path, "model"), message, "write `velocity` in the `<limit>` of the joint")
-
-
-RULE = define(
-    "missing-velocity-limit", Severity.ERROR, check, __doc__, assumes=("missing-joint-limits", "limit-share-of-nothing")
-)

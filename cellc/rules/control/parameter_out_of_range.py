@@ -25,20 +25,15 @@ Source: parameter declarations of the controller, in the catalogue with their so
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.catalog.controller_kind import ParameterFacts
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.controller_kinds import kind_of
 from cellc.graph.written_parameters import written_parameters
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 from cellc.spec.base import ParameterValue
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield numbers of the spec below or above what the declaration allows, and texts that it does not list."""
     for written in written_parameters(graph.cell):
         kind = kind_of(graph.cell, written.controller)
@@ -60,6 +55,3 @@ def _refusal(facts: ParameterFacts, value: ParameterValue) -> str:
     if isinstance(value, str) and facts.one_of and value not in facts.one_of:
         return "one of " + ", ".join(facts.one_of) + " is due"
     return ""
-
-
-RULE = define("parameter-out-of-range", Severity.ERROR, check, __doc__)

@@ -21,16 +21,11 @@ Source: payload of the device in the catalogue, with its source.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield payloads above that of the device."""
     for device in graph.cell.devices:
         payload, limit = device.spec.payload, device.facts.limits.payload
@@ -38,6 +33,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             message = f"`{device.name}` is to carry {payload.mass.text}, at most {limit.value.text} are allowed"
             path = (*device.path, "payload", "mass")
             yield found(graph, path, message, "choose a lighter tool or another arm")
-
-
-RULE = define("payload-above-limit", Severity.ERROR, check, __doc__)

@@ -21,18 +21,13 @@ Source: chapter 4, section 11: repeated protective stop, wrong load.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _ROUNDING_KG = 0.05  # masses of descriptions are rounded, and a mounting plate may be part of either
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.BLOCKER)
+def check(graph: CellGraph) -> Findings:
     """Yield arms whose payload is below the sum of masses of what they carry."""
     for device in graph.cell.devices:
         payload = device.spec.payload
@@ -45,6 +40,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         if mass > payload.mass.si + _ROUNDING_KG:
             message = f"`{device.name}` is told of {payload.mass.text}, but carries {mass:.3g} kg"
             yield found(graph, (*device.path, "payload", "mass"), message, f"write at least {mass:.3g} kg")
-
-
-RULE = define("payload-lighter-than-tool", Severity.BLOCKER, check, __doc__)

@@ -25,17 +25,12 @@ Source: kind of controller in the catalogue, with its source.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.controller_kinds import kind_of
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR, assumes=("unprovided-command-interface",))
+def check(graph: CellGraph) -> Findings:
     """Yield controllers with a combination that their kind does not list."""
     for controller in graph.cell.controllers:
         kind = kind_of(graph.cell, controller)
@@ -47,8 +42,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             allowed = "; ".join(", ".join(combination) for combination in kind.command_combinations)
             message = f"`{controller.name}` cannot command {' + '.join(names)}"
             yield found(graph, (*controller.path, "command_interfaces"), message, f"use one of: {allowed}")
-
-
-RULE = define(
-    "refused-interface-combination", Severity.ERROR, check, __doc__, assumes=("unprovided-command-interface",)
-)

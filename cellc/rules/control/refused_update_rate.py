@@ -22,16 +22,11 @@ Source: control facts of the device in the catalogue, with their source.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield managers whose rate a device that they drive does not list."""
     for manager in graph.cell.managers:
         for device in (graph.cell.device(name) for name in manager.devices):
@@ -41,6 +36,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
                 message = f"`{device.name}` is driven at {accepted}, not at {manager.update_rate_hz:g} Hz"
                 path = (*manager.path, "update_rate")
                 yield found(graph, path, message, f"write {accepted}, or give the device a manager of its own")
-
-
-RULE = define("refused-update-rate", Severity.ERROR, check, __doc__)

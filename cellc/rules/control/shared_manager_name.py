@@ -28,17 +28,12 @@ Source: controller_manager: the node is named controller_manager in its namespac
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.control import ControllerManager
-from cellc.diagnostics import Related, Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield managers whose namespace is taken."""
     first: dict[str, ControllerManager] = {}
     for manager in graph.cell.managers:
@@ -48,6 +43,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             message = f"manager `{manager.name}` is in namespace `{name}`, as is `{earlier.name}`"
             related = (Related("the first is here", earlier.span),)
             yield found(graph, manager.path, message, "give it a namespace of its own", related)
-
-
-RULE = define("shared-manager-name", Severity.ERROR, check, __doc__)

@@ -27,16 +27,12 @@ Source: controller_manager, parameter update_rate of a controller.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.WARNING)
+def check(graph: CellGraph) -> Findings:
     """Yield controllers whose rate does not divide that of their manager."""
     for manager in graph.cell.managers:
         for controller in manager.controllers:
@@ -48,6 +44,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
                 even = manager.update_rate_hz / math.ceil(cycles)
                 message = f"`{controller.name}` would run every {cycles:.4g} cycles of its manager"
                 yield found(graph, (*controller.path, "update_rate"), message, f"write {even:g} Hz")
-
-
-RULE = define("uneven-update-rate", Severity.WARNING, check, __doc__)

@@ -26,18 +26,14 @@ Source: parameter declarations of the controller, in the catalogue with their so
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 
-from cellc.diagnostics import Severity, did_you_mean
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.controller_kinds import kind_of, plugin_parameters
 from cellc.graph.written_parameters import written_parameters
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, did_you_mean, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield parameters of the spec that the kind of the controller does not declare for the distribution."""
     for written in written_parameters(graph.cell):
         kind = kind_of(graph.cell, written.controller)
@@ -54,6 +50,3 @@ def _matches(declared: str, name: str) -> bool:
     # `<joint>` stands for any name, which may itself hold dots.
     parts = (re.escape(part) for part in re.split(r"<[a-z_]+>", declared))
     return re.fullmatch(".+".join(parts), name) is not None
-
-
-RULE = define("unknown-controller-parameter", Severity.ERROR, check, __doc__)

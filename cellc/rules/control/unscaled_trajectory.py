@@ -26,16 +26,11 @@ Source: chapter 4, section 7: platform speed scaling can alter execution progres
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.WARNING)
+def check(graph: CellGraph) -> Findings:
     """Yield trajectory controllers on a scaling device that do not read its factor."""
     scaling = {device.name: device for device in graph.cell.devices if device.facts.speed_scaling is not None}
     for controller in graph.cell.controllers:
@@ -46,6 +41,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             kinds = [kind for kind in scaling[controller.device].facts.controllers if "trajectory" in kind]
             advice = f"use `type: {kinds[0]}`" if kinds else "use a controller that reads the scaling factor"
             yield found(graph, (*controller.path, "type"), message, advice)
-
-
-RULE = define("unscaled-trajectory", Severity.WARNING, check, __doc__)

@@ -27,17 +27,12 @@ Source: parameter declarations of the controllers, in the catalogue with their s
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.controller_kinds import kind_of
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield controllers without a joint where their kind names joints, or with several where it names one."""
     for controller in graph.cell.controllers:
         kind = kind_of(graph.cell, controller)
@@ -49,6 +44,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         message = f"`{controller.name}` of kind `{controller.kind}` drives {due}, {has}"
         help_text = "name the device whose joints it drives" if number == 0 else "name the one joint under `joints`"
         yield found(graph, (*controller.path, "device"), message, help_text)
-
-
-RULE = define("wrong-joint-count", Severity.ERROR, check, __doc__)

@@ -25,20 +25,15 @@ Source: parameter declarations of the controller, in the catalogue with their so
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.controller_kinds import kind_of
 from cellc.graph.written_parameters import written_parameters
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _TYPES: dict[str, tuple[type, ...]] = {"bool": (bool,), "int": (int,), "double": (float,), "string": (str,)}
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield scalar parameters of the spec whose value has another type."""
     for written in written_parameters(graph.cell):
         kind = kind_of(graph.cell, written.controller)
@@ -49,6 +44,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             message = f"`{written.name}` of `{written.controller.name}` is `{value}`, a {due} is due"
             advice = f"write `{float(value)}`" if due == "double" and isinstance(value, int) else f"write a {due}"
             yield found(graph, written.path, message, advice)
-
-
-RULE = define("wrong-parameter-type", Severity.ERROR, check, __doc__)

@@ -23,16 +23,11 @@ Source: chapter 4, manufacturing cell checkpoint: cancel latency.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Related, Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield actions whose cancel may take longer than the target."""
     target = graph.cell.spec.kpis.cancel
     for interface in graph.cell.interfaces if target is not None else ():
@@ -41,6 +36,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             message = f"`{interface.name}` may take {bound * 1e3:g} ms to cancel, the target is {target.text}"
             related = (Related("the target is here", graph.cell.locate("kpis", "cancel")),)
             yield found(graph, (*interface.path, "cancel_within"), message, "tighten it, or loosen the target", related)
-
-
-RULE = define("kpi-beyond-contract", Severity.ERROR, check, __doc__)

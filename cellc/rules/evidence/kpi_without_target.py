@@ -21,21 +21,13 @@ Source: chapter 4, manufacturing cell checkpoint: KPIs.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.WARNING)
+def check(graph: CellGraph) -> Findings:
     """Yield the figures without a target in one finding."""
     missing = [name for name, target in graph.cell.spec.kpis if target is None]
     if missing:
         names = ", ".join(f"`{name}`" for name in missing)
         yield found(graph, ("kpis",), f"{names} {'have' if len(missing) > 1 else 'has'} no target", "write the target")
-
-
-RULE = define("kpi-without-target", Severity.WARNING, check, __doc__)

@@ -25,13 +25,7 @@ cycle and protective stop are different failures.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _LAYERS = {
     "freeze": ("stale_state",),
@@ -59,7 +53,8 @@ _LAYERS = {
 }
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield rehearsals that expect a failure which belongs to none of their faults."""
     for rehearsal in graph.cell.rehearsals:
         layers = [layer for fault in rehearsal.faults for layer in _LAYERS[fault.kind]]
@@ -68,6 +63,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             message = f"`{rehearsal.name}` provokes {faults} and expects `{rehearsal.expect}`"
             due = " or ".join(f"`{layer}`" for layer in dict.fromkeys(layers))
             yield found(graph, (*rehearsal.path, "expect"), message, f"expect {due}, or `succeeded`")
-
-
-RULE = define("merged-failure-layers", Severity.ERROR, check, __doc__)

@@ -22,17 +22,12 @@ Source: chapter 4, manufacturing cell checkpoint, list of what to log.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.deploy.recording import STANDARD
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield the missing fields in one finding."""
     fields = graph.cell.spec.recording.attempt_fields
     missing = [] if fields == "standard" else [field for field in STANDARD if field not in fields]
@@ -40,6 +35,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         names = ", ".join(f"`{field}`" for field in missing)
         path = ("recording", "attempt_fields")
         yield found(graph, path, f"an attempt does not record {names}", "write `attempt_fields: standard`")
-
-
-RULE = define("removed-attempt-field", Severity.ERROR, check, __doc__)

@@ -21,16 +21,11 @@ Source: chapter 4, manufacturing cell checkpoint: wrong-owner events, stale-stat
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield a target above zero wrong owners, and below all stale samples rejected."""
     kpis = graph.cell.spec.kpis
     if kpis.wrong_owner_events:
@@ -39,6 +34,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
     if kpis.stale_state_rejection is not None and kpis.stale_state_rejection.si < 1.0:
         message = f"only {kpis.stale_state_rejection.text} of stale samples have to be rejected"
         yield found(graph, ("kpis", "stale_state_rejection"), message, "write 100 %")
-
-
-RULE = define("tolerated-wrong-owner", Severity.ERROR, check, __doc__)

@@ -21,19 +21,14 @@ Source: chapter 4, checkpoint: episode, logs, configuration hash.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity, did_you_mean
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.device_topics import device_topics
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, did_you_mean, found, rule
 
 _ALWAYS = ("/diagnostics", "/rosout", "/parameter_events", "/tf", "/tf_static", "/clock", "/joint_states")
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.WARNING)
+def check(graph: CellGraph) -> Findings:
     """Yield recorded topics that no interface declares and no device publishes."""
     known = {*_ALWAYS, *(interface.name for interface in graph.cell.interfaces)}
     for device in graph.cell.devices:
@@ -42,6 +37,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         if topic not in known:
             path = ("recording", "topics", index)
             yield found(graph, path, f"nobody publishes `{topic}`", did_you_mean(topic, known, "topics"))
-
-
-RULE = define("unknown-recorded-topic", Severity.WARNING, check, __doc__)

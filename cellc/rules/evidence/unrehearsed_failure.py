@@ -23,17 +23,12 @@ Source: chapter 4, section 2: then inject a late sample, a missing responder, an
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.frame import FrameKind
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.WARNING)
+def check(graph: CellGraph) -> Findings:
     """Yield a cell with observed goals that rehearses no stale state, or no cancel, in one finding."""
     dynamic = {frame.name for frame in graph.cell.frames if frame.kind is FrameKind.DYNAMIC}
     if not graph.cell.rehearsals or not any(goal.frame in dynamic for goal in graph.cell.goals):
@@ -43,6 +38,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
     if missing:
         names = " and ".join(f"`{outcome}`" for outcome in missing)
         yield found(graph, ("rehearsals",), f"no rehearsal ends in {names}", "inject the fault and expect its outcome")
-
-
-RULE = define("unrehearsed-failure", Severity.WARNING, check, __doc__)

@@ -25,20 +25,16 @@ Source: draft of REP-199, coordinate frames of serial arms: X+ of flange and Z+ 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 from cellc.transforms import Pose, identity
 
 _APART_M = 1e-3
 _ALONG = 0.999  # cosine; figures of descriptions are rounded
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield devices with both frames whose z of tool0 is not x of flange, or whose origins differ."""
     for device in graph.cell.devices:
         flange, tool = device.frames.get("flange"), device.frames.get("tool0")
@@ -64,6 +60,3 @@ def _pose_in(graph: CellGraph, name: str, ancestor: str) -> Pose | None:
 def _by_convention(pose: Pose) -> bool:
     out = Pose((0.0, 0.0, 0.0), pose.quaternion).apply((0.0, 0.0, 1.0))
     return math.hypot(*pose.position) < _APART_M and out[0] > _ALONG
-
-
-RULE = define("broken-flange-convention", Severity.ERROR, check, __doc__)

@@ -26,18 +26,13 @@ latency.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.frame import FrameKind
 from cellc.cell.interface import Interface
-from cellc.diagnostics import Related, Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR, assumes=("short-transform-buffer",))
+def check(graph: CellGraph) -> Findings:
     """Yield dynamic frames of goals whose buffer is below age limit plus plan-to-execute target."""
     target = graph.cell.spec.kpis.plan_to_execute
     goals = {goal.frame for goal in graph.cell.goals}
@@ -63,6 +58,3 @@ def _oldest(graph: CellGraph, node: str) -> Interface | None:
     """Return the topic of a node whose samples may be oldest."""
     sent = [i for i in graph.cell.interfaces if i.max_age_s and any(source.node == node for source in i.sources)]
     return max(sent, key=lambda interface: interface.max_age_s or 0.0, default=None)
-
-
-RULE = define("budget-beyond-buffer", Severity.ERROR, check, __doc__, assumes=("short-transform-buffer",))

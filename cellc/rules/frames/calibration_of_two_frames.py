@@ -30,17 +30,12 @@ Source: chapter 4, section 3: do not silently overwrite different calibrations u
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.frame import Frame
-from cellc.diagnostics import Related, Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield frames that reuse a calibration for another transform."""
     first: dict[str, Frame] = {}
     for frame in graph.cell.frames:
@@ -52,6 +47,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             related = (Related(f"first used for `{earlier.name}` here", earlier.span),)
             path = (*frame.path, "calibration")
             yield found(graph, path, message, "give each measurement its own calibration", related)
-
-
-RULE = define("calibration-of-two-frames", Severity.ERROR, check, __doc__)

@@ -27,17 +27,12 @@ Source: chapter 4, section 3, acceptance gates 3 and 6.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.responsibilities import UNKNOWN
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.WARNING)
+def check(graph: CellGraph) -> Findings:
     """Yield calibrations without samples, residual or method."""
     for name, calibration in graph.cell.spec.calibrations.items():
         stated = (("method", calibration.method), ("samples", calibration.samples), ("residual", calibration.residual))
@@ -46,6 +41,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             fields = ", ".join(f"`{field}`" for field in missing)
             message = f"calibration `{name}` does not state {fields}"
             yield found(graph, ("calibrations", name), message, f"write {fields}")
-
-
-RULE = define("calibration-without-evidence", Severity.WARNING, check, __doc__)

@@ -23,21 +23,13 @@ Source: chapter 4, manufacturing cell checkpoint: the perception owner answers w
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.BLOCKER)
+def check(graph: CellGraph) -> Findings:
     """Yield calibrations that nobody answers for."""
     for item in graph.responsibilities.of_kind("calibration"):
         if item.open:
             message = f"nobody answers for calibration `{item.name}`"
             yield found(graph, item.path, message, "name its owner")
-
-
-RULE = define("calibration-without-owner", Severity.BLOCKER, check, __doc__)

@@ -26,18 +26,13 @@ Source: REP-103, suffix frames; REP-104: the frame of camera_info is the optical
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _IMAGES = ("sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage", "sensor_msgs/msg/CameraInfo")
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield image topics of a camera in a frame that is none of its optical ones."""
     cameras = {device.name: device for device in graph.cell.devices if device.facts.optical_frames}
     for interface in graph.cell.interfaces:
@@ -49,6 +44,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             message = f"`{interface.name}` carries images in `{interface.frame}`, which is no optical frame"
             names = ", ".join(f"`{source.name}/{name}`" for name in source.facts.optical_frames)
             yield found(graph, (*interface.path, "frame"), message, f"use one of {names}")
-
-
-RULE = define("camera-data-in-body-frame", Severity.ERROR, check, __doc__)

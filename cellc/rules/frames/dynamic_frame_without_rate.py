@@ -24,21 +24,13 @@ Source: chapter 4, section 3, acceptance gate 4.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield dynamic frames without a rate."""
     for name, frame in graph.cell.spec.frames.items():
         if frame.dynamic and frame.rate is None:
             message = f"dynamic frame `{name}` has no rate"
             yield found(graph, ("frames", name), message, "add `rate:`, such as `10 Hz`")
-
-
-RULE = define("dynamic-frame-without-rate", Severity.ERROR, check, __doc__)

@@ -25,16 +25,11 @@ Source: REP-105: the frames of a robot form a tree.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield each circle once, at the frame of it that is written first."""
     for cycle in graph.frames.cycles():
         first = next(name for name in graph.frames.names() if name in cycle)
@@ -43,6 +38,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         names = (*cycle[start:], *cycle[:start], first)
         message = "frames hang on each other in a circle: " + " → ".join(f"`{name}`" for name in names)
         yield found(graph, (*frame.path, "parent"), message, "let one of them hang on `world` or on a link")
-
-
-RULE = define("frame-cycle", Severity.ERROR, check, __doc__)

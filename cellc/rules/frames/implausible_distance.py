@@ -30,18 +30,14 @@ robot cell.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _LARGEST_CELL_M = 20.0
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield frames more than 20 m from their parent."""
     for frame in graph.cell.frames:
         if frame.transform_to_parent is None:
@@ -50,6 +46,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         if distance > _LARGEST_CELL_M:
             message = f"`{frame.name}` lies {distance:g} m from `{frame.parent}`, more than {_LARGEST_CELL_M:g} m"
             yield found(graph, (*frame.path, "xyz"), message, "check the unit: drawings of cells are usually in mm")
-
-
-RULE = define("implausible-distance", Severity.ERROR, check, __doc__)

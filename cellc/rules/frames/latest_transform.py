@@ -26,21 +26,13 @@ Source: chapter 4, section 3: asking for the latest transform may conceal synchr
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield goals that would be transformed at another time than their observation."""
     for goal in graph.cell.goals:
         if goal.transform_at == "latest":
             message = f"goal `{goal.name}` asks for the latest transform of `{goal.frame}`"
             yield found(graph, (*goal.path, "transform_at"), message, "remove the line: `observation` is the default")
-
-
-RULE = define("latest-transform", Severity.ERROR, check, __doc__)

@@ -23,16 +23,11 @@ Source: chapter 4, section 3: a frame has one authority.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield dynamic frames with a transform or a calibration of their own."""
     for name, frame in graph.cell.spec.frames.items():
         stated = (("xyz", frame.xyz), ("rpy", frame.rpy), ("calibration", frame.calibration))
@@ -40,6 +35,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         if frame.dynamic and field is not None:
             message = f"frame `{name}` is dynamic but states `{field}`"
             yield found(graph, ("frames", name, field), message, "remove it; the mock reads `simulated_pose`")
-
-
-RULE = define("pose-of-dynamic-frame", Severity.ERROR, check, __doc__)

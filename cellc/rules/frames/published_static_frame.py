@@ -24,22 +24,14 @@ Source: chapter 4, section 3: one canonical publisher for deployed frames.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield static frames with a publisher or a rate."""
     for name, frame in graph.cell.spec.frames.items():
         if not frame.dynamic and (frame.published_by is not None or frame.rate is not None):
             field = "published_by" if frame.published_by is not None else "rate"
             message = f"frame `{name}` is static but states `{field}`"
             yield found(graph, ("frames", name, field), message, f"write `dynamic: true`, or remove `{field}`")
-
-
-RULE = define("published-static-frame", Severity.ERROR, check, __doc__)

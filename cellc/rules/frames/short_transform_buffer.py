@@ -25,17 +25,12 @@ Source: chapter 4, section 3, acceptance gate 4; tf2 keeps 10 s by default.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.frame import FrameKind
-from cellc.diagnostics import Related, Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield dynamic frames whose buffer ends before the oldest sample that their publisher's users may use."""
     for frame in graph.cell.frames:
         if frame.kind is not FrameKind.DYNAMIC or frame.buffer_s is None:
@@ -50,6 +45,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
                 related = (Related("the age is allowed here", graph.cell.locate(*interface.path, "max_age")),)
                 yield found(graph, (*frame.path, "buffer"), message, "make the buffer longer", related)
                 break
-
-
-RULE = define("short-transform-buffer", Severity.ERROR, check, __doc__)

@@ -26,16 +26,11 @@ Source: draft REP-199: tools mount at tool0, child of flange.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield groups of an arm with a tip that does not come after its tool frame."""
     arms = {
         link.name: device for device in graph.cell.devices if device.tool_frame for link in device.description.links
@@ -47,6 +42,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         if arm.tool_frame not in (frame.name for frame in graph.frames.chain(group.tip_frame)):
             message = f"tip `{group.tip_frame}` of group `{group.name}` does not hang on `{arm.tool_frame}`"
             yield found(graph, (*group.path, "tip"), message, "use the tool frame or a frame that hangs on it")
-
-
-RULE = define("tip-off-the-tool-chain", Severity.ERROR, check, __doc__)

@@ -28,19 +28,14 @@ Source: chapter 4, section 3, acceptance gate 3: at least three known fixture po
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.frame import FrameKind
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _DUE = 3
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.BLOCKER)
+def check(graph: CellGraph) -> Findings:
     """Yield measured frames that goals rest on, or that count points, with fewer than three."""
     targets = {goal.frame for goal in graph.cell.goals}
     for frame in graph.cell.frames:
@@ -49,6 +44,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             message = f"`{frame.name}` has {frame.reference_points} reference points, {_DUE} are due"
             path = (*frame.path, "reference_points")
             yield found(graph, path, message, "measure three known points of the fixture and state their number")
-
-
-RULE = define("too-few-reference-points", Severity.BLOCKER, check, __doc__)

@@ -40,19 +40,14 @@ Source: REP-103, suffix frames: z forward, x right, y down; chapter 4, section 3
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 from cellc.transforms import Pose, identity
 
 _COS_10_DEG = 0.985  # the calibrated mount of an imager is off by a few degrees at most
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield optical frames whose axes, seen from the root link of their device, are not those of REP-103."""
     for device in graph.cell.devices:
         for name in device.facts.optical_frames:
@@ -78,6 +73,3 @@ def _looks_forward(pose: Pose) -> bool:
     turn = Pose((0.0, 0.0, 0.0), pose.quaternion)
     forward, right = turn.apply((0.0, 0.0, 1.0)), turn.apply((1.0, 0.0, 0.0))
     return forward[0] > _COS_10_DEG and -right[1] > _COS_10_DEG
-
-
-RULE = define("turned-optical-frame", Severity.ERROR, check, __doc__)

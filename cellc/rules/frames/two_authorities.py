@@ -24,16 +24,12 @@ Source: chapter 4, section 3: require one publisher for every dynamic child fram
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.frame import WORLD, FrameKind
-from cellc.diagnostics import Related, Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
+from cellc.rules.kit import CellGraph, Finding, Findings, Related, Severity, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield every edge after the first for one child frame."""
     for name in graph.frames.names():
         first, *others = graph.frames.authorities(name)
@@ -43,6 +39,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             message = f"frame `{name}` is published by `{first.authority}` and again by `{frame.authority}`"
             related = (Related(f"`{name}` already hangs on `{first.parent or WORLD}` here", first.span),)
             yield Finding(message, frame.span, frame.path, "rename one of the two frames, or delete it", related)
-
-
-RULE = define("two-authorities", Severity.ERROR, check, __doc__)

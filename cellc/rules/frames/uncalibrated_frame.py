@@ -26,17 +26,12 @@ Source: chapter 4, section 3: a bumped camera or changed tool requires a new cal
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.frame import FrameKind
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.BLOCKER)
+def check(graph: CellGraph) -> Findings:
     """Yield fixed frames and camera mounts without a calibration."""
     cameras = {device.name for device in graph.cell.devices if device.facts.kind == "camera"}
     for frame in graph.cell.frames:
@@ -46,6 +41,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             yield found(
                 graph, frame.path, message, "add `calibration:`, or `designed: true` if it comes from a drawing"
             )
-
-
-RULE = define("uncalibrated-frame", Severity.BLOCKER, check, __doc__)

@@ -23,21 +23,13 @@ Source: chapter 4, section 3: store the calibration with every goal; ISO 8601 fo
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.BLOCKER)
+def check(graph: CellGraph) -> Findings:
     """Yield calibrations whose `measured` is no date."""
     for name, calibration in graph.cell.spec.calibrations.items():
         if calibration.measured_on() is None:
             message = f"calibration `{name}` was measured on `{calibration.measured}`, which is no date"
             yield found(graph, ("calibrations", name, "measured"), message, "write the day as YYYY-MM-DD")
-
-
-RULE = define("undated-calibration", Severity.BLOCKER, check, __doc__)

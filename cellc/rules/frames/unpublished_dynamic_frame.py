@@ -23,21 +23,13 @@ Source: chapter 4, section 3, acceptance gate 1.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield dynamic frames without a publisher."""
     for name, frame in graph.cell.spec.frames.items():
         if frame.dynamic and frame.published_by is None:
             message = f"dynamic frame `{name}` has no publisher"
             yield found(graph, ("frames", name), message, "add `published_by:` with the node that broadcasts it")
-
-
-RULE = define("unpublished-dynamic-frame", Severity.ERROR, check, __doc__)

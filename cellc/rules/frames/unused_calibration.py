@@ -25,22 +25,14 @@ Source: chapter 4, section 3.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.WARNING)
+def check(graph: CellGraph) -> Findings:
     """Yield calibrations that no frame and no mount names."""
     used = {frame.calibration for frame in graph.cell.frames}
     for name in graph.cell.spec.calibrations:
         if name not in used:
             message = f"no frame rests on calibration `{name}`"
             yield found(graph, ("calibrations", name), message, "name it at the frame that it measured, or delete it")
-
-
-RULE = define("unused-calibration", Severity.WARNING, check, __doc__)

@@ -29,22 +29,14 @@ Source: chapter 4, section 2: verify when cancellation takes effect; section 11,
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.interface import InterfaceKind
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield actions of the spec without a bound from cancel to hold."""
     for interface in graph.cell.interfaces:
         if interface.kind is InterfaceKind.ACTION and not interface.derived and interface.cancel_within_s is None:
             message = f"action `{interface.name}` does not say how soon a cancel takes effect"
             yield found(graph, interface.path, message, "add `cancel_within:`, such as `200 ms`")
-
-
-RULE = define("action-without-cancel-bound", Severity.ERROR, check, __doc__)

@@ -25,22 +25,14 @@ Source: chapter 4, section 7: command ownership.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.interface import InterfaceKind
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.WARNING)
+def check(graph: CellGraph) -> Findings:
     """Yield services and actions of the spec without a client."""
     for interface in graph.cell.interfaces:
         if not interface.derived and interface.kind is not InterfaceKind.TOPIC and not interface.sinks:
             message = f"nobody calls the {interface.kind.value} `{interface.name}`"
             yield found(graph, (*interface.path, "client"), message, "name its client")
-
-
-RULE = define("call-without-client", Severity.WARNING, check, __doc__)

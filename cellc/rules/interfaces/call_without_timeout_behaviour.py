@@ -25,23 +25,15 @@ Source: chapter 4, section 2: inject a missing responder; each case produces a v
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.interface import InterfaceKind
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield services and actions of the spec without a behaviour on timeout."""
     for interface in graph.cell.interfaces:
         if interface.kind is InterfaceKind.TOPIC or interface.derived or interface.on_timeout is not None:
             continue
         message = f"{interface.kind.value} `{interface.name}` does not say what happens when no answer comes"
         yield found(graph, interface.path, message, "add `on_timeout:`, such as `cancel_and_hold`")
-
-
-RULE = define("call-without-timeout-behaviour", Severity.ERROR, check, __doc__)

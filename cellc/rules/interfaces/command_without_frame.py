@@ -29,22 +29,14 @@ Source: chapter 4, section 12: for every command path state frame, unit, rate, t
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.interface import InterfaceKind
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield actions of the spec without a frame."""
     for interface in graph.cell.interfaces:
         if interface.kind is InterfaceKind.ACTION and not interface.derived and interface.frame is None:
             message = f"action `{interface.name}` does not say in which frame its goals are"
             yield found(graph, interface.path, message, "add `frame:`, such as `world`")
-
-
-RULE = define("command-without-frame", Severity.ERROR, check, __doc__)

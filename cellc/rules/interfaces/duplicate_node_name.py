@@ -24,16 +24,11 @@ Source: ROS 2 design article on unique node names.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Related, Severity, YamlPath
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR, assumes=("shared-manager-name",))
+def check(graph: CellGraph) -> Findings:
     """Yield nodes and controllers whose full name is taken."""
     named = [(node.full_name, node.path) for node in graph.cell.nodes]
     named += [(c.full_name, c.path) for c in graph.cell.controllers]
@@ -44,6 +39,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             message = f"there is already a node `{name}`"
             related = (Related("the first is here", graph.cell.locate(*earlier)),)
             yield found(graph, path, message, "rename one of the two", related)
-
-
-RULE = define("duplicate-node-name", Severity.ERROR, check, __doc__, assumes=("shared-manager-name",))

@@ -27,21 +27,13 @@ Source: ROS 2 design article on actions.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield names with the part `_action`."""
     for interface in graph.cell.interfaces:
         if "_action" in interface.name.split("/"):
             message = f"`{interface.name}` is a hidden name of an action"
             yield found(graph, interface.path, message, "declare the action instead")
-
-
-RULE = define("hidden-action-name", Severity.ERROR, check, __doc__)

@@ -26,20 +26,16 @@ Source: ROS 2 design article on topic and service names; at most 247 characters 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 
 from cellc.cell.interface import InterfaceKind
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _NAME = re.compile(r"(/[A-Za-z_][A-Za-z0-9_]*)+")
 _LONGEST = {InterfaceKind.TOPIC: 247, InterfaceKind.SERVICE: 240, InterfaceKind.ACTION: 221}
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield names that are not fully qualified, hold other characters or are too long."""
     for interface in graph.cell.interfaces:
         longest = _LONGEST[interface.kind]
@@ -55,6 +51,3 @@ def _legal(name: str) -> str:
     """Return the nearest legal full name: other characters as `_`, and `_` before a digit that begins a part."""
     parts = (re.sub(r"[^A-Za-z0-9]+", "_", part).strip("_") for part in name.split("/"))
     return "".join(f"/_{part}" if part[0].isdigit() else f"/{part}" for part in parts if part) or "/name"
-
-
-RULE = define("illegal-ros-name", Severity.ERROR, check, __doc__)

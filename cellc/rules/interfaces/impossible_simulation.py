@@ -27,11 +27,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import inf
 
-from cellc.diagnostics import Severity, YamlPath
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, YamlPath, found, rule
 from cellc.spec.cell_spec import CellSpec
 from cellc.spec.devices import EVERY_JOINT
 from cellc.spec.interfaces import TopicSpec
@@ -47,7 +43,8 @@ Bounded = tuple[YamlPath, Quantity | None, float, float]
 """A figure at its place, with the least and the greatest value that it may have."""
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield simulated figures outside their range."""
     spec = graph.cell.spec
     for path, written, least, greatest in (*_clocks(spec), *_networks(spec), *_adapters(spec), *_joints(spec)):
@@ -94,7 +91,7 @@ def _joints(spec: CellSpec) -> Iterator[Bounded]:
             yield (*at, "velocity"), figures.velocity, 1e-9, inf  # one that never moves is the fault `stick`
 
 
-def _other_units(graph: CellGraph) -> Iterator[Finding]:
+def _other_units(graph: CellGraph) -> Findings:
     """Yield lengths of joints that turn, and angles of joints that slide, once where they are said of all joints."""
     for device in graph.cell.devices:
         for key, figures in device.spec.simulated_joints.items():
@@ -106,6 +103,3 @@ def _other_units(graph: CellGraph) -> Iterator[Finding]:
                     message = f"`{field}` is `{written.text}`, but `{other.name}` is {other.type}"
                     path = ("devices", device.name, "simulated_joints", key, field)
                     yield found(graph, path, message, "write a length where a joint slides, else an angle")
-
-
-RULE = define("impossible-simulation", Severity.ERROR, check, __doc__)

@@ -26,19 +26,14 @@ Source: chapter 4, section 2: topics serve streams, services bounded requests, a
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.interface import InterfaceKind
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _FOLDER = {InterfaceKind.TOPIC: "msg", InterfaceKind.SERVICE: "srv", InterfaceKind.ACTION: "action"}
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield interfaces whose type stands in the folder of another kind."""
     for interface in graph.cell.interfaces:
         parts = interface.type.split("/")
@@ -47,6 +42,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             message = f"`{interface.name}` is a {interface.kind.value}, but `{interface.type}` is a `{parts[1]}` type"
             path = (*interface.path, interface.kind.value)
             yield found(graph, path, message, f"use a `{due}` type, or declare it as what it is")
-
-
-RULE = define("interface-kind-mismatch", Severity.ERROR, check, __doc__)

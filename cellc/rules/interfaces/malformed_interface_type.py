@@ -26,20 +26,16 @@ Source: ROS 2 interface naming: package in lower case, `msg`, `srv` or `action`,
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 
 from cellc.cell.interface import InterfaceKind
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _TYPE = re.compile(r"[a-z][a-z0-9_]*/(msg|srv|action)/[A-Z][A-Za-z0-9]*")
 _FOLDER = {InterfaceKind.TOPIC: "msg", InterfaceKind.SERVICE: "srv", InterfaceKind.ACTION: "action"}
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield types of another shape."""
     for interface in graph.cell.interfaces:
         if _TYPE.fullmatch(interface.type) is None:
@@ -47,6 +43,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             parts = interface.type.split("/")
             due = f"{parts[0]}/{_FOLDER[interface.kind]}/{parts[-1]}" if len(parts) == 2 else "sensor_msgs/msg/Image"
             yield found(graph, (*interface.path, interface.kind.value), message, f"write three parts, such as `{due}`")
-
-
-RULE = define("malformed-interface-type", Severity.ERROR, check, __doc__)

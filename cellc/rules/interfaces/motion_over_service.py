@@ -27,14 +27,9 @@ Source: chapter 4, section 2: a blocking service for motion leaves timeout and p
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 
 from cellc.cell.interface import InterfaceKind
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _MOTION = frozenset(
     [
@@ -56,7 +51,8 @@ _MOTION = frozenset(
 _READING = ("Get", "Check", "Query", "Plan", "List", "Compute", "Set")
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield services whose type speaks of motion and does not merely read, plan or set."""
     for interface in graph.cell.interfaces:
         words = re.findall(r"[A-Z][a-z]+", interface.type.rpartition("/")[2])
@@ -67,6 +63,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             yield found(
                 graph, (*interface.path, "service"), message, "use an action: it reports progress and can be cancelled"
             )
-
-
-RULE = define("motion-over-service", Severity.ERROR, check, __doc__)

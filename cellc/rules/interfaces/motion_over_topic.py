@@ -27,17 +27,12 @@ Source: chapter 4, section 2: a topic command lacks action results and is less i
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.interface import InterfaceKind
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.WARNING)
+def check(graph: CellGraph) -> Findings:
     """Yield topics of the spec that end in a controller with command interfaces."""
     for interface in graph.cell.interfaces:
         if interface.derived or interface.kind is not InterfaceKind.TOPIC:
@@ -46,6 +41,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             if sink.node in graph.data.commanders:
                 message = f"controller `{sink.node}` is commanded over the topic `{interface.name}`"
                 yield found(graph, sink.path, message, "send goals to the action of the controller")
-
-
-RULE = define("motion-over-topic", Severity.WARNING, check, __doc__)

@@ -24,22 +24,14 @@ Source: chapter 4, section 2, table: a one-shot query has a bounded response and
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.interface import InterfaceKind
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield services of the spec without a stated error answer."""
     for interface in graph.cell.interfaces:
         if interface.kind is InterfaceKind.SERVICE and not interface.derived and interface.on_error is None:
             message = f"service `{interface.name}` does not say how an error is told"
             yield found(graph, interface.path, message, "add `on_error:` with the field that tells it")
-
-
-RULE = define("service-without-error-answer", Severity.ERROR, check, __doc__)

@@ -26,18 +26,13 @@ Source: chapter 4, section 12: for every command path state frame, unit, rate, t
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.interface import InterfaceKind
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.interface_types import interface_types
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield topics of the spec that carry positions and can move something, without a frame."""
     for interface in graph.cell.interfaces:
         if interface.kind is not InterfaceKind.TOPIC or interface.derived or interface.frame is not None:
@@ -48,6 +43,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         if facts.feeds_motion or interface.name in graph.data.feeding_motion():
             message = f"`{interface.name}` carries `{interface.type}` but names no frame"
             yield found(graph, interface.path, message, "add `frame:`")
-
-
-RULE = define("spatial-topic-without-frame", Severity.ERROR, check, __doc__)

@@ -25,17 +25,12 @@ Source: chapter 4, section 12: for every command path state frame, unit, rate, t
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.interface import InterfaceKind
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield topics of the spec without a rate from which a way leads to a controller."""
     without = [
         interface
@@ -49,6 +44,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             yield found(
                 graph, interface.path, f"`{interface.name}` feeds motion, {way}, and has no `rate`", "add `rate:`"
             )
-
-
-RULE = define("topic-without-rate", Severity.ERROR, check, __doc__)

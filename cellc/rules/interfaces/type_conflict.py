@@ -27,17 +27,12 @@ Source: chapter 4, section 5, gate L4: type, QoS, age, loss.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.device_topics import device_topics
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield interfaces of the spec whose device or controller has another type for the name."""
     for interface in graph.cell.interfaces:
         for source in interface.sources:
@@ -52,6 +47,3 @@ def _type_of(graph: CellGraph, node: str, name: str) -> str | None:
     if device is not None:
         return device_topics(graph.cell, device).get(name)
     return next((c.action_type for c in graph.cell.controllers if c.label == node and c.action == name), None)
-
-
-RULE = define("type-conflict", Severity.ERROR, check, __doc__)

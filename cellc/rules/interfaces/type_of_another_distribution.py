@@ -30,17 +30,12 @@ Source: catalogue of interface types, with its sources and date.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.interface_types import interface_types
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield known types that the distribution does not have."""
     known = interface_types()
     for interface in graph.cell.interfaces:
@@ -51,6 +46,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             yield found(
                 graph, (*interface.path, interface.kind.value), message, f"it exists in {names}; use another type"
             )
-
-
-RULE = define("type-of-another-distribution", Severity.ERROR, check, __doc__)

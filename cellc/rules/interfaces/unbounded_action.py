@@ -29,22 +29,14 @@ Source: chapter 4, section 2: an unambiguous terminal result.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.interface import InterfaceKind
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield actions of the spec without a timeout."""
     for interface in graph.cell.interfaces:
         if interface.kind is InterfaceKind.ACTION and not interface.derived and interface.timeout_s is None:
             message = f"action `{interface.name}` has no bound on a whole goal"
             yield found(graph, interface.path, message, "add `timeout:`, such as `20 s`")
-
-
-RULE = define("unbounded-action", Severity.ERROR, check, __doc__)

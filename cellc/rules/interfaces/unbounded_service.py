@@ -25,22 +25,14 @@ Source: chapter 4, section 2: services serve bounded request-response interactio
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.interface import InterfaceKind
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield services of the spec without a timeout."""
     for interface in graph.cell.interfaces:
         if interface.kind is InterfaceKind.SERVICE and not interface.derived and interface.timeout_s is None:
             message = f"service `{interface.name}` has no bound on its response time"
             yield found(graph, interface.path, message, "add `timeout:`, such as `1 s`")
-
-
-RULE = define("unbounded-service", Severity.ERROR, check, __doc__)

@@ -27,23 +27,16 @@ Source: REP-103; chapter 4, section 12: for every command path state frame, unit
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _NUMBER = re.compile(r"std_msgs/msg/(Float|Int|UInt)(8|16|32|64)(MultiArray)?")
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield topics of plain numbers without a unit."""
     for interface in graph.cell.interfaces:
         if not interface.derived and interface.unit is None and _NUMBER.fullmatch(interface.type):
             message = f"`{interface.name}` carries bare numbers without a unit"
             yield found(graph, interface.path, message, "add `unit:`, such as `m`")
-
-
-RULE = define("unitless-number", Severity.ERROR, check, __doc__)

@@ -27,20 +27,16 @@ Source: catalogue of interface types, with its sources and date.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from difflib import SequenceMatcher
 
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.interface_types import interface_types
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _ALIKE = 0.8  # ratio of difflib: one letter in a word of four, two in a word of ten
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR, assumes=("interface-kind-mismatch", "malformed-interface-type"))
+def check(graph: CellGraph) -> Findings:
     """Yield types that are not known and nearly are."""
     known = interface_types()
     for interface in graph.cell.interfaces:
@@ -61,12 +57,3 @@ def _alike(known: str, written: str) -> bool:
         return False
     word, other = differing[0]
     return word.isalpha() and SequenceMatcher(None, word, other).ratio() >= _ALIKE
-
-
-RULE = define(
-    "unknown-interface-type",
-    Severity.ERROR,
-    check,
-    __doc__,
-    assumes=("interface-kind-mismatch", "malformed-interface-type"),
-)

@@ -25,21 +25,13 @@ Source: chapter 4, section 5: endpoint match.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.interface import InterfaceKind
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield topics without a publisher."""
     for interface in graph.cell.interfaces:
         if interface.kind is InterfaceKind.TOPIC and not interface.sources:
             yield found(graph, (*interface.path, "from"), f"nobody publishes `{interface.name}`", "name the publisher")
-
-
-RULE = define("unpublished-topic", Severity.ERROR, check, __doc__)

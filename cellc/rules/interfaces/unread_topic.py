@@ -25,17 +25,12 @@ Source: chapter 4, section 5: endpoint match.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.interface import InterfaceKind
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.WARNING)
+def check(graph: CellGraph) -> Findings:
     """Yield topics of the spec without a subscriber that are not recorded either."""
     for interface in graph.cell.interfaces:
         if interface.derived or interface.kind is not InterfaceKind.TOPIC or interface.sinks:
@@ -44,6 +39,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             yield found(
                 graph, interface.path, f"nobody subscribes to `{interface.name}`", "name its readers under `to:`"
             )
-
-
-RULE = define("unread-topic", Severity.WARNING, check, __doc__)

@@ -26,17 +26,12 @@ Source: chapter 4, section 3: store the image stamp, robot-state stamp and trans
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.interface_types import interface_types
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield topics that feed motion with an age limit and a type without header."""
     known = interface_types()
     for interface in graph.cell.interfaces:
@@ -48,6 +43,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             advice = f"use `{stamped}`" if stamped in known else "use a type that begins with a header"
             message = f"`{interface.name}` limits the age of `{interface.type}`, which has no stamp"
             yield found(graph, (*interface.path, "topic"), message, advice)
-
-
-RULE = define("unstamped-age-limit", Severity.ERROR, check, __doc__)

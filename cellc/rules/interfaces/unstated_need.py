@@ -26,17 +26,12 @@ Source: chapter 4, section 2: write whether the consumer needs every sample or o
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.interface import InterfaceKind
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.WARNING)
+def check(graph: CellGraph) -> Findings:
     """Yield topics of the spec with a reader and without a stated need."""
     for interface in graph.cell.interfaces:
         if (
@@ -47,6 +42,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         ):
             message = f"`{interface.name}` does not say whether every sample counts or only the newest"
             yield found(graph, interface.path, message, "add `wants: newest` or `wants: every_sample`")
-
-
-RULE = define("unstated-need", Severity.WARNING, check, __doc__)

@@ -30,16 +30,12 @@ Source: URDF specification, element mimic.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.description.model import Description, Joint
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
+from cellc.rules.kit import CellGraph, Finding, Findings, Severity, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield each joint from which following the leaders leads back to it."""
     for part in graph.model.joints():
         followed = _leaders(part.device.description, part.joint)
@@ -56,6 +52,3 @@ def _leaders(description: Description, joint: Joint) -> list[str]:
         followed.append(leader.mimic.joint)
         leader = description.joint(leader.mimic.joint)
     return followed
-
-
-RULE = define("circular-mimic", Severity.ERROR, check, __doc__)

@@ -29,17 +29,14 @@ Source: REP-103: angles in rad; arms of this kind turn at most a few times.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
+from cellc.rules.kit import CellGraph, Finding, Findings, Severity, rule
 
 _FOUR_TURNS = 8.0 * math.pi
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield revolute joints that could turn more than four times to one side."""
     for part in graph.model.joints():
         limit = part.joint.limit
@@ -52,6 +49,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             yield Finding(
                 message, part.span, part.path, f"write {math.radians(largest):.6g} if {largest:g} is in degrees"
             )
-
-
-RULE = define("degrees-as-radians", Severity.ERROR, check, __doc__)

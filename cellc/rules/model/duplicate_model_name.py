@@ -25,16 +25,12 @@ Source: URDF specification: names of links and of joints are unique.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Related, Severity
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.model_parts import ModelJoint, ModelLink
-from cellc.rule import Finding
-from cellc.rules.define import define
+from cellc.rules.kit import CellGraph, Finding, Findings, Related, Severity, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield the second and every later bearer of a name."""
     seen: dict[tuple[str, str, str], ModelLink | ModelJoint] = {}
     named: list[tuple[str, str, ModelLink | ModelJoint]] = []
@@ -46,6 +42,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             message = f"`{part.device.name}` has two {kind}s named `{name}`"
             related = (Related(f"first {kind} `{name}` here", first.span),)
             yield Finding(message, part.span, part.path, "rename one of the two", related)
-
-
-RULE = define("duplicate-model-name", Severity.ERROR, check, __doc__)

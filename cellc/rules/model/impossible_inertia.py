@@ -28,19 +28,15 @@ inertia, has no negative eigenvalue.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.description.model import Inertial
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
+from cellc.rules.kit import CellGraph, Finding, Findings, Severity, rule
 
 Matrix = tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]]
 _ROUNDING = 1e-6  # of the trace; tensors are written with few digits
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield links whose tensor is not positive or breaks the triangle inequality."""
     for part in graph.model.links():
         if part.link.inertial is not None and (reason := _impossible(part.link.inertial)):
@@ -77,6 +73,3 @@ def _semidefinite(m: Matrix, scale: float) -> bool:
     third += m[0][2] * (m[0][1] * m[1][2] - m[1][1] * m[0][2])
     minors = ((first, scale), (second, scale**2), ((third,), scale**3))
     return all(value >= -_ROUNDING * size for values, size in minors for value in values)
-
-
-RULE = define("impossible-inertia", Severity.ERROR, check, __doc__)

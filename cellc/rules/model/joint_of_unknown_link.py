@@ -21,15 +21,11 @@ Source: URDF specification, element joint.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity, did_you_mean
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
+from cellc.rules.kit import CellGraph, Finding, Findings, Severity, did_you_mean, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield joints whose parent or child is no link."""
     for part in graph.model.joints():
         description = part.device.description
@@ -38,6 +34,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
                 message = f"the {role} of joint `{part.joint.name}` is `{name}`, which is no link"
                 links = (link.name for link in description.links)
                 yield Finding(message, part.span, part.path, did_you_mean(name, links, "links"))
-
-
-RULE = define("joint-of-unknown-link", Severity.ERROR, check, __doc__)

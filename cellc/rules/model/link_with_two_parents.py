@@ -23,16 +23,12 @@ Source: URDF specification: a robot is a tree of links.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Related, Severity
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.model_parts import ModelJoint
-from cellc.rule import Finding
-from cellc.rules.define import define
+from cellc.rules.kit import CellGraph, Finding, Findings, Related, Severity, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR, assumes=("duplicate-model-name",))
+def check(graph: CellGraph) -> Findings:
     """Yield the second joint that ends in one link."""
     seen: dict[tuple[str, str], ModelJoint] = {}
     for part in graph.model.joints():
@@ -41,6 +37,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             message = f"link `{part.joint.child}` is the child of joints `{first.joint.name}` and `{part.joint.name}`"
             related = (Related(f"already the child of `{first.joint.name}`", first.span),)
             yield Finding(message, part.span, part.path, "delete one of the two joints", related)
-
-
-RULE = define("link-with-two-parents", Severity.ERROR, check, __doc__, assumes=("duplicate-model-name",))

@@ -31,15 +31,11 @@ Source: URDF specification, element mimic.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity, did_you_mean
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
+from cellc.rules.kit import CellGraph, Finding, Findings, Severity, did_you_mean, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield mimic joints whose leader is fixed."""
     for part in graph.model.joints():
         mimic = part.joint.mimic
@@ -48,6 +44,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             message = f"joint `{part.joint.name}` mimics `{leader.name}`, which is {leader.type}"
             movable = (joint.name for joint in part.device.description.joints if joint.movable)
             yield Finding(message, part.span, part.path, did_you_mean(leader.name, movable, "moving joints"))
-
-
-RULE = define("mimic-of-fixed-joint", Severity.ERROR, check, __doc__)

@@ -30,15 +30,11 @@ Source: URDF specification, element mimic.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity, did_you_mean
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
+from cellc.rules.kit import CellGraph, Finding, Findings, Severity, did_you_mean, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield mimic joints whose leader is missing."""
     for part in graph.model.joints():
         mimic = part.joint.mimic
@@ -47,6 +43,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             message = f"joint `{part.joint.name}` mimics `{mimic.joint}`, which is no joint of `{part.device.name}`"
             names = (joint.name for joint in description.joints)
             yield Finding(message, part.span, part.path, did_you_mean(mimic.joint, names, "joints"))
-
-
-RULE = define("mimic-of-nothing", Severity.ERROR, check, __doc__)

@@ -27,15 +27,11 @@ Source: URDF specification, element limit: required for revolute and prismatic j
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
+from cellc.rules.kit import CellGraph, Finding, Findings, Severity, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield joints with ends of which a limit is not stated."""
     for part in graph.model.joints():
         if part.joint.type not in ("revolute", "prismatic"):
@@ -47,6 +43,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             names = ", ".join(f"`{name}`" for name in missing)
             message = f"{part.joint.type} joint `{part.joint.name}` does not state {names}"
             yield Finding(message, part.span, part.path, "write `<limit>` in rad or m and per second")
-
-
-RULE = define("missing-joint-limits", Severity.ERROR, check, __doc__)

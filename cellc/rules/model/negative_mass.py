@@ -26,21 +26,14 @@ Source: URDF specification, element inertial; REP-103 for the unit.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
+from cellc.rules.kit import CellGraph, Finding, Findings, Severity, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield links that weigh less than nothing."""
     for part in graph.model.links():
         inertial = part.link.inertial
         if inertial is not None and inertial.mass < 0.0:
             message = f"link `{part.link.name}` has a mass of {inertial.mass:g} kg"
             yield Finding(message, part.span, part.path, "write the mass in kg, or leave `<inertial>` out")
-
-
-RULE = define("negative-mass", Severity.ERROR, check, __doc__)

@@ -29,17 +29,14 @@ Source: URDF specification, element axis: the vector should be normalised.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
+from cellc.rules.kit import CellGraph, Finding, Findings, Severity, rule
 
 _TOLERANCE = 1e-3  # axes are often written with three or four digits
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield axes whose length is neither zero, which is another mistake, nor one."""
     for part in graph.model.joints():
         length = math.hypot(*part.joint.axis)
@@ -47,6 +44,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             message = f"the axis of joint `{part.joint.name}` has length {length:g}, not 1"
             unit = " ".join(f"{component / length:.6g}" for component in part.joint.axis)
             yield Finding(message, part.span, part.path, f"write `{unit}` if the direction is right")
-
-
-RULE = define("non-unit-axis", Severity.ERROR, check, __doc__)

@@ -28,15 +28,11 @@ Source: URDF specification, element limit; the loaders of two public libraries w
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
+from cellc.rules.kit import CellGraph, Finding, Findings, Severity, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield joints without a single allowed position."""
     for part in graph.model.joints():
         limit = part.joint.limit
@@ -44,6 +40,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             continue
         message = f"joint `{part.joint.name}` has lower limit {limit.lower:g} above upper limit {limit.upper:g}"
         yield Finding(message, part.span, part.path, "swap `lower` and `upper` after checking the sign of the joint")
-
-
-RULE = define("reversed-limits", Severity.ERROR, check, __doc__)

@@ -23,21 +23,14 @@ Source: URDF specification: a robot is a tree of links with one root.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
+from cellc.rules.kit import CellGraph, Finding, Findings, Severity, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR, assumes=("joint-of-unknown-link",))
+def check(graph: CellGraph) -> Findings:
     """Yield every root but the one that is mounted."""
     for part in graph.model.links():
         root = part.device.root_link
         if part.link.name != root and part.link.name in part.device.description.roots():
             message = f"link `{part.link.name}` hangs on nothing; the root of `{part.device.name}` is `{root}`"
             yield Finding(message, part.span, part.path, "connect it with a joint, or delete it")
-
-
-RULE = define("several-root-links", Severity.ERROR, check, __doc__, assumes=("joint-of-unknown-link",))

@@ -29,20 +29,14 @@ Source: URDF specification, element axis: the vector should be normalised.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
+from cellc.rules.kit import CellGraph, Finding, Findings, Severity, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield joints that have no direction."""
     for part in graph.model.joints():
         if part.joint.movable and math.hypot(*part.joint.axis) == 0.0:
             message = f"joint `{part.joint.name}` is {part.joint.type} but its axis is `0 0 0`"
             yield Finding(message, part.span, part.path, "write a unit vector in the joint frame, such as `0 0 1`")
-
-
-RULE = define("zero-axis", Severity.ERROR, check, __doc__)

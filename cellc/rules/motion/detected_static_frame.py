@@ -23,17 +23,12 @@ Source: chapter 4, section 3: a static transform does not move during operation.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.frame import FrameKind
-from cellc.diagnostics import Severity, YamlPath, did_you_mean
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, YamlPath, did_you_mean, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield steps that detect a frame which is not dynamic, once where the steps are shared."""
     reported: set[YamlPath] = set()
     for step in (step for rehearsal in graph.cell.rehearsals for step in rehearsal.steps):
@@ -43,6 +38,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             dynamic = (f.name for f in graph.cell.frames if f.kind is FrameKind.DYNAMIC)
             message = f"`{step.name}` is static and cannot be detected"
             yield found(graph, step.path, message, did_you_mean(step.name, dynamic, "dynamic frames"))
-
-
-RULE = define("detected-static-frame", Severity.ERROR, check, __doc__)

@@ -23,20 +23,12 @@ Source: chapter 4, section 11, gate G2.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield rehearsals without steps."""
     for rehearsal in graph.cell.rehearsals:
         if not rehearsal.steps:
             yield found(graph, rehearsal.path, f"rehearsal `{rehearsal.name}` does nothing", "write `steps:` or `use:`")
-
-
-RULE = define("empty-rehearsal", Severity.ERROR, check, __doc__)

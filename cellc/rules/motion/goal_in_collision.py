@@ -25,18 +25,13 @@ not counted.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
 from cellc.feasibility import motion_answer
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
-from cellc.rules.sound_model import KNOWN_GOALS
+from cellc.rules.geometry import KNOWN_GOALS
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR, assumes=KNOWN_GOALS)
+def check(graph: CellGraph) -> Findings:
     """Yield goals whose every solution is in collision, with what touches in the one nearest to the start."""
     paths = {goal.name: goal.path for goal in graph.cell.goals}
     for goal in motion_answer(graph).goals:
@@ -44,6 +39,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             message = f"at goal `{goal.name}` {goal.detail}"
             help_text = "correct place and size of what is in the way, or move the goal"
             yield found(graph, (*paths[goal.name], "frame"), message, help_text)
-
-
-RULE = define("goal-in-collision", Severity.ERROR, check, __doc__, assumes=KNOWN_GOALS)

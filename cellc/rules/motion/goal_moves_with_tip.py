@@ -27,17 +27,12 @@ Source: chapter 4, section 3: parent direction.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.frame import FrameKind
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield goals in a fixed frame that hangs on a link moved by the goal's own group."""
     groups = {group.name: group for group in graph.cell.groups}
     children = {joint.child: joint.name for device in graph.cell.devices for joint in device.description.joints}
@@ -49,6 +44,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         if not moved.isdisjoint(groups[goal.group].joints):
             message = f"goal `{goal.name}` is in `{goal.frame}`, which group `{goal.group}` moves itself"
             yield found(graph, (*goal.path, "frame"), message, "give it in a frame that does not hang on the arm")
-
-
-RULE = define("goal-moves-with-tip", Severity.ERROR, check, __doc__)

@@ -25,20 +25,15 @@ for.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
 from cellc.feasibility import motion_answer
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
-from cellc.rules.sound_model import KNOWN_GOALS
+from cellc.rules.geometry import KNOWN_GOALS
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _LEAST_SHARE = 0.02
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.WARNING, assumes=KNOWN_GOALS)
+def check(graph: CellGraph) -> Findings:
     """Yield goals that leave one joint less than its share of room."""
     paths = {goal.name: goal.path for goal in graph.cell.goals}
     for goal in motion_answer(graph).goals:
@@ -49,6 +44,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             )
             help_text = "begin nearer to the middle of the joint's range, or move the goal"
             yield found(graph, (*paths[goal.name], "frame"), message, help_text)
-
-
-RULE = define("goal-near-joint-limit", Severity.WARNING, check, __doc__, assumes=KNOWN_GOALS)

@@ -29,18 +29,14 @@ Source: triangle inequality along the chain; an exact check of reach needs inver
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 
 from cellc.cell.motion import PlanningGroup
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 from cellc.transforms import Pose, identity
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR, assumes=("frame-cycle",))
+def check(graph: CellGraph) -> Findings:
     """Yield goals in static frames beyond the stretched length of their group."""
     groups = {group.name: group for group in graph.cell.groups}
     for goal in graph.cell.goals:
@@ -79,6 +75,3 @@ def _stretched(graph: CellGraph, group: PlanningGroup) -> float:
     joints = [joint for device in graph.cell.devices for joint in device.joints if joint.name in group.joints]
     travel = (max(abs(j.lower or 0.0), abs(j.upper or 0.0)) for j in joints if j.type == "prismatic")
     return length + sum(travel)
-
-
-RULE = define("goal-out-of-reach", Severity.ERROR, check, __doc__, assumes=("frame-cycle",))

@@ -23,16 +23,11 @@ Source: chapter 4, section 10: a missing action server prevents execution.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR, assumes=("wrong-joint-count",))
+def check(graph: CellGraph) -> Findings:
     """Yield the first grip step of each gripper without a controller with an action."""
     driven = {controller.device for controller in graph.cell.controllers if controller.action}
     reported: set[str] = set()
@@ -41,6 +36,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             reported.add(step.name)
             message = f"no controller drives gripper `{step.name}`"
             yield found(graph, step.path, message, "add a controller of type `parallel_gripper` for it")
-
-
-RULE = define("gripper-without-controller", Severity.ERROR, check, __doc__, assumes=("wrong-joint-count",))

@@ -23,21 +23,13 @@ Source: chapter 4, section 10.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield groups without a joint."""
     for group in graph.cell.groups:
         if not group.joints:
             message = f"there is no moving joint between `{group.base_link}` and `{group.tip_frame}`"
             yield found(graph, group.path, message, "choose base and tip at the two ends of the joints")
-
-
-RULE = define("group-without-joints", Severity.ERROR, check, __doc__)

@@ -24,18 +24,14 @@ Source: chapter 4, section 3, acceptance gate 3: validate direction and scale.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _LONGEST_M = 1.0
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield approaches of no length, and above 1 m."""
     for goal in graph.cell.goals:
         length = None if goal.approach is None else math.hypot(*goal.approach)
@@ -44,6 +40,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
                 f"the approach of goal `{goal.name}` is {length:g} m long, more than 0 and up to {_LONGEST_M:g} m fit"
             )
             yield found(graph, (*goal.path, "approach"), message, "check the unit, or leave it out")
-
-
-RULE = define("implausible-approach", Severity.ERROR, check, __doc__)

@@ -25,24 +25,16 @@ check: what the mock tries.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
 from cellc.feasibility import motion_answer
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
-from cellc.rules.sound_model import KNOWN_GOALS
+from cellc.rules.geometry import KNOWN_GOALS
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR, assumes=KNOWN_GOALS)
+def check(graph: CellGraph) -> Findings:
     """Yield goals that are reached, but not along their approach."""
     paths = {goal.name: goal.path for goal in graph.cell.goals}
     for goal in motion_answer(graph).goals:
         if goal.approach_failure:
             message = f"no straight line leads to goal `{goal.name}`: {goal.approach_failure}"
             yield found(graph, (*paths[goal.name], "approach"), message, "shorten or turn the approach")
-
-
-RULE = define("infeasible-approach", Severity.ERROR, check, __doc__, assumes=KNOWN_GOALS)

@@ -29,20 +29,15 @@ begins. At 0.05 a tip at 100 mm/s asks for 2 rad/s.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
 from cellc.feasibility import motion_answer
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
-from cellc.rules.sound_model import KNOWN_GOALS
+from cellc.rules.geometry import KNOWN_GOALS
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _LEAST = 0.05
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.WARNING, assumes=KNOWN_GOALS)
+def check(graph: CellGraph) -> Findings:
     """Yield goals below the least singular value that leaves room."""
     paths = {goal.name: goal.path for goal in graph.cell.goals}
     for goal in motion_answer(graph).goals:
@@ -50,6 +45,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         if least is not None and least < _LEAST:
             message = f"at goal `{goal.name}` the least singular value is {least:.2g}, from {_LEAST:g} on there is room"
             yield found(graph, (*paths[goal.name], "frame"), message, "move the frame or the robot, or turn the goal")
-
-
-RULE = define("near-singular-goal", Severity.WARNING, check, __doc__, assumes=KNOWN_GOALS)

@@ -25,19 +25,13 @@ begins; pairs that MoveIt does not check are not checked here either.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
 from cellc.feasibility import motion_answer
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.contacts import named, within_robot
-from cellc.rules.define import define
-from cellc.rules.finding import found
-from cellc.rules.sound_model import KNOWN_POSES
+from cellc.rules.geometry import KNOWN_POSES, named, within_robot
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR, assumes=KNOWN_POSES)
+def check(graph: CellGraph) -> Findings:
     """Yield each pose in which links touch links."""
     paths = {pose.name: pose.path for pose in reversed(graph.cell.poses)}
     for pose in motion_answer(graph).poses:
@@ -45,6 +39,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         if contacts:
             message = f"in pose `{pose.name}` {named(contacts)}"
             yield found(graph, paths[pose.name], message, "change the joint positions until the links are apart")
-
-
-RULE = define("pose-in-self-collision", Severity.ERROR, check, __doc__, assumes=KNOWN_POSES)

@@ -24,16 +24,11 @@ Source: limits of the description, tightened by the cell.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield each joint of a pose that is below its lower or above its upper limit."""
     joints = {joint.name: joint for device in graph.cell.devices for joint in device.joints}
     for pose in graph.cell.poses:
@@ -47,6 +42,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
                 allowed = f"{joint.lower:.4g} to {joint.upper:.4g}"
                 message = f"`{name}` is at {position:.4g} in pose `{pose.name}`, allowed are {allowed}"
                 yield found(graph, pose.path, message, "correct the value, and check its unit")
-
-
-RULE = define("pose-outside-limits", Severity.ERROR, check, __doc__)

@@ -29,24 +29,16 @@ the same.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
 from cellc.feasibility import motion_answer
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
-from cellc.rules.sound_model import KNOWN_GOALS
+from cellc.rules.geometry import KNOWN_GOALS
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR, assumes=KNOWN_GOALS)
+def check(graph: CellGraph) -> Findings:
     """Yield goals whose every solution is singular."""
     paths = {goal.name: goal.path for goal in graph.cell.goals}
     for goal in motion_answer(graph).goals:
         if goal.failure == "singular":
             message = f"goal `{goal.name}` is reached in a singularity alone: {goal.detail}"
             yield found(graph, (*paths[goal.name], "frame"), message, "move the frame or the robot, or turn the goal")
-
-
-RULE = define("singular-goal", Severity.ERROR, check, __doc__, assumes=KNOWN_GOALS)

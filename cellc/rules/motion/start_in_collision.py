@@ -30,24 +30,15 @@ Source: where a mock begins: the pose `home`, else the home of the catalogue, el
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
 from cellc.feasibility import motion_answer
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.contacts import named
-from cellc.rules.define import define
-from cellc.rules.finding import found
-from cellc.rules.sound_model import KNOWN_POSES
+from cellc.rules.geometry import KNOWN_POSES, named
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.WARNING, assumes=KNOWN_POSES)
+def check(graph: CellGraph) -> Findings:
     """Yield a start in which something touches, where no pose `home` says so already."""
     contacts = motion_answer(graph).start
     if contacts and all(pose.name != "home" for pose in graph.cell.poses):
         message = f"where the cell begins {named(contacts)}"
         yield found(graph, ("motion", "poses"), message, "declare a pose `home` that is free of collision")
-
-
-RULE = define("start-in-collision", Severity.WARNING, check, __doc__, assumes=KNOWN_POSES)

@@ -26,23 +26,15 @@ Source: what pinocchio reads of the generated description.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
 from cellc.feasibility import motion_answer
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
-from cellc.rules.sound_model import SOUND_MODEL
+from cellc.rules.geometry import SOUND_MODEL
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.WARNING, assumes=SOUND_MODEL)
+def check(graph: CellGraph) -> Findings:
     """Yield the reason for which the description is refused."""
     refused = motion_answer(graph).refused
     if refused:
         message = f"poses and goals are not checked: {refused}"
         yield found(graph, ("motion", "groups"), message, "give collision shapes as boxes, cylinders and spheres")
-
-
-RULE = define("unchecked-geometry", Severity.WARNING, check, __doc__, assumes=SOUND_MODEL)

@@ -24,17 +24,12 @@ Source: chapter 4, section 3: store the image stamp used to form every goal.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.frame import FrameKind
-from cellc.diagnostics import Severity, YamlPath
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, YamlPath, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield moves to goals in a dynamic frame before a step that detects it."""
     goals = {goal.name: goal.frame for goal in graph.cell.goals}
     dynamic = {frame.name for frame in graph.cell.frames if frame.kind is FrameKind.DYNAMIC}
@@ -49,6 +44,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
                 reported.add(step.path)
                 message = f"`{rehearsal.name}` moves to `{step.name}` before it detects `{frame}`"
                 yield found(graph, step.path, message, f"add the step `detect: {frame}` before it")
-
-
-RULE = define("undetected-goal", Severity.ERROR, check, __doc__)

@@ -23,21 +23,13 @@ Source: chapter 4, section 2: then inject a late sample, a missing responder, an
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.WARNING)
+def check(graph: CellGraph) -> Findings:
     """Yield rehearsals that expect a failure and inject nothing."""
     for rehearsal in graph.cell.rehearsals:
         if rehearsal.expect != "succeeded" and not rehearsal.faults:
             message = f"`{rehearsal.name}` expects `{rehearsal.expect}`, but nothing provokes it"
             yield found(graph, (*rehearsal.path, "expect"), message, "add `inject:`")
-
-
-RULE = define("unprovoked-failure", Severity.WARNING, check, __doc__)

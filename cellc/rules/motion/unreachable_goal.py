@@ -29,24 +29,16 @@ goal can be reached, and makes it likely that one cannot.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
 from cellc.feasibility import motion_answer
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
-from cellc.rules.sound_model import KNOWN_GOALS
+from cellc.rules.geometry import KNOWN_GOALS
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR, assumes=KNOWN_GOALS)
+def check(graph: CellGraph) -> Findings:
     """Yield goals for which the search ended away from the target."""
     paths = {goal.name: goal.path for goal in graph.cell.goals}
     for goal in motion_answer(graph).goals:
         if goal.failure in ("no_ik_solution", "out_of_limits"):
             message = f"no joint positions were found for goal `{goal.name}`: {goal.detail}"
             yield found(graph, (*paths[goal.name], "frame"), message, "move the frame or the robot, or turn the goal")
-
-
-RULE = define("unreachable-goal", Severity.ERROR, check, __doc__, assumes=KNOWN_GOALS)

@@ -29,23 +29,15 @@ Source: chapter 4, section 12, prompt B: tests on fake hardware.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.frame import FrameKind
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield dynamic frames that a rehearsal detects and that have no simulated pose."""
     detected = {step.name for rehearsal in graph.cell.rehearsals for step in rehearsal.steps if step.kind == "detect"}
     for frame in graph.cell.frames:
         if frame.kind is FrameKind.DYNAMIC and frame.name in detected and frame.simulated_pose is None:
             message = f"a rehearsal detects `{frame.name}`, but the mock does not know where it is"
             yield found(graph, frame.path, message, "add `simulated_pose:`")
-
-
-RULE = define("unsimulated-object", Severity.ERROR, check, __doc__)

@@ -24,16 +24,11 @@ Source: order of the chain from the group's base to its tip.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield poses whose number of values is not that of the group's joints."""
     for pose in graph.cell.poses:
         if len(pose.joints) != len(pose.positions):
@@ -42,6 +37,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             )
             names = ", ".join(pose.joints)
             yield found(graph, pose.path, message, f"write one value for each of {names}")
-
-
-RULE = define("wrong-pose-size", Severity.ERROR, check, __doc__)

@@ -25,19 +25,15 @@ Source: chapter 4, section 12, prompt B: never use a real IP or real hardware pl
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 
 from cellc.cell.interface import NodeSource
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _ADDRESS = re.compile(r"(?<![\d.])\d{1,3}(?:\.\d{1,3}){3}(?![\d.])")
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield parameters of nodes of the spec that hold the address of a connected device."""
     owners = {str(link.address): link.device for link in graph.network.devices if link.address is not None}
     for node in graph.cell.nodes:
@@ -50,6 +46,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
                 message = f"parameter `{name}` of `{node.name}` holds {held[0]}, the address of `{owners[held[0]]}`"
                 path = (*node.path, "parameters", name)
                 yield found(graph, path, message, "leave the address to `connection:` of the device")
-
-
-RULE = define("address-in-parameters", Severity.ERROR, check, __doc__)

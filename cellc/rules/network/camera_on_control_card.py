@@ -21,16 +21,11 @@ Source: chapter 4, section 5: do not mix camera streams onto the robot-control N
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield cameras on a card that carries control."""
     cameras = {device.name for device in graph.cell.devices if device.facts.kind == "camera"}
     for device in graph.network.devices:
@@ -38,6 +33,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         if nic is not None and "control" in nic.carries and device.device in cameras:
             message = f"camera `{device.device}` is on `{nic.full_name}`, which carries control"
             yield found(graph, (*device.path, "nic"), message, "connect it to another card")
-
-
-RULE = define("camera-on-control-card", Severity.ERROR, check, __doc__)

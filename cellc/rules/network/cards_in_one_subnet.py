@@ -23,17 +23,13 @@ Source: chapter 4, section 5: with two NICs, verify routes and source addresses.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from itertools import combinations
 
-from cellc.diagnostics import Related, Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield the second card of a host whose subnet overlaps."""
     for first, second in combinations(graph.network.nics, 2):
         if first.host != second.host or first.interface is None or second.interface is None:
@@ -43,6 +39,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             message = f"`{second.full_name}` and `{first.full_name}` are both in {first.interface.network}"
             related = (Related("the other card is here", graph.cell.locate(*first.path, "address")),)
             yield found(graph, (*second.path, "address"), message, "give each card a subnet of its own", related)
-
-
-RULE = define("cards-in-one-subnet", Severity.ERROR, check, __doc__)

@@ -21,16 +21,11 @@ Source: chapter 4, section 5, gate L1: expected NIC and subnet.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Related, Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield devices with an address outside the subnet of their card."""
     for device in graph.network.devices:
         nic = graph.network.nic_of(device)
@@ -40,6 +35,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             message = f"{device.address} of `{device.device}` is not in {nic.interface.network} of `{nic.full_name}`"
             related = (Related("the card is here", graph.cell.locate(*nic.path, "address")),)
             yield found(graph, (*device.path, "address"), message, "use an address of the card's subnet", related)
-
-
-RULE = define("device-outside-subnet", Severity.ERROR, check, __doc__)

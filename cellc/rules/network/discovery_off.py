@@ -21,20 +21,12 @@ Source: ROS_AUTOMATIC_DISCOVERY_RANGE, table of reachability: OFF with any peer 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield discovery that is off in a cell of one host or none."""
     if graph.cell.spec.network.discovery == "off" and len(graph.cell.spec.hosts) < 2:
         message = "discovery is off, so no two processes of the cell find each other"
         yield found(graph, ("network", "discovery"), message, "use `localhost`")
-
-
-RULE = define("discovery-off", Severity.ERROR, check, __doc__)

@@ -23,16 +23,11 @@ Source: rmw_zenoh: ROS_AUTOMATIC_DISCOVERY_RANGE and ROS_STATIC_PEERS are not us
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield a discovery range or peers with a middleware that ignores them."""
     network = graph.cell.spec.network
     if not graph.cell.spec.versions.rmw.startswith("rmw_zenoh"):
@@ -40,6 +35,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
     if network.discovery != "multicast" or network.peers:
         field = "discovery" if network.discovery != "multicast" else "peers"
         yield found(graph, ("network", field), f"Zenoh ignores `{field}`", "configure its router and session instead")
-
-
-RULE = define("discovery-unknown-to-rmw", Severity.ERROR, check, __doc__)

@@ -21,23 +21,15 @@ Source: Linux ephemeral ports 32768 to 60999 collide with domains 102 to 214.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _FIRST, _LAST = 102, 214
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.WARNING)
+def check(graph: CellGraph) -> Findings:
     """Yield a domain whose ports are ephemeral ones."""
     domain = graph.cell.spec.network.domain_id
     if _FIRST <= domain <= _LAST:
         message = f"the ports of domain {domain} are ephemeral ports of Linux"
         yield found(graph, ("network", "domain_id"), message, "use 0 to 101")
-
-
-RULE = define("domain-in-ephemeral-ports", Severity.WARNING, check, __doc__)

@@ -21,17 +21,13 @@ Source: chapter 4, section 5, gate L1: duplicate IP is a stop condition.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from ipaddress import IPv4Address
 
-from cellc.diagnostics import Related, Severity, YamlPath
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield the second and every later bearer of an address."""
     bearers = [(nic.interface.ip, nic.full_name, nic.path) for nic in graph.network.nics if nic.interface is not None]
     bearers += [(d.address, d.device, d.path) for d in graph.network.devices if d.address is not None]
@@ -42,6 +38,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             message = f"`{name}` and `{earlier_name}` both have address {address}"
             related = (Related("first used here", graph.cell.locate(*earlier_path, "address")),)
             yield found(graph, (*path, "address"), message, "give it an address of its own", related)
-
-
-RULE = define("duplicate-address", Severity.ERROR, check, __doc__)

@@ -27,22 +27,14 @@ Source: ROS_AUTOMATIC_DISCOVERY_RANGE, table of reachability.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield discovery that is bound to the host in a cell of several hosts."""
     discovery, hosts = graph.cell.spec.network.discovery, graph.cell.spec.hosts
     if discovery in ("localhost", "off") and len(hosts) > 1:
         names = " and ".join(f"`{name}`" for name in hosts)
         message = f"discovery is `{discovery}`, but the cell runs on {names}"
         yield found(graph, ("network", "discovery"), message, "use `multicast`, or `unicast` with peers")
-
-
-RULE = define("localhost-with-several-hosts", Severity.ERROR, check, __doc__)

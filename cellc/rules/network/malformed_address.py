@@ -24,16 +24,11 @@ Source: chapter 4, section 5, gate L1: fixed IP; RFC 4632 for the prefix length.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield cards and devices whose address cannot be read."""
     for nic in graph.network.nics:
         if nic.interface is None:
@@ -43,6 +38,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         if device.text is not None and device.address is None:
             message = f"`{device.text}` of `{device.device}` is no IPv4 address"
             yield found(graph, (*device.path, "address"), message, "write it such as `192.168.56.101`")
-
-
-RULE = define("malformed-address", Severity.ERROR, check, __doc__)

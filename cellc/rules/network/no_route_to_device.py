@@ -21,16 +21,11 @@ Source: chapter 4, section 5: verify routes and source addresses.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield devices without a named card whose address is in no subnet of their host."""
     for device in graph.network.devices:
         if device.nic is not None or device.address is None:
@@ -39,6 +34,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         if not any(nic.interface is not None and device.address in nic.interface.network for nic in cards):
             message = f"no card of `{device.host}` is in the subnet of {device.address} of `{device.device}`"
             yield found(graph, (*device.path, "address"), message, "add a card in its subnet, or correct the address")
-
-
-RULE = define("no-route-to-device", Severity.ERROR, check, __doc__)

@@ -22,21 +22,13 @@ Source: RFC 1918, private address space; chapter 4, section 5: dedicated wired l
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield devices with a global address."""
     for device in graph.network.devices:
         if device.address is not None and device.address.is_global:
             message = f"{device.address} of `{device.device}` is a public address"
             yield found(graph, (*device.path, "address"), message, "use one of 10/8, 172.16/12 or 192.168/16")
-
-
-RULE = define("public-address", Severity.ERROR, check, __doc__)

@@ -21,21 +21,13 @@ Source: chapter 4, section 5, gate L6: routing to the real interface is a stop c
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield targets other than real with real hardware."""
     for name, target in graph.cell.spec.targets.items():
         if name != "real" and target.hardware == "real":
             path = ("targets", name, "hardware")
             yield found(graph, path, f"target `{name}` uses real hardware", f"write `hardware: {name}`")
-
-
-RULE = define("real-hardware-in-mock", Severity.ERROR, check, __doc__)

@@ -23,16 +23,11 @@ Source: chapter 4, section 5: use a dedicated wired link when the vendor recomme
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.WARNING)
+def check(graph: CellGraph) -> Findings:
     """Yield arms that want a dedicated link on a card without control."""
     dedicated = {d.name for d in graph.cell.devices if d.facts.network is not None and d.facts.network.dedicated_link}
     for device in graph.network.devices:
@@ -40,6 +35,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         if device.device in dedicated and nic is not None and "control" not in nic.carries:
             message = f"`{device.device}` is on `{nic.full_name}`, which is not for control"
             yield found(graph, (*device.path, "nic"), message, "write `carries: [control]` at the card")
-
-
-RULE = define("robot-off-control-card", Severity.WARNING, check, __doc__)

@@ -24,22 +24,14 @@ NIC.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield cards that carry control and something else."""
     for nic in graph.network.nics:
         others = [kind for kind in nic.carries if kind != "control"]
         if "control" in nic.carries and others:
             message = f"`{nic.full_name}` carries control together with {', '.join(others)}"
             yield found(graph, (*nic.path, "carries"), message, "put the other traffic on another card")
-
-
-RULE = define("traffic-on-control-card", Severity.ERROR, check, __doc__)

@@ -21,21 +21,13 @@ Source: ROS_STATIC_PEERS; chapter 4, section 5: multicast or configured unicast 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield unicast discovery of a single host without peers."""
     network = graph.cell.spec.network
     if network.discovery == "unicast" and not network.peers and len(graph.cell.spec.hosts) < 2:
         message = "discovery is unicast, but there is no second host and no peer"
         yield found(graph, ("network", "discovery"), message, "list `peers:`, or use `localhost`")
-
-
-RULE = define("unicast-without-peers", Severity.ERROR, check, __doc__)

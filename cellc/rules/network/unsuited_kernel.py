@@ -21,17 +21,12 @@ Source: network facts of the device in the catalogue; chapter 4, section 5: guid
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.responsibilities import UNKNOWN
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.WARNING)
+def check(graph: CellGraph) -> Findings:
     """Yield hosts that run drivers for which real time is asked, with a generic or unknown kernel."""
     reported: set[str] = set()
     for device in graph.cell.devices:
@@ -44,6 +39,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             message = f"`{device.name}` asks for real-time scheduling, `{link.host}` has `{host.scheduling}`"
             path = ("hosts", link.host, "scheduling")
             yield found(graph, path, message, "install a PREEMPT_RT or low-latency kernel, and measure")
-
-
-RULE = define("unsuited-kernel", Severity.WARNING, check, __doc__)

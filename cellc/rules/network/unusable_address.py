@@ -23,18 +23,14 @@ Source: RFC 919 and RFC 922, broadcast addresses.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from ipaddress import IPv4Address
 
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.network import Nic
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield cards and devices with the network or broadcast address of their subnet."""
     for nic in graph.network.nics:
         if nic.interface is not None and _reserved(nic, nic.interface.ip):
@@ -52,6 +48,3 @@ def _reserved(nic: Nic, address: IPv4Address) -> bool:
     if nic.interface is None or nic.interface.network.prefixlen >= 31:
         return False
     return address in (nic.interface.network.network_address, nic.interface.network.broadcast_address)
-
-
-RULE = define("unusable-address", Severity.ERROR, check, __doc__)

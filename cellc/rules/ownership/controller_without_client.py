@@ -26,21 +26,13 @@ Source: chapter 4, sections 5 and 7: restrict command publishers; one command ow
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.BLOCKER)
+def check(graph: CellGraph) -> Findings:
     """Yield controllers with command interfaces and without a client."""
     for controller in graph.cell.controllers:
         if controller.command_interfaces and controller.client is None:
             message = f"nobody is declared to command `{controller.name}`"
             yield found(graph, controller.path, message, "add `client:` with the one node that may command it")
-
-
-RULE = define("controller-without-client", Severity.BLOCKER, check, __doc__)

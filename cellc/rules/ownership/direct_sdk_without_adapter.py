@@ -24,16 +24,11 @@ Source: chapter 4, section 9: wrap timestamped state, explicit units, and bounde
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield direct-SDK devices without a topic of stamped, rated, age-limited state."""
     for device in graph.cell.devices:
         if device.spec.architecture != "direct_sdk":
@@ -47,6 +42,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             message = f"`{device.name}` is driven by a direct SDK, but no interface carries its stamped state"
             path = (*device.path, "architecture")
             yield found(graph, path, message, "declare a topic `from` it, with rate, unit and `max_age`")
-
-
-RULE = define("direct-sdk-without-adapter", Severity.ERROR, check, __doc__)

@@ -36,17 +36,12 @@ Source: chapter 4, section 9: wrap timestamped state, explicit units, and bounde
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.interface import InterfaceKind
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield direct-SDK devices with joints that neither a controller nor an action of the device bounds."""
     driven = {joint for controller in graph.cell.controllers for joint in controller.joints}
     bounded = {
@@ -61,6 +56,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             message = f"`{device.name}` is driven by a direct SDK, but no action bounds its commands"
             path = (*device.path, "architecture")
             yield found(graph, path, message, f"declare an action with `server: {device.name}` and a timeout")
-
-
-RULE = define("direct-sdk-without-bounded-command", Severity.ERROR, check, __doc__)

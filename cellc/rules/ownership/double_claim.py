@@ -30,16 +30,11 @@ Source: controller_manager: a command interface has one owner; chapter 4, sectio
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Related, Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield the second claimant of an interface in the first state of a manager."""
     for conflict in graph.claims.conflicts():
         if not conflict.state.switches:
@@ -47,6 +42,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             message = f"`{second.name}` claims `{conflict.interface}`, which `{first.name}` claims too, from the start"
             related = (Related("first claimed here", first.span),)
             yield found(graph, second.path, message, "let one of them start with `active: false`", related)
-
-
-RULE = define("double-claim", Severity.ERROR, check, __doc__)

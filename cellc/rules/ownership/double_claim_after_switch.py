@@ -32,16 +32,11 @@ Source: controller_manager, switch_controller: refused with either strictness wh
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Related, Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield the switch that leads into a state with two claimants, with the way to that state."""
     for conflict in graph.claims.conflicts():
         if not conflict.state.switches:
@@ -53,6 +48,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         path = (*manager.path, "switches", conflict.state.switches[-1])
         related = (Related("first claimed here", first.span), Related("claimed again here", second.span))
         yield found(graph, path, message, f"deactivate `{first.name}` in the same switch", related)
-
-
-RULE = define("double-claim-after-switch", Severity.ERROR, check, __doc__)

@@ -26,16 +26,11 @@ Source: chapter 4, section 7: a listed controller name does not prove the correc
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Related, Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR, assumes=("wrong-joint-count",))
+def check(graph: CellGraph) -> Findings:
     """Yield groups with joints that are in none of their controllers."""
     for group in graph.cell.groups:
         controllers = [c for c in graph.cell.controllers if c.label in group.controllers]
@@ -47,6 +42,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             related = (Related("the group is here", group.span),)
             path = (*controllers[0].path, "joints")
             yield found(graph, path, message, "give the controller all joints of the group", related)
-
-
-RULE = define("group-joints-without-controller", Severity.ERROR, check, __doc__, assumes=("wrong-joint-count",))

@@ -26,22 +26,14 @@ Source: chapter 4, section 10: a missing action server prevents execution even i
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
 from cellc.graph.adapters import adapter_of_group
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR, assumes=("wrong-joint-count",))
+def check(graph: CellGraph) -> Findings:
     """Yield groups whose joints neither a controller nor an adapter with an action moves."""
     for group in graph.cell.groups:
         if group.joints and not group.controllers and adapter_of_group(graph.cell, group) is None:
             message = f"no controller takes trajectories for the joints of group `{group.name}`"
             yield found(graph, group.path, message, "add a trajectory controller for them")
-
-
-RULE = define("group-without-controller", Severity.ERROR, check, __doc__, assumes=("wrong-joint-count",))

@@ -29,16 +29,11 @@ Source: chapter 4, section 7: a listed controller name does not prove that it co
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.WARNING, assumes=("double-claim", "double-claim-after-switch", "impossible-switch"))
+def check(graph: CellGraph) -> Findings:
     """Yield controllers that are active in no reachable state."""
     for manager in graph.cell.managers:
         active = graph.claims.ever_active(manager.name)
@@ -46,12 +41,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             if controller.name not in active:
                 message = f"controller `{controller.name}` starts inactive and no switch activates it"
                 yield found(graph, controller.path, message, "declare the switch, or delete the controller")
-
-
-RULE = define(
-    "idle-controller",
-    Severity.WARNING,
-    check,
-    __doc__,
-    assumes=("double-claim", "double-claim-after-switch", "impossible-switch"),
-)

@@ -33,17 +33,12 @@ Source: controller_manager, switch_controller with strictness STRICT.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.claims import can_switch
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR, assumes=("double-claim",))
+def check(graph: CellGraph) -> Findings:
     """Yield switches that no reachable state allows."""
     for manager in graph.cell.managers:
         states = [state for state in graph.claims.states if state.manager == manager.name]
@@ -53,6 +48,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
                 message = f"switch `{switch.name}` cannot be carried out in any state that the cell reaches"
                 advice = "what it stops has to be active before, what it starts must not be"
                 yield found(graph, switch.path, message, advice)
-
-
-RULE = define("impossible-switch", Severity.ERROR, check, __doc__, assumes=("double-claim",))

@@ -23,16 +23,11 @@ Source: chapter 4, manufacturing cell checkpoint, table of approval areas.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.BLOCKER)
+def check(graph: CellGraph) -> Findings:
     """Yield the approval areas that nobody has; those that the spec does not mention in one finding."""
     unwritten = []
     for item in graph.responsibilities.of_kind("approval"):
@@ -44,6 +39,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         names = ", ".join(f"`{name}`" for name in unwritten)
         path = ("owners", "approvals")
         yield found(graph, path, f"nobody approves {names}", "name an owner of each under `owners.approvals`")
-
-
-RULE = define("missing-approval", Severity.BLOCKER, check, __doc__)

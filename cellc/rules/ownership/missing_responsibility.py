@@ -24,16 +24,11 @@ Source: chapter 4, sections 1 and 9.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.BLOCKER)
+def check(graph: CellGraph) -> Findings:
     """Yield the responsibilities that nobody has; those that the spec does not mention in one finding."""
     unwritten = []
     for item in graph.responsibilities.of_kind("responsibility"):
@@ -45,6 +40,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         names = ", ".join(f"`{name}`" for name in unwritten)
         path = ("owners", "responsibilities")
         yield found(graph, path, f"nobody answers for {names}", "name an owner of each under `owners.responsibilities`")
-
-
-RULE = define("missing-responsibility", Severity.BLOCKER, check, __doc__)

@@ -23,20 +23,12 @@ Source: chapter 4, closing exercise: label every arrow with its owner.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.BLOCKER)
+def check(graph: CellGraph) -> Findings:
     """Yield nodes of the spec that nobody answers for."""
     for item in graph.responsibilities.of_kind("node"):
         if item.open:
             yield found(graph, item.path, f"nobody answers for node `{item.name}`", "add `owner:`")
-
-
-RULE = define("node-without-owner", Severity.BLOCKER, check, __doc__)

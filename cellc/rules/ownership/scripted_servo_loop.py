@@ -35,19 +35,14 @@ Source: chapter 4, section 2, table: treating Python publish rate as servo guara
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.interface import InterfaceKind
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _SERVO_HZ = 100.0  # above it a reference stream is a servo loop, below it a set point
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield Python nodes that stream references to a controller at a servo rate."""
     scripted = {node.name: node for node in graph.cell.nodes if node.language == "python"}
     for interface in graph.cell.interfaces:
@@ -60,6 +55,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
                     f"Python node `{source.node}` streams references on `{interface.name}` at {interface.rate_hz:g} Hz"
                 )
                 yield found(graph, source.path, message, "send goals, and leave the loop to a controller")
-
-
-RULE = define("scripted-servo-loop", Severity.ERROR, check, __doc__)

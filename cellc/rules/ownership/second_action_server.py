@@ -37,16 +37,11 @@ Source: chapter 4, section 5, gate L3: unknown command publisher; checkpoint: on
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Related, Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield servers of an action that a controller serves itself."""
     owners = {controller.action: controller for controller in graph.cell.controllers if controller.action}
     for interface in graph.cell.interfaces:
@@ -56,6 +51,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
                 message = f"`{source.node}` serves `{interface.name}`, which controller `{owner.name}` serves itself"
                 related = (Related("the controller is here", owner.span),)
                 yield found(graph, source.path, message, "give the other server another name", related)
-
-
-RULE = define("second-action-server", Severity.ERROR, check, __doc__)

@@ -26,17 +26,12 @@ Source: chapter 4, section 5: unknown command publisher is a stop condition.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.interface import InterfaceKind
-from cellc.diagnostics import Related, Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield each further publisher of a topic that a controller follows."""
     for interface in graph.cell.interfaces:
         commanded = next((sink.node for sink in interface.sinks if sink.node in graph.data.commanders), None)
@@ -47,6 +42,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             message = f"`{source.node}` and `{first.node}` both command `{commanded}` over `{interface.name}`"
             related = (Related("first commanded here", first.span),)
             yield found(graph, source.path, message, "let one node publish commands", related)
-
-
-RULE = define("second-command-publisher", Severity.ERROR, check, __doc__)

@@ -38,17 +38,12 @@ Source: chapter 4, checkpoint: is there one command publisher or action server?
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.interface import InterfaceKind
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield each further client of an action that ends in a controller."""
     declared = {c.action: c.client for c in graph.cell.controllers if c.action and c.client}
     for interface in graph.cell.interfaces:
@@ -59,6 +54,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             if sink.node != owner:
                 message = f"`{sink.node}` sends goals to `{interface.name}`, which `{owner}` commands"
                 yield found(graph, sink.path, message, f"send the goals through `{owner}`")
-
-
-RULE = define("second-commander", Severity.ERROR, check, __doc__)

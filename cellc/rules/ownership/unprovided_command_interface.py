@@ -25,16 +25,11 @@ Source: controller_manager: a required interface does not exist, ok is false.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity, did_you_mean
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, did_you_mean, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield controllers with claims that no joint, sensor or gpio of the cell provides, one finding a controller."""
     provided = {
         f"{joint.name}/{name}"
@@ -54,6 +49,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             own = [name for name in provided if name.startswith(f"{joint}/")]
             path = (*controller.path, "command_interfaces")
             yield found(graph, path, message, did_you_mean(missing[0], own, f"command interfaces of `{joint}`"))
-
-
-RULE = define("unprovided-command-interface", Severity.ERROR, check, __doc__)

@@ -40,16 +40,11 @@ Source: chapter 4, section 2, table: reliable backlog processes stale images.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.WARNING)
+def check(graph: CellGraph) -> Findings:
     """Yield subscribers with a deep reliable queue on a topic of which they want the newest sample."""
     for topic in graph.cell.interfaces:
         if topic.derived or topic.wants != "newest":
@@ -60,6 +55,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
                 queue = "every sample" if end.qos.history == "keep_all" else f"{end.qos.depth} samples"
                 message = f"`{end.node}` wants the newest of `{topic.name}` but queues {queue} reliably"
                 yield found(graph, end.path, message, "use `depth: 1`, or best effort for sensor data")
-
-
-RULE = define("backlog-of-newest", Severity.WARNING, check, __doc__)

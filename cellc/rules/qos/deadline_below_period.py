@@ -39,17 +39,12 @@ Source: chapter 4, section 2: a QoS deadline can report a missed contract.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from cellc.cell.interface import InterfaceKind
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield endpoints with a deadline that a publisher on time cannot keep."""
     for topic in graph.cell.interfaces:
         if topic.kind is not InterfaceKind.TOPIC or not topic.rate_hz:
@@ -62,6 +57,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
                 )
                 path = (*end.path, "deadline")
                 yield found(graph, path, message, f"allow more than {period:.4g} ms")
-
-
-RULE = define("deadline-below-period", Severity.ERROR, check, __doc__)

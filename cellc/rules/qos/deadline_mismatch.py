@@ -39,33 +39,11 @@ Source: rmw_dds_common, qos_profile_check_compatible: the offer has to be at lea
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.cell.interface import Qos
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.graph.data_flow import TopicPair
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.unmatched import longer, unmatched
+from cellc.rules.kit import CellGraph, Findings, Severity, rule
+from cellc.rules.qos_offers import weak_offers
 
 
-def _refused(offered: Qos, requested: Qos) -> bool:
-    return longer(offered.deadline_s, requested.deadline_s)
-
-
-def _message(pair: TopicPair) -> str:
-    offered_s, requested_s = pair.source.qos.deadline_s, pair.sink.qos.deadline_s
-    promised = "nothing" if offered_s is None else f"{offered_s:g} s"
-    return (
-        f"`{pair.sink.node}` wants a sample of `{pair.topic.name}` every {requested_s:g} s, "
-        f"`{pair.source.node}` promises {promised}"
-    )
-
-
-def check(graph: CellGraph) -> Iterator[Finding]:
-    """Yield subscribers that ask for more than their publisher offers."""
-    return unmatched(graph, _refused, _message, "promise a deadline that is at least as short")
-
-
-RULE = define("deadline-mismatch", Severity.ERROR, check, __doc__)
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
+    """Yield subscribers that request more than their publisher offers."""
+    return weak_offers(graph, "deadline")

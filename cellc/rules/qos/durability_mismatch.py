@@ -39,28 +39,11 @@ Source: rmw_dds_common, qos_profile_check_compatible: the offer has to be at lea
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.cell.interface import Qos
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.graph.data_flow import TopicPair
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.unmatched import unmatched
+from cellc.rules.kit import CellGraph, Findings, Severity, rule
+from cellc.rules.qos_offers import weak_offers
 
 
-def _refused(offered: Qos, requested: Qos) -> bool:
-    return (offered.durability, requested.durability) == ("volatile", "transient_local")
-
-
-def _message(pair: TopicPair) -> str:
-    return f"`{pair.sink.node}` wants the history of `{pair.topic.name}`, `{pair.source.node}` keeps none"
-
-
-def check(graph: CellGraph) -> Iterator[Finding]:
-    """Yield subscribers that ask for more than their publisher offers."""
-    return unmatched(graph, _refused, _message, "ask for volatile, or publish transient local")
-
-
-RULE = define("durability-mismatch", Severity.ERROR, check, __doc__)
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
+    """Yield subscribers that request more than their publisher offers."""
+    return weak_offers(graph, "durability")

@@ -39,16 +39,11 @@ Source: chapter 4, section 2: acceptable sample age.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield publishers whose samples expire before the age limit of the topic."""
     for topic in graph.cell.interfaces:
         for end in topic.sources:
@@ -58,6 +53,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
                     f"but may be {topic.max_age_s * 1e3:g} ms old"
                 )
                 yield found(graph, (*end.path, "lifespan"), message, "make `lifespan` longer than `max_age`")
-
-
-RULE = define("lifespan-below-max-age", Severity.ERROR, check, __doc__)

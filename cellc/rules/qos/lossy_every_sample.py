@@ -39,16 +39,11 @@ Source: chapter 4, section 2: sparse configuration data may need reliable delive
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.WARNING)
+def check(graph: CellGraph) -> Findings:
     """Yield best-effort endpoints on a topic of which every sample counts."""
     for topic in graph.cell.interfaces:
         if topic.derived or topic.wants != "every_sample":
@@ -57,6 +52,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         if lossy is not None:
             message = f"every sample of `{topic.name}` counts, but `{lossy.node}` uses best effort"
             yield found(graph, lossy.path, message, "use `reliability: reliable` on both sides")
-
-
-RULE = define("lossy-every-sample", Severity.WARNING, check, __doc__)

@@ -44,16 +44,11 @@ Source: rmw_zenoh: incompatible-QoS, deadline and liveliness-lost events are not
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.WARNING)
+def check(graph: CellGraph) -> Findings:
     """Yield endpoints that set a policy which Zenoh does not watch."""
     if not graph.cell.spec.versions.rmw.startswith("rmw_zenoh"):
         return
@@ -64,6 +59,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             if field is not None and not topic.derived:
                 message = f"`{end.node}` sets `{field}` on `{topic.name}`, which Zenoh does not watch"
                 yield found(graph, (*end.path, field), message, "watch `max_age` in the reader instead")
-
-
-RULE = define("qos-ignored-by-rmw", Severity.WARNING, check, __doc__)

@@ -39,16 +39,11 @@ Source: chapter 4, section 2: write whether the consumer needs every sample or o
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.WARNING)
+def check(graph: CellGraph) -> Findings:
     """Yield subscribers of depth one on a topic of which every sample counts."""
     for topic in graph.cell.interfaces:
         if topic.derived or topic.wants != "every_sample":
@@ -57,6 +52,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             if end.qos.history == "keep_last" and end.qos.depth == 1:
                 message = f"every sample of `{topic.name}` counts, but `{end.node}` keeps one"
                 yield found(graph, end.path, message, "raise `depth`, or use `history: keep_all`")
-
-
-RULE = define("shallow-queue-for-every-sample", Severity.WARNING, check, __doc__)

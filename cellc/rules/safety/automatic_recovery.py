@@ -21,20 +21,12 @@ Source: chapter 4, section 6: whether operator acknowledgment is required; recov
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield a recovery that acknowledges itself."""
     if graph.cell.spec.safety.recovery.acknowledge == "automatic":
         path = ("safety", "recovery", "acknowledge")
         yield found(graph, path, "recovery goes on without a person", "write `acknowledge: operator`")
-
-
-RULE = define("automatic-recovery", Severity.ERROR, check, __doc__)

@@ -21,17 +21,12 @@ Source: chapter 4, section 1: software goal path and cell stop remain separate.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.responsibilities import UNKNOWN
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield hosts that a known stop path may need."""
     stop = graph.cell.spec.safety.stop
     if stop.path == UNKNOWN and stop.authority == UNKNOWN:
@@ -43,6 +38,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         yield found(
             graph, path, f"the stop is not said to be independent of {names}", "test it with the host off, then list it"
         )
-
-
-RULE = define("dependent-stop", Severity.ERROR, check, __doc__)

@@ -21,16 +21,11 @@ Source: chapter 4, checkpoint: are stop, recovery, and observer independent?
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.BLOCKER)
+def check(graph: CellGraph) -> Findings:
     """Yield the procedures that nobody owns, in one finding."""
     if not any(controller.command_interfaces for controller in graph.cell.controllers):
         return
@@ -39,6 +34,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         names = " and ".join(item.name for item in missing)
         message = f"nobody is named for {names}"
         yield found(graph, missing[0].path, message, "name who owns the procedure, and who stands at the stop")
-
-
-RULE = define("procedure-without-owner", Severity.BLOCKER, check, __doc__)

@@ -21,20 +21,12 @@ Source: chapter 4, section 11, troubleshooting: motion after reconnect, stale go
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield a recovery that resumes goals."""
     if graph.cell.spec.safety.recovery.on_reconnect == "resume_goal":
         path = ("safety", "recovery", "on_reconnect")
         yield found(graph, path, "an old goal is resumed after a reconnect", "write `on_reconnect: discard_goal`")
-
-
-RULE = define("replayed-goal", Severity.ERROR, check, __doc__)

@@ -24,20 +24,16 @@ safety boundary.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _SOFTWARE = re.compile(
     r"(?i)\b(lifecycle|qos|deadline|liveliness|lease|domain|namespace|launch(ed)?|node active|topic|heartbeat|log)\b"
 )
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield pieces of evidence that name something of the software."""
     for index, text in enumerate(graph.cell.spec.safety.stop.evidence):
         match = _SOFTWARE.search(text)
@@ -45,6 +41,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
             path = ("safety", "stop", "evidence", index)
             message = f"`{text}` says nothing about a safe state"
             yield found(graph, path, message, "name the result of a test at the machine")
-
-
-RULE = define("software-as-safety-evidence", Severity.ERROR, check, __doc__)

@@ -21,20 +21,12 @@ Source: chapter 4, sections 1 and 2: QoS and lifecycle are not functional safety
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield a stop path of software."""
     if graph.cell.spec.safety.stop.path == "software":
         message = "the stop reaches the drives by software"
         yield found(graph, ("safety", "stop", "path"), message, "write `hardwired` or `safety_bus`, and build it")
-
-
-RULE = define("software-stop-path", Severity.ERROR, check, __doc__)

@@ -22,26 +22,19 @@ Source: chapter 4, section 11: the workstation does not own E-stop authority.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _SOFTWARE = re.compile(
     r"(?i)\b(ros|ros2|node|workstation|laptop|moveit|move_group|controller_manager|script|software)\b"
 )
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield an authority that is a host, node or controller of the cell, or a word for software."""
     authority = graph.cell.spec.safety.stop.authority
     parts = {*graph.cell.spec.hosts, *(n.name for n in graph.cell.nodes), *(c.name for c in graph.cell.controllers)}
     if authority in parts or _SOFTWARE.search(authority):
         message = f"`{authority}` has the authority to stop, but is itself what has to be stopped"
         yield found(graph, ("safety", "stop", "authority"), message, "name the safety controller or relay")
-
-
-RULE = define("stop-authority-in-the-cell", Severity.ERROR, check, __doc__)

@@ -21,22 +21,14 @@ Source: chapter 4, section 1.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity, did_you_mean
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, did_you_mean, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield names that are no host."""
     hosts = graph.cell.spec.hosts
     for index, name in enumerate(graph.cell.spec.safety.stop.independent_of):
         if name not in hosts:
             path = ("safety", "stop", "independent_of", index)
             yield found(graph, path, f"there is no host `{name}`", did_you_mean(name, hosts, "hosts"))
-
-
-RULE = define("stop-independent-of-nothing", Severity.ERROR, check, __doc__)

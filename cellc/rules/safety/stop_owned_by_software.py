@@ -26,18 +26,15 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from cellc.diagnostics import Severity, YamlPath
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, YamlPath, found, rule
 
 _SOFTWARE = re.compile(
     r"(?i)\b(qos|deadline|liveliness|domain(_id)?|namespace|lifecycle|watchdog|ros2?|software|node)\b"
 )
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield owners of the safety that are a part of the cell or a word for software."""
     cell = graph.cell
     parts = {*cell.spec.hosts, *(node.name for node in cell.nodes), *(c.name for c in cell.controllers)}
@@ -54,6 +51,3 @@ def _safety_owners(graph: CellGraph) -> Iterator[tuple[YamlPath, str]]:
     yield ("owners", "approvals", "safety"), owners.approvals.safety
     yield ("safety", "recovery", "owner"), recovery.owner
     yield ("safety", "recovery", "observer"), recovery.observer
-
-
-RULE = define("stop-owned-by-software", Severity.ERROR, check, __doc__)

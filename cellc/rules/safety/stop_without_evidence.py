@@ -21,17 +21,12 @@ Source: chapter 4, checkpoint: signed SOP and injected-stop result; gate G5: unt
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.responsibilities import UNKNOWN
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.BLOCKER)
+def check(graph: CellGraph) -> Findings:
     """Yield a stated stop without evidence."""
     stop = graph.cell.spec.safety.stop
     if stop.authority != UNKNOWN and not stop.evidence:
@@ -39,6 +34,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         yield found(
             graph, path, f"nothing proves the stop of `{stop.authority}`", "name the result of an injected stop"
         )
-
-
-RULE = define("stop-without-evidence", Severity.BLOCKER, check, __doc__)

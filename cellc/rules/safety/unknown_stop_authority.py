@@ -21,17 +21,12 @@ Source: chapter 4, section 11: the workstation does not own E-stop authority; IS
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.responsibilities import UNKNOWN
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.BLOCKER)
+def check(graph: CellGraph) -> Findings:
     """Yield an unknown stop authority or path."""
     stop = graph.cell.spec.safety.stop
     if not any(controller.command_interfaces for controller in graph.cell.controllers):
@@ -41,6 +36,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         names = " and ".join(f"`{name}`" for name in missing)
         message = f"the stop {names} {'are' if len(missing) > 1 else 'is'} UNKNOWN"
         yield found(graph, ("safety", "stop", missing[0]), message, "name what stops the drives, and by which path")
-
-
-RULE = define("unknown-stop-authority", Severity.BLOCKER, check, __doc__)

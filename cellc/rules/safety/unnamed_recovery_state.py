@@ -21,24 +21,16 @@ Source: chapter 4, section 6: safety-relevant recovery needs named states, not u
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _DUE = ("protective_stop", "emergency_stop", "fault")
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield the states that are missing, in one finding."""
     states = graph.cell.spec.safety.recovery.states
     missing = [state for state in _DUE if state not in states]
     if missing:
         names = ", ".join(f"`{state}`" for state in missing)
         yield found(graph, ("safety", "recovery", "states"), f"no recovery is named for {names}", f"add {names}")
-
-
-RULE = define("unnamed-recovery-state", Severity.ERROR, check, __doc__)

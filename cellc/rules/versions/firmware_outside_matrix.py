@@ -22,17 +22,12 @@ Source: version rows of the device in the catalogue, each with its source and da
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.pins import version_numbers
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield firmware below the minimum or beyond the range of the rows for its product."""
     for device in graph.cell.devices:
         text = device.spec.firmware
@@ -45,6 +40,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
                 most = f" below {row.below}" if row.below else ""
                 message = f"firmware `{text}` of `{device.name}` is outside the matrix{least}{most} ({row.as_of})"
                 yield found(graph, (*device.path, "firmware"), message, row.note or "update the firmware")
-
-
-RULE = define("firmware-outside-matrix", Severity.ERROR, check, __doc__)

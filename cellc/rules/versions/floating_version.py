@@ -22,19 +22,15 @@ Source: chapter 4, section 4: weak evidence is "latest" dependencies.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.pins import Pin, cell_pins, device_pins
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _FLOATING = re.compile(r"(?i)\b(latest|main|master|devel|develop|head|nightly|stable|any|tip)\b|[<>~^*]|\.x\b")
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield parts of the tuple that name a branch, a range or the latest."""
     rollback = graph.cell.spec.versions.rollback
     pins = [*cell_pins(graph.cell), *device_pins(graph.cell)]
@@ -44,6 +40,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         if match is not None:
             message = f"`{pin.part}` of `{pin.holder}` is `{pin.text}`, which names no single version"
             yield found(graph, pin.path, message, "write the exact version")
-
-
-RULE = define("floating-version", Severity.ERROR, check, __doc__)

@@ -21,14 +21,8 @@ Source: chapter 4, section 4: each physical cell needs a golden image and rollba
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.responsibilities import UNKNOWN
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _ANSWERS = {
     "image": "the digest of the last image that ran",
@@ -36,7 +30,8 @@ _ANSWERS = {
 }
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.BLOCKER)
+def check(graph: CellGraph) -> Findings:
     """Yield the unknown parts of the rollback in one finding."""
     rollback = graph.cell.spec.versions.rollback
     parts = (("image", rollback.image), ("configuration", rollback.configuration))
@@ -46,6 +41,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         path = ("versions", "rollback", missing[0])
         message = f"the rollback {names} {'are' if len(missing) > 1 else 'is'} UNKNOWN"
         yield found(graph, path, message, f"write {' and '.join(_ANSWERS[part] for part in missing)}")
-
-
-RULE = define("missing-rollback", Severity.BLOCKER, check, __doc__)

@@ -22,17 +22,12 @@ Source: REP-2000, support tiers; table of distributions in the catalogue, with i
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.distribution import distribution
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.BLOCKER)
+def check(graph: CellGraph) -> Findings:
     """Yield an operating system of the third tier of the distribution."""
     facts = distribution(graph.cell)
     system = graph.cell.spec.versions.os
@@ -41,6 +36,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         tested = ", ".join(f"`{name}`" for name in facts.os)
         message = f"`{graph.cell.distro}` has no tested packages for `{system}`, only for {tested}"
         yield found(graph, ("versions", "os"), message, f"install {tested}, or keep the evidence of your own build")
-
-
-RULE = define("os-of-third-tier", Severity.BLOCKER, check, __doc__)

@@ -22,18 +22,13 @@ Source: REP-2000, target platforms; table of distributions in the catalogue, wit
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.distribution import distribution
 from cellc.graph.responsibilities import UNKNOWN
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield an operating system that the distribution is not built for."""
     facts = distribution(graph.cell)
     system = graph.cell.spec.versions.os
@@ -44,6 +39,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         due = ", ".join(f"`{name}`" for name in facts.os)
         message = f"`{graph.cell.distro}` is built for {due}, not for `{system}`"
         yield found(graph, ("versions", "os"), message, f"install {due}, or choose another distribution")
-
-
-RULE = define("os-ros-mismatch", Severity.ERROR, check, __doc__)

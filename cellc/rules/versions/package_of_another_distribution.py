@@ -22,18 +22,13 @@ Source: rosdistro, distribution files; table of distributions in the catalogue, 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.distribution import distribution
 from cellc.graph.pins import cell_pins, version_numbers
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield ros2_control, MoveIt and middleware pins of another major version than the distribution releases."""
     facts = distribution(graph.cell)
     for pin in cell_pins(graph.cell) if facts is not None else ():
@@ -45,6 +40,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
         if pin.known and ours and theirs and ours[:digits] != theirs[:digits]:
             message = f"`{pin.text}` is not of {graph.cell.distro}, which releases `{package}` {released}"
             yield found(graph, pin.path, message, f"pin the line of {released}")
-
-
-RULE = define("package-of-another-distribution", Severity.ERROR, check, __doc__)

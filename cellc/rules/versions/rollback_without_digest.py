@@ -21,22 +21,14 @@ Source: chapter 4, section 4, table: lock or container digest.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.responsibilities import UNKNOWN
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR, assumes=("floating-version",))
+def check(graph: CellGraph) -> Findings:
     """Yield an image that is no digest."""
     image = graph.cell.spec.versions.rollback.image
     if image != UNKNOWN and "sha256:" not in image:
         message = f"the rollback image `{image}` is a name that can be moved"
         yield found(graph, ("versions", "rollback", "image"), message, "write its digest, `sha256:…`")
-
-
-RULE = define("rollback-without-digest", Severity.ERROR, check, __doc__, assumes=("floating-version",))

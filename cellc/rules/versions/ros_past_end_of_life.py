@@ -26,17 +26,12 @@ Source: REP-2000 and endoflife.date; table of distributions in the catalogue, wi
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.distribution import distribution
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.WARNING)
+def check(graph: CellGraph) -> Findings:
     """Yield a distribution whose end of life lies before the latest calibration."""
     facts = distribution(graph.cell)
     measured = [day for c in graph.cell.spec.calibrations.values() if (day := c.measured_on()) is not None]
@@ -46,6 +41,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
     if date > end:
         message = f"`{graph.cell.distro}` reached its end of life on {end}, before the calibration of {date}"
         yield found(graph, ("versions", "ros"), message, "plan the move to a supported distribution")
-
-
-RULE = define("ros-past-end-of-life", Severity.WARNING, check, __doc__)

@@ -22,18 +22,13 @@ Source: table of distributions in the catalogue, with its date.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity, did_you_mean
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.distribution import distribution
 from cellc.graph.responsibilities import UNKNOWN
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, did_you_mean, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield a middleware that the distribution does not have."""
     facts = distribution(graph.cell)
     written = graph.cell.spec.versions.rmw
@@ -43,6 +38,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
     if written.split()[0] not in known:
         message = f"`{written.split()[0]}` is no middleware of {graph.cell.distro}"
         yield found(graph, ("versions", "rmw"), message, did_you_mean(written.split()[0], known, "middlewares"))
-
-
-RULE = define("unknown-rmw", Severity.ERROR, check, __doc__)

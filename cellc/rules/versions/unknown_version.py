@@ -22,17 +22,12 @@ Source: chapter 4, section 4: replace "supports ROS 2" with a pinned tuple.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.pins import Pin, cell_pins, device_pins
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.BLOCKER)
+def check(graph: CellGraph) -> Findings:
     """Yield each part written as UNKNOWN, and the unwritten parts of each holder in one finding."""
     unwritten: dict[str, list[Pin]] = {}
     for pin in (*cell_pins(graph.cell), *device_pins(graph.cell)):
@@ -45,6 +40,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
     for holder, pins in unwritten.items():
         names = ", ".join(f"`{pin.part}`" for pin in pins)
         yield found(graph, pins[0].path[:-1], f"`{holder}` does not state its {names}", "read them and write them down")
-
-
-RULE = define("unknown-version", Severity.BLOCKER, check, __doc__)

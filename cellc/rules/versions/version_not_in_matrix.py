@@ -21,17 +21,12 @@ Source: chapter 4, section 12: mark unsupported compatibility UNKNOWN.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.pins import version_number
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.BLOCKER)
+def check(graph: CellGraph) -> Findings:
     """Yield drivers, SDKs and descriptions that no row knows, unless they are of the line of another distribution."""
     for device in graph.cell.devices:
         for part in ("driver", "sdk", "description"):
@@ -49,6 +44,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
 
 def _line(version: str) -> str:
     return version.split(".")[0]
-
-
-RULE = define("version-not-in-matrix", Severity.BLOCKER, check, __doc__)

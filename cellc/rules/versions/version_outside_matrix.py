@@ -22,17 +22,12 @@ Source: version rows of the device in the catalogue, each with its source and da
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.pins import version_numbers
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
     """Yield parts whose major version is that of a row of another distribution and of none of this one."""
     for device in graph.cell.devices:
         for part in ("driver", "sdk", "description"):
@@ -50,6 +45,3 @@ def check(graph: CellGraph) -> Iterator[Finding]:
                 names = " and ".join(sorted(name for name in others if name is not None))
                 message = f"`{text}` of `{device.name}` is of {names}, the cell runs {graph.cell.distro}"
                 yield found(graph, (*device.path, part), message, f"pin the line of {graph.cell.distro}")
-
-
-RULE = define("version-outside-matrix", Severity.ERROR, check, __doc__)

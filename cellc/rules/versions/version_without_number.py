@@ -22,24 +22,16 @@ Source: chapter 4, section 4: driver tag, SDK, and description package are parts
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from cellc.diagnostics import Severity
-from cellc.graph.cell_graph import CellGraph
 from cellc.graph.pins import cell_pins, device_pins, version_number
-from cellc.rule import Finding
-from cellc.rules.define import define
-from cellc.rules.finding import found
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _NUMBERED = ("os", "kernel", "rmw", "ros2_control", "moveit", "firmware", "driver", "sdk", "description")
 
 
-def check(graph: CellGraph) -> Iterator[Finding]:
+@rule(Severity.ERROR, assumes=("floating-version",))
+def check(graph: CellGraph) -> Findings:
     """Yield parts of the tuple without a version number."""
     for pin in (*cell_pins(graph.cell), *device_pins(graph.cell)):
         if pin.known and pin.part in _NUMBERED and not version_number(pin.text):
             message = f"`{pin.part}` of `{pin.holder}` is `{pin.text}`, without a version"
             yield found(graph, pin.path, message, f"write `{pin.text.split()[0]}` and its version")
-
-
-RULE = define("version-without-number", Severity.ERROR, check, __doc__, assumes=("floating-version",))

@@ -1,4 +1,4 @@
-"""How rules sort and name what touches."""
+"""What rules on geometry share: the findings that they assume absent, and how they sort and name contacts."""
 
 from __future__ import annotations
 
@@ -6,6 +6,33 @@ from collections.abc import Sequence
 
 from cellc.feasibility import BodyContact
 from cellc.graph.cell_graph import CellGraph
+
+SOUND_MODEL = (
+    "circular-mimic",
+    "degrees-as-radians",
+    "duplicate-model-name",
+    "frame-cycle",
+    "group-without-joints",
+    "implausible-distance",
+    "joint-of-unknown-link",
+    "link-with-two-parents",
+    "mimic-of-fixed-joint",
+    "mimic-of-nothing",
+    "missing-joint-limits",
+    "missing-velocity-limit",
+    "non-unit-axis",
+    "reversed-limits",
+    "several-root-links",
+    "tip-off-the-tool-chain",
+    "two-authorities",
+    "zero-axis",
+)
+
+KNOWN_POSES = (*SOUND_MODEL, "pose-outside-limits", "wrong-pose-size")
+"""Adds that named poses, one of which is where the cell begins, are joint positions that exist."""
+
+KNOWN_GOALS = (*KNOWN_POSES, "goal-moves-with-tip", "goal-out-of-reach", "implausible-approach")
+"""Adds that every goal is at a place worth a search."""
 
 
 def with_scene(graph: CellGraph, contacts: Sequence[BodyContact]) -> list[BodyContact]:
