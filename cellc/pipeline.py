@@ -19,7 +19,7 @@ from cellc.link.link import link
 from cellc.rules.ignores import apply_ignores, ignore_comments, misused_ignores
 from cellc.rules.run import run_rules
 from cellc.source import read
-from cellc.source.shown import with_shown_texts
+from cellc.source.text import with_shown_texts
 from cellc.spec.parse import parse
 
 

@@ -9,15 +9,24 @@ import click
 
 from cellc.artifact import Artifact
 from cellc.cli.answers import Answer, answers
-from cellc.cli.findings import FAIL_ON, FORMAT, finish, number_hidden, show_findings
-from cellc.cli.selecting import IGNORE, SELECT, read_selection, selected_and_errors
+from cellc.cli.findings import (
+    FAIL_ON,
+    FORMAT,
+    IGNORE,
+    SELECT,
+    finish,
+    number_hidden,
+    read_selection,
+    selected_and_errors,
+    show_findings,
+)
 from cellc.diagnostics import Span
 from cellc.diagnostics.findings import Findings
 from cellc.output.compare import Difference, compare
 from cellc.output.shared import shared_output
 from cellc.output.write import WriteReport, write
-from cellc.report.differences import render_difference
 from cellc.report.progress import progress
+from cellc.report.text_report import render_difference
 
 
 @click.command()

@@ -2,13 +2,38 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from itertools import groupby
+from pathlib import Path
+from typing import TYPE_CHECKING
+
 import click
 
 from cellc.cli.answers import answers
-from cellc.cli.findings import FAIL_ON, FORMAT, finish, number_hidden, show_findings
-from cellc.cli.fixing import FIX, fix_file
-from cellc.cli.selecting import IGNORE, SELECT, read_selection, selected
+from cellc.cli.findings import (
+    FAIL_ON,
+    FORMAT,
+    IGNORE,
+    SELECT,
+    finish,
+    number_hidden,
+    read_selection,
+    selected,
+    show_findings,
+)
 from cellc.report.progress import progress
+from cellc.report.terminal import escape
+
+if TYPE_CHECKING:
+    from cellc.edit.rewrite import Edit
+
+FIX = click.option(
+    "--fix",
+    is_flag=True,
+    help="Mend what has one safe answer in the files: misspelt keys and units, the modeline.",
+)
+# A mended key can show a misspelt one below it; no spec is nested deeper.
+_PASSES = 16
 
 
 @click.command()
@@ -40,3 +65,33 @@ def check(
     shown = [selected(one, wanted) for one in found]
     show_findings(shown, output_format, hidden=number_hidden(found, shown))
     finish(shown, fail_on)
+
+
+def fix_file(file: str) -> None:
+    """Mend a spec and what it includes, and say on standard error what was done."""
+    from cellc.edit.fixes import missing_modeline, misspelt_keys, misspelt_units
+    from cellc.pipeline import check as check_cell
+    from cellc.source import read
+
+    for _ in range(_PASSES):
+        document = read(file)
+        if document.value is None or not document.ok:
+            return
+        found = check_cell(file).diagnostics
+        edits: list[Edit] = [*misspelt_keys(found, document.value), *misspelt_units(found, document.value)]
+        edits += missing_modeline(document.value.file, document.value.texts[document.value.file])
+        if not edits:
+            return
+        for name, group in groupby(sorted(edits, key=lambda one: (one.file, one.line)), key=lambda one: one.file):
+            _rewrite(name, list(group), document.value.texts[name])
+
+
+def _rewrite(file: str, edits: Sequence[Edit], text: str) -> None:
+    from cellc.edit.rewrite import rewrite
+
+    try:
+        done = rewrite(Path(file), edits, text)
+    except OSError as error:
+        raise click.UsageError(f"`{file}` cannot be written: {(error.strerror or 'unknown reason').lower()}") from error
+    for edit in edits if done else ():
+        click.echo(f"{escape(edit.file)}:{edit.line}: {escape(edit.message)}", err=True)

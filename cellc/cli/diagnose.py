@@ -9,7 +9,7 @@ import click
 
 from cellc.cell.cell import Cell
 from cellc.cli.findings import show_findings
-from cellc.report.colour import wants_colour
+from cellc.report.terminal import wants_colour
 
 
 @click.command()
@@ -22,8 +22,8 @@ def diagnose(symptom: str, file: str | None) -> None:
     that is told bypasses a protection. Exit code 1 where no known symptom fits.
     """
     from cellc.diagnose.diagnose import diagnose as suspicions_of
-    from cellc.diagnose.load import knowledge
-    from cellc.report.diagnosis_text import render_suspicions
+    from cellc.diagnose.symptoms import knowledge
+    from cellc.report.text_report import render_suspicions
 
     suspicions = suspicions_of(symptom, _cell(file))
     if not suspicions:

@@ -5,15 +5,16 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import click
 
 from cellc.diagnostics import Diagnostic, Severity
 from cellc.diagnostics.findings import Findings
-from cellc.report.colour import wants_colour
-from cellc.report.summary import summary
-from cellc.report.text_report import render_text
+from cellc.report.selection import Selection, UnknownSelectionError, selection
+from cellc.report.terminal import wants_colour
+from cellc.report.text_report import render_text, summary
 
 FORMAT = click.option(
     "--format",
@@ -22,6 +23,12 @@ FORMAT = click.option(
     default="text",
     show_default=True,
     help="How findings are written.",
+)
+SELECT = click.option(
+    "--select", multiple=True, metavar="CODES", help="Report only these codes or families, such as QOS."
+)
+IGNORE = click.option(
+    "--ignore", multiple=True, metavar="CODES", help="Leave these codes or families out; wins over --select."
 )
 FAIL_ON = click.option(
     "--fail-on",
@@ -78,3 +85,26 @@ def _renderer(output_format: str) -> Callable[[Sequence[Diagnostic]], str]:
     from cellc.report.github_report import render_github
 
     return lambda found: render_github(found, Path.cwd())
+
+
+def read_selection(select: Sequence[str], ignore: Sequence[str]) -> Selection:
+    """Return what the options ask for; each may be given several times, and hold several names with commas."""
+    try:
+        return selection(_names(select), _names(ignore))
+    except UnknownSelectionError as problem:
+        raise click.UsageError(str(problem)) from problem
+
+
+def selected(findings: Findings, wanted: Selection) -> Findings:
+    """Return the findings that were asked for."""
+    return replace(findings, diagnostics=tuple(one for one in findings.diagnostics if wanted.shows(one)))
+
+
+def selected_and_errors(findings: Findings, wanted: Selection) -> Findings:
+    """Return the findings that were asked for and every error, for a command that errors stop."""
+    shown = (one for one in findings.diagnostics if one.severity is Severity.ERROR or wanted.shows(one))
+    return replace(findings, diagnostics=tuple(shown))
+
+
+def _names(given: Sequence[str]) -> list[str]:
+    return [name.strip() for text in given for name in text.split(",") if name.strip()]

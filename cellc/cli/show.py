@@ -10,8 +10,8 @@ import click
 from cellc.cli.findings import show_findings
 from cellc.diagnostics import did_you_mean
 from cellc.pipeline import check
-from cellc.report.colour import wants_colour
 from cellc.report.resolved import Leaf, Tree, flatten, resolved_tree
+from cellc.report.terminal import wants_colour
 
 
 @click.command()

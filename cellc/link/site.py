@@ -36,7 +36,7 @@ from cellc.cell.site import (
 )
 from cellc.diagnostics import Span, YamlPath
 from cellc.source.document import SourceDocument
-from cellc.source.node import Node
+from cellc.source.document import Node
 from cellc.spec.cell_spec import CellSpec
 from cellc.spec.devices import StampSpec
 from cellc.spec.hosts import ClockSpec

@@ -12,7 +12,7 @@ import json
 from collections.abc import Iterable
 
 from cellc.diagnostics import Diagnostic, Span
-from cellc.report.summary import counts
+from cellc.report.text_report import counts
 
 JSON_FORMAT = 1
 

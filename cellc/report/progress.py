@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TextIO
 
-from cellc.report.escape import escape
+from cellc.report.terminal import escape
 
 _SILENT_S = 1.0
 _REDRAW_S = 0.1

@@ -14,10 +14,10 @@ from pathlib import PurePath
 from cellc import __version__
 from cellc.diagnostics import Diagnostic, Severity, Span, format_path
 from cellc.diagnostics.page import CodePage
-from cellc.report.escape import escape
 from cellc.report.families import family_of
+from cellc.report.github_report import file_uri
 from cellc.report.pages import all_pages, render_page
-from cellc.report.place_uri import file_uri
+from cellc.report.terminal import escape
 
 _SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 _LEVELS = {

@@ -1,10 +1,11 @@
-"""Which findings a person asked to see."""
+"""Which findings a person asked to see, and what the names in that wish stand for."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
-from cellc.diagnostics import Diagnostic
+from cellc.diagnostics import Diagnostic, did_you_mean
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,3 +18,32 @@ class Selection:
     def shows(self, diagnostic: Diagnostic) -> bool:
         """Return whether a finding is to be shown."""
         return (not self.selected or diagnostic.code in self.selected) and diagnostic.code not in self.ignored
+
+
+class UnknownSelectionError(ValueError):
+    """A name is neither a code nor a family; the message says which are near."""
+
+
+def selection(select: Iterable[str], ignore: Iterable[str]) -> Selection:
+    """Return the selection that codes and families stand for.
+
+    Raises:
+        UnknownSelectionError: a name is neither.
+    """
+    names, without = tuple(select), tuple(ignore)
+    return Selection(_codes(names), _codes(without)) if names or without else Selection()
+
+
+def _codes(names: tuple[str, ...]) -> frozenset[str]:
+    # A command that leaves nothing out does not load the pages of all stages.
+    from cellc.report.families import codes_by_family
+    from cellc.report.pages import all_pages
+
+    families, pages = codes_by_family(), all_pages()
+    codes: set[str] = set()
+    for name in names:
+        if name not in families and name not in pages:
+            known = did_you_mean(name, [*families, *pages], "families")
+            raise UnknownSelectionError(f"there is no code or family `{name}`: {known}")
+        codes |= families.get(name, frozenset({name}))
+    return frozenset(codes)

@@ -10,7 +10,7 @@ from cellc.diagnostics import Diagnostic, Severity, Span, did_you_mean
 from cellc.diagnostics.page import CodePage
 from cellc.link.codes import CODES as LINK_CODES
 from cellc.rules.run import ALL_RULES
-from cellc.source.comments import Comment, comments
+from cellc.source.events import Comment, comments
 
 CODES: tuple[CodePage, ...] = (
     CodePage(

@@ -1,10 +1,10 @@
-"""Every code that reading a spec can report, with its documentation page."""
+"""Every code that reading a spec can report, with its documentation page, and the diagnostic of a code."""
 
 from __future__ import annotations
 
-from cellc.diagnostics import Severity
+from cellc.diagnostics import Diagnostic, Related, Severity, Span, YamlPath
 from cellc.diagnostics.page import CodePage
-from cellc.source.limits import MAX_DEPTH, MAX_FILE_BYTES, MAX_FILES, MAX_NODES
+from cellc.source.document import MAX_DEPTH, MAX_FILE_BYTES, MAX_FILES, MAX_NODES
 
 
 def _page(code: str, title: str, why: str, fix: str) -> CodePage:
@@ -182,3 +182,23 @@ CODES: tuple[CodePage, ...] = (
         "remove the tag",
     ),
 )
+
+_PAGES = {page.code: page for page in CODES}
+
+
+def finding(
+    code: str,
+    message: str,
+    span: Span,
+    *,
+    path: YamlPath = (),
+    advice: str = "",
+    related: tuple[Related, ...] = (),
+) -> Diagnostic:
+    """Return the diagnostic; without ``advice`` its help is the fix from the page of the code.
+
+    Raises:
+        KeyError: the code has no page.
+    """
+    page = _PAGES[code]
+    return Diagnostic(code, page.severity, message, span, path, advice or page.fix, related)

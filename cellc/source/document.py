@@ -1,13 +1,73 @@
-"""What was read: plain data, the text, and the position of every path."""
+"""What was read: plain data, the text, and the position of every path; and how large a spec may be."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import TypeAlias, Union
 
 from cellc.diagnostics import Span, YamlPath
-from cellc.source.node import Child, Node
-from cellc.source.plain import Plain
+
+PlainScalar: TypeAlias = Union[bool, int, float, str, None]
+
+Plain: TypeAlias = Union[bool, int, float, str, list["Plain"], dict[str, "Plain"], None]
+"""What YAML 1.2 core can say; every mapping has string keys."""
+
+MAX_FILE_BYTES = 2 * 1024 * 1024
+MAX_FILES = 32
+MAX_DEPTH = 64
+MAX_NODES = 200_000
+"""Values of one spec with every alias and include written out."""
+MAX_FINDINGS = 100
+"""After so many findings in one file it is not a spec with mistakes, and reading stops."""
+
+
+@dataclass(frozen=True, slots=True)
+class Node:
+    """A scalar, list or mapping; aliases share the node of their anchor.
+
+    Args:
+        span: where it is written. A collection in block style is marked at its first key or dash.
+        data: the plain value, aliases expanded.
+        text: a scalar as written, quotes and escapes resolved; empty for a collection.
+        children: by key or index, in the order of the file.
+        size: number of values in it with all aliases written out, itself included.
+        height: levels of nesting, 1 for a scalar.
+    """
+
+    span: Span
+    data: Plain
+    text: str = ""
+    children: Mapping[str | int, Child] = field(default_factory=dict)
+    size: int = 1
+    height: int = 1
+
+    @property
+    def is_collection(self) -> bool:
+        """Whether it is a list or a mapping."""
+        return isinstance(self.data, (list, dict))
+
+
+@dataclass(frozen=True, slots=True)
+class Child:
+    """A node in its place.
+
+    Args:
+        span: the value here; where the value is an alias, the alias.
+        key_span: the key, or None in a list.
+    """
+
+    node: Node
+    span: Span
+    key_span: Span | None
+
+    @property
+    def place(self) -> Span:
+        """What a finding about this value marks: a scalar itself, else the key, else the start of the collection."""
+        is_written = self.span.column < self.span.end_column or self.span.line < self.span.end_line
+        if self.key_span is not None and (self.node.is_collection or not is_written):
+            return self.key_span
+        return self.span
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,13 +6,10 @@ import os
 from pathlib import Path, PurePosixPath
 
 from cellc.diagnostics import Diagnostic, Outcome, Span
+from cellc.source.codes import finding
 from cellc.source.compose import compose
-from cellc.source.document import SourceDocument
-from cellc.source.finding import finding
-from cellc.source.include import IncludeLine, include_lines, resolve_include
-from cellc.source.limits import MAX_FILES
-from cellc.source.merge import INCLUDE, merge
-from cellc.source.node import Node
+from cellc.source.document import MAX_FILES, Node, SourceDocument
+from cellc.source.include import INCLUDE, IncludeLine, include_lines, merge, resolve_include
 from cellc.source.text import read_text
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 import re
 
-from cellc.source.plain import PlainScalar
+from cellc.source.document import PlainScalar
 
 _WORDS: dict[str, PlainScalar] = {
     **dict.fromkeys(("", "~", "null", "Null", "NULL")),

@@ -7,8 +7,8 @@ import re
 import yaml
 
 from cellc.diagnostics import Diagnostic, Related, Span
-from cellc.source.finding import finding
-from cellc.source.marks import last_written
+from cellc.source.codes import finding
+from cellc.source.events import last_written
 
 # Fragments of the problems that libyaml and PyYAML report, with what they mean to the author of the file.
 _MEANINGS: tuple[tuple[str, str, str], ...] = (

@@ -1,15 +1,16 @@
-"""Read one file as text, refusing everything that is no small regular UTF-8 file."""
+"""Read one file as text, refusing all but small regular UTF-8 files; and the texts that a report may show."""
 
 from __future__ import annotations
 
 import os
 import re
 import stat
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from cellc.diagnostics import Diagnostic, Outcome, Span, nearest
-from cellc.source.finding import finding
-from cellc.source.limits import MAX_FILE_BYTES
+from cellc.source.codes import finding
+from cellc.source.document import MAX_FILE_BYTES
 
 _UTF16_MARKS = (b"\xff\xfe", b"\xfe\xff")
 # `<<` is not meant: that is a merge key.
@@ -117,3 +118,28 @@ def _span_after(before: str, name: str, width: int) -> Span:
     line = before.count("\n") + 1
     column = len(before) - before.rfind("\n")
     return Span(name, line, column, line, column + width)
+
+
+_PACKAGE = "cellc/"
+"""Spans in the package's own data begin so; they name no file of the current folder."""
+
+
+def with_shown_texts(texts: Mapping[str, str], found: Iterable[Diagnostic]) -> dict[str, str]:
+    """Add the files of devices and descriptions that findings point into; one that cannot be shown is left out.
+
+    Args:
+        texts: of the spec and what it includes, by the name that spans carry.
+    """
+    named = {span.file for one in found for span in (one.span, *(other.span for other in one.related))}
+    missing = sorted(name for name in named if name and name not in texts and not name.startswith(_PACKAGE))
+    added = {name: text for name in missing if (text := _text(name)) is not None}
+    return {**texts, **added}
+
+
+def _text(name: str) -> str | None:
+    try:
+        with open(name, "rb") as file:
+            content = file.read(MAX_FILE_BYTES + 1)
+    except (OSError, ValueError):
+        return None
+    return None if len(content) > MAX_FILE_BYTES else showable(content)

@@ -7,17 +7,13 @@ from typing import Annotated, Literal
 from pydantic import Field, StringConstraints
 
 from cellc.spec.base import Name, PackageName, SpecModel, Text
-from cellc.spec.control import ManagerSpec
+from cellc.spec.control import ManagerSpec, MotionSpec
 from cellc.spec.devices import DeviceSpec
 from cellc.spec.frames import BoxSpec, CalibrationSpec, FrameSpec
-from cellc.spec.hosts import HostSpec, NetworkSpec
+from cellc.spec.hosts import HostSpec, NetworkSpec, VersionsSpec
 from cellc.spec.interfaces import InterfaceSpec, NodeSpec
-from cellc.spec.kpis import KpisSpec, RecordingSpec, TargetSpec
-from cellc.spec.motion import MotionSpec
-from cellc.spec.ownership import OwnersSpec
-from cellc.spec.rehearsals import RehearsalSpec
-from cellc.spec.safety import BringupSpec, SafetySpec
-from cellc.spec.versions import VersionsSpec
+from cellc.spec.rehearsals import KpisSpec, RecordingSpec, RehearsalSpec, TargetSpec
+from cellc.spec.safety import BringupSpec, OwnersSpec, SafetySpec
 
 TopicName = Annotated[str, StringConstraints(min_length=1, max_length=255)]
 

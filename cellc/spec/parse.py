@@ -8,14 +8,11 @@ from itertools import islice
 from pydantic import ValidationError
 
 from cellc.diagnostics import Diagnostic, Outcome, Severity, YamlPath
-from cellc.source.document import SourceDocument
-from cellc.source.limits import MAX_FINDINGS
-from cellc.source.plain import Plain
+from cellc.source.document import MAX_FINDINGS, Plain, SourceDocument
 from cellc.spec.cell_spec import CellSpec
-from cellc.spec.complaint import Complaint, complain
+from cellc.spec.errors import Complaint, complain
 from cellc.spec.place import place_of
-from cellc.spec.unknown_key import could_mean
-from cellc.spec.wording import describe, quote_path, value_at
+from cellc.spec.wording import could_mean, describe, quote_path, value_at
 
 _FORMATS = (1,)
 _UNKNOWN = "extra_forbidden"  # how the models report a key that they do not have

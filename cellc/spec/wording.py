@@ -1,11 +1,16 @@
-"""Say in the words of a YAML author what stands in a place."""
+"""How messages quote what the user wrote, and what help they give for a name or key that does not fit."""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 
-from cellc.diagnostics import YamlPath, format_path
-from cellc.source.plain import Plain
+from pydantic import BaseModel
+
+from cellc.diagnostics import YamlPath, did_you_mean, format_path, nearest
+from cellc.source.document import Plain
+from cellc.spec.base import NAME_PATTERN, PACKAGE_NAME_PATTERN, REFERENCE_PATTERN
+from cellc.spec.place import Place, annotations_by_key, fields_by_key, model_of
 
 _MAX_QUOTE = 60
 
@@ -51,3 +56,43 @@ def value_at(data: Plain, path: YamlPath) -> Plain:
         else:
             return None
     return data
+
+
+_RULES: Mapping[str, str] = {
+    NAME_PATTERN: "use letters, digits and `_`, beginning with a letter",
+    PACKAGE_NAME_PATTERN: "use two or more lower case letters, digits and `_`, beginning with a letter",
+    REFERENCE_PATTERN: "write `frame` or `device/link` with letters, digits and `_`",
+}
+
+
+def help_for_bad_name(written: str, pattern: str) -> str:
+    """Tell what the pattern allows and, where it is near, a name that fits."""
+    rule = _RULES.get(pattern, "use letters, digits and `_`; in a namespace each part begins with `/`")
+    suggestion = re.sub(r"[^A-Za-z0-9_/]+", "_", written.strip()).strip("_/")
+    suggestion = suggestion.lower() if pattern == PACKAGE_NAME_PATTERN else suggestion
+    fits = pattern in _RULES and len(suggestion) <= 64 and re.search(pattern, suggestion)
+    return f"{rule}, such as `{suggestion}`" if fits else rule
+
+
+def help_for_unknown_key(key: str, place: Place) -> str:
+    """Write the help: the place one level off where the key exists, the nearest keys, or the allowed ones."""
+    path, model = place.models[-1]
+    return _one_level_off(key, path, model, place) or did_you_mean(key, fields_by_key(model), "keys that are allowed")
+
+
+def could_mean(unknown: str, missing: str) -> bool:
+    """Whether an unknown key is probably the missing one misspelt, so that one mistake gives one error."""
+    return bool(nearest(unknown, (missing,)))
+
+
+def _one_level_off(key: str, path: YamlPath, model: type[BaseModel], place: Place) -> str:
+    for name, annotation in annotations_by_key(model).items():
+        child = model_of(annotation)
+        if child is not None and key in fields_by_key(child):
+            return f"move it under `{name}`"
+    if len(place.models) > 1 and not nearest(key, fields_by_key(model)):
+        outer_path, outer = place.models[-2]
+        if key in fields_by_key(outer):
+            where = f"into {quote_path(outer_path)}" if outer_path else "to the top level"
+            return f"move it out of {quote_path(path)} {where}"
+    return ""

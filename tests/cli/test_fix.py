@@ -7,8 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from cellc.edit.edit import Edit, apply_edits
-from cellc.edit.rewrite import rewrite
+from cellc.edit.rewrite import Edit, apply_edits, rewrite
 from tests.cli.run import PICK, ROOT, run
 
 PICK_TEXT = Path(PICK).read_text(encoding="utf-8")

@@ -11,11 +11,8 @@ import yaml
 from pydantic import ValidationError
 
 from cellc.cell.cell import Cell
-from cellc.diagnose.classify import classify
-from cellc.diagnose.diagnose import diagnose
-from cellc.diagnose.diagnosis import Step
-from cellc.diagnose.knowledge_model import LAYERS, Observation, Symptom
-from cellc.diagnose.load import knowledge
+from cellc.diagnose.diagnose import Step, classify, diagnose
+from cellc.diagnose.symptoms import LAYERS, Observation, Symptom, knowledge
 from cellc.pipeline import check
 from tests.oracles import RECORDED
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from cellc.diagnostics import Related, Severity, Span
 from cellc.report import render_text, summary
-from cellc.report.colour import SEVERITY_COLOURS
+from cellc.report.terminal import SEVERITY_COLOURS
 from tests.report.findings import FILE, finding
 
 

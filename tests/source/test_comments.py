@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from cellc.source.comments import comments
+from cellc.source.events import comments
 
 MARKER = re.compile(r"# mark")
 

@@ -29,7 +29,7 @@ import re
 from collections.abc import Iterator
 
 from cellc.rules.kit import CellGraph, Findings, Severity, YamlPath, found, rule
-from cellc.source.plain import Plain
+from cellc.source.document import Plain
 
 _CREDENTIALS = (
     ("an address with a password", re.compile(r"[a-z][a-z0-9+.-]*://[^/\s:@]*:[^/\s@]+@", re.IGNORECASE)),

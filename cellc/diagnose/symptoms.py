@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import re
+from functools import cache
+from pathlib import Path
 from string import Formatter
 from typing import Literal
 
 from pydantic import Field, field_validator, model_validator
 
 from cellc.catalog.catalog_model import CatalogModel, Text
+from cellc.catalog.read_model import read_model
 from cellc.diagnose.subjects import FIELDS, Scope
 
 LAYERS = ("network", "qos", "time", "lifecycle", "ownership", "vendor", "tool", "safety")
@@ -88,3 +91,23 @@ class LayerKnowledge(CatalogModel):
     title: Text
     owner: Area
     symptoms: tuple[Symptom, ...] = Field(min_length=1)
+
+
+FOLDER = Path(__file__).parent / "knowledge"
+
+
+@cache
+def knowledge() -> tuple[LayerKnowledge, ...]:
+    """Return every layer, in the order in which they are ruled out.
+
+    Raises:
+        ValueError: a file of the package is not what its model says; tests hold that none is.
+    """
+    return tuple(_layer(name) for name in LAYERS)
+
+
+def _layer(name: str) -> LayerKnowledge:
+    read = read_model(FOLDER / f"{name}.yaml", f"{name}.yaml", LayerKnowledge)
+    if read.value is None:
+        raise ValueError("; ".join(f"{found.span}: {found.message}" for found in read.diagnostics))
+    return read.value[0]

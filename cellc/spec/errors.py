@@ -11,10 +11,17 @@ from pydantic_core import ErrorDetails
 
 from cellc.diagnostics import did_you_mean
 from cellc.source.document import SourceDocument
-from cellc.spec.bad_name import help_for_bad_name
 from cellc.spec.place import Place, bare, branches, fields_by_key, is_tagged, model_of
-from cellc.spec.unknown_key import could_mean, help_for_unknown_key
-from cellc.spec.wording import describe, quote, quote_path, scalar_text, value_at
+from cellc.spec.wording import (
+    could_mean,
+    describe,
+    help_for_bad_name,
+    help_for_unknown_key,
+    quote,
+    quote_path,
+    scalar_text,
+    value_at,
+)
 
 _TYPES: Mapping[str, str] = {
     "string_type": "text",

@@ -1,0 +1,142 @@
+"""What has one safe answer: misspelt keys and units, and a missing modeline.
+
+A number without any unit is left alone: each field takes several, and which one was meant only its author knows.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from itertools import takewhile
+from pathlib import Path
+
+from cellc.diagnostics import Diagnostic, only_suggestion
+from cellc.edit.rewrite import Edit
+from cellc.source.document import SourceDocument
+
+_SEPARATORS = str.maketrans("", "", "-_ ")
+
+
+def misspelt_keys(diagnostics: Iterable[Diagnostic], document: SourceDocument) -> Iterator[Edit]:
+    """Yield the edit of each unknown key that can mean only one thing, and that does not stand there already."""
+    unknown = [found for found in diagnostics if found.code == "unknown-key" and found.yaml_path]
+    # An alias brings one line into several places, where its key may mean different things.
+    times = Counter(found.span for found in unknown)
+    taken = set()
+    for found in unknown:
+        meant = only_suggestion(found.help)
+        if meant is None or times[found.span] > 1:
+            continue
+        key, place = str(found.yaml_path[-1]), (*found.yaml_path[:-1], meant)
+        if document.has(place) or place in taken or not _is_safe(key, meant, found, document):
+            continue
+        taken.add(place)
+        span = found.span
+        yield Edit(span.file, span.line, span.column, span.end_column, meant, f"`{key}` becomes `{meant}`")
+
+
+def _is_safe(key: str, meant: str, found: Diagnostic, document: SourceDocument) -> bool:
+    """Whether the span holds the bare key itself, one slip away from what is meant."""
+    span = found.span
+    lines = document.texts.get(span.file, "").split("\n")
+    if span.line != span.end_line or span.line > len(lines):
+        return False
+    written = lines[span.line - 1][span.column - 1 : span.end_column - 1]
+    return written == key and _is_slip(key, meant)
+
+
+def _is_slip(key: str, meant: str) -> bool:
+    """Whether one slip of the fingers lies between two keys; a suggestion may be further, but a person reads that.
+
+    A slip is one character too many, too few, wrong, or swapped with its neighbour; or another way to join words.
+    """
+    if key.lower().translate(_SEPARATORS) == meant.lower().translate(_SEPARATORS):
+        return True
+    start = _common_start(key, meant)
+    end = _common_start(key[start:][::-1], meant[start:][::-1])
+    ours, theirs = key[start : len(key) - end], meant[start : len(meant) - end]
+    return max(len(ours), len(theirs)) == 1 or (len(ours) == len(theirs) == 2 and ours == theirs[::-1])
+
+
+def _common_start(ours: str, theirs: str) -> int:
+    return sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(ours, theirs, strict=False)))
+
+
+# Unit of the spec → other spellings, in lower case. Left out: `mhz`, which may be a millihertz, and `min` for minute of
+# arc; a prefix is never guessed.
+_SPELLINGS = {
+    "Hz": ("hz", "hertz", "1/s"),
+    "kHz": ("khz", "kilohertz"),
+    "s": ("sec", "secs", "second", "seconds"),
+    "ms": ("msec", "msecs", "millisecond", "milliseconds"),
+    "us": ("usec", "µs", "μs", "microsecond", "microseconds"),
+    "min": ("minute", "minutes"),
+    "h": ("hour", "hours", "hr"),
+    "deg": ("degree", "degrees", "°"),
+    "rad": ("radian", "radians"),
+    "mm": ("millimeter", "millimeters", "millimetre", "millimetres"),
+    "cm": ("centimeter", "centimeters", "centimetre", "centimetres"),
+    "m": ("meter", "meters", "metre", "metres"),
+    "kg": ("kilogram", "kilograms", "kgs"),
+    "g": ("gram", "grams"),
+    "%": ("percent", "pct"),
+    "N": ("newton", "newtons"),
+    "deg/s": ("deg/sec", "degrees/s", "°/s"),
+    "rad/s": ("rad/sec", "radians/s"),
+    "m/s": ("m/sec",),
+    "mm/s": ("mm/sec",),
+}
+_UNITS = {spelling: unit for unit, spellings in _SPELLINGS.items() for spelling in spellings}
+_WRITTEN_UNIT = re.compile(r"[\d.][\s]*([^\s\d.][^\s\"']*)[\"']?$")
+
+
+def misspelt_units(diagnostics: Iterable[Diagnostic], document: SourceDocument) -> Iterator[Edit]:
+    """Yield the edit of each wrong unit that is another spelling of one that its field takes."""
+    wrong = [found for found in diagnostics if found.code == "wrong-unit"]
+    # An alias brings one text into several fields, which may take different units.
+    times = Counter(found.span for found in wrong)
+    for found in wrong:
+        span = found.span
+        written = _written(found, document)
+        match = _WRITTEN_UNIT.search(written)
+        unit = _UNITS.get(match[1].lower()) if match is not None else None
+        if match is None or unit is None or times[span] > 1 or f"`{unit}`" not in found.help:
+            continue
+        start, end = (span.column + column for column in match.span(1))
+        yield Edit(span.file, span.line, start, end, unit, f"unit `{match[1]}` becomes `{unit}`")
+
+
+def _written(found: Diagnostic, document: SourceDocument) -> str:
+    """Return the text of a value as it stands in its file, quotes included; empty where it spans lines."""
+    span = found.span
+    lines = document.texts.get(span.file, "").split("\n")
+    if span.line != span.end_line or span.line > len(lines):
+        return ""
+    return lines[span.line - 1][span.column - 1 : span.end_column - 1]
+
+
+_MODELINE = "yaml-language-server:"
+_SCHEMA = Path("schemas") / "cell.schema.json"
+
+
+def missing_modeline(file: str, text: str) -> Iterator[Edit]:
+    """Yield the edit that puts the modeline first, where the spec has none and a schema lies beside or above it.
+
+    Args:
+        file: the root spec as the user named it.
+    """
+    schema = _schema_above(Path(file))
+    if schema is None or any(_MODELINE in line for line in text.split("\n") if line.lstrip().startswith("#")):
+        return
+    line = f"# {_MODELINE} $schema={schema}"
+    yield Edit(file, 1, 1, 1, f"{line}\n", f"`{line}` is added")
+
+
+def _schema_above(file: Path) -> str | None:
+    folder = file.resolve().parent
+    for above in (folder, *folder.parents):
+        if (above / _SCHEMA).is_file():
+            return Path(os.path.relpath(above / _SCHEMA, folder)).as_posix()
+    return None
