@@ -35,8 +35,7 @@ from cellc.cell.site import (
     Versions,
 )
 from cellc.diagnostics import Span, YamlPath
-from cellc.source.document import SourceDocument
-from cellc.source.document import Node
+from cellc.source.document import Node, SourceDocument
 from cellc.spec.cell_spec import CellSpec
 from cellc.spec.devices import StampSpec
 from cellc.spec.hosts import ClockSpec
