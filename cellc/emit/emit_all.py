@@ -7,14 +7,12 @@ from collections.abc import Callable, Iterator
 from cellc.artifact import Artifact
 from cellc.deploy.configuration import configuration_id, configuration_inputs, header_of
 from cellc.emit import (
-    cmake,
-    controllers,
     frames,
     gates,
-    joint_limits,
-    node_parameters,
-    package_xml,
-    qos_overrides,
+    moveit,
+    package,
+    parameters,
+    picture,
     recording,
     rehearsals,
     responsibility_graph,
@@ -25,27 +23,21 @@ from cellc.emit.audit import audit
 from cellc.emit.contract import contract
 from cellc.emit.launch import launch
 from cellc.emit.middleware import middleware
-from cellc.emit.moveit import moveit
-from cellc.emit.picture import picture
 from cellc.emit.readme import readme
 from cellc.emit.security import policy
 from cellc.formats.header import Header
 from cellc.graph.cell_graph import CellGraph
 
 EMITTERS: tuple[Callable[[CellGraph, Header], Iterator[Artifact]], ...] = (
-    package_xml.emit,
-    cmake.emit,
+    package.emit,
     urdf.emit,
     srdf.emit,
-    controllers.emit,
-    joint_limits.emit,
     moveit.emit,
-    node_parameters.emit,
+    parameters.emit,
     frames.emit,
     launch.emit,
     contract.emit,
     rehearsals.emit,
-    qos_overrides.emit,
     middleware.emit,
     policy.emit,
     recording.emit,

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from cellc.emit.audit.table import table
+from cellc.emit.audit.tables import table
 from tests.cli.run import MINIMAL, PICK, run
 from tests.emit.cells import CELLS, artifacts_of, emitted, spec_text
 

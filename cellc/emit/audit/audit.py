@@ -9,14 +9,24 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cellc.artifact import Artifact
+from cellc.cell.cell import Cell
+from cellc.cell.device import Device
 from cellc.cell.interface import InterfaceKind
-from cellc.emit.audit.command_paths import command_section, owners_section
-from cellc.emit.audit.expected import drivers_section, interfaces_section, nodes_section, tf_section
-from cellc.emit.audit.people import approvals, not_provable, recovery, responsibilities
-from cellc.emit.audit.questions import questions_section
-from cellc.emit.audit.versions import version_section
+from cellc.deploy.configuration import OpenQuestion, open_questions
+from cellc.emit.audit.tables import (
+    command_section,
+    drivers_section,
+    interfaces_section,
+    nodes_section,
+    owners_section,
+    table,
+    tf_section,
+)
 from cellc.formats.header import Header
+from cellc.formats.parameter_file import spec_path
 from cellc.graph.cell_graph import CellGraph
+from cellc.graph.compatibility import Answer, Judgement, compatibility
+from cellc.graph.responsibilities import UNKNOWN
 
 
 def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
@@ -41,3 +51,119 @@ def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
     blocks = [f"<!--\n{header.text}\n-->", f"# {cell.name}: audit"]
     blocks += [f"## {title}\n\n{text}" for title, text in sections.items()]
     yield Artifact("audit.md", "\n\n".join(blocks) + "\n")
+
+
+_QUESTIONS = {
+    "graph": "Is there one command publisher or action server?",
+    "time_tf": "Which stamp and calibration produced the goal?",
+    "controller": "Are joints, interfaces, tolerance and hold defined?",
+    "vendor": "Are firmware, driver, mode and scaling pinned?",
+    "network": "Do discovery and data use controlled paths?",
+    "safety": "Are stop, recovery and observer independent?",
+    "data": "Can failures be replayed by layer?",
+}
+
+
+def approvals(cell: Cell) -> Iterator[str]:
+    """Yield the seven approval areas with the question that each answers."""
+    yield "| area | question | owner |"
+    yield "|---|---|---|"
+    for area, owner in cell.spec.owners.approvals:
+        yield f"| {area} | {_QUESTIONS[area]} | {owner} |"
+
+
+def responsibilities(cell: Cell) -> Iterator[str]:
+    """Yield the responsibilities with their owners."""
+    yield "| responsibility | owner |"
+    yield "|---|---|"
+    for name, owner in cell.spec.owners.responsibilities:
+        yield f"| {name} | {owner} |"
+
+
+def recovery(cell: Cell) -> Iterator[str]:
+    """Yield who acknowledges a stop, and the steps of every device."""
+    recovery = cell.spec.safety.recovery
+    yield f"Acknowledged by: {recovery.acknowledge}. Owner: {recovery.owner}."
+    yield f"After a reconnect: {recovery.on_reconnect}."
+    for device in cell.devices:
+        steps = () if device.facts.safety is None else device.facts.safety.recovery
+        for way in steps:
+            yield ""
+            yield f"{device.name}, {way.state}:"
+            yield ""
+            yield from (f"{number}. {step}" for number, step in enumerate(way.steps, 1))
+
+
+def not_provable(cell: Cell) -> Iterator[str]:
+    """Yield what the catalogue says that no mock shows, by device and vendor."""
+    for device in cell.devices:
+        of = f"{device.name} ({device.facts.vendor} {device.facts.model})"
+        yield from (f"- {of}: {text}" for text in device.facts.mock_cannot_prove)
+
+
+_SPEC_AUTHOR = "author of the spec"
+# What stands on the thing itself can be read by whoever answers for it; what is released only the supplier knows.
+_READ_ON_THE_DEVICE = ("revision", "serial", "firmware")
+
+
+def questions_section(graph: CellGraph) -> str:
+    """Write every UNKNOWN of the spec, and every part that no matrix covers."""
+    return table(("asked of", "question", "answered in the spec at"), [*_open(graph), *_untested(graph.cell)])
+
+
+def _open(graph: CellGraph) -> Iterator[tuple[str, ...]]:
+    for question in open_questions(graph):
+        asked, text = _asked(graph.cell, question)
+        yield asked, text, f"`{spec_path(question.path)}`"
+
+
+def _asked(cell: Cell, question: OpenQuestion) -> tuple[str, str]:
+    approvals = cell.spec.owners.approvals
+    section, part = question.path[0], str(question.path[-1])
+    if section == "devices":
+        return _asked_of_device(cell, cell.device(str(question.path[1])), part)
+    if section == "versions":
+        if "rollback" in question.path:
+            return _person(approvals.data), f"Which {part} does the cell go back to when a new one fails?"
+        return _person(approvals.graph), f"What is the {question.subject} of the machine that runs the cell?"
+    if section == "safety":
+        return _person(approvals.safety), f"What is the {question.subject}?"
+    return _SPEC_AUTHOR, f"Who is the {question.subject}?"
+
+
+def _asked_of_device(cell: Cell, device: Device, part: str) -> tuple[str, str]:
+    if part in _READ_ON_THE_DEVICE:
+        owner = _person(cell.spec.owners.approvals.vendor)
+        return owner, f"Which {part} does {device.name} have, by its nameplate or panel?"
+    text = f"Which {part} of {device.facts.model} do you release for ROS 2 {cell.distro}, or is there none?"
+    return f"supplier {device.facts.vendor}", text
+
+
+def _untested(cell: Cell) -> Iterator[tuple[str, ...]]:
+    devices = {device.name: device for device in cell.devices}
+    for judged in compatibility(cell):
+        # Hardware revisions and kernels stand in no matrix of any supplier; the mock and the gates cover them.
+        if judged.answer is Answer.UNKNOWN and judged.pin.known and judged.pin.part not in ("revision", "kernel"):
+            yield _asked_for_matrix(cell, devices.get(judged.pin.holder), judged)
+
+
+def _asked_for_matrix(cell: Cell, device: Device | None, judged: Judgement) -> tuple[str, ...]:
+    asked = _person(cell.spec.owners.approvals.graph) if device is None else f"supplier {device.facts.vendor}"
+    text = (
+        f"Is {judged.pin.part} `{judged.pin.text}` supported with ROS 2 {cell.distro}? Known so far: {judged.evidence}"
+    )
+    return asked, text, f"`{spec_path(judged.pin.path)}`"
+
+
+def _person(owner: str) -> str:
+    return _SPEC_AUTHOR if owner == UNKNOWN else owner
+
+
+def version_section(cell: Cell) -> str:
+    """Write the tuple as a table."""
+    return table(("of", "part", "pinned", "answer", "because"), _rows(cell))
+
+
+def _rows(cell: Cell) -> Iterator[tuple[str, ...]]:
+    for judged in compatibility(cell):
+        yield judged.pin.holder, judged.pin.part, judged.pin.text, judged.answer.value, judged.evidence

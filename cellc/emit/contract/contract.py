@@ -8,22 +8,37 @@ mock reads those as ros2_control would; and costs of planning, which are the pla
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import asdict
 
 from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
 from cellc.cell.frame import WORLD
-from cellc.contract.contract import Contract, ContractFiles, ContractKpis, ContractSafety
+from cellc.cell.interface import Endpoint, Interface, Qos
+from cellc.contract.contract import (
+    Contract,
+    ContractEndpoint,
+    ContractFiles,
+    ContractInterface,
+    ContractKpis,
+    ContractQos,
+    ContractSafety,
+)
+from cellc.contract.network import ContractNetwork
 from cellc.deploy.configuration import version_tuple
 from cellc.deploy.files import REHEARSALS, controllers_file, description_file
 from cellc.deploy.recording import attempt_fields
-from cellc.emit.contract.adapters import adapters
 from cellc.emit.contract.clocks import clock_of, clocks
-from cellc.emit.contract.control import joint_limits, managers
-from cellc.emit.contract.devices import devices
-from cellc.emit.contract.frames import calibrations, frames
-from cellc.emit.contract.interfaces import interfaces
-from cellc.emit.contract.motion import disabled_collisions, goals, groups, poses
-from cellc.emit.contract.simulated_joints import simulated_joints
+from cellc.emit.contract.devices import adapters, devices, simulated_joints
+from cellc.emit.contract.motion import (
+    calibrations,
+    disabled_collisions,
+    frames,
+    goals,
+    groups,
+    joint_limits,
+    managers,
+    poses,
+)
 from cellc.formats.header import Header
 from cellc.formats.json_text import render
 from cellc.graph.cell_graph import CellGraph
@@ -104,3 +119,53 @@ def _kpis(cell: Cell) -> ContractKpis:
 
 def _si(quantity: Quantity | None) -> float | None:
     return None if quantity is None else quantity.si
+
+
+def interfaces(cell: Cell) -> dict[str, ContractInterface]:
+    """Return every interface by its full name."""
+    return {interface.name: _interface(interface) for interface in cell.interfaces}
+
+
+def _interface(interface: Interface) -> ContractInterface:
+    return ContractInterface(
+        kind=interface.kind.value,
+        type=interface.type,
+        sources=tuple(map(_endpoint, interface.sources)),
+        sinks=tuple(map(_endpoint, interface.sinks)),
+        frame=interface.frame,
+        unit=interface.unit,
+        time_source=interface.time_source,
+        owner=interface.owner,
+        wants=interface.wants,
+        rate_hz=interface.rate_hz,
+        max_age_s=interface.max_age_s,
+        transport_s=interface.transport_s,
+        on_stale=interface.on_stale,
+        timeout_s=interface.timeout_s,
+        on_timeout=interface.on_timeout,
+        on_error=interface.on_error,
+        cancel_within_s=interface.cancel_within_s,
+        simulated=None if interface.simulated is None else ContractNetwork(**asdict(interface.simulated)),
+    )
+
+
+def _endpoint(end: Endpoint) -> ContractEndpoint:
+    # Through validation, because the cell's words are plain text and the contract's are fixed.
+    return ContractEndpoint.model_validate(
+        {"node": end.node, "full_name": end.full_name, "targets": end.targets, "qos": _qos(end.qos)}
+    )
+
+
+def _qos(qos: Qos) -> ContractQos:
+    return ContractQos.model_validate(
+        {
+            "reliability": qos.reliability,
+            "durability": qos.durability,
+            "history": qos.history,
+            "depth": qos.depth,
+            "deadline_s": qos.deadline_s,
+            "lifespan_s": qos.lifespan_s,
+            "liveliness": qos.liveliness,
+            "lease_duration_s": qos.lease_duration_s,
+        }
+    )

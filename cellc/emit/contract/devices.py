@@ -1,13 +1,20 @@
-"""Devices of the contract, as the mock needs them."""
+"""Devices of the contract: what the mock needs of each, adapters with their bounds, joints that lag or have noise."""
 
 from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
 
 from cellc.cell.cell import Cell
 from cellc.cell.device import Device
 from cellc.cell.interface import Interface, InterfaceKind
+from cellc.contract.adapter import ContractAdapter
 from cellc.contract.contract import ContractCamera, ContractDevice, ContractDriver, ContractGripper
-from cellc.graph.adapters import adapted_devices
+from cellc.contract.simulated_joint import ContractSimulatedJoint
+from cellc.formats.urdf.robot import start_positions
+from cellc.graph.adapters import AdaptedDevice, adapted_devices
 from cellc.link.placeholders import placeholders
+from cellc.spec.devices import EVERY_JOINT, AdapterSpec, SimulatedJointSpec
+from cellc.spec.quantity import Quantity
 
 
 def devices(cell: Cell) -> dict[str, ContractDevice]:
@@ -96,3 +103,63 @@ def _used_stream(cell: Cell, device: Device, types: tuple[str, ...]) -> Interfac
         ),
         None,
     )
+
+
+DEFAULT_RATE_HZ = 100.0
+"""Of a state topic without a rate; a rule asks for one."""
+DEFAULT_TIMEOUT_PERIODS = 10.0
+"""Watchdog of an adapter that states none, in command periods."""
+DEFAULT_STOP_S = 0.1
+"""Time to standstill of an adapter that states none."""
+
+
+def adapters(cell: Cell) -> dict[str, ContractAdapter]:
+    """Return every adapted device by its name."""
+    start = start_positions(cell)
+    return {adapted.device.name: _adapter(adapted, start) for adapted in adapted_devices(cell)}
+
+
+def _adapter(adapted: AdaptedDevice, start: dict[str, float]) -> ContractAdapter:
+    joints = adapted.device.actuated_joints
+    written = adapted.device.spec.adapter or AdapterSpec()
+    period_s = 1.0 / (adapted.state.rate_hz or DEFAULT_RATE_HZ)
+    return ContractAdapter.model_validate(
+        {
+            "joints": tuple(joint.name for joint in joints),
+            "units": tuple("m" if joint.type == "prismatic" else "rad" for joint in joints),
+            "action": adapted.action.name,
+            "state_topic": adapted.state.name,
+            "client": next((sink.node for sink in adapted.action.sinks), None),
+            "command_period_s": period_s,
+            "command_timeout_s": _or(written.command_timeout, DEFAULT_TIMEOUT_PERIODS * period_s),
+            "stop_time_s": _or(written.stop_time, DEFAULT_STOP_S),
+            "start_positions": tuple(start.get(joint.name, 0.0) for joint in joints),
+        }
+    )
+
+
+def _or(written: Quantity | None, default: float) -> float:
+    return default if written is None else written.si
+
+
+def simulated_joints(cell: Cell) -> dict[str, ContractSimulatedJoint]:
+    """Return what the spec adds to joints, by joint; what it says of one joint counts before what it says of all."""
+    found: dict[str, ContractSimulatedJoint] = {}
+    for device in cell.devices:
+        written = device.spec.simulated_joints
+        for joint in device.actuated_joints:
+            keys = (joint.name.removeprefix(device.prefix), EVERY_JOINT)
+            if specs := [written[key] for key in keys if key in written]:
+                found[joint.name] = _joint(specs)
+    return found
+
+
+def _joint(specs: Sequence[SimulatedJointSpec]) -> ContractSimulatedJoint:
+    lag, noise = _first(spec.lag for spec in specs), _first(spec.noise for spec in specs)
+    return ContractSimulatedJoint(
+        lag_s=lag or 0.0, noise=noise or 0.0, max_velocity=_first(spec.velocity for spec in specs)
+    )
+
+
+def _first(written: Iterable[Quantity | None]) -> float | None:
+    return next((value.si for value in written if value is not None), None)

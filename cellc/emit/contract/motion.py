@@ -1,14 +1,58 @@
-"""Planning groups, poses, goals and unchecked pairs of links of the contract."""
+"""Frames, calibrations, controllers, joint limits, groups, poses and goals of the contract."""
 
 from __future__ import annotations
 
 from cellc.cell.cell import Cell
+from cellc.cell.control import Controller, ControllerManager
+from cellc.cell.frame import Frame
 from cellc.cell.motion import CartesianGoal, PlanningGroup
-from cellc.contract.contract import ContractDisabledCollision, ContractGoal, ContractGroup, ContractPoseTarget
+from cellc.contract.base import ContractPose
+from cellc.contract.contract import (
+    ContractCalibration,
+    ContractController,
+    ContractDisabledCollision,
+    ContractFrame,
+    ContractGoal,
+    ContractGroup,
+    ContractJointLimits,
+    ContractManager,
+    ContractPoseTarget,
+    ContractSwitch,
+)
 from cellc.feasibility import disabled_links
-from cellc.formats.contract_pose import contract_pose
+from cellc.formats.numbers import settled
 from cellc.graph.adapters import adapter_of_group
 from cellc.graph.cell_graph import CellGraph
+from cellc.transforms import Pose
+
+
+def calibrations(cell: Cell) -> dict[str, ContractCalibration]:
+    """Return every calibration with its revision."""
+    return {
+        name: ContractCalibration(revision=written.revision, owner=written.owner)
+        for name, written in cell.spec.calibrations.items()
+    }
+
+
+def frames(cell: Cell) -> dict[str, ContractFrame]:
+    """Return every frame by name."""
+    return {frame.name: _frame(frame) for frame in cell.frames}
+
+
+def _frame(frame: Frame) -> ContractFrame:
+    pose = None if frame.moving else frame.transform_to_parent
+    simulated = frame.simulated_pose
+    return ContractFrame(
+        parent=frame.parent,
+        authority=frame.authority,
+        kind=frame.kind.value,
+        pose=None if pose is None else contract_pose(pose),
+        calibration=frame.calibration,
+        rate_hz=frame.rate_hz,
+        buffer_s=frame.buffer_s,
+        simulated_parent=None if simulated is None else simulated.parent,
+        simulated_pose=None if simulated is None else contract_pose(simulated.pose),
+    )
 
 
 def groups(cell: Cell) -> dict[str, ContractGroup]:
@@ -62,3 +106,70 @@ def _goal(goal: CartesianGoal) -> ContractGoal:
             "transform_at": goal.transform_at,
         }
     )
+
+
+def managers(cell: Cell) -> dict[str, ContractManager]:
+    """Return every controller manager with its controllers in the order of start-up."""
+    return {manager.name: _manager(manager) for manager in cell.managers}
+
+
+def joint_limits(cell: Cell) -> dict[str, ContractJointLimits]:
+    """Return the limits of every joint that moves on its own and whose limits are all stated."""
+    limits: dict[str, ContractJointLimits] = {}
+    for joint in (joint for device in cell.devices for joint in device.joints if joint.mimics is None):
+        if joint.velocity is not None and joint.acceleration is not None and joint.jerk is not None:
+            bounded = joint.type != "continuous"
+            limits[joint.name] = ContractJointLimits(
+                lower=joint.lower if bounded else None,
+                upper=joint.upper if bounded else None,
+                velocity=joint.velocity,
+                acceleration=joint.acceleration,
+                jerk=joint.jerk,
+            )
+    return limits
+
+
+def _manager(manager: ControllerManager) -> ContractManager:
+    labels = {controller.name: controller.label for controller in manager.controllers}
+    return ContractManager(
+        namespace=manager.namespace,
+        update_rate_hz=manager.update_rate_hz,
+        controllers={controller.label: _controller(controller) for controller in manager.controllers},
+        switches={
+            switch.name: ContractSwitch(
+                activate=tuple(labels[name] for name in switch.activate),
+                deactivate=tuple(labels[name] for name in switch.deactivate),
+            )
+            for switch in manager.switches
+        },
+    )
+
+
+def _controller(controller: Controller) -> ContractController:
+    other = controller.stand_in
+    return ContractController.model_validate(
+        {
+            "plugin": controller.plugin,
+            "behaviour": controller.behaviour,
+            "full_name": controller.full_name,
+            "targets": controller.targets,
+            "device": controller.device,
+            "joints": controller.joints,
+            "command_interfaces": controller.command_interfaces,
+            "state_interfaces": controller.state_interfaces,
+            "active": controller.active,
+            "client": controller.client,
+            "action": controller.action,
+            "action_type": controller.action_type,
+            "real_action": None if other is None else other.action,
+            "real_action_type": None if other is None else other.action_type,
+            "on_violation": controller.on_violation,
+        }
+    )
+
+
+def contract_pose(pose: Pose) -> ContractPose:
+    """Return metres and a unit quaternion x, y, z, w without rounding noise."""
+    x, y, z = (settled(value) for value in pose.position)
+    qx, qy, qz, qw = (settled(value) for value in pose.quaternion)
+    return ContractPose(xyz=(x, y, z), quaternion=(qx, qy, qz, qw))

@@ -1,22 +1,26 @@
-"""The stages of bring-up as actions of a launch file: discover, configure, observe, claim.
+"""The stages of bring-up as actions of a launch file, and the script ``launch/bring_up.bash`` that takes their steps.
 
-The processes of the first stage are started at once and prove nothing by that. Every step after it waits for what it
-needs (see ``bring_up.py``); the last one claims, and none enables a drive or asks for motion.
+Discover, configure, observe, claim. The processes of the first stage are started at once and prove nothing by that.
+Every step after it waits for what it needs, one condition a line of the script; the last one claims, and none enables a
+drive or asks for motion. The script exists because launch XML has no event handlers (ros2/launch issue 658), and
+`lifecycle_node` with its transitions only from Lyrical on (launch_ros pull request 482): the command-line tools are the
+same from Humble on. A transition that fails leaves 0 as its exit status there, so that the next step looks at the
+state.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 from xml.etree.ElementTree import Element
 
+from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
 from cellc.cell.interface import Node, NodeSource
-from cellc.deploy.bringup import Step, steps
-from cellc.deploy.processes import host_of, host_of_manager, started_by_a_person
-from cellc.emit.launch.bring_up import FILE
-from cellc.emit.launch.control import control, spawners
-from cellc.emit.launch.nodes import cell_node, driver_node, robot_state_publisher
-from cellc.emit.launch.substitutions import only_on, share
+from cellc.deploy.bringup import MOVE, Step, ready_to_move, steps
+from cellc.deploy.processes import bring_up_enclave, host_of, host_of_manager, movers, started_by_a_person
+from cellc.emit.launch.processes import cell_node, control, driver_node, only_on, robot_state_publisher, share, spawners
+from cellc.formats.header import Header
 from cellc.formats.parameter_file import spec_path
 from cellc.formats.xml_text import comment, element
 from cellc.link.frames import ROBOT_STATE_PUBLISHER
@@ -83,3 +87,53 @@ def _step(cell: Cell, step: Step) -> Element:
 
 def _here(host: str | None, of: str) -> bool:
     return host is None or host == of
+
+
+FILE = "launch/bring_up.bash"
+_TARGETS = ("mock", "real")
+_CONDITIONS = Path(__file__).with_name("readiness.bash")
+
+
+def bring_up(cell: Cell, header: Header) -> Artifact:
+    """Return the script of a cell."""
+    parts = [
+        header.commented("#").rstrip("\n"),
+        "set -eu",
+        f'step="${{1:?which step: {", ".join(_names(cell))}}}"',
+        f'enclave="{bring_up_enclave(cell)}" # of what is asked here, where security is on',
+        "",
+        _CONDITIONS.read_text(encoding="utf-8").rstrip("\n"),
+        "",
+        'case "$step" in',
+        *(line for step in steps(cell) for line in _case(step)),
+        *_move(cell),
+        "  *)",
+        '    echo "there is no step $step" >&2',
+        "    exit 2",
+        "    ;;",
+        "esac",
+    ]
+    return Artifact(FILE, "\n".join(parts) + "\n")
+
+
+def _names(cell: Cell) -> Iterator[str]:
+    yield from (step.name for step in steps(cell))
+    if movers(cell):
+        yield from (f"{MOVE}_{target}" for target in _TARGETS)
+
+
+def _case(step: Step) -> Iterator[str]:
+    yield f"  {step.name}) # {step.stage}"
+    yield from (f"    needs {condition}" for condition in step.waits_for)
+    yield f"    act {step.command}"
+    yield "    ;;"
+
+
+def _move(cell: Cell) -> Iterator[str]:
+    if movers(cell):
+        for target in _TARGETS:
+            yield f"  {MOVE}_{target}) # by a person; what stands behind the step is started then"
+            yield from (f"    needs {condition}" for condition in ready_to_move(cell, target))
+            yield "    shift"
+            yield '    exec "$@"'
+            yield "    ;;"

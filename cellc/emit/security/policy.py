@@ -17,9 +17,14 @@ from cellc.cell.control import ControllerManager
 from cellc.cell.interface import NodeSource
 from cellc.deploy.bringup import spawnings
 from cellc.deploy.processes import bring_up_enclave, enclave_of, manager_enclave, spawner_enclave
-from cellc.emit.security.bring_up import bring_up_profiles
-from cellc.emit.security.profile import Profile, profile_element
-from cellc.emit.security.rights import manager_client, manager_process, node_profile
+from cellc.emit.security.rights import (
+    Profile,
+    bring_up_profiles,
+    manager_client,
+    manager_process,
+    node_profile,
+    profile_element,
+)
 from cellc.formats.header import Header
 from cellc.formats.xml_text import element, render
 from cellc.graph.cell_graph import CellGraph

@@ -1,17 +1,57 @@
-"""The rights of nodes: what every node needs, and what the interfaces of the cell grant."""
+"""The rights of nodes: what every node needs, what the interfaces of the cell grant, and what the bring-up asks with.
+
+The bring-up may see what it waits for, configure, observe and claim; it may never ask for motion.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from xml.etree.ElementTree import Element
 
 from cellc.cell.cell import Cell
 from cellc.cell.control import Controller, ControllerManager
 from cellc.cell.interface import InterfaceKind, Node, NodeSource
-from cellc.emit.security.profile import Profile
+from cellc.deploy.processes import described_by
+from cellc.formats.xml_text import element
 from cellc.graph.controller_kinds import kind_of
+from cellc.link.derived_joint_states import JOINT_STATE_TYPE
 from cellc.link.nodes import JOINT_STATES
 from cellc.link.placeholders import placeholders
+
+
+@dataclass(frozen=True, slots=True)
+class Profile:
+    """Rights of one node; names are absolute, or ``~/…`` below the node's own."""
+
+    namespace: str
+    node: str
+    publish: tuple[str, ...] = ()
+    subscribe: tuple[str, ...] = ()
+    reply: tuple[str, ...] = ()
+    request: tuple[str, ...] = ()
+    execute: tuple[str, ...] = ()
+    call: tuple[str, ...] = ()
+
+
+def profile_element(profile: Profile) -> Element:
+    """Return ``<profile>`` with one list a right; a name stands once in each, in alphabetical order."""
+    return element("profile", {"ns": profile.namespace or "/", "node": profile.node}, _lists(profile))
+
+
+def _lists(profile: Profile) -> Iterator[Element]:
+    for plural, right, names in (
+        ("topics", "publish", profile.publish),
+        ("topics", "subscribe", profile.subscribe),
+        ("services", "reply", profile.reply),
+        ("services", "request", profile.request),
+        ("actions", "execute", profile.execute),
+        ("actions", "call", profile.call),
+    ):
+        if names:
+            entries = (element(plural[:-1], text=name) for name in sorted(set(names)))
+            yield element(plural, {right: "ALLOW"}, entries)
+
 
 _PUBLISH = ("/parameter_events", "/rosout")
 _SUBSCRIBE = ("/clock", "/parameter_events")
@@ -160,3 +200,36 @@ def _names(cell: Cell, full_name: str, kind: InterfaceKind, side: str) -> Iterat
         ends = interface.sources if side == "sources" else interface.sinks
         if interface.kind is kind and any(end.full_name == full_name for end in ends):
             yield interface.name
+
+
+# What `ros2 lifecycle get|set`, `ros2 control list_controllers|switch_controllers` and `ros2 param get` call.
+_OF_MANAGED = ("change_state", "get_available_transitions", "get_state")
+_OF_MANAGER = ("list_controllers", "switch_controller")
+_TOOLS_DESCRIPTION = (
+    "/_ros2cli_*/get_type_description"  # of each tool's own node, named after its process; Iron and later
+)
+
+
+def bring_up_profiles(cell: Cell) -> tuple[Profile, Profile]:
+    """Return the rights of the command-line tools and of ``tf2_echo``."""
+    common = common_profile(cell)
+    managed = (f"{node.full_name}/{one}" for node in cell.nodes if node.lifecycle for one in _OF_MANAGED)
+    described = (f"{node}/get_parameters" for node in described_by(cell))
+    managers = (f"{one.namespace}/controller_manager/{name}" for one in cell.managers for name in _OF_MANAGER)
+    seen = (interface.name for interface in cell.interfaces if interface.type == JOINT_STATE_TYPE)
+    tools = Profile(
+        namespace="",
+        node="bring_up",
+        publish=common.publish,
+        subscribe=(*common.subscribe, *seen),
+        reply=() if cell.distro == "humble" else (_TOOLS_DESCRIPTION,),
+        request=(*managed, *managers, *described),
+    )
+    listener = Profile(
+        namespace="",
+        node="tf2_echo",
+        publish=common.publish,
+        subscribe=(*common.subscribe, "/tf", "/tf_static"),
+        reply=common.reply,
+    )
+    return tools, listener

@@ -1,8 +1,9 @@
-"""``package.xml``: the generated folder as a ROS package (format 3, REP-149), read by colcon and rosdep.
+"""``package.xml`` and ``CMakeLists.txt``: the generated folder as a ROS package, read by colcon and rosdep.
 
-Run-time dependencies follow from what is in use: nodes, controllers, hardware drivers. The version is that of the
-artifacts' format; what the cell was made from stands in ``manifest.json``. Left out: test dependencies, because the
-artifacts are tested where they are made.
+Format 3 of REP-149. Run-time dependencies follow from what is in use: nodes, controllers, hardware drivers. The version
+is that of the artifacts' format; what the cell was made from stands in ``manifest.json``. There is nothing to compile:
+the build file installs the folders through ament_cmake. Left out: tests and targets of the user's own, which belong
+into a package beside this one; the artifacts are tested where they are made.
 """
 
 from __future__ import annotations
@@ -29,13 +30,17 @@ _PLANNING = (
     "moveit_simple_controller_manager",
     "pilz_industrial_motion_planner",
 )
+_FOLDERS = ("config", "launch", "security", "urdf")
+_ON_HOSTS = "middleware"
+_FILES = ("contract.json", "manifest.json", "rehearsals.json")
 # The format demands an address, and the spec names owners, not mailboxes: RFC 2606 keeps this domain from being one.
 _EMAIL = "maintainer@unset.invalid"
 
 
 def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
-    """Yield the package manifest."""
+    """Yield the package manifest and the build file."""
     yield Artifact("package.xml", render(_package(graph.cell), header.text))
+    yield Artifact("CMakeLists.txt", header.commented("#") + "\n".join(_build_file(graph.cell)) + "\n")
 
 
 def _package(cell: Cell) -> Element:
@@ -79,3 +84,19 @@ def _package_of(cell: Cell, controller: Controller) -> str | None:
         kind = load_controller_kind(controller.kind).value
         plugins = {} if kind is None else kind.plugins
     return next((use.package for use in plugins.values() if use.type == controller.plugin), None)
+
+
+def _build_file(cell: Cell) -> Iterator[str]:
+    yield "cmake_minimum_required(VERSION 3.8)"
+    yield f"project({cell.name} NONE)"
+    yield ""
+    yield "find_package(ament_cmake REQUIRED)"
+    yield ""
+    yield from _install("DIRECTORY", (*_FOLDERS, *((_ON_HOSTS,) if cell.spec.hosts else ())))
+    yield from _install("FILES", _FILES)
+    yield ""
+    yield "ament_package()"
+
+
+def _install(kind: str, names: tuple[str, ...]) -> list[str]:
+    return [f"install({kind}", *(f"  {name}" for name in names), "  DESTINATION share/${PROJECT_NAME}", ")"]

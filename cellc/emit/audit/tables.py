@@ -1,0 +1,190 @@
+"""Tables of the audit: every command path, and what must be found when the cell runs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+
+from cellc.cell.cell import Cell
+from cellc.cell.control import Controller, ControllerManager
+from cellc.cell.interface import Endpoint, Interface, InterfaceKind, Node, NodeSource
+from cellc.deploy.files import QOS_OVERRIDES, controllers_file, is_planner, parameter_files, plans
+from cellc.deploy.labels import frame_label, interface_facts, units, watchdog
+from cellc.formats.numbers import shortest
+from cellc.formats.parameter_file import qos_parameters
+from cellc.graph.cell_graph import CellGraph
+from cellc.graph.device_topics import device_topics
+from cellc.link.nodes import DESCRIPTION_PUBLISHER
+from cellc.link.placeholders import placeholders
+
+
+def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """Write a table; a sentence where it has no row, so that an empty section is an answer."""
+    shown = [_row(row) for row in rows]
+    return "\n".join([_row(head), "|" + "---|" * len(head), *shown]) if shown else "None."
+
+
+def _row(cells: Sequence[str]) -> str:
+    # A bar would end the cell.
+    escaped = (cell.replace("|", "\\|").replace("\n", " ") for cell in cells)
+    return f"| {' | '.join(escaped)} |"
+
+
+_NOT_STATED = "not stated"
+
+
+def owners_section(graph: CellGraph) -> str:
+    """Write who owns each command interface, and who tells that owner what to do."""
+    return table(("command interface", "controller", "commanded by", "owner"), _owners(graph.cell))
+
+
+def command_section(graph: CellGraph) -> str:
+    """Write the command paths: through controllers down to joints, and the actions above them."""
+    head = ("path", "frame", "unit", "rate", "time source", "QoS", "watchdog", "on failure")
+    return table(head, [*_requests(graph.cell), *_controllers(graph.cell)])
+
+
+def _owners(cell: Cell) -> Iterator[tuple[str, ...]]:
+    people = {node.name: node.owner for node in cell.nodes}
+    for controller in cell.controllers:
+        for name in controller.command_interfaces:
+            client = controller.client or "nobody"
+            state = "" if controller.active else " (inactive)"
+            yield f"`{name}`", f"{controller.label}{state}", client, people.get(client, _NOT_STATED)
+
+
+def _requests(cell: Cell) -> Iterator[tuple[str, ...]]:
+    served = {controller.action for controller in cell.controllers}
+    for one in cell.interfaces:
+        if one.kind is InterfaceKind.ACTION and one.name not in served:
+            ends = f"{_names(one.sinks)} → `{one.name}` → {_names(one.sources)}"
+            time = one.time_source or _NOT_STATED
+            qos = _qos((*one.sinks, *one.sources))
+            yield (
+                ends,
+                frame_label(one),
+                one.unit or "as the type",
+                "on request",
+                time,
+                qos,
+                "none",
+                _failure(one),
+            )
+
+
+def _controllers(cell: Cell) -> Iterator[tuple[str, ...]]:
+    actions = {one.name: one for one in cell.interfaces}
+    for manager in cell.managers:
+        for controller in manager.controllers:
+            if controller.command_interfaces:
+                yield _controller(cell, manager, controller, actions.get(controller.action or ""))
+
+
+def _controller(
+    cell: Cell, manager: ControllerManager, controller: Controller, action: Interface | None
+) -> tuple[str, ...]:
+    device = next((one for one in cell.devices if one.name == controller.device), None)
+    hardware = "its hardware" if device is None or device.hardware is None else device.hardware.name
+    rate = controller.update_rate_hz or manager.update_rate_hz
+    behaviour = "" if action is None else f"; {_failure(action)}"
+    name = controller.action or controller.full_name
+    return (
+        f"{controller.client or 'nobody'} → `{name}` → {controller.label} → {hardware}",
+        (action.frame if action is not None else None) or "joints",
+        units(cell, controller),
+        f"{shortest(rate)} Hz",
+        (action.time_source if action is not None else None) or f"clock of {manager.host or 'its host'}",
+        _NOT_STATED if action is None else _qos((*action.sinks, *action.sources)),
+        watchdog(cell, controller),
+        f"on violation {controller.on_violation}{behaviour}",
+    )
+
+
+def _failure(interface: Interface) -> str:
+    return list(interface_facts(interface))[2].partition("; ")[2]
+
+
+def _qos(ends: tuple[Endpoint, ...]) -> str:
+    texts = (f"{end.qos.reliability}, {end.qos.durability}, depth {end.qos.depth}" for end in ends)
+    return "; ".join(dict.fromkeys(texts)) or _NOT_STATED
+
+
+def _names(ends: tuple[Endpoint, ...]) -> str:
+    return ", ".join(dict.fromkeys(end.node for end in ends)) or "nobody"
+
+
+def nodes_section(cell: Cell) -> str:
+    """Write every node with who answers for it."""
+    return table(("node", "program", "host", "owner", "parameters"), _nodes(cell))
+
+
+def interfaces_section(cell: Cell, kind: InterfaceKind) -> str:
+    """Write the topics, services or actions, each with both ends."""
+    ends = ("publishers", "subscribers") if kind is InterfaceKind.TOPIC else ("server", "clients")
+    rows = (_interface(one) for one in cell.interfaces if one.kind is kind)
+    return table(("name", "type", *ends, "contract"), rows)
+
+
+def drivers_section(cell: Cell) -> str:
+    """Write what the catalogue says that the devices' drivers offer beside what the spec names."""
+    return table(("name", "kind", "type", "device"), _of_drivers(cell))
+
+
+def tf_section(cell: Cell) -> str:
+    """Write who publishes which edges of the frame tree."""
+    publishers: dict[str, list[str]] = {}
+    for frame in cell.frames:
+        if frame.parent:
+            publishers.setdefault(frame.authority, []).append(frame.name)
+    return table(("publisher", "frames"), ((name, _code(frames)) for name, frames in publishers.items()))
+
+
+def _nodes(cell: Cell) -> Iterator[tuple[str, ...]]:
+    for node in cell.nodes:
+        real = " (real target)" if node.real_only else ""
+        program = f"{node.package}/{node.executable}{real}"
+        yield f"`{node.full_name}`", program, node.host or "not stated", node.owner, _code(_parameters(cell, node))
+    for manager in cell.managers:
+        for one in manager.controllers:
+            owner = cell.spec.owners.approvals.controller
+            name = f"`{manager.namespace}/{one.name}`"
+            yield name, one.plugin, manager.host or "not stated", owner, _code(one.parameters)
+
+
+def _parameters(cell: Cell, node: Node) -> tuple[str, ...]:
+    """Return the names of parameters, and the files of those that several nodes or controllers share."""
+    files = {manager.node: controllers_file(cell, manager) for manager in cell.managers}
+    if node.full_name in files:
+        return (files[node.full_name],)
+    if node.name == DESCRIPTION_PUBLISHER:
+        return ("robot_description",)
+    if node.source is NodeSource.STANDARD:
+        return ("robot_description", "publish_frequency")
+    planned = ("robot_description", "robot_description_semantic", *parameter_files(cell, "real"))
+    overrides = (QOS_OVERRIDES,) if node.source is NodeSource.SPEC and qos_parameters(cell, node) else ()
+    return (*node.parameters, *(planned if is_planner(node) and plans(cell) else ()), *overrides)
+
+
+def _of_drivers(cell: Cell) -> Iterator[tuple[str, ...]]:
+    named = {interface.name for interface in cell.interfaces}
+    for device in cell.devices:
+        for name, type_ in device_topics(cell, device).items():
+            if name not in named:
+                yield f"`{name}`", "topic", type_, device.name
+        known = placeholders(device.name, device.prefix, device.spec, cell.spec)
+        for service in device.facts.services:
+            yield f"`{known.fill(service.name)}`", "service", service.type, device.name
+
+
+def _interface(interface: Interface) -> tuple[str, ...]:
+    first, *others = interface_facts(interface)
+    facts = "; ".join([first.rpartition(", ")[2], *others])
+    return f"`{interface.name}`", interface.type, _ends(interface.sources), _ends(interface.sinks), facts
+
+
+def _ends(ends: tuple[Endpoint, ...]) -> str:
+    shown = (f"{end.node} ({end.qos.reliability}, {end.qos.durability}, depth {end.qos.depth})" for end in ends)
+    return ", ".join(dict.fromkeys(shown)) or "none"
+
+
+def _code(names: Iterable[str]) -> str:
+    return ", ".join(f"`{name}`" for name in names) or "none"

@@ -1,0 +1,201 @@
+"""The processes of the launch file: nodes, controller managers and their spawners, with the substitutions they use.
+
+A manager takes all hardware of the description that it is given. The one manager of a cell takes the cell's. Of
+several, each has a description with its own hardware alone, on a topic of its own. All report joints on one topic.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from xml.etree.ElementTree import Element
+
+from cellc.cell.cell import Cell
+from cellc.cell.control import ControllerManager
+from cellc.cell.interface import Node, NodeSource
+from cellc.deploy.bringup import spawnings
+from cellc.deploy.files import (
+    QOS_OVERRIDES,
+    controllers_file,
+    description_file,
+    is_planner,
+    manager_description_file,
+    node_file,
+    parameter_files,
+    plans,
+    semantic_file,
+)
+from cellc.deploy.labels import TF_RATE_HZ
+from cellc.deploy.processes import enclave_of, host_of, launch_hosts, manager_enclave, spawner_enclave
+from cellc.formats.numbers import decimal
+from cellc.formats.parameter_file import qos_parameters
+from cellc.formats.xml_text import element
+from cellc.link.nodes import DESCRIPTION_PUBLISHER, description_home
+
+TARGET = "$(var target)"
+
+HOST = "$(var host)"
+
+ON_REAL = f"$(eval \"'{TARGET}' == 'real'\")"
+"""True on the real target; `eval` because Humble has no `equals`, harmless because the argument has choices."""
+
+
+def only_on(target: str | None) -> dict[str, str]:
+    """Return the condition of what is started on one target alone; none for what is started on every target."""
+    return {} if target is None else {"if" if target == "real" else "unless": ON_REAL}
+
+
+def on_host(host: str) -> str:
+    """Return what is true where a host's part is to be started."""
+    return f"$(eval \"'{HOST}' == 'all' or '{HOST}' == '{host}'\")"
+
+
+def share(cell: Cell, path: str) -> str:
+    """Return the installed place of a file of the package."""
+    return f"$(find-pkg-share {cell.name})/{path}"
+
+
+def expanded(file: str) -> str:
+    """Return the text of an installed description, share folders of other packages put in by xacro."""
+    return f"$(command 'xacro {file}')"
+
+
+def enclave(path: str) -> dict[str, str]:
+    """Return the attribute that puts a process into its enclave.
+
+    Without security it has no effect; with it, a process outside of its enclave is denied everything.
+    """
+    return {"ros_args": f"--enclave {path}"}
+
+
+def description_parameter(file: str) -> Element:
+    """Return the parameter that holds a description of the package, its type stated so that nobody parses it."""
+    return element("param", {"name": "robot_description", "value": expanded(file), "type": "str"})
+
+
+def remap(source: str, target: str) -> Element:
+    """Return ``<remap>``."""
+    return element("remap", {"from": source, "to": target})
+
+
+def remaps(node: Node) -> Iterator[Element]:
+    """Yield the remaps of a node, from the names that its program has in its namespace."""
+    return (remap(source, target) for source, target in node.remaps.items())
+
+
+def identity(cell: Cell, node: Node) -> dict[str, str]:
+    """Return the attributes that say what a node is: its program, names, output and enclave."""
+    place = {"namespace": node.namespace} if node.namespace else {}
+    again = {"respawn": "true"} if node.respawn else {}
+    return {
+        "pkg": node.package,
+        "exec": node.executable,
+        "name": node.name,
+        **place,
+        "output": "both",
+        **again,
+        **enclave(enclave_of(cell, node)),
+    }
+
+
+def robot_state_publisher(cell: Cell, node: Node) -> Element:
+    """Return the one authority for all static frames."""
+    # Said though it is the default: what reads /tf is promised this rate.
+    rate = element("param", {"name": "publish_frequency", "value": decimal(TF_RATE_HZ)})
+    return element("node", identity(cell, node), [_description(cell), rate])
+
+
+def cell_node(cell: Cell, node: Node) -> Element:
+    """Return a node that the spec names."""
+    return element("node", identity(cell, node), _parameters(cell, node))
+
+
+def driver_node(cell: Cell, node: Node) -> Element:
+    """Return a node of a device's driver; one for real hardware alone stays away from the mock."""
+    condition = {"if": ON_REAL} if node.real_only else {}
+    return element("node", identity(cell, node) | condition, _parameters(cell, node))
+
+
+def moving_node(cell: Cell, node: Node, prefix: str) -> Element:
+    """Return a node that asks for motion, behind a prefix that waits until everything is ready for it."""
+    hosts = launch_hosts(cell)
+    place = {"if": on_host(host_of(cell, node))} if hosts else {}
+    return element("node", identity(cell, node) | {"launch-prefix": prefix} | place, _parameters(cell, node))
+
+
+def _parameters(cell: Cell, node: Node) -> Iterator[Element]:
+    if is_planner(node) and plans(cell):
+        yield _description(cell)
+        semantic = f"$(command 'cat {share(cell, semantic_file(cell))}')"
+        yield element("param", {"name": "robot_description_semantic", "value": semantic, "type": "str"})
+        yield from (element("param", {"from": share(cell, file)}) for file in parameter_files(cell, TARGET))
+    if node.parameters:
+        yield element("param", {"from": share(cell, node_file(node))})
+    if node.source is NodeSource.SPEC and qos_parameters(cell, node):
+        yield element("param", {"from": share(cell, QOS_OVERRIDES)})
+    if node.clock == "sim":
+        yield element("param", {"name": "use_sim_time", "value": "true"})
+    yield from remaps(node)
+
+
+def _description(cell: Cell) -> Element:
+    return description_parameter(share(cell, description_file(cell, TARGET)))
+
+
+_TOPIC = "robot_description"
+
+
+def control(cell: Cell, manager: ControllerManager) -> Iterator[Element]:
+    """Yield the processes of one update loop: one for its description where it has its own, and the loop."""
+    own = (node for node in cell.nodes if node.name == DESCRIPTION_PUBLISHER and node.path == manager.path)
+    yield from (_description_publisher(cell, manager, node) for node in own)
+    yield _manager(cell, manager)
+
+
+def _description_publisher(cell: Cell, manager: ControllerManager, node: Node) -> Element:
+    description = description_parameter(share(cell, manager_description_file(cell, manager, TARGET)))
+    return element("node", identity(cell, node), [description, *remaps(node)])
+
+
+def _manager(cell: Cell, manager: ControllerManager) -> Element:
+    # Without a name: it would apply to the nodes of the hardware as well.
+    place = {"namespace": manager.namespace} if manager.namespace else {}
+    parameters = [element("param", {"from": share(cell, controllers_file(cell, manager))})]
+    if cell.distro == "humble":  # later ones take the description from its topic
+        parameters.append(description_parameter(share(cell, manager_description_file(cell, manager, TARGET))))
+    topic = f"{description_home(manager) if len(cell.managers) > 1 else ''}/{_TOPIC}"
+    (node,) = (node for node in cell.nodes if node.full_name == manager.node)
+    return element(
+        "node",
+        {
+            "pkg": "controller_manager",
+            "exec": "ros2_control_node",
+            **place,
+            "output": "both",
+            **enclave(manager_enclave(cell, manager)),
+        },
+        [
+            *parameters,
+            remap(f"~/{_TOPIC}", topic),
+            *([] if topic == f"/{_TOPIC}" and not place else [remap(_TOPIC, topic)]),
+            *remaps(node),
+        ],
+    )
+
+
+def spawners(cell: Cell, manager: ControllerManager) -> Iterator[Element]:
+    """Yield what loads and configures a manager's controllers; it waits for the manager, and activates nothing.
+
+    One process for all: several of them race for a controller that the manager has found in its file (Humble 2.54).
+    """
+    for one in spawnings(manager):
+        yield element(
+            "node",
+            {
+                "pkg": "controller_manager",
+                "exec": "spawner",
+                "args": " ".join([*one.controllers, "-c", manager.node, "--inactive"]),
+                "output": "both",
+                **enclave(spawner_enclave(cell, manager)),
+                **only_on(one.only),
+            },
+        )

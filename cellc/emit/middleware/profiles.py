@@ -1,0 +1,179 @@
+"""Which network cards of a host carry ROS, and the profiles of Cyclone DDS, Fast DDS and Zenoh that say so.
+
+A card for control carries the vendor's protocol and nothing else: it is left out of every list here, so that no image
+and no bag reaches it. Cyclone DDS: only elements that 0.10.5 and 11.0.1 share, because an element that a version does
+not know makes the domain fail. Fast DDS: UDP on the listed cards alone, shared memory within the host. Zenoh: a router
+on the listed cards, sessions that know it alone; it has no discovery range, so that who is not connected to the router
+is not in the cell. Values that rmw_zenoh sets in its own files, timestamps and the long query time among them, stand
+here too, because these files take their place.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass
+from xml.etree.ElementTree import Element
+
+from cellc.cell.cell import Cell
+from cellc.formats.xml_text import element
+from cellc.graph.cell_graph import CellGraph
+
+LOOPBACK = "127.0.0.1"
+
+
+@dataclass(frozen=True, slots=True)
+class Binding:
+    """Where the ROS traffic of one host goes.
+
+    Args:
+        addresses: IPv4 addresses of its own cards for ROS, the loopback first.
+        peers: addresses of other hosts, for unicast discovery.
+    """
+
+    host: str
+    addresses: tuple[str, ...]
+    peers: tuple[str, ...]
+
+
+def bindings(graph: CellGraph) -> tuple[Binding, ...]:
+    """Return one binding a host, in the order of the spec."""
+    network = graph.cell.spec.network
+    remote = network.discovery in ("multicast", "unicast")
+    found: list[Binding] = []
+    for host in graph.cell.spec.hosts:
+        own = _cards(graph, host) if remote else ()
+        others = [address for other in graph.cell.spec.hosts if other != host for address in _cards(graph, other)]
+        peers = (*others, *network.peers) if network.discovery == "unicast" else ()
+        found.append(Binding(host, (LOOPBACK, *own), tuple(dict.fromkeys(peers))))
+    return tuple(found)
+
+
+def origins(binding: Binding) -> tuple[str, ...]:
+    """Return the places of the spec that the files of a host come from."""
+    return f"hosts.{binding.host}", "network", "versions.rmw"
+
+
+def _cards(graph: CellGraph, host: str) -> tuple[str, ...]:
+    return tuple(
+        str(nic.interface.ip)
+        for nic in graph.network.nics
+        if nic.host == host and nic.interface is not None and "control" not in nic.carries
+    )
+
+
+_MOST_PROCESSES = "99"  # rmw_cyclonedds stops at 32 participants where discovery is unicast
+
+
+def cyclone_profile(cell: Cell, binding: Binding) -> Element:
+    """Return the configuration of the cell's domain on a host."""
+    domain = {"Id": str(cell.spec.network.domain_id)}
+    parts = [*_general(cell, binding), *_discovery(cell, binding)]
+    return element("CycloneDDS", {"xmlns": "https://cdds.io/config"}, [element("Domain", domain, parts)])
+
+
+def _general(cell: Cell, binding: Binding) -> Iterator[Element]:
+    cards = [element("NetworkInterface", {"address": address}) for address in binding.addresses]
+    multicast = "true" if cell.spec.network.discovery == "multicast" else "false"
+    yield element(
+        "General",
+        children=[element("Interfaces", children=cards), element("AllowMulticast", text=multicast)],
+    )
+
+
+def _discovery(cell: Cell, binding: Binding) -> Iterator[Element]:
+    if cell.spec.network.discovery == "multicast":
+        return
+    # Later distributions add the peers of ROS_STATIC_PEERS themselves.
+    peers = binding.peers if cell.distro == "humble" else ()
+    listed = [element("Peer", {"Address": address}) for address in (*binding.addresses[:1], *peers)]
+    yield element(
+        "Discovery",
+        children=[
+            element("ParticipantIndex", text="auto"),
+            element("MaxAutoParticipantIndex", text=_MOST_PROCESSES),
+            element("Peers", children=listed),
+        ],
+    )
+
+
+_UDP, _SHARED = "cell_udp", "cell_shared_memory"
+# Fast DDS 2.x, of Humble and Jazzy, and 3.x name the same elements under different namespaces.
+_OLD = ("humble", "jazzy")
+_OLD_NAMESPACE = "http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles"
+_NAMESPACE = "http://www.eprosima.com"
+
+
+def fast_profile(cell: Cell, binding: Binding) -> Element:
+    """Return the default profile of every participant on a host."""
+    namespace = _OLD_NAMESPACE if cell.distro in _OLD else _NAMESPACE
+    return element(
+        "dds", {"xmlns": namespace}, [element("profiles", children=[_transports(binding), _all(cell, binding)])]
+    )
+
+
+def _transports(binding: Binding) -> Element:
+    # interfaceWhiteList is the one list that every supported version reads.
+    cards = element("interfaceWhiteList", children=[element("address", text=a) for a in binding.addresses])
+    udp = [element("transport_id", text=_UDP), element("type", text="UDPv4"), cards]
+    shared = [element("transport_id", text=_SHARED), element("type", text="SHM")]
+    return element(
+        "transport_descriptors",
+        children=[element("transport_descriptor", children=udp), element("transport_descriptor", children=shared)],
+    )
+
+
+def _all(cell: Cell, binding: Binding) -> Element:
+    used = [element("transport_id", text=name) for name in (_SHARED, _UDP)]
+    rtps = [
+        *_peers(cell, binding),
+        element("userTransports", children=used),
+        element("useBuiltinTransports", text="false"),
+    ]
+    return element(
+        "participant",
+        {"profile_name": "cell", "is_default_profile": "true"},
+        [element("rtps", children=rtps)],
+    )
+
+
+def _peers(cell: Cell, binding: Binding) -> Iterator[Element]:
+    if cell.distro != "humble" or not binding.peers:  # later ones take ROS_STATIC_PEERS
+        return
+    locators = [
+        element("locator", children=[element("udpv4", children=[element("address", text=address)])])
+        for address in (*binding.addresses[:1], *binding.peers)
+    ]
+    yield element("builtin", children=[element("initialPeersList", children=locators)])
+
+
+_PORT = 7447
+_SCOUTING = "  scouting: {\n    multicast: { enabled: false },\n    gossip: { enabled: true },\n  },\n"
+_TIMES = (
+    "  timestamping: { enabled: { router: true, peer: true, client: true } },\n  queries_default_timeout: 600000,\n"
+)
+
+
+def zenoh_router(binding: Binding) -> str:
+    """Return the configuration of the host's router."""
+    return _document("router", listen=_endpoints(binding.addresses), connect=_endpoints(binding.peers))
+
+
+def zenoh_session() -> str:
+    """Return the configuration of every node's session."""
+    return _document("peer", listen=["tcp/localhost:0"], connect=[f"tcp/localhost:{_PORT}"])
+
+
+def _document(mode: str, *, listen: list[str], connect: list[str]) -> str:
+    return (
+        "{\n"
+        f'  mode: "{mode}",\n'
+        f"  connect: {{ endpoints: {json.dumps(connect)} }},\n"
+        f"  listen: {{ endpoints: {json.dumps(listen)} }},\n"
+        f"{_SCOUTING}{_TIMES}"
+        "}\n"
+    )
+
+
+def _endpoints(addresses: tuple[str, ...]) -> list[str]:
+    return [f"tcp/{address}:{_PORT}" for address in addresses]

@@ -1,0 +1,252 @@
+"""``config/moveit/*.yaml``, ``config/joint_limits.yaml``: what move_group is told beyond the description.
+
+ROS parameter files for every node that is started with them, with the keys of MoveIt 2.5 on Humble and of 2.12 and
+later on the others. Only for a cell with planning groups and a node that reads them: a controller takes no limits from
+here. The controllers that it calls are a file for each target where a device's own node takes the goals on real
+hardware. Left out: limits of joints that follow another; ``sensors_3d``, because no sensor of the catalogue feeds an
+occupancy map; and servoing, which is no goal with a result.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from cellc.artifact import Artifact
+from cellc.cell.cell import Cell
+from cellc.cell.device import DeviceJoint
+from cellc.cell.interface import TARGETS, ParameterValue
+from cellc.deploy.files import JOINT_LIMITS, is_planner, moveit_controllers_file, plans
+from cellc.diagnostics import YamlPath
+from cellc.formats.header import Header
+from cellc.formats.parameter_file import ANY_NODE, NodeParameters, parameter_file
+from cellc.formats.yaml_text import Tree, render
+from cellc.graph.cell_graph import CellGraph
+
+Parameters = Mapping[str, ParameterValue]
+
+_GROUPS: YamlPath = ("motion", "groups")
+_CONTROL: YamlPath = ("control", "controllers")
+_MANAGER = "moveit_simple_controller_manager"
+_TYPES = ("FollowJointTrajectory", "GripperCommand", "ParallelGripperCommand")
+# The limits below are the cell's own and already tightened, so that nothing is scaled a second time.
+_SCALING: dict[str, float] = {"default_velocity_scaling_factor": 1.0, "default_acceleration_scaling_factor": 1.0}
+
+_SAMPLING = "ompl"
+_INDUSTRIAL = "pilz_industrial_motion_planner"
+_PLANNER = "RRTConnectkConfigDefault"
+_PLUGINS = {_SAMPLING: "ompl_interface/OMPLPlanner", _INDUSTRIAL: f"{_INDUSTRIAL}/CommandPlanner"}
+_REQUEST = "default_planning_request_adapters"
+_RESPONSE = "default_planning_response_adapters"
+_REQUEST_ADAPTERS = (
+    "ResolveConstraintFrames",
+    "ValidateWorkspaceBounds",
+    "CheckStartStateBounds",
+    "CheckStartStateCollision",
+)
+# The industrial planner parameterizes time itself.
+_RESPONSE_ADAPTERS = {
+    _SAMPLING: ("AddTimeOptimalParameterization", "ValidateSolution", "DisplayMotionPath"),
+    _INDUSTRIAL: ("ValidateSolution", "DisplayMotionPath"),
+}
+# Humble: one text of adapters before and after planning, the outermost first.
+_HUMBLE = "default_planner_request_adapters"
+_HUMBLE_ADAPTERS = {
+    _SAMPLING: (
+        "AddTimeOptimalParameterization",
+        "ResolveConstraintFrames",
+        "FixWorkspaceBounds",
+        "FixStartStateBounds",
+        "FixStartStateCollision",
+        "FixStartStatePathConstraints",
+    ),
+    _INDUSTRIAL: (),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class _Called:
+    """An action that MoveIt calls: its full name and type, and the joints that it moves."""
+
+    action: str
+    type: str
+    joints: tuple[str, ...]
+
+
+def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
+    """Yield the parameter files."""
+    cell = graph.cell
+    if not plans(cell):
+        return
+    yield _joint_limits(cell, header)
+    for name, origin, parameters in (
+        ("kinematics", _GROUPS, _kinematics(cell)),
+        ("cartesian_limits", ("motion",), _cartesian_limits()),
+        ("planning_pipelines", _GROUPS, _planning_pipelines(cell)),
+        ("trajectory_execution", _CONTROL, _trajectory_execution(cell)),
+        ("planning_scene", ("scene",), _planning_scene()),
+    ):
+        section = NodeParameters(ANY_NODE, origin, parameters)
+        yield Artifact(f"config/moveit/{name}.yaml", parameter_file(header, [section]))
+    for file, target in {moveit_controllers_file(cell, target): target for target in TARGETS}.items():
+        section = NodeParameters(ANY_NODE, _CONTROL, _controllers(cell, target))
+        yield Artifact(file, parameter_file(header, [section]))
+
+
+def _joint_limits(cell: Cell, header: Header) -> Artifact:
+    """Return the limits of every joint that moves on its own.
+
+    MoveIt takes positions from here over those of the URDF and has accelerations and jerks from nowhere else: without
+    an acceleration for every active joint its time parameterization fails.
+    """
+    joints = (joint for device in cell.devices for joint in device.joints if joint.mimics is None)
+    limits: Tree = {**_SCALING, "joint_limits": {joint.name: _limits(joint) for joint in joints}}
+    tree: Tree = {ANY_NODE: {"ros__parameters": {"robot_description_planning": limits}}}
+    return Artifact(JOINT_LIMITS, header.commented("#") + "# devices, with the limits of each\n" + render(tree))
+
+
+def _limits(joint: DeviceJoint) -> Tree:
+    position = {} if joint.type == "continuous" else {"min_position": joint.lower, "max_position": joint.upper}
+    return {
+        **_stated("has_position_limits", position),
+        **_stated("has_velocity_limits", {"max_velocity": joint.velocity}),
+        **_stated("has_acceleration_limits", {"max_acceleration": joint.acceleration}),
+        **_stated("has_jerk_limits", {"max_jerk": joint.jerk}),
+    }
+
+
+def _stated(switch: str, values: dict[str, float | None]) -> dict[str, bool | float]:
+    known = {name: float(value) for name, value in values.items() if value is not None}
+    return {switch: bool(known)} | known
+
+
+def _kinematics(cell: Cell) -> Parameters:
+    parameters: dict[str, ParameterValue] = {}
+    for group in cell.groups:
+        prefix = f"robot_description_kinematics.{group.name}"
+        parameters |= {
+            f"{prefix}.kinematics_solver": "kdl_kinematics_plugin/KDLKinematicsPlugin",
+            f"{prefix}.kinematics_solver_search_resolution": 0.005,
+            f"{prefix}.kinematics_solver_timeout": 0.05,
+        }
+    return parameters
+
+
+def _cartesian_limits() -> Parameters:
+    # 0.25 m/s is the reduced speed of ISO 10218-1; the others are own choices that reach it within half a second.
+    prefix = "robot_description_planning.cartesian_limits"
+    return {
+        f"{prefix}.max_trans_vel": 0.25,
+        f"{prefix}.max_trans_acc": 0.5,
+        f"{prefix}.max_trans_dec": -0.5,
+        f"{prefix}.max_rot_vel": 0.5,
+    }
+
+
+def _planning_pipelines(cell: Cell) -> Parameters:
+    """Return both pipelines with their plugins, adapters and planners."""
+    return {
+        "planning_pipelines": (_SAMPLING, _INDUSTRIAL),
+        "default_planning_pipeline": _SAMPLING,
+        "capabilities": f"{_INDUSTRIAL}/MoveGroupSequenceAction {_INDUSTRIAL}/MoveGroupSequenceService",
+        **_pipeline(cell, _SAMPLING),
+        f"{_SAMPLING}.planner_configs.{_PLANNER}.type": "geometric::RRTConnect",
+        **_groups(cell),
+        **_pipeline(cell, _INDUSTRIAL),
+        f"{_INDUSTRIAL}.default_planner_config": "PTP",
+    }
+
+
+def _pipeline(cell: Cell, name: str) -> Parameters:
+    if cell.distro == "humble":
+        adapters = " ".join(f"{_HUMBLE}/{adapter}" for adapter in _HUMBLE_ADAPTERS[name])
+        # Zero: a start state outside its bounds is refused, never moved inside them.
+        bounds: Parameters = {f"{name}.request_adapters": adapters, f"{name}.start_state_max_bounds_error": 0.0}
+        return {f"{name}.planning_plugin": _PLUGINS[name], **(bounds if adapters else {f"{name}.request_adapters": ""})}
+    return {
+        f"{name}.planning_plugins": (_PLUGINS[name],),
+        f"{name}.request_adapters": tuple(f"{_REQUEST}/{adapter}" for adapter in _REQUEST_ADAPTERS),
+        f"{name}.response_adapters": tuple(f"{_RESPONSE}/{adapter}" for adapter in _RESPONSE_ADAPTERS[name]),
+    }
+
+
+def _groups(cell: Cell) -> Parameters:
+    parameters: dict[str, ParameterValue] = {}
+    for group in cell.groups:
+        prefix = f"{_SAMPLING}.{group.name}"
+        parameters |= {
+            f"{prefix}.default_planner_config": _PLANNER,
+            f"{prefix}.planner_configs": (_PLANNER,),
+            f"{prefix}.longest_valid_segment_fraction": 0.005,
+        }
+        if len(group.joints) > 1:
+            parameters[f"{prefix}.projection_evaluator"] = f"joints({','.join(group.joints[:2])})"
+    return parameters
+
+
+def _controllers(cell: Cell, target: str) -> Parameters:
+    """Return what executes on a target: active controllers with an action that MoveIt knows, and what stands in."""
+    called = {_name(cell, one): one for one in _called(cell, target) if _short(one.type) in _TYPES}
+    parameters: dict[str, ParameterValue] = {
+        "moveit_controller_manager": f"{_MANAGER}/MoveItSimpleControllerManager",
+        f"{_MANAGER}.controller_names": tuple(called),
+    }
+    for name, one in called.items():
+        parameters |= {
+            f"{_MANAGER}.{name}.type": _short(one.type),
+            f"{_MANAGER}.{name}.action_ns": one.action.rpartition("/")[2],
+            f"{_MANAGER}.{name}.joints": one.joints,
+            f"{_MANAGER}.{name}.default": True,
+        }
+    return parameters
+
+
+def _trajectory_execution(cell: Cell) -> Parameters:
+    """Return how execution is watched.
+
+    A device that slows trajectories down outlasts the planned duration: there MoveIt must not abort for it, and the
+    controller's own tolerances watch instead.
+    """
+    slowed = any(device.facts.speed_scaling is not None for device in cell.devices)
+    return {
+        # Switching is a declared step of the cell, never a side effect of planning.
+        "moveit_manage_controllers": False,
+        "trajectory_execution.execution_duration_monitoring": not slowed,
+        "trajectory_execution.allowed_execution_duration_scaling": 1.2,
+        "trajectory_execution.allowed_goal_duration_margin": 0.5,
+        "trajectory_execution.allowed_start_tolerance": 0.01,
+        "trajectory_execution.wait_for_trajectory_completion": True,
+    }
+
+
+def _planning_scene() -> Parameters:
+    """Return what move_group tells of its scene; the description's publisher is robot_state_publisher alone."""
+    return {
+        "publish_planning_scene": True,
+        "publish_geometry_updates": True,
+        "publish_state_updates": True,
+        "publish_transforms_updates": True,
+        "publish_robot_description": False,
+        "publish_robot_description_semantic": True,
+    }
+
+
+def _called(cell: Cell, target: str) -> Iterator[_Called]:
+    for one in cell.controllers:
+        if one.active and target in one.targets and one.action is not None:
+            yield _Called(one.action, one.action_type or "", one.joints)
+        elif one.active and target == "real" and one.stand_in is not None:
+            yield _Called(one.stand_in.action, one.stand_in.action_type, one.joints)
+
+
+def _name(cell: Cell, called: _Called) -> str:
+    """Return the name below which MoveIt looks for the action, with the namespace of who serves it.
+
+    It is relative to move_group: with its slash where that is in a namespace of its own.
+    """
+    name = called.action.rpartition("/")[0]
+    return name if any(is_planner(node) and node.namespace for node in cell.nodes) else name.removeprefix("/")
+
+
+def _short(type_: str) -> str:
+    return type_.rpartition("/")[2]

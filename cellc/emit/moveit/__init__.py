@@ -1,1 +1,0 @@
-"""The MoveIt configuration, file by file."""

@@ -1,0 +1,67 @@
+"""``config/*.yaml``: ROS parameter files of controller managers, nodes and drivers, and the overrides of QoS.
+
+``controllers.yaml`` tells a manager its rate and the plugin of each controller, then each controller its parameters;
+there is one file for each manager (``<manager>.controllers.yaml`` where there are several) and one for each node,
+because each is read by another process. ``qos_overrides.yaml`` has the QoS of the contract with the names of rclcpp's
+QosOverridingOptions; a node whose author passed no such options ignores it without a word: gate L4 looks at what the
+endpoints really offer. Left out: what is a matter of launching, such as which controllers are active; nodes without
+parameters; overrides of controllers and the controller manager, which allow none, and of interfaces that the spec does
+not write.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.artifact import Artifact
+from cellc.cell.control import Controller, ControllerManager
+from cellc.cell.interface import NodeSource, ParameterValue
+from cellc.deploy.files import QOS_OVERRIDES, controllers_file, node_file
+from cellc.formats.header import Header
+from cellc.formats.parameter_file import NodeParameters, parameter_file, qos_parameters
+from cellc.graph.cell_graph import CellGraph
+
+
+def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
+    """Yield the files of controller managers, of nodes, and of QoS overrides."""
+    yield from _of_managers(graph, header)
+    yield from _of_nodes(graph, header)
+    yield from _qos_overrides(graph, header)
+
+
+def _of_managers(graph: CellGraph, header: Header) -> Iterator[Artifact]:
+    for manager in graph.cell.managers:
+        yield Artifact(controllers_file(graph.cell, manager), parameter_file(header, _sections(manager)))
+
+
+def _sections(manager: ControllerManager) -> Iterator[NodeParameters]:
+    yield NodeParameters(f"{manager.namespace}/controller_manager", manager.path, _of_manager(manager))
+    for controller in manager.controllers:
+        yield _of_controller(manager, controller)
+
+
+def _of_manager(manager: ControllerManager) -> dict[str, ParameterValue]:
+    # An update_rate with a decimal point makes the manager abort.
+    rate: dict[str, ParameterValue] = {"update_rate": round(manager.update_rate_hz)}
+    return rate | {f"{controller.name}.type": controller.plugin for controller in manager.controllers}
+
+
+def _of_controller(manager: ControllerManager, controller: Controller) -> NodeParameters:
+    return NodeParameters(f"{manager.namespace}/{controller.name}", controller.path, controller.parameters)
+
+
+def _of_nodes(graph: CellGraph, header: Header) -> Iterator[Artifact]:
+    for node in graph.cell.nodes:
+        if node.parameters:
+            section = NodeParameters(node.full_name, node.path, node.parameters)
+            yield Artifact(node_file(node), parameter_file(header, [section]))
+
+
+def _qos_overrides(graph: CellGraph, header: Header) -> Iterator[Artifact]:
+    sections = [
+        NodeParameters(node.full_name, node.path, parameters)
+        for node in graph.cell.nodes
+        if node.source is NodeSource.SPEC and (parameters := qos_parameters(graph.cell, node))
+    ]
+    if sections:
+        yield Artifact(QOS_OVERRIDES, parameter_file(header, sections))

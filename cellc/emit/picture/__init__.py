@@ -1,1 +1,0 @@
-"""The responsibility graph as a picture, part by part."""
