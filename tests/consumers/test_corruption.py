@@ -114,7 +114,7 @@ _CHECKS: tuple[Callable[[str, str], None], ...] = (
     test_pictures.test_every_arrow_is_labelled_and_its_text_stays_inside,
     test_pictures.test_boxes_hold_their_names_and_arrows_lie_level,
     test_pictures.test_vendor_control_and_physical_safety_are_bold_and_apart,
-    test_pictures.test_sheets_and_diagram_say_the_same_of_every_arrow,
+    test_pictures.test_sheet_and_diagram_say_the_same_of_every_arrow,
     test_pictures.test_diagram_has_the_ends_and_the_qos_of_the_contract,
     test_pages.test_manifest_has_the_version_tuple_of_the_spec,
     test_pages.test_audit_asks_for_every_unknown_and_judges_every_pin,
