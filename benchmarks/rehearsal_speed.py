@@ -34,7 +34,7 @@ PARTS = {
         "cellc.mock.control:ControllerManager.cancel_goal",
     ],
     "perception": [
-        "cellc.mock.nodes.camera:Camera._deliver",
+        "cellc.mock.nodes.perception:Camera._deliver",
         "cellc.mock.nodes.perception:Perception._look",
         "cellc.mock.nodes.perception:Perception._publish",
     ],
@@ -42,7 +42,7 @@ PARTS = {
         "cellc.mock.tf.buffer:TransformBuffer.lookup",
         "cellc.mock.nodes.robot_state_publisher:RobotStatePublisher.catch_up",
     ],
-    "bring-up": ["cellc.mock.rehearse:assemble", "cellc.mock.bringup.sequence:Bringup.run"],
+    "bring-up": ["cellc.mock.cell:assemble", "cellc.mock.bringup:Bringup.run"],
 }
 """Functions by part, as module:name; what is in none of them is the task, the clock and the records."""
 
@@ -106,7 +106,7 @@ class Meter:
 def work(folder: Path, rehearsal: str, with_parts: bool) -> dict[str, Any]:
     """Measure in this process, which has imported nothing of cellc yet; times are ms of CPU."""
     begun = time.process_time()
-    import cellc.mock.command  # noqa: F401 - what the command imports
+    import cellc.mock.command.rehearsals  # noqa: F401 - what the command imports
 
     imported = time.process_time()
     from cellc.mock import load

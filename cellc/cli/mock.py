@@ -40,10 +40,10 @@ def mock(
 ) -> None:
     """Execute the rehearsals of the generated FOLDER; exit 1 where one does not end as it should."""
     # Planning libraries load only for this command.
-    from cellc.mock.asked import contradiction
-    from cellc.mock.campaign.command import CampaignOptions, list_runs, replay_runs, run_campaign
-    from cellc.mock.command import run_command
-    from cellc.mock.gates.command import run_gates
+    from cellc.mock.command.campaign import CampaignOptions, list_runs, replay_runs, run_campaign
+    from cellc.mock.command.gates import run_gates
+    from cellc.mock.command.options import contradiction
+    from cellc.mock.command.rehearsals import run_command
 
     problem = contradiction(
         rehearsals=bool(names),

@@ -8,19 +8,18 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from cellc.mock.cell import MockCell, load, run_all
     from cellc.mock.errors import MockError
-    from cellc.mock.record import AttemptRecord, to_json_lines
-    from cellc.mock.result import RehearsalResult
+    from cellc.mock.result import AttemptRecord, RehearsalResult, to_json_lines
 
 __all__ = ["AttemptRecord", "MockCell", "MockError", "RehearsalResult", "load", "run_all", "to_json_lines"]
 
 _HOMES = {
-    "AttemptRecord": "cellc.mock.record",
+    "AttemptRecord": "cellc.mock.result",
     "MockCell": "cellc.mock.cell",
     "MockError": "cellc.mock.errors",
     "RehearsalResult": "cellc.mock.result",
     "load": "cellc.mock.cell",
     "run_all": "cellc.mock.cell",
-    "to_json_lines": "cellc.mock.record",
+    "to_json_lines": "cellc.mock.result",
 }
 
 

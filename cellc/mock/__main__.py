@@ -7,7 +7,7 @@ import contextlib
 import os
 import sys
 
-from cellc.mock.asked import contradiction
+from cellc.mock.command.options import contradiction
 
 
 def main() -> int:
@@ -52,7 +52,7 @@ def main() -> int:
 
 
 def _run_rehearsals(options: argparse.Namespace) -> int:
-    from cellc.mock.command import run_command
+    from cellc.mock.command.rehearsals import run_command
 
     return run_command(
         options.folder,
@@ -65,7 +65,7 @@ def _run_rehearsals(options: argparse.Namespace) -> int:
 
 
 def _run_campaign(options: argparse.Namespace) -> int:
-    from cellc.mock.campaign.command import CampaignOptions, list_runs, replay_runs, run_campaign
+    from cellc.mock.command.campaign import CampaignOptions, list_runs, replay_runs, run_campaign
 
     asked = CampaignOptions(
         program="python -m cellc.mock",
@@ -77,7 +77,7 @@ def _run_campaign(options: argparse.Namespace) -> int:
         evidence=options.evidence,
     )
     if options.gates:
-        from cellc.mock.gates.command import run_gates
+        from cellc.mock.command.gates import run_gates
 
         return run_gates(options.folder, asked)
     if options.list:

@@ -1,4 +1,4 @@
-"""Builds the plant of one rehearsal from what the folder says."""
+"""Builds the plant of one rehearsal from what the folder says: nodes, topics between them, and the control stack."""
 
 from __future__ import annotations
 
@@ -6,32 +6,84 @@ from collections.abc import Mapping
 from functools import partial
 from math import inf
 
-from cellc.contract.contract import Contract, ContractFrame, ContractInterface
+from cellc.contract.contract import Contract, ContractEndpoint, ContractFrame, ContractInterface
 from cellc.mock.adapter.server import AdapterServer
-from cellc.mock.bus.matching import hears, task_node
-from cellc.mock.bus.middleware import middleware_of
-from cellc.mock.bus.network import Network
+from cellc.mock.bus.network import EdgeName, Network, QosEvent, QosEventKind
+from cellc.mock.bus.qos import hears, middleware_of, task_node
+from cellc.mock.bus.stream import StreamEdge
+from cellc.mock.bus.timers import StreamDeadline
 from cellc.mock.bus.topic import Topic
 from cellc.mock.clocks import DEFAULT, TimeJump, build_clocks
-from cellc.mock.connections import joint_state_feeds, stream_edge, watch_deadlines
 from cellc.mock.control import ControllerManager, DeclaredInterfaces, JointFault, Noise
 from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.engine.simulation import Simulation
 from cellc.mock.folder import GeneratedFolder
-from cellc.mock.nodes.camera import Camera, Image
 from cellc.mock.nodes.motion_planner import MotionPlanner, PlanMemory
 from cellc.mock.nodes.observations import ObservationInbox
-from cellc.mock.nodes.perception import ObjectPose, Perception
+from cellc.mock.nodes.perception import TF, Camera, Image, ObjectPose, Perception, TfBroadcast
 from cellc.mock.nodes.robot_state_publisher import NODE as ROBOT_STATE_PUBLISHER
-from cellc.mock.nodes.robot_state_publisher import PUBLISH_FREQUENCY_HZ, RobotStatePublisher
-from cellc.mock.nodes.tf_broadcast import TF, TfBroadcast
+from cellc.mock.nodes.robot_state_publisher import PUBLISH_FREQUENCY_HZ, JointStateFeed, RobotStatePublisher
 from cellc.mock.plant import Plant, Requests
 from cellc.mock.progress import Progress
 from cellc.mock.stops import Stops
 from cellc.mock.tf.buffer import DEFAULT_BUFFER_S, TransformBuffer
 from cellc.mock.tf.sources import SampledSource
+from cellc.mock.world.joint_states import JOINT_STATE_TYPE
 from cellc.mock.world.objects import World
 from cellc.transforms import Pose
+
+
+def joint_state_feeds(
+    contract: Contract, control: ControlStack, network: Network, node: str
+) -> tuple[JointStateFeed, ...]:
+    """Return the joint states whose broadcaster is connected to a node."""
+    topics = {
+        source.node: name
+        for name, interface in contract.interfaces.items()
+        if interface.type == JOINT_STATE_TYPE
+        for source in interface.sources
+    }
+    return tuple(
+        JointStateFeed(history, stream_edge(contract, network, topics.get(broadcaster, ""), broadcaster, node))
+        for (_, broadcaster), history in control.histories.items()
+        if hears(contract, topics.get(broadcaster, ""), broadcaster, node)
+    )
+
+
+def watch_deadlines(contract: Contract, control: ControlStack, network: Network) -> None:
+    """Watch the deadlines that the ends of joint state topics promise or rely on; none costs nothing."""
+    for name, interface in contract.interfaces.items():
+        if interface.type != JOINT_STATE_TYPE or not network.middleware.tells:
+            continue
+        for source in interface.sources:
+            for (_, broadcaster), history in control.histories.items():
+                if broadcaster == source.node and source.qos.deadline_s is not None:
+                    sent = JointStateFeed(history, None)
+                    _watch(network, QosEventKind.OFFERED_DEADLINE_MISSED, name, source, sent)
+        for sink in interface.sinks:
+            for feed in joint_state_feeds(contract, control, network, sink.node) if sink.qos.deadline_s else ():
+                _watch(network, QosEventKind.REQUESTED_DEADLINE_MISSED, name, sink, feed)
+
+
+def _watch(network: Network, kind: QosEventKind, topic: str, end: ContractEndpoint, feed: JointStateFeed) -> None:
+    def note() -> None:
+        network.events.note(QosEvent(kind, topic, end.node, network.timers.now_ns))
+
+    if end.qos.deadline_s is not None:
+        StreamDeadline(end.qos.deadline_s, network.timers, feed.newest_arrival_ns, note)
+
+
+def stream_edge(contract: Contract, network: Network, topic: str, source: str, sink: str) -> StreamEdge | None:
+    """Return the edge of a stream; None where the contract does not describe both of its ends."""
+    interface = contract.interfaces.get(topic)
+    if interface is None:
+        return None
+    offered = next((end.qos for end in interface.sources if end.node == source), None)
+    requested = next((end.qos for end in interface.sinks if end.node == sink), None)
+    if offered is None or requested is None:
+        return None
+    return StreamEdge(EdgeName(topic, source, sink), offered, requested, network)
+
 
 POSE_TYPE = "geometry_msgs/msg/PoseStamped"
 _DEFAULT_RATE_HZ = 10.0

@@ -1,18 +1,125 @@
-"""A loaded cell: rehearsals by name."""
+"""A loaded cell: runs rehearsals by name, from a cell that is off to a named end."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from cellc.contract.contract import Contract
 from cellc.contract.rehearsals import RehearsalEntry
+from cellc.mock.assemble import assemble, start_nodes
+from cellc.mock.bringup import Bringup
+from cellc.mock.bus.qos import unmatched_pairs
+from cellc.mock.control import ManagerAbortedError
 from cellc.mock.errors import MockError
+from cellc.mock.faults.build import build_fault
+from cellc.mock.faults.injection import Injection
 from cellc.mock.folder import GeneratedFolder, read_folder
 from cellc.mock.nodes.motion_model import build_motion_model
 from cellc.mock.nodes.motion_planner import PlanMemory
-from cellc.mock.rehearse import Watch, rehearse
-from cellc.mock.result import RehearsalResult
+from cellc.mock.plant import Plant
+from cellc.mock.result import BRINGUP_FAILURE, AttemptRecord, RehearsalResult, StageEvidence
+from cellc.mock.task.context import Outcome, TaskContext
+from cellc.mock.task.task import Task
 from cellc.mock.world.links import read_links
+
+SUCCEEDED = "succeeded"
+
+Watch = Callable[[Plant], None]
+"""Called with the plant before anything runs, so that whoever keeps evidence can listen from the first cycle on."""
+
+
+def rehearse(
+    folder: GeneratedFolder,
+    memory: PlanMemory,
+    rehearsal: RehearsalEntry,
+    seed: int,
+    watch: Watch | None = None,
+) -> RehearsalResult:
+    """Run a rehearsal from a cell that is off to its named end.
+
+    Args:
+        watch: sees the plant first; it may listen, and must not change anything.
+
+    Raises:
+        MockError: a fault names what the contract does not have.
+    """
+    injections = [Injection(entry, build_fault(entry, folder.contract)) for entry in rehearsal.faults]
+    try:
+        plant = assemble(folder, memory, seed)
+    except ManagerAbortedError as aborted:
+        evidence = StageEvidence("discover", (), (f"the controller manager ended: {aborted.reason}",))
+        return _not_up(rehearsal, (evidence,), unmatched_pairs(folder.contract))
+    if watch is not None:
+        watch(plant)
+    start_nodes(plant)
+    bringup = Bringup(plant)
+    plant.simulation.run_process(bringup.run())
+    if not bringup.passed:
+        return _not_up(rehearsal, tuple(bringup.evidence), _findings(plant))
+    begun_ns = plant.now_ns
+    for injection in injections:
+        injection.schedule(plant, begun_ns)
+    task = Task(rehearsal, TaskContext(plant, begun_ns + round(rehearsal.timeout_s * 1e9), seed))
+    plant.simulation.run_process(task.run())
+    absent = tuple(injection.describe_absence() for injection in injections if injection.begun_ns is None)
+    return RehearsalResult(
+        name=rehearsal.name,
+        outcome=task.outcome.value,
+        expected=rehearsal.expect,
+        sim_time_s=(plant.now_ns - begun_ns) / 1e9,
+        response_s=_response_s(injections, task.records),
+        within_s=rehearsal.within_s,
+        attempts=tuple(task.records),
+        bringup=tuple(bringup.evidence),
+        findings=(*_findings(plant), *absent),
+        vacuous=bool(absent) and (len(absent) == len(injections) or task.outcome is Outcome.SUCCEEDED),
+    )
+
+
+def _response_s(injections: Sequence[Injection], records: Sequence[AttemptRecord]) -> float | None:
+    """Return the time from the last fault taking effect to the bounded end of the attempt that it ended.
+
+    A cancel takes effect when it is requested and ends when the joints stand still. Any other fault takes effect when
+    it begins, or when the attempt begins that meets it, and ends with the attempt.
+    """
+    begun = [injection.begun_ns for injection in injections if injection.begun_ns is not None]
+    attempts = records[:-1]
+    if not begun or not attempts:
+        return None
+    ended = next((record for record in attempts if record.outcome != SUCCEEDED), attempts[-1])
+    if ended.outcome == "cancelled" and ended.cancel is not None:
+        return ended.cancel.latency_s
+    return (ended.ended_ns - max(*begun, ended.started_ns)) / 1e9
+
+
+def _not_up(
+    rehearsal: RehearsalEntry, evidence: tuple[StageEvidence, ...], findings: tuple[str, ...]
+) -> RehearsalResult:
+    return RehearsalResult(
+        name=rehearsal.name,
+        outcome=BRINGUP_FAILURE,
+        expected=rehearsal.expect,
+        sim_time_s=0.0,
+        response_s=None,
+        within_s=rehearsal.within_s,
+        attempts=(),
+        bringup=evidence,
+        findings=findings,
+    )
+
+
+def _findings(plant: Plant) -> tuple[str, ...]:
+    contract: Contract = plant.contract
+    plant.robot_state_publisher.catch_up(plant.now_ns)  # what the listener refuses, it refuses when it arrives
+    return (
+        *unmatched_pairs(contract),
+        *plant.network.events.lines(),
+        *plant.buffer.conflicts,
+        *plant.buffer.warnings.lines(),
+        *plant.requests.findings,
+        *plant.control.dangers,
+    )
 
 
 class MockCell:

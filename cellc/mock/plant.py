@@ -10,12 +10,10 @@ from cellc.mock.clocks import Clocks
 from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.engine.process import Signal
 from cellc.mock.engine.simulation import Simulation
-from cellc.mock.nodes.camera import Camera
-from cellc.mock.nodes.joint_state_feed import JointStateFeed
 from cellc.mock.nodes.motion_planner import MotionPlanner
 from cellc.mock.nodes.observations import ObservationInbox
-from cellc.mock.nodes.perception import Perception
-from cellc.mock.nodes.robot_state_publisher import RobotStatePublisher
+from cellc.mock.nodes.perception import Camera, Perception
+from cellc.mock.nodes.robot_state_publisher import JointStateFeed, RobotStatePublisher
 from cellc.mock.progress import Progress
 from cellc.mock.stops import Stops
 from cellc.mock.tf.buffer import TransformBuffer

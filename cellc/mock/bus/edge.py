@@ -1,14 +1,16 @@
-"""One matched pair of a topic: samples travel, are lost, sent again, overtaken, and given to the reader in order."""
+"""One matched pair of a topic: samples travel, are lost or overtaken, and wait in the queue of the reader."""
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
 from random import Random
 from typing import Generic, TypeVar
 
-from cellc.mock.bus.behaviour import IDEAL
-from cellc.mock.bus.timers import Timers
+from cellc.contract.contract import ContractEndpoint
+from cellc.mock.bus.network import IDEAL, Network, QosEvent, QosEventKind
+from cellc.mock.bus.timers import DeadlineWatch, Timers
 
 Sample = TypeVar("Sample")
 
@@ -111,3 +113,98 @@ class Edge(Generic[Sample]):
             sent = self._waiting.pop(number, None)
             if sent is not None:
                 self._deliver(sent.sample, sent.expires_ns)
+
+
+@dataclass(frozen=True, slots=True)
+class Received(Generic[Sample]):
+    """A sample in the queue of a subscription, with the time at which it arrived."""
+
+    arrived_ns: int
+    expires_ns: int | None
+    sample: Sample
+
+
+class Subscription(Generic[Sample]):
+    """Holds what has arrived and was not taken yet; a full keep-last queue drops its oldest sample.
+
+    Attributes:
+        endpoint: who subscribes, and the profile that it requests.
+        arrived: number of samples that arrived.
+        dropped: number of samples that the queue had no room for.
+        expired: number of samples that outlived their lifespan on their way or in the queue.
+        lost: number of samples that never arrived, as far as the subscription knows.
+    """
+
+    def __init__(self, endpoint: ContractEndpoint, on_sample: Callable[[], None] | None = None) -> None:
+        """Bind the subscription; ``on_sample`` is called after each arrival."""
+        self.lost = 0
+        self.endpoint = endpoint
+        self.arrived = 0
+        self.dropped = 0
+        self.expired = 0
+        keep_all = endpoint.qos.history == "keep_all"
+        self._depth = None if keep_all else max(1, endpoint.qos.depth)
+        self._queue: deque[Received[Sample]] = deque()
+        self._on_sample = on_sample
+
+    def deliver(self, sample: Sample, now_ns: int, expires_ns: int | None) -> None:
+        """Put an arriving sample at the end of the queue, unless its lifespan is over."""
+        if expires_ns is not None and now_ns >= expires_ns:
+            self.expired += 1
+            return
+        self.arrived += 1
+        if self._depth is not None and len(self._queue) >= self._depth:
+            self._queue.popleft()
+            self.dropped += 1
+        self._queue.append(Received(now_ns, expires_ns, sample))
+        if self._on_sample is not None:
+            self._on_sample()
+
+    def take(self, now_ns: int) -> Received[Sample] | None:
+        """Remove and return the oldest sample whose lifespan has not passed; None where there is none."""
+        while self._queue:
+            received = self._queue.popleft()
+            if received.expires_ns is None or now_ns < received.expires_ns:
+                return received
+            self.expired += 1
+        return None
+
+
+class Reader(Generic[Sample]):
+    """Fills a subscription and watches its requested deadline and the liveliness of its writers."""
+
+    def __init__(self, topic: str, subscription: Subscription[Sample], network: Network) -> None:
+        """Bind the reader to its subscription."""
+        self.subscription = subscription
+        self.endpoint = subscription.endpoint
+        self._topic = topic
+        self._network = network
+        self._alive = 0
+        self._not_alive = 0
+        deadline_s = self.endpoint.qos.deadline_s if network.middleware.tells else None
+        self._deadline = None if deadline_s is None else DeadlineWatch(deadline_s, network.timers, self._missed)
+
+    def deliver(self, sample: Sample, expires_ns: int | None) -> None:
+        """Put a sample into the queue."""
+        if self._deadline is not None:
+            self._deadline.note()
+        self.subscription.deliver(sample, self._network.timers.now_ns, expires_ns)
+
+    def lose(self, count: int) -> None:
+        """Take note of samples that will not come."""
+        self.subscription.lost += count
+        self._note(QosEventKind.MESSAGE_LOST, count)
+
+    def note_liveliness(self, *, alive: bool, known: bool) -> None:
+        """Take note that a writer came alive or is no longer; ``known`` where it had been alive before."""
+        self._alive += 1 if alive else -1
+        if known:
+            self._not_alive += -1 if alive else 1
+        self._note(QosEventKind.LIVELINESS_CHANGED, 1, f"{self._alive} alive, {self._not_alive} not alive")
+
+    def _missed(self) -> None:
+        self._note(QosEventKind.REQUESTED_DEADLINE_MISSED, 1)
+
+    def _note(self, kind: QosEventKind, count: int, detail: str = "") -> None:
+        now_ns = self._network.timers.now_ns
+        self._network.events.note(QosEvent(kind, self._topic, self.endpoint.node, now_ns, count, detail))

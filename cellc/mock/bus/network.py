@@ -2,15 +2,120 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
+from enum import Enum
 from random import Random
 
 from cellc.contract.contract import ContractInterface
-from cellc.mock.bus.behaviour import IDEAL, SEVERED, EdgeBehaviour, edge_random
-from cellc.mock.bus.events import QosEvents
-from cellc.mock.bus.middleware import DDS, Middleware
+from cellc.mock.bus.qos import DDS, Middleware
 from cellc.mock.bus.timers import Timers
+
+HEARTBEAT_RESPONSE_S = 0.005
+"""Delay of a reader's answer to a heartbeat; default of Fast DDS (ReaderTimes::heartbeat_response_delay)."""
+NACK_RESPONSE_S = 0.005
+"""Delay of a writer's answer to a missing sample; default of Fast DDS (WriterTimes::nack_response_delay)."""
+
+
+@dataclass(frozen=True, slots=True)
+class EdgeBehaviour:
+    """How samples travel; each is drawn on its own from the seed of the edge.
+
+    Attributes:
+        latency_s: shortest time from publishing to arrival.
+        jitter_s: up to so much more, evenly spread.
+        loss: share of samples that do not arrive when they are first sent, 0 to 1.
+        reordering: share of samples that are overtaken by the next one, 0 to 1.
+    """
+
+    latency_s: float = 0.0
+    jitter_s: float = 0.0
+    loss: float = 0.0
+    reordering: float = 0.0
+
+    @property
+    def is_ideal(self) -> bool:
+        """Tell whether every sample arrives at once."""
+        return self == IDEAL
+
+    @property
+    def retry_s(self) -> float:
+        """Time from sending to sending again: heartbeat there, its answer back, and both ends' response delays."""
+        return 2.0 * (self.latency_s + self.jitter_s) + HEARTBEAT_RESPONSE_S + NACK_RESPONSE_S
+
+
+IDEAL = EdgeBehaviour()
+SEVERED = EdgeBehaviour(loss=1.0)
+"""Nothing arrives: a cable that was pulled."""
+
+
+def edge_random(seed: int, topic: str, source: str, sink: str) -> Random:
+    """Return the random numbers of one edge; they depend on nothing that happens on other edges."""
+    name = "\0".join((str(seed), topic, source, sink))
+    return Random(int.from_bytes(hashlib.sha256(name.encode()).digest(), "big"))
+
+
+class QosEventKind(str, Enum):
+    """Names of rmw_event_type_t, without the prefix; the values say what happened in words."""
+
+    OFFERED_DEADLINE_MISSED = "offered deadline missed"
+    REQUESTED_DEADLINE_MISSED = "requested deadline missed"
+    LIVELINESS_LOST = "liveliness lost"
+    LIVELINESS_CHANGED = "liveliness changed"
+    OFFERED_QOS_INCOMPATIBLE = "offered QoS incompatible"
+    REQUESTED_QOS_INCOMPATIBLE = "requested QoS incompatible"
+    MESSAGE_LOST = "message lost"
+
+
+@dataclass(frozen=True, slots=True)
+class QosEvent:
+    """One event of an endpoint; ``detail`` says what rmw puts in the status beside the count."""
+
+    kind: QosEventKind
+    topic: str
+    node: str
+    at_ns: int
+    count: int = 1
+    detail: str = ""
+
+
+class QosEvents:
+    """The events of all endpoints so far.
+
+    Attributes:
+        log: every event in order.
+    """
+
+    def __init__(self) -> None:
+        self.log: list[QosEvent] = []
+        self._listeners: list[Callable[[QosEvent], None]] = []
+
+    def listen(self, listener: Callable[[QosEvent], None]) -> None:
+        """Call ``listener`` with every event from now on."""
+        self._listeners.append(listener)
+
+    def note(self, event: QosEvent) -> None:
+        """Note an event."""
+        self.log.append(event)
+        for listener in self._listeners:
+            listener(event)
+
+    def total(self, kind: QosEventKind, topic: str, node: str) -> int:
+        """Return the total count of an endpoint, as its status says."""
+        return sum(event.count for event in self.log if (event.kind, event.topic, event.node) == (kind, topic, node))
+
+    def lines(self) -> tuple[str, ...]:
+        """Return one line for each endpoint and kind of event, in the order in which they came first.
+
+        Incompatible endpoints are left out: they are found, with the policy, before anything is sent.
+        """
+        totals: dict[tuple[str, str, QosEventKind], int] = {}
+        for event in self.log:
+            if event.kind not in (QosEventKind.OFFERED_QOS_INCOMPATIBLE, QosEventKind.REQUESTED_QOS_INCOMPATIBLE):
+                key = (event.topic, event.node, event.kind)
+                totals[key] = totals.get(key, 0) + event.count
+        return tuple(f"`{topic}` at `{node}`: {kind.value}, {count} x" for (topic, node, kind), count in totals.items())
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,8 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from cellc.contract.contract import ContractQos
-from cellc.mock.bus.behaviour import EdgeBehaviour
-from cellc.mock.bus.network import EdgeName, Network
+from cellc.mock.bus.network import EdgeBehaviour, EdgeName, Network
 
 IntArray = npt.NDArray[np.int64]
 FloatArray = npt.NDArray[np.float64]

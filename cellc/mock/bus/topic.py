@@ -1,18 +1,138 @@
-"""One topic: who is matched with whom, and what passes between them."""
+"""Publishers and subscriptions of one topic by name, connected where their profiles match."""
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable
 from typing import Generic
 
 from cellc.contract.contract import ContractEndpoint, ContractInterface
-from cellc.mock.bus.edge import Sample
-from cellc.mock.bus.events import QosEvent, QosEventKind
-from cellc.mock.bus.match import Match
-from cellc.mock.bus.network import Network
-from cellc.mock.bus.reader import Reader
-from cellc.mock.bus.subscription import Subscription
-from cellc.mock.bus.writer import Writer
+from cellc.mock.bus.edge import Edge, Reader, Sample, Subscription
+from cellc.mock.bus.network import SEVERED, EdgeBehaviour, EdgeName, Network, QosEvent, QosEventKind
+from cellc.mock.bus.timers import DeadlineWatch, Lease
+
+
+class Match(Generic[Sample]):
+    """Carries what one publisher sends to one reader."""
+
+    def __init__(self, topic: str, source: ContractEndpoint, reader: Reader[Sample], network: Network) -> None:
+        """Bind a pair whose profiles are compatible."""
+        sink = reader.endpoint
+        name = EdgeName(topic, source.node, sink.node)
+        self._reader = reader
+        self._manual = source.qos.liveliness == "manual_by_topic"
+        self._was_alive = False
+        lease_s = sink.qos.lease_duration_s if network.middleware.tells else None
+        self._lease = None if lease_s is None else Lease(lease_s, network.timers, self._note_liveliness)
+        self._edge = Edge[Sample](
+            reliable=(source.qos.reliability, sink.qos.reliability) == ("reliable", "reliable"),
+            depth=None if source.qos.history == "keep_all" else max(1, source.qos.depth),
+            random=network.random(name),
+            timers=network.timers,
+            deliver=self._deliver,
+            lose=reader.lose,
+        )
+        network.attach(name, self._behave)
+
+    def send(self, sample: Sample, expires_ns: int | None) -> None:
+        """Send the next sample of the publisher."""
+        self._edge.send(sample, expires_ns)
+
+    def replay(self, sample: Sample, expires_ns: int | None) -> None:
+        """Give the reader a sample that was published before it joined."""
+        self._deliver(sample, expires_ns)
+
+    def hear_assertion(self) -> None:
+        """Let the reader hear that the publisher asserted itself without a sample."""
+        if self._lease is not None and self._edge.behaviour != SEVERED:
+            self._lease.assert_alive()
+
+    def _behave(self, behaviour: EdgeBehaviour) -> None:
+        was_severed = self._edge.behaviour == SEVERED
+        self._edge.behaviour = behaviour
+        if self._lease is None or self._manual:
+            return
+        if behaviour != SEVERED:
+            self._lease.hold()
+        elif not was_severed and self._lease.alive:
+            self._lease.assert_alive()  # the last assertion that the middleware could send
+
+    def _deliver(self, sample: Sample, expires_ns: int | None) -> None:
+        if self._lease is not None and self._manual:
+            self._lease.assert_alive()
+        self._reader.deliver(sample, expires_ns)
+
+    def _note_liveliness(self, alive: bool) -> None:
+        self._reader.note_liveliness(alive=alive, known=self._was_alive)
+        self._was_alive = True
+
+
+class Writer(Generic[Sample]):
+    """Sends to every matched reader and watches its own promises.
+
+    Attributes:
+        published: number of samples.
+    """
+
+    def __init__(self, topic: str, endpoint: ContractEndpoint, network: Network) -> None:
+        """Bind the publisher of a topic."""
+        self.published = 0
+        self._topic = topic
+        self._node = endpoint.node
+        self._network = network
+        self._matches: list[Match[Sample]] = []
+        qos = endpoint.qos
+        depth = None if qos.history == "keep_all" else max(1, qos.depth)
+        self._latched: deque[tuple[Sample, int | None]] | None = None
+        if qos.durability == "transient_local":
+            self._latched = deque(maxlen=depth)
+        self._lifespan_ns = None if qos.lifespan_s is None else round(qos.lifespan_s * 1e9)
+        self._deadline: DeadlineWatch | None = None
+        if qos.deadline_s is not None and network.middleware.tells:
+            self._deadline = DeadlineWatch(qos.deadline_s, network.timers, self._missed)
+        # An automatic publisher loses its liveliness with its process alone, and then there is nobody to tell.
+        self._lease: Lease | None = None
+        if qos.liveliness == "manual_by_topic" and qos.lease_duration_s is not None and network.middleware.tells:
+            self._lease = Lease(qos.lease_duration_s, network.timers, self._note_liveliness)
+
+    def publish(self, sample: Sample) -> None:
+        """Send a sample."""
+        self.published += 1
+        expires_ns = None if self._lifespan_ns is None else self._network.timers.now_ns + self._lifespan_ns
+        if self._deadline is not None:
+            self._deadline.note()
+        if self._lease is not None:
+            self._lease.assert_alive()
+        if self._latched is not None:
+            self._latched.append((sample, expires_ns))
+        for match in self._matches:
+            match.send(sample, expires_ns)
+
+    def assert_liveliness(self) -> None:
+        """Say that the publisher is alive, without a sample; means something where liveliness is manual."""
+        if self._lease is not None:
+            self._lease.assert_alive()
+        for match in self._matches:
+            match.hear_assertion()
+
+    def connect(self, match: Match[Sample], *, wants_history: bool) -> None:
+        """Send to a reader from now on, and first what is latched for it."""
+        self._matches.append(match)
+        if self._latched is None or not wants_history:
+            return
+        for sample, expires_ns in self._latched:
+            if expires_ns is None or self._network.timers.now_ns < expires_ns:
+                match.replay(sample, expires_ns)
+
+    def _missed(self) -> None:
+        self._note(QosEventKind.OFFERED_DEADLINE_MISSED)
+
+    def _note_liveliness(self, alive: bool) -> None:
+        if not alive:
+            self._note(QosEventKind.LIVELINESS_LOST)
+
+    def _note(self, kind: QosEventKind) -> None:
+        self._network.events.note(QosEvent(kind, self._topic, self._node, self._network.timers.now_ns))
 
 
 class Topic(Generic[Sample]):

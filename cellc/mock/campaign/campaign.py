@@ -5,11 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from cellc.mock.campaign.execute import execute
-from cellc.mock.campaign.limits_report import LimitsReport, merge
-from cellc.mock.campaign.plan import CampaignPlan
-from cellc.mock.campaign.run import CampaignRun, RunEnd
-from cellc.mock.campaign.workers import Assignment, run_here, run_in_workers
+from cellc.mock.campaign.execute import Assignment, execute, run_here, run_in_workers
+from cellc.mock.campaign.limits import LimitsReport, merge
+from cellc.mock.campaign.plan import CampaignPlan, CampaignRun, RunEnd
 from cellc.mock.cell import MockCell
 from cellc.mock.errors import MockError
 from cellc.mock.faults.case import FaultCase

@@ -5,12 +5,36 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import BinaryIO
+from urllib.parse import quote
 
 from cellc.mock.errors import MockError
 from cellc.store.swap import Swap, discard, is_alive, others, staging_of
+
+_LONGEST = 100
+
+
+def file_names(rehearsals: Iterable[str]) -> dict[str, str]:
+    """Return the stem of the files of each rehearsal: its name where every file system takes it.
+
+    Other characters are escaped as in a URL; names that are one where case does not count get a number.
+    """
+    stems: dict[str, str] = {}
+    taken = {"report", "evidence"}
+    for name in rehearsals:
+        if name in stems:
+            continue
+        plain = quote(name, safe=" ")[:_LONGEST].replace("~", "%7E").strip(" ")
+        plain = f"_{plain}" if not plain or plain.startswith(".") else plain
+        stem, number = plain, 2
+        while stem.casefold() in taken:
+            stem, number = f"{plain}-{number}", number + 1
+        taken.add(stem.casefold())
+        stems[name] = stem
+    return stems
+
 
 INDEX = "evidence.json"
 """Names every file of the folder with its hash, by which the next call tells its own files from those of others."""

@@ -8,10 +8,8 @@ from dataclasses import asdict, dataclass
 
 from cellc.contract.contract import ContractKpis
 from cellc.contract.rehearsals import RehearsalEntry
-from cellc.mock.evidence.trace.claims import StateChange
-from cellc.mock.evidence.trace.run_trace import TraceResult
-from cellc.mock.record import AttemptRecord, PacketStep
-from cellc.mock.result import RehearsalResult
+from cellc.mock.evidence.run_trace import StateChange, TraceResult
+from cellc.mock.result import AttemptRecord, PacketStep, RehearsalResult
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,17 +1,25 @@
-"""The bag of one rehearsal: every topic of the cell that a recorder beside it would have heard."""
+"""Writes what happens in one rehearsal to a bag: states, transforms, goals, poses, diagnostics and attempts."""
 
 from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 
 from cellc.contract.contract import ContractController
-from cellc.mock.control import GripperGoal, JointStateBlock, Recording
+from cellc.mock.control import ControllerManager, GripperGoal, JointStateBlock, Recording
 from cellc.mock.engine.watcher import GoalSent
 from cellc.mock.evidence.bag import messages
-from cellc.mock.evidence.bag.bag import Bag
-from cellc.mock.evidence.bag.rows import MessageRows
-from cellc.mock.evidence.bag.shapes import Point, controller_state_rows, joint_state_shape
-from cellc.mock.evidence.diagnostics import diagnose
+from cellc.mock.evidence.bag.bag_file import Bag
+from cellc.mock.evidence.bag.cdr import MessageRows
+from cellc.mock.evidence.bag.messages import (
+    DiagnosticStatus,
+    Point,
+    StampedTransform,
+    controller_state_rows,
+    joint_state_shape,
+)
 from cellc.mock.evidence.topics import (
     ATTEMPTS,
     DIAGNOSTICS,
@@ -25,10 +33,100 @@ from cellc.mock.evidence.topics import (
     static_transforms_topic,
     transforms_topic,
 )
-from cellc.mock.evidence.transform_stream import TransformMessage, static_transforms
 from cellc.mock.nodes.perception import ObjectPose
+from cellc.mock.nodes.robot_state_publisher import PUBLISH_FREQUENCY_HZ
 from cellc.mock.plant import Plant
-from cellc.mock.record import AttemptRecord, to_json_line
+from cellc.mock.result import AttemptRecord, to_json_line
+from cellc.mock.world.joint_states import JointStateHistory
+
+_OK, _WARN, _ERROR = 0, 1, 2
+
+
+def diagnose(plant: Plant, now_ns: int) -> tuple[DiagnosticStatus, ...]:
+    """Return the present status of every controller manager and of its update loop."""
+    return tuple(_statuses(plant, now_ns))
+
+
+def _statuses(plant: Plant, now_ns: int) -> Iterator[DiagnosticStatus]:
+    for name, manager in plant.control.managers.items():
+        namespace = plant.contract.managers[name].namespace.strip("/")
+        node = f"{namespace}/controller_manager" if namespace else "controller_manager"
+        yield _activity(f"{node}: Controllers Activity", "controllers", _controllers(manager), _WARN)
+        yield _activity(f"{node}: Hardware Components Activity", "hardware components", _components(manager), _ERROR)
+        histories = [history for (owner, _), history in plant.control.histories.items() if owner == name]
+        missed = sum(history.missed_until(now_ns) for history in histories)
+        text = "no update cycle was missed" if missed == 0 else f"{missed} update cycles were missed"
+        yield DiagnosticStatus(
+            _ERROR if missed else _OK, f"{node}: Update Cycles", text, (("missed_cycles", str(missed)),)
+        )
+
+
+def _activity(name: str, what: str, states: tuple[tuple[str, str], ...], level: int) -> DiagnosticStatus:
+    active = all(state == "active" for _, state in states)
+    text = f"all {what} are active" if active else f"not all {what} are active"
+    return DiagnosticStatus(_OK if active else level, name, text, states)
+
+
+def _controllers(manager: ControllerManager) -> tuple[tuple[str, str], ...]:
+    return tuple((controller.name, controller.state) for controller in manager.list_controllers())
+
+
+def _components(manager: ControllerManager) -> tuple[tuple[str, str], ...]:
+    return tuple((component.name, component.state) for component in manager.list_hardware_components())
+
+
+_INTERVAL_NS = round(1e9 / PUBLISH_FREQUENCY_HZ)
+
+
+@dataclass(frozen=True, slots=True)
+class TransformMessage:
+    """A tf2_msgs/TFMessage with the simulated instant at which it was published."""
+
+    published_ns: int
+    transforms: tuple[StampedTransform, ...]
+
+
+class TransformStream:
+    """Turns the joint states of one broadcaster into transforms, thinned as the node does it."""
+
+    def __init__(self, plant: Plant, history: JointStateHistory) -> None:
+        """Bind the stream; it reads the plant and changes nothing in it."""
+        self._plant = plant
+        self._history = history
+        self._clock = plant.clocks.of(history.broadcaster)
+        self._due_ns: int | None = None
+
+    def take(self, block: JointStateBlock) -> Iterator[TransformMessage]:
+        """Yield the messages that a block of joint states gives."""
+        arrivals = self._history.arrivals(block.stamps_ns)
+        for row in self._used(block):
+            taken_ns = int(block.stamps_ns[row])
+            positions = dict(zip(block.names, block.positions[row].tolist(), strict=True))
+            transforms = self._transforms(taken_ns, positions)
+            if transforms:
+                yield TransformMessage(int(arrivals[row]), transforms)
+
+    def _used(self, block: JointStateBlock) -> Iterator[int]:
+        row = 0 if self._due_ns is None else int(np.searchsorted(block.stamps_ns, self._due_ns))
+        while row < len(block.stamps_ns):
+            yield row
+            self._due_ns = int(block.stamps_ns[row]) + _INTERVAL_NS
+            row = int(np.searchsorted(block.stamps_ns, self._due_ns))
+
+    def _transforms(self, taken_ns: int, positions: dict[str, float]) -> tuple[StampedTransform, ...]:
+        publisher, stamp_ns = self._plant.robot_state_publisher, self._clock.read(taken_ns)
+        return tuple(
+            StampedTransform(stamp_ns, joint.parent, joint.child, joint.pose(positions))
+            for joint in publisher.moved_by(self._history)
+            if publisher.publishes(joint.child, taken_ns)
+        )
+
+
+def static_transforms(plant: Plant) -> tuple[StampedTransform, ...]:
+    """Return the fixed edges of the robot description, stamped with the beginning of time."""
+    joints = plant.robot_state_publisher.links.joints.values()
+    return tuple(StampedTransform(0, joint.parent, joint.child, joint.origin) for joint in joints if not joint.moves)
+
 
 _FIELD_OF = {
     "position": "positions",

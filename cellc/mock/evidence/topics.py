@@ -9,7 +9,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from cellc.contract.contract import Contract, ContractInterface, ContractQos
+from cellc.mock.evidence.bag.bag_file import DEFAULT, LATCHED
 from cellc.mock.evidence.bag.messages import (
+    CONTROLLER_STATE,
     DIAGNOSTIC_ARRAY,
     JOINT_STATE,
     JOINT_TRAJECTORY,
@@ -17,8 +19,6 @@ from cellc.mock.evidence.bag.messages import (
     STRING,
     TF_MESSAGE,
 )
-from cellc.mock.evidence.bag.offered_qos import DEFAULT, LATCHED
-from cellc.mock.evidence.bag.shapes import CONTROLLER_STATE
 from cellc.mock.nodes.robot_state_publisher import NODE
 
 TRAJECTORY_BEHAVIOURS = ("joint_trajectory", "scaled_joint_trajectory")

@@ -10,9 +10,9 @@ from cellc.mock.nodes.motion_planner import PLANNING_LATENCY_S
 from cellc.mock.nodes.observations import DEFAULT_MAX_AGE_S as DEFAULT_OBSERVATION_AGE_S
 from cellc.mock.task.bounds import action_timeout_s, cancel_bound_s, joint_state_age_s
 from cellc.mock.task.context import WATCH_S
-from cellc.mock.task.detect import DEFAULT_RATE_HZ, PATIENCE_PERIODS
-from cellc.mock.task.goal_frame import TF_TIMEOUT_S
 from cellc.mock.task.grip import GRIP_TIMEOUT_S
+from cellc.mock.task.move import TF_TIMEOUT_S
+from cellc.mock.task.task import DEFAULT_RATE_HZ, PATIENCE_PERIODS
 
 POSE_TYPE = "geometry_msgs/msg/PoseStamped"
 MONITOR_S = 0.05

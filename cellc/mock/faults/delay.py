@@ -8,7 +8,7 @@ from functools import partial
 
 from cellc.contract.contract import Contract
 from cellc.contract.rehearsals import FaultEntry
-from cellc.mock.bus.behaviour import EdgeBehaviour
+from cellc.mock.bus.network import EdgeBehaviour
 from cellc.mock.faults.bounds import Bounds
 from cellc.mock.faults.case import BORNE, SUCCEEDED, Ending, FaultCase, ends_in, fault_case
 from cellc.mock.faults.cell_steps import CellStep

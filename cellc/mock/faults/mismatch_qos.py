@@ -11,9 +11,8 @@ from functools import partial
 
 from cellc.contract.contract import Contract, ContractInterface
 from cellc.contract.rehearsals import FaultEntry
-from cellc.mock.bus.behaviour import SEVERED
-from cellc.mock.bus.events import QosEvent, QosEventKind
-from cellc.mock.bus.matching import served_actions
+from cellc.mock.bus.network import SEVERED, QosEvent, QosEventKind
+from cellc.mock.bus.qos import served_actions
 from cellc.mock.faults.bounds import POSE_TYPE, Bounds
 from cellc.mock.faults.case import BORNE, SUCCEEDED, Ending, FaultCase, ends_in, fault_case
 from cellc.mock.faults.cell_steps import CellStep, cell_steps

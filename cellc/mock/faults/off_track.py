@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from cellc.mock.bus.matching import served_actions
+from cellc.mock.bus.qos import served_actions
 from cellc.mock.faults.bounds import Bounds
 from cellc.mock.faults.case import BORNE, SUCCEEDED, Ending, ends_in
 from cellc.mock.faults.cell_steps import CellStep

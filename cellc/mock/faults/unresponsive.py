@@ -14,7 +14,7 @@ from cellc.mock.faults.cell_steps import CellStep
 from cellc.mock.faults.contents import controllers
 from cellc.mock.plant import Plant
 from cellc.mock.task.bounds import planning_server
-from cellc.mock.task.response import RESPONSE_S
+from cellc.mock.task.execute import RESPONSE_S
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,8 +4,8 @@ What the mock cannot show stays UNKNOWN; no line says anything about hardware.
 """
 
 from cellc.mock.gates.gate import GateCheck, GateResult, Verdict
+from cellc.mock.gates.runs import Witness, campaign_witnesses, rehearsal_witnesses
 from cellc.mock.gates.sign import sign_gates
-from cellc.mock.gates.witness import Witness, campaign_witnesses, rehearsal_witnesses
 
 __all__ = [
     "GateCheck",

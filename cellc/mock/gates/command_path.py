@@ -1,13 +1,82 @@
-"""L6 of the network, discovery and time gate: goal to mock controller; owner, cancel, tolerance trace."""
+"""L6 and G2: goals, owners, cancel and tolerance on the mock, and how rehearsals and campaign ended."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cellc.mock.gates.description import read_description
-from cellc.mock.gates.gate import GateCheck, judged
-from cellc.mock.gates.trace import cancel_trace, commanded, goal_trace, owners, tolerance_trace
-from cellc.mock.gates.witness import Testimony
+from cellc.contract.contract import ContractController
+from cellc.mock.campaign.limits import merge
+from cellc.mock.gates.gate import GateCheck, failed, judged, passed, unknown
+from cellc.mock.gates.model import read_description
+from cellc.mock.gates.runs import Testimony
+from cellc.mock.result import PacketStep
+from cellc.mock.task.bounds import cancel_bound_s
+
+_WHOLE = (PacketStep.GOAL_SENT, PacketStep.ACCEPTED, PacketStep.WRITTEN, PacketStep.DRIVEN, PacketStep.RETURNED)
+
+
+def commanded(testimony: Testimony) -> Iterator[tuple[str, ContractController]]:
+    """Yield the controllers that are active and take goals, by name."""
+    for manager in testimony.contract.managers.values():
+        for name, controller in manager.controllers.items():
+            if controller.active and controller.action is not None:
+                yield name, controller
+
+
+def owners(testimony: Testimony) -> GateCheck:
+    """Judge whether each command interface has the one owner that the contract says."""
+    good: list[str] = []
+    bad: list[str] = []
+    for witness in testimony.witnesses:
+        for stage in witness.result.bringup:
+            if stage.stage == "claim":
+                bad += [f"{witness.name}: {problem}" for problem in stage.problems]
+                good = good or [f"{witness.name}: {fact}" for fact in stage.facts]
+    text = "Each command interface is claimed by its one owner"
+    return judged(text, good, bad, "a run whose bring-up came to the claims")
+
+
+def goal_trace(testimony: Testimony, controller: str) -> GateCheck:
+    """Judge whether a goal was seen accepted, driven and answered."""
+    good = [
+        f"{witness.name}, {attempt.step}: accepted, driven, {attempt.result.status}"
+        for witness, attempt in testimony.attempts(controller)
+        if attempt.result is not None and attempt.outcome == "succeeded" and witness.has_mark(attempt, *_WHOLE)
+    ]
+    text = f"A goal to {controller} is accepted, driven and answered"
+    return judged(text, good, [], "a run in which it drives its joints and succeeds")
+
+
+def cancel_trace(testimony: Testimony, controller: str) -> GateCheck:
+    """Judge whether cancelled goals are held within the bound, where their joints were moving."""
+    bound_s = cancel_bound_s(testimony.contract)
+    good: list[str] = []
+    bad: list[str] = []
+    for witness, attempt in testimony.attempts(controller):
+        cancel = attempt.cancel
+        moved = witness.has_mark(attempt, PacketStep.DRIVEN)
+        if cancel is None or attempt.outcome != "cancelled" or not moved:
+            continue
+        if cancel.latency_s is None or cancel.latency_s > bound_s:
+            bad.append(f"{witness.name}, {attempt.step}: not held within {bound_s:g} s")
+        else:
+            good.append(f"{witness.name}, {attempt.step}: held after {cancel.latency_s * 1e3:.0f} ms")
+    text = f"A cancelled goal of {controller} is held within {bound_s:g} s on mock hardware"
+    return judged(text, good, bad, "a run that cancels it while its joints move")
+
+
+def tolerance_trace(testimony: Testimony, controller: str) -> GateCheck:
+    """Judge whether a violated tolerance ends the attempt by name."""
+    good: list[str] = []
+    bad: list[str] = []
+    for witness, attempt in testimony.attempts(controller):
+        if attempt.outcome != "tolerance_violation":
+            continue
+        line = f"{witness.name}, {attempt.step}: {attempt.fault_code}"
+        (good if witness.passed else bad).append(line)
+    text = f"A violated tolerance of {controller} ends in a named outcome within its bound"
+    return judged(text, good, bad, "a run in which one of its joints does not follow")
+
 
 _MOCK_PACKAGE = "mock_components/"
 """Package of ros2_control whose plugins have nothing behind them."""
@@ -30,3 +99,71 @@ def _no_real_interface(testimony: Testimony) -> GateCheck:
         (good if plugin.startswith(_MOCK_PACKAGE) else bad).append(f"{component}: {plugin or 'no plugin'}")
     name = testimony.contract.files.urdf_mock
     return judged(f"No component of {name} is a route to a real interface", good, bad, "a hardware component")
+
+
+def mock_run_checks(testimony: Testimony) -> Iterator[GateCheck]:
+    """Yield the lines of G2."""
+    yield _rehearsals(testimony)
+    yield _bringup(testimony)
+    yield unknown("The launch file starts the nodes", "`ros2 launch` on a host with ROS 2")
+    yield owners(testimony)
+    yield _servers(testimony)
+    for name, _ in commanded(testimony):
+        yield cancel_trace(testimony, name)
+    yield _faults(testimony)
+    yield _limits(testimony)
+
+
+def _rehearsals(testimony: Testimony) -> GateCheck:
+    text = "Every rehearsal ends as declared"
+    seen = {witness.name: witness for witness in testimony.witnesses if witness.declared}
+    bad = [f"{name}: {witness.result.outcome}" for name, witness in seen.items() if not witness.passed]
+    missing = [entry.name for entry in testimony.folder.rehearsals if entry.name not in seen]
+    if bad:
+        return failed(text, bad)
+    if missing or not seen:
+        return unknown(text, f"a run of {', '.join(missing) or 'a rehearsal'}")
+    return passed(text, [f"{name}: {witness.result.outcome}" for name, witness in seen.items()])
+
+
+def _bringup(testimony: Testimony) -> GateCheck:
+    good: list[str] = []
+    bad: list[str] = []
+    for witness in testimony.undisturbed():
+        stages = witness.result.bringup
+        bad += [f"{witness.name}: {stage.stage}: {problem}" for stage in stages for problem in stage.problems]
+        if stages and all(stage.passed for stage in stages):
+            good.append(f"{witness.name}: {', '.join(stage.stage for stage in stages)} passed")
+    return judged("The cell comes up in stages", good, bad, "a run without faults")
+
+
+def _servers(testimony: Testimony) -> GateCheck:
+    """Judge by the graph of the contract, which the mock executes as it is declared."""
+    good: list[str] = []
+    bad: list[str] = []
+    for name, interface in testimony.contract.interfaces.items():
+        if interface.kind == "action":
+            servers = ", ".join(source.node for source in interface.sources) or "nobody"
+            clients = ", ".join(sink.node for sink in interface.sinks) or "nobody"
+            (good if len(interface.sources) == 1 else bad).append(f"{name}: {servers} for {clients}")
+    return judged("Each action has one server and the declared clients", good, bad, "an action")
+
+
+def _faults(testimony: Testimony) -> GateCheck:
+    runs = [witness for witness in testimony.witnesses if not witness.declared]
+    bad = [f"{witness.name}: {witness.result.outcome}" for witness in runs if not witness.passed]
+    good = [f"{len(runs)} runs of the campaign"] if runs else []
+    text = "Every fault at every step ends in a named outcome within its bound"
+    return judged(text, good, bad, "a campaign: `--campaign`")
+
+
+def _limits(testimony: Testimony) -> GateCheck:
+    reports = [witness.limits for witness in testimony.witnesses if witness.limits is not None]
+    total = merge(reports)
+    shares = ", ".join(f"{peak.quantity} {peak.share:.1%}" for peak in total.peaks)
+    moved = any(peak.share > 0.0 for peak in total.peaks)
+    good = [f"{len(reports)} runs, largest share of a limit: {shares}"] if moved else []
+    bad = [str(excess) for excess in total.excesses]
+    return judged(
+        "No commanded trajectory exceeds a limit", good, bad, "a campaign in which a trajectory moves a joint"
+    )

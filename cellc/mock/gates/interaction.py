@@ -10,9 +10,9 @@ from collections.abc import Iterator
 
 from cellc.contract.contract import ContractInterface
 from cellc.contract.rehearsals import FaultEntry
+from cellc.mock.gates.command_path import cancel_trace
 from cellc.mock.gates.gate import GateCheck, judged, unknown
-from cellc.mock.gates.trace import cancel_trace
-from cellc.mock.gates.witness import SUCCEEDED, Testimony, Witness
+from cellc.mock.gates.runs import SUCCEEDED, Testimony, Witness
 
 _IMAGE = "sensor_msgs/msg/Image"
 _JOINT_STATE = "sensor_msgs/msg/JointState"

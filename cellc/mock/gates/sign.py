@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from cellc.mock.folder import GeneratedFolder
-from cellc.mock.gates.command_path import command_path_checks
+from cellc.mock.gates.command_path import command_path_checks, mock_run_checks
 from cellc.mock.gates.gate import GateCheck, GateResult
 from cellc.mock.gates.interaction import interaction_checks
-from cellc.mock.gates.mock_run import mock_run_checks
 from cellc.mock.gates.model import model_checks
-from cellc.mock.gates.witness import Testimony, Witness
+from cellc.mock.gates.runs import Testimony, Witness
 
 # Name, title and state of the robot as in sections 2, 5 and 11 of chapter 4.
 _GATES: tuple[tuple[str, str, str, Callable[[Testimony], Iterator[GateCheck]]], ...] = (

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from cellc.contract.contract import ContractInterface
-from cellc.mock.bus.subscription import Subscription
+from cellc.mock.bus.edge import Subscription
 from cellc.mock.bus.topic import Topic
 from cellc.mock.clocks import Clock
 from cellc.mock.engine.process import Signal

@@ -1,19 +1,146 @@
-"""Perception: images in, stamped object poses and their transform out."""
+"""Cameras and perception: images in, stamped object poses and their transforms on /tf out."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Protocol
 
-from cellc.contract.contract import ContractFrame
-from cellc.mock.bus.subscription import Subscription
+from cellc.contract.contract import ContractCamera, ContractFrame, ContractInterface
+from cellc.mock.bus.edge import Subscription
+from cellc.mock.bus.network import Network
+from cellc.mock.bus.topic import Topic
 from cellc.mock.clocks import Clock
 from cellc.mock.engine.simulation import Simulation
-from cellc.mock.nodes.camera import Image
-from cellc.mock.nodes.tf_broadcast import TransformSink
-from cellc.mock.tf.deferred import DeferredPose
+from cellc.mock.tf.sources import DeferredPose, SampledSource
 from cellc.mock.world.objects import World
 from cellc.transforms import Pose
+
+DEFAULT_TRANSPORT_S = 0.005
+"""Where the contract states no transport time: readout and copy of one image on a local bus."""
+
+
+@dataclass(frozen=True, slots=True)
+class Image:
+    """What is known of an image: when its exposure began, and which one it is.
+
+    Attributes:
+        stamp_ns: begin of the exposure on the clock of the camera.
+        taken_ns: the same in simulated time, which no node knows.
+    """
+
+    stamp_ns: int
+    taken_ns: int
+    frame: str
+    sequence: int
+
+
+class Camera:
+    """Publishes one stream; a frozen camera repeats its last image with its old stamp.
+
+    Attributes:
+        frozen: set by a fault.
+        last: the image delivered last.
+    """
+
+    def __init__(
+        self,
+        device: str,
+        facts: ContractCamera,
+        topic: Topic[Image],
+        transport_s: float | None,
+        clock: Clock,
+        simulation: Simulation,
+    ) -> None:
+        """Bind the camera to its topic; ``transport_s`` is the time from readout to arrival."""
+        self.device = device
+        self.frozen = False
+        self.last: Image | None = None
+        self._facts = facts
+        self._topic = topic
+        self._clock = clock
+        self._simulation = simulation
+        transport = DEFAULT_TRANSPORT_S if transport_s is None else transport_s
+        self._latency_ns = round((facts.exposure_s + transport) * 1e9)
+
+    def start(self) -> None:
+        """Stream from now on."""
+        begun_ns = self._simulation.now_ns
+        rate_hz = self._facts.rate_hz
+
+        def deliver(sequence: int) -> None:
+            taken_ns = begun_ns + round(sequence * 1e9 / rate_hz)
+            self._deliver(Image(self._clock.read(taken_ns), taken_ns, self._facts.frame, sequence))
+
+        self._simulation.every(begun_ns + self._latency_ns, rate_hz, deliver)
+
+    def _deliver(self, image: Image) -> None:
+        if not self.frozen or self.last is None:
+            self.last = image
+        self._topic.publish(self.device, self.last)
+
+
+TF = "/tf"
+
+
+class TransformSink(Protocol):
+    """Takes the transforms of one frame."""
+
+    def insert(self, stamp_ns: int, pose: Pose | DeferredPose) -> None:
+        """Take a transform."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class StampedTransform:
+    """A geometry_msgs/TransformStamped; parent and authority are those of the listener's source."""
+
+    child: str
+    stamp_ns: int
+    pose: Pose | DeferredPose
+
+
+class TfBroadcast:
+    """The topic /tf for frames that nodes observe."""
+
+    def __init__(self, interface: ContractInterface | None, listener: str, network: Network, simulation: Simulation):
+        """Bind the topic; where the contract does not describe a connection, transforms arrive as they are sent."""
+        self._sources: dict[str, SampledSource] = {}
+        self._simulation = simulation
+        self._topic: Topic[StampedTransform] | None = None
+        self._subscription: Subscription[StampedTransform] | None = None
+        self._nodes: tuple[str, ...] = ()
+        if interface is not None:
+            self._topic = Topic[StampedTransform](TF, interface, network)
+            self._subscription = self._topic.subscribe(listener, self._receive)
+            self._nodes = tuple(source.node for source in interface.sources)
+
+    def sender(self, node: str, child: str, source: SampledSource) -> TransformSink:
+        """Return what a node hands the transforms of a frame to; ``source`` is where the listener stores them."""
+        if self._topic is None or self._subscription is None or node not in self._nodes:
+            return source
+        self._sources[child] = source
+        return _Sender(self._topic, node, child)
+
+    def _receive(self) -> None:
+        received = None if self._subscription is None else self._subscription.take(self._simulation.now_ns)
+        if received is not None:
+            sample = received.sample
+            self._sources[sample.child].insert(sample.stamp_ns, sample.pose)
+
+
+@dataclass(frozen=True, slots=True)
+class _Sender:
+    """The broadcaster of a node for one frame."""
+
+    topic: Topic[StampedTransform]
+    node: str
+    child: str
+
+    def insert(self, stamp_ns: int, pose: Pose | DeferredPose) -> None:
+        """Send a transform."""
+        self.topic.publish(self.node, StampedTransform(self.child, stamp_ns, pose))
+
 
 PROCESSING_S = 0.02
 """Simulated time from taking an image to knowing the pose in it; no field of the contract states one."""

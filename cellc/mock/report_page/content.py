@@ -9,7 +9,7 @@ from cellc.contract.contract import Contract
 from cellc.contract.rehearsals import RehearsalEntry
 from cellc.mock.campaign.campaign import Campaign
 from cellc.mock.evidence.kpis import Kpi
-from cellc.mock.evidence.trace.run_trace import TraceResult
+from cellc.mock.evidence.run_trace import TraceResult
 from cellc.mock.gates.gate import GateResult
 from cellc.mock.result import RehearsalResult
 

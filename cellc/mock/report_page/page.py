@@ -2,15 +2,250 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from importlib.resources import files
 from xml.etree.ElementTree import Element
 
-from cellc.mock.report_page.boundary import gate_section, identity, unproven
-from cellc.mock.report_page.campaign_section import campaign_section
-from cellc.mock.report_page.content import ReportContent
-from cellc.mock.report_page.element import tag, to_page
-from cellc.mock.report_page.overview import header, key_figures, outcomes
+from cellc.contract.contract import Contract
+from cellc.mock.campaign.campaign import Campaign
+from cellc.mock.campaign.plan import RunEnd
+from cellc.mock.campaign.summary import Matrix, cell_text, legend, limit_lines, matrix_of, outcome_lines
+from cellc.mock.evidence.kpis import Kpi
+from cellc.mock.gates.gate import GateCheck, GateResult, Verdict
+from cellc.mock.report_page.content import ReportContent, RunEvidence
+from cellc.mock.report_page.html import count, plain, seconds, tag, to_page
 from cellc.mock.report_page.run_section import run_section
+
+_NAMES = {
+    "plan_to_execute_s": "plan to execute",
+    "cancel_s": "cancel to hold",
+    "missed_cycles": "missed cycles",
+    "stale_state_rejection": "stale data rejected",
+    "protective_stops": "protective stops",
+    "recovery_time_s": "recovery time",
+    "wrong_owner_events": "wrong-owner events",
+}
+
+
+def header(content: ReportContent) -> Element:
+    """Return the title, the verdict and the identity of what was judged."""
+    contract = content.contract
+    passed = sum(run.result.passed for run in content.runs)
+    good = 0 < passed == len(content.runs)
+    verdict = tag(
+        "p", _mark(good), f" {passed} of {count(len(content.runs), 'rehearsal')} ended as expected, within the bounds"
+    )
+    facts = [
+        ("configuration", contract.configuration_id),
+        ("ROS 2", contract.distro),
+        ("seed", str(content.seed)),
+        ("simulated", seconds(sum(run.result.sim_time_s for run in content.runs))),
+    ]
+    pairs = [tag("div", tag("dt", name), tag("dd", value)) for name, value in facts]
+    return tag(
+        "header",
+        tag("p", "Rehearsed on the mock", class_="kicker"),
+        tag("h1", contract.cell),
+        tag("p", contract.summary, class_="summary"),
+        verdict,
+        tag("dl", *pairs, class_="facts"),
+        *(tag("p", tag("b", "Note: "), note, class_="note") for note in content.notes),
+    )
+
+
+def outcomes(content: ReportContent) -> Element:
+    """Return the matrix of rehearsals and their ends."""
+    names = ("rehearsal", "verdict", "outcome", "expected", "injected", "response", "bound", "simulated")
+    head = tag("tr", *(tag("th", name) for name in names))
+    rows = [_outcome_row(number, run) for number, run in enumerate(content.runs, start=1)]
+    table = tag("table", tag("thead", head), tag("tbody", *rows))
+    return tag("section", tag("h2", "Outcomes"), tag("div", table, class_="wide"))
+
+
+def _outcome_row(number: int, run: RunEvidence) -> Element:
+    result = run.result
+    faults = ", ".join(f"{fault.kind} {fault.target}" for fault in run.entry.faults) or "nothing"
+    cells = [result.outcome, result.expected, faults]
+    numbers = [seconds(result.response_s), seconds(result.within_s), seconds(result.sim_time_s)]
+    return tag(
+        "tr",
+        tag("td", tag("a", result.name, href=f"#run-{number}")),
+        tag("td", _mark(result.passed)),
+        *(tag("td", cell) for cell in cells),
+        *(tag("td", cell, class_="number") for cell in numbers),
+    )
+
+
+def key_figures(content: ReportContent) -> Element:
+    """Return the seven figures of the checkpoint, one column each under its target, with one row a rehearsal."""
+    title = tag("h2", "Key figures")
+    runs = [run for run in content.runs if run.kpis]
+    if not runs:
+        return tag("section", title, tag("p", "No cell came up, so that nothing was measured.", class_="hint"))
+    figures = runs[0].kpis
+    names = tag("tr", tag("th", "rehearsal"), *(tag("th", _NAMES[figure.name]) for figure in figures))
+    targets = tag("tr", tag("th", "target"), *(tag("th", _target(figure)) for figure in figures))
+    table = tag("table", tag("thead", names, targets), tag("tbody", *(_figure_row(run) for run in runs)))
+    hint = (
+        "A target is for the cell in service. Where a rehearsal injects a fault, a missed target tells what the fault "
+        "did, and is set in brackets; the rehearsal itself is judged above. – is what a run never came to."
+    )
+    bases = [tag("div", tag("dt", _NAMES[figure.name]), tag("dd", figure.basis)) for figure in figures]
+    measured = tag("details", tag("summary", "What was measured"), tag("dl", *bases, class_="pairs"))
+    return tag("section", title, tag("p", hint, class_="hint"), tag("div", table, class_="wide"), measured)
+
+
+def _target(figure: Kpi) -> str:
+    comparison = "≥" if figure.name == "stale_state_rejection" else "≤"
+    return "none set" if figure.target is None else f"{comparison} {plain(figure.target, figure.unit)}"
+
+
+def _figure_row(run: RunEvidence) -> Element:
+    cells = [_figure(figure, injected=bool(run.entry.faults)) for figure in run.kpis]
+    return tag("tr", tag("td", run.result.name), *cells)
+
+
+def _figure(figure: Kpi, *, injected: bool) -> Element:
+    text = "not held" if figure.value is None and figure.met is False else plain(figure.value, figure.unit)
+    if figure.met is not False:
+        return tag("td", text, class_="number")
+    return tag("td", f"({text})", class_="number") if injected else tag("td", f"{text} ✗", class_="number bad")
+
+
+def _mark(good: bool) -> Element:
+    return tag("span", "✓ passed" if good else "✗ FAILED", class_="good" if good else "bad")
+
+
+def campaign_section(campaign: Campaign | None) -> Iterator[Element]:
+    """Yield the section, where a campaign was run."""
+    if campaign is None:
+        return
+    total, failed = len(campaign.all_ends), len(campaign.failed)
+    mark = tag("span", "✓ passed" if campaign.passed else "✗ FAILED", class_="good" if campaign.passed else "bad")
+    verdict = tag(
+        "p", mark, f" {total - failed} of {count(total, 'run')} ended in a named outcome, within bounds and limits"
+    )
+    matrices = [_table(matrix_of(baseline.run.entry, campaign.ends)) for baseline in campaign.baselines]
+    lines = [tag("li", line.strip()) for line in (*outcome_lines(campaign.ends), *limit_lines(campaign.limits))]
+    yield tag(
+        "section",
+        tag("h2", "Campaign"),
+        verdict,
+        *_failures(campaign.failed),
+        *matrices,
+        tag("p", legend(campaign.ends), class_="hint legend"),
+        tag("details", tag("summary", "Outcomes, bounds and limits"), tag("ul", *lines, class_="plain-list")),
+    )
+
+
+def _failures(failed: Sequence[RunEnd]) -> Iterator[Element]:
+    if failed:
+        rows = [tag("li", tag("code", end.run.identifier), f" {end.result.outcome}") for end in failed]
+        yield tag("ul", *rows, class_="plain-list bad")
+
+
+def _table(matrix: Matrix) -> Element:
+    steps = [tag("th", tag("b", str(number)), f" {title}") for number, title in enumerate(matrix.steps, start=1)]
+    head = tag("tr", tag("th", matrix.rehearsal), *steps)
+    rows = [tag("tr", tag("td", fault), *(_cell(cell) for cell in row)) for fault, row in matrix.rows]
+    return tag("div", tag("table", tag("thead", head), tag("tbody", *rows), class_="matrix"), class_="wide")
+
+
+def _cell(ends: Sequence[RunEnd]) -> Element:
+    if not ends:
+        return tag("td", "–")
+    said = "; ".join(f"{end.run.identifier}: {end.result.outcome}" for end in ends)
+    style = "bad" if not all(end.passed for end in ends) else "borne" if cell_text(ends) == "ok" else "ended"
+    return tag("td", cell_text(ends), class_=style, title=said)
+
+
+UNPROVEN = (
+    (
+        "Motion of the real arm",
+        "friction, backlash, stiffness and tracking of the drives; the state follows the command",
+    ),
+    ("Payload", "mass, centre of mass and their effect on limits and stops"),
+    ("Stopping", "distance and time of a protective or an emergency stop, and the stop path itself"),
+    ("Vendor controller", "its modes, its safety functions, its own limits and the semantics of speed scaling"),
+    ("Timing of the host", "latency and jitter of network, kernel, executor and middleware under load"),
+    ("Perception", "calibration against the physical cell, exposure, lighting and recognition"),
+    ("Contact", "grasp force, slip, collisions with what the model does not hold, cables and hoses"),
+    ("People", "guards, the area, the observer and the procedure"),
+)
+"""After the limits that chapter 4 states of mock hardware (sections 8 and 13)."""
+_MARKS = {Verdict.PASSED: "✓", Verdict.FAILED: "✗", Verdict.UNKNOWN: "?"}
+_CLASSES = {Verdict.PASSED: "good", Verdict.FAILED: "bad", Verdict.UNKNOWN: "unknown"}
+
+
+def gate_section(gates: Sequence[GateResult]) -> Element:
+    """Return the checklists of the gates, each with its evidence; the last one stands open."""
+    hint = (
+        "Each line is judged by the runs of this call and by the generated folder. What they cannot show is UNKNOWN, "
+        "with what would show it; no line says anything about hardware."
+    )
+    lists = [_gate(gate, open_=gate is gates[-1]) for gate in reversed(gates)]
+    return tag("section", tag("h2", "Gates before hardware"), tag("p", hint, class_="hint"), *lists)
+
+
+def _gate(gate: GateResult, *, open_: bool) -> Element:
+    lines = count(len(gate.checks), "line")
+    held = sum(check.verdict is Verdict.PASSED for check in gate.checks)
+    verdict = tag("span", gate.verdict.value, class_=_CLASSES[gate.verdict])
+    title = tag("summary", tag("b", f"{gate.gate} {gate.title} "), verdict, f", {held} of {lines} passed")
+    rows = tag("ul", *(_check(check) for check in gate.checks), class_="checks")
+    signed = tag(
+        "p", f"State of the robot: {gate.state}. Signed by result: ", tag("code", gate.signature), class_="hint"
+    )
+    section = tag("details", title, rows, signed, class_="gate")
+    if open_:
+        section.set("open", "open")
+    return section
+
+
+def _check(check: GateCheck) -> Element:
+    mark = tag("span", _MARKS[check.verdict], class_=f"mark {_CLASSES[check.verdict]}", title=check.verdict.value)
+    evidence = [tag("small", text) for text in check.evidence]
+    return tag("li", mark, tag("div", check.text, *evidence))
+
+
+def unproven() -> Element:
+    """Return what stays unproven however well the rehearsals ended."""
+    rows = [tag("div", tag("dt", name), tag("dd", words)) for name, words in UNPROVEN]
+    hint = (
+        "It validates contracts between components. Each of these needs its own gate on the real cell, drives disabled "
+        "first."
+    )
+    return tag(
+        "section",
+        tag("h2", "What the mock cannot prove"),
+        tag("p", hint, class_="hint"),
+        tag("dl", *rows, class_="pairs"),
+    )
+
+
+def identity(contract: Contract) -> Element:
+    """Return the tuple of versions, what is not known of it first."""
+    parts = sorted(contract.version_tuple.items(), key=lambda part: (part[1] != "UNKNOWN", part[0]))
+    rows = [
+        tag("div", tag("dt", name), tag("dd", version, class_="unknown" if version == "UNKNOWN" else "plain"))
+        for name, version in parts
+    ]
+    missing = sum(version == "UNKNOWN" for _, version in parts)
+    hint = (
+        f"{count(missing, 'part')} of {len(parts)} UNKNOWN; gate G0 stops there."
+        if missing
+        else "All parts are pinned."
+    )
+    calibrations = [
+        tag("div", tag("dt", f"calibration {name}"), tag("dd", f"revision {each.revision}, {each.owner}"))
+        for name, each in sorted(contract.calibrations.items())
+    ]
+    return tag(
+        "section",
+        tag("h2", "Versions and calibrations"),
+        tag("p", hint, class_="hint"),
+        tag("dl", *calibrations, *rows, class_="pairs columns"),
+    )
 
 
 def to_report(content: ReportContent) -> str:

@@ -1,21 +1,218 @@
-"""One rehearsal: its attempts with the steps of their packets, plots of its joints, ages and claims."""
+"""One rehearsal on the page: its attempts with the steps of their packets, plots, ages and claims."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from xml.etree.ElementTree import Element
 
 from cellc.contract.contract import Contract
-from cellc.mock.evidence.trace.run_trace import TraceResult
-from cellc.mock.report_page.age_plot import age_plot
-from cellc.mock.report_page.attempts import attempts
-from cellc.mock.report_page.claim_lanes import claims
+from cellc.contract.rehearsals import FaultEntry, FaultEvent
+from cellc.mock.evidence.run_trace import Claim, StateChange, TraceResult
+from cellc.mock.report_page.axes import TimeAxis, ticks
 from cellc.mock.report_page.content import RunEvidence
-from cellc.mock.report_page.element import Child, tag
-from cellc.mock.report_page.fault_times import fault_times
-from cellc.mock.report_page.joint_plot import joint_plot
-from cellc.mock.report_page.panel import TimeAxis
-from cellc.mock.report_page.state_plot import state_plot
+from cellc.mock.report_page.html import Child, at, count, seconds, tag
+from cellc.mock.report_page.plots import age_plot, joint_plot, state_plot
+from cellc.mock.result import AttemptRecord, PacketStep
+
+
+@dataclass(frozen=True, slots=True)
+class Bar:
+    """A span of a lane; the kind decides its colour, the words are read out where one points at it."""
+
+    from_s: float
+    until_s: float
+    kind: str
+    words: str
+
+
+def lane(title: Sequence[Element | str], bars: Sequence[Bar], time: TimeAxis) -> Element:
+    """Return a lane: its title, and its bars on the axis of the run."""
+    track = tag(
+        "div", *(_bar(each, time) for each in bars), *(_fault(at_s, time) for at_s in time.faults_s), class_="track"
+    )
+    return tag("div", tag("div", *title, class_="lane-title"), track, class_="lane")
+
+
+def axis(time: TimeAxis) -> Element:
+    """Return the axis below lanes."""
+    values = ticks(time.start_s, time.end_s, 6)
+    marks = [
+        tag("span", f"{value:g}" + (" s" if value == values[-1] else ""), style=f"left:{_percent(value, time)}")
+        for value in values
+    ]
+    return tag("div", tag("div", class_="lane-title"), tag("div", *marks, class_="axis"), class_="lane")
+
+
+def _bar(bar: Bar, time: TimeAxis) -> Element:
+    left, right = _share(bar.from_s, time), _share(bar.until_s, time)
+    style = f"left:{left:.2f}%;width:{max(right - left, 0.4):.2f}%"
+    return tag("span", class_=f"bar {bar.kind}", style=style, title=bar.words)
+
+
+def _fault(at_s: float, time: TimeAxis) -> Element:
+    return tag("span", class_="fault-mark", style=f"left:{_percent(at_s, time)}", title=f"fault at {at_s:.3f} s")
+
+
+def _percent(at_s: float, time: TimeAxis) -> str:
+    return f"{_share(at_s, time):.2f}%"
+
+
+def _share(at_s: float, time: TimeAxis) -> float:
+    share = (at_s - time.start_s) / (time.end_s - time.start_s)
+    return 100.0 * min(1.0, max(0.0, share))
+
+
+_WORDS = {
+    PacketStep.OBSERVED: "observed",
+    PacketStep.TRANSFORMED: "transformed",
+    PacketStep.PLANNED: "planned",
+    PacketStep.GOAL_SENT: "goal sent",
+    PacketStep.ACCEPTED: "accepted",
+    PacketStep.WRITTEN: "written",
+    PacketStep.DRIVEN: "driven",
+    PacketStep.RETURNED: "returned",
+}
+
+
+def packet(record: AttemptRecord) -> Element:
+    """Return the eight steps with the time that each came after the one before; steps that were not made are hollow."""
+    return tag("ol", *_steps(record), class_="packet")
+
+
+def _steps(record: AttemptRecord) -> Iterator[Element]:
+    stamps = {point.step: point.stamp_ns for point in record.trace}
+    before_ns = record.started_ns
+    for number, (step, words) in enumerate(_WORDS.items(), start=1):
+        stamp_ns = stamps.get(step)
+        if stamp_ns is None:
+            yield _step(number, words, "–", "missing", f"step {step.value}: not made")
+            continue
+        # An image is older than the attempt that uses it.
+        delta_s = (stamp_ns - before_ns) / 1e9
+        told = f"{'+' if delta_s >= 0.0 else '−'}{seconds(abs(delta_s))}"
+        yield _step(number, words, told, "made", f"step {step.value}: at {stamp_ns / 1e9:.6f} s")
+        before_ns = max(before_ns, stamp_ns)
+
+
+def _step(number: int, words: str, told: str, state: str, hint: str) -> Element:
+    return tag("li", tag("i", str(number)), tag("span", words), tag("b", told), class_=state, title=hint)
+
+
+def attempts(records: Sequence[AttemptRecord], time: TimeAxis) -> Element:
+    """Return the timeline; the last record sums up and is left out."""
+    rows = [row for record in records[:-1] for row in _attempt(record, time)]
+    return tag("div", tag("h3", "Packet trace"), *rows, axis(time), class_="lanes")
+
+
+def _attempt(record: AttemptRecord, time: TimeAxis) -> Iterator[Element]:
+    good = record.outcome == "succeeded"
+    words = f"{at(record.started_ns)} to {at(record.ended_ns)}: {record.outcome}"
+    bar = Bar(record.started_ns / 1e9, record.ended_ns / 1e9, "done" if good else "ended", words)
+    outcome = tag("span", record.outcome, class_="plain" if good else "bad")
+    yield lane([tag("b", record.step), " ", outcome], [bar], time)
+    yield packet(record)
+    details = [tag("span", text) for text in _details(record)]
+    if details:
+        yield tag("p", *details, class_="details")
+
+
+def _details(record: AttemptRecord) -> Iterator[str]:
+    yield record.attempt_id
+    if record.goal_frame is not None and record.goal_stamp is not None:
+        yield f"goal in {record.goal_frame} at {at(record.goal_stamp)}"
+    if record.joint_state_age is not None:
+        yield f"joint state {seconds(record.joint_state_age)} old"
+    if record.tf_lookup_age is not None:
+        yield f"transform {seconds(record.tf_lookup_age)} old"
+    if record.calibration_id:
+        yield f"calibration {', '.join(record.calibration_id)}"
+    if record.plan_result is not None:
+        yield f"plan: {record.plan_result}"
+    if record.controller_name is not None:
+        scaling = "" if record.speed_scaling is None else f", speed scaling {record.speed_scaling:.0%}"
+        yield f"controller {record.controller_name}{scaling}"
+    if record.result is not None:
+        yield " ".join(f"result {record.result.status} {record.result.error_string}".split())
+    if record.cancel is not None:
+        yield f"cancelled at {at(record.cancel.requested_ns)}, held after {seconds(record.cancel.latency_s)}"
+    if record.safety_state != "normal":
+        yield f"safety state {record.safety_state}"
+    if record.fault_code:
+        yield f"reason: {record.fault_code}"
+    if record.operator_intervention != "none":
+        yield f"operator: {record.operator_intervention}"
+
+
+_Spans = tuple[tuple[str, int, int, bool], ...]
+
+
+def claims(trace: TraceResult, time: TimeAxis) -> Iterator[Element]:
+    """Yield a lane for interfaces that were claimed alike, and the changes of controllers and hardware."""
+    lanes = [_lane(interfaces, spans, time) for spans, interfaces in _alike(trace.claims).items()]
+    lanes = lanes or [tag("p", "nobody claimed a command interface", class_="hint")]
+    yield tag("div", tag("h3", "Claims of command interfaces"), *lanes, axis(time), class_="lanes")
+    if trace.changes:
+        rows = [_change(change) for change in trace.changes]
+        head = tag("tr", *(tag("th", name) for name in ("at", "what", "became", "because")))
+        table = tag("div", tag("table", tag("thead", head), tag("tbody", *rows)), class_="wide")
+        title = f"{count(len(trace.changes), 'change')} of controllers and hardware"
+        yield tag("details", tag("summary", title), table)
+
+
+def _alike(all_claims: tuple[Claim, ...]) -> dict[_Spans, list[str]]:
+    """Return the interfaces by what became of them."""
+    by_interface: dict[str, list[tuple[str, int, int, bool]]] = {}
+    for claim in all_claims:
+        span = (claim.controller, claim.from_ns, claim.until_ns, claim.by_contract)
+        by_interface.setdefault(claim.interface, []).append(span)
+    alike: dict[_Spans, list[str]] = {}
+    for interface, spans in by_interface.items():
+        alike.setdefault(tuple(spans), []).append(interface)
+    return alike
+
+
+def _lane(interfaces: list[str], spans: _Spans, time: TimeAxis) -> Element:
+    bars = [
+        Bar(from_ns / 1e9, until_ns / 1e9, "claimed" if right else "ended", f"{owner}, {at(from_ns)} to {at(until_ns)}")
+        for owner, from_ns, until_ns, right in spans
+    ]
+    owners = ", ".join(dict.fromkeys(owner for owner, *_ in spans))
+    wrong = [] if all(right for *_, right in spans) else [tag("span", " not by contract", class_="bad")]
+    named = interfaces[0] if len(interfaces) == 1 else count(len(interfaces), "interface")
+    title = tag("span", named, title=", ".join(interfaces))
+    return lane([tag("b", owners), " ", title, *wrong], bars, time)
+
+
+def _change(change: StateChange) -> Element:
+    cells = (f"{change.kind} {change.subject}", change.state, change.reason or "it was asked to")
+    return tag("tr", tag("td", at(change.stamp_ns), class_="number"), *(tag("td", cell) for cell in cells))
+
+
+def fault_times(faults: Sequence[FaultEntry], attempts: Sequence[AttemptRecord]) -> tuple[float, ...]:
+    """Return the instants in seconds, rising; a fault whose event never came has none."""
+    return tuple(sorted(_times(faults, attempts))) if attempts else ()
+
+
+def _times(faults: Sequence[FaultEntry], attempts: Sequence[AttemptRecord]) -> Iterator[float]:
+    begun_ns = attempts[-1].started_ns  # the last record sums up and begins with the first step
+    for fault in faults:
+        if fault.event is None:
+            yield begun_ns / 1e9 + (fault.at_s or 0.0)
+            continue
+        came_ns = _event_ns(fault.event, attempts[:-1])
+        if came_ns is not None:
+            yield came_ns / 1e9 + fault.event.after_s
+
+
+def _event_ns(event: FaultEvent, attempts: Sequence[AttemptRecord]) -> int | None:
+    if not 1 <= event.step <= len(attempts):
+        return None
+    record = attempts[event.step - 1]
+    if event.when == "started":
+        return record.started_ns
+    wanted = PacketStep.ACCEPTED if event.when == "accepted" else PacketStep.DRIVEN
+    return next((point.stamp_ns for point in record.trace if point.step is wanted), None)
 
 
 def run_section(number: int, run: RunEvidence, contract: Contract) -> Element:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from cellc.mock.record import AttemptRecord, CancelRecord, PacketStep, ResultRecord, TracePoint
-from cellc.mock.task.outcome import Outcome
+from cellc.mock.result import AttemptRecord, CancelRecord, PacketStep, ResultRecord, TracePoint
+from cellc.mock.task.context import Outcome
 
 
 @dataclass(frozen=True, slots=True)

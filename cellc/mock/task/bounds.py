@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from cellc.contract.contract import Contract, ContractInterface
-from cellc.mock.bus.matching import served_actions
+from cellc.mock.bus.qos import served_actions
 from cellc.mock.world.joint_states import JOINT_STATE_TYPE
 
 DEFAULT_CANCEL_S = 0.5

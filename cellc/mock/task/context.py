@@ -1,17 +1,94 @@
-"""What every step of the task needs: the plant, the bound of the rehearsal, and waits that notice trouble."""
+"""What the steps of a task share: named outcomes, the current joint state, and the watchdogs of every wait."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from enum import Enum
 
 from cellc.mock.control import ControlEvent, ControllerChanged, GripperEnded, TrajectoryEnded
 from cellc.mock.engine.process import Signal, Wait, Waiting
 from cellc.mock.plant import Plant
 from cellc.mock.stops import EMERGENCY_STOP, FAULT, PROTECTIVE_STOP
-from cellc.mock.task.joint_state import current_state
-from cellc.mock.task.outcome import AttemptError, Outcome
+from cellc.mock.task.bounds import joint_state_age_s
 from cellc.transforms import Pose
+
+
+class Outcome(str, Enum):
+    """The outcomes of an attempt; each failure is told apart from every other (chapter 4, section 10)."""
+
+    SUCCEEDED = "succeeded"
+    CANCELLED = "cancelled"
+    STALE_STATE = "stale_state"
+    TF_FAILURE = "tf_failure"
+    PLANNING_FAILURE = "planning_failure"
+    GOAL_REJECTION = "goal_rejection"
+    TOLERANCE_VIOLATION = "tolerance_violation"
+    MISSED_CYCLE = "missed_cycle"
+    PROTECTIVE_STOP = "protective_stop"
+    EMERGENCY_STOP = "emergency_stop"
+    HARDWARE_FAULT = "hardware_fault"
+    WRONG_OWNER = "wrong_owner"
+    TIMEOUT = "timeout"
+
+
+class AttemptError(Exception):
+    """Ends the attempt that is running; raised anywhere inside a step and caught by the task alone.
+
+    Args:
+        outcome: how the attempt ends.
+        fault_code: the reason, in the words of whoever failed.
+    """
+
+    def __init__(self, outcome: Outcome, fault_code: str) -> None:
+        super().__init__(f"{outcome.value}: {fault_code}")
+        self.outcome = outcome
+        self.fault_code = fault_code
+
+
+@dataclass(frozen=True, slots=True)
+class CurrentState:
+    """Positions of all joints as the task knows them; the stamp is the oldest of those that were put together.
+
+    Attributes:
+        stamp_ns: on the clock of the broadcaster.
+        taken_ns: the same in simulated time.
+        age_s: on the clock of the task.
+    """
+
+    stamp_ns: int
+    taken_ns: int
+    age_s: float
+    positions: dict[str, float]
+
+
+def current_state(plant: Plant) -> CurrentState:
+    """Return the newest joint state that has arrived.
+
+    Raises:
+        AttemptError: stale_state, where none has arrived, it is older than its interface allows, or it is stamped as
+            far in the future: a clock was set back.
+    """
+    stamps: list[tuple[int, int]] = []
+    positions: dict[str, float] = {}
+    for feed in plant.feeds:
+        history, newest = feed.history, feed.newest(plant.now_ns)
+        if newest is None:
+            raise AttemptError(Outcome.STALE_STATE, "no joint state has arrived")
+        taken_ns = int(history.stamps[newest])
+        stamps.append((plant.clocks.of(history.broadcaster).read(taken_ns), taken_ns))
+        positions |= dict(zip(history.names, history.positions[newest].tolist(), strict=True))
+    if not stamps:
+        raise AttemptError(Outcome.STALE_STATE, "no joint states reach the task")
+    stamp_ns, taken_ns = min(stamps)
+    age_s = plant.clocks.age_ns(plant.task, stamp_ns) / 1e9
+    allowed_s = joint_state_age_s(plant.contract)
+    if age_s > allowed_s:
+        raise AttemptError(Outcome.STALE_STATE, f"joint state is {age_s:.3f} s old, {allowed_s:g} s allowed")
+    if age_s < -allowed_s:
+        raise AttemptError(Outcome.STALE_STATE, f"joint state is stamped {-age_s:.3f} s in the future")
+    return CurrentState(stamp_ns, taken_ns, age_s, positions)
+
 
 WATCH_S = 0.2
 """The task looks at the state of the cell at least five times a second, whatever it waits for."""

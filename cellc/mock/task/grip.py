@@ -7,12 +7,10 @@ import math
 from cellc.contract.contract import ContractGripper
 from cellc.mock.control import GripperGoal
 from cellc.mock.engine.process import Waiting
-from cellc.mock.task.arrival import state_since
 from cellc.mock.task.attempt import Attempt
-from cellc.mock.task.context import TaskContext
+from cellc.mock.task.context import AttemptError, CurrentState, Outcome, TaskContext
 from cellc.mock.task.execute import execute, require_success
-from cellc.mock.task.joint_state import CurrentState
-from cellc.mock.task.outcome import AttemptError, Outcome
+from cellc.mock.task.move import state_since
 
 GRIP_TIMEOUT_S = 10.0
 """Bound of one opening or closing."""

@@ -1,18 +1,101 @@
-"""The task node of one rehearsal: steps in order, one record for each, stopped by the first that fails."""
+"""The task of a rehearsal: its steps one after the other, each ending in a named outcome."""
 
 from __future__ import annotations
 
 from cellc.contract.rehearsals import RehearsalEntry, StepEntry
-from cellc.mock.engine.process import Waiting
-from cellc.mock.record import AttemptRecord
+from cellc.mock.bringup import activate
+from cellc.mock.engine.process import Wait, Waiting
+from cellc.mock.plant import Plant
+from cellc.mock.result import AttemptRecord, PacketStep
 from cellc.mock.stops import NORMAL
-from cellc.mock.task.acknowledge import acknowledge
 from cellc.mock.task.attempt import Attempt, Identity
-from cellc.mock.task.context import TaskContext
-from cellc.mock.task.detect import detect
+from cellc.mock.task.context import OUTCOME_OF_STOP, AttemptError, Outcome, TaskContext, current_state
 from cellc.mock.task.grip import grip
 from cellc.mock.task.move import move
-from cellc.mock.task.outcome import AttemptError, Outcome
+
+PATIENCE_PERIODS = 10
+"""An observation that stays away for ten of its periods does not come."""
+DEFAULT_RATE_HZ = 10.0
+"""Of a dynamic frame whose rate is not stated."""
+
+
+def detect(context: TaskContext, attempt: Attempt, frame: str) -> Waiting[None]:
+    """Keep the stamp of the newest observation as soon as it is young enough.
+
+    Raises:
+        AttemptError: stale_state, where none is after ten periods.
+    """
+    inbox = context.plant.inboxes.get(frame)
+    entry = context.plant.contract.frames.get(frame)
+    if inbox is None or entry is None:
+        raise AttemptError(Outcome.TF_FAILURE, f"nobody observes frame {frame}")
+    attempt.goal_frame = frame
+    period_ns = round(1e9 / (entry.rate_hz or DEFAULT_RATE_HZ))
+    until_ns = context.now_ns + PATIENCE_PERIODS * period_ns
+    while inbox.newest is None or inbox.is_stale(inbox.newest.stamp_ns):
+        if context.now_ns >= until_ns:
+            raise AttemptError(Outcome.STALE_STATE, inbox.describe(frame))
+        yield from context.pause(min(until_ns, context.now_ns + period_ns), inbox.arrived)
+    context.observed[frame] = inbox.newest.stamp_ns
+    attempt.goal_stamp = inbox.newest.stamp_ns
+    attempt.mark(PacketStep.OBSERVED, inbox.newest.stamp_ns)
+
+
+RECOVERY_S = 120.0
+"""Where no KPI bounds the time from a stop to a cell that is ready."""
+_LOOK_NS = 100_000_000
+_FRESH_NS = 100_000_000
+"""Joint states are watched that long before the cell is called ready."""
+
+
+def acknowledge(context: TaskContext, attempt: Attempt, role: str) -> Waiting[None]:
+    """Acknowledge the stops of a cell, activate what it needs, and look whether it is ready; no stop, nothing to do.
+
+    Raises:
+        AttemptError: the role may not acknowledge, what stopped the cell is not over in time, or it does not come up.
+    """
+    plant = context.plant
+    if not plant.stops.present():
+        return
+    _require_role(plant, role)
+    yield from _until_over(context)
+    attempt.operator = f"acknowledged by {role}"
+    plant.stops.recover()
+    yield from context.let_take_effect()
+    problems = yield from _activate(plant)
+    if problems:
+        raise AttemptError(Outcome.HARDWARE_FAULT, "; ".join(problems))
+    yield from context.rest(_FRESH_NS / 1e9)
+    current_state(plant)
+
+
+def _require_role(plant: Plant, role: str) -> None:
+    due = plant.contract.safety.acknowledge
+    if role != due:
+        stop = plant.stops.present()[0]
+        raise AttemptError(OUTCOME_OF_STOP[stop.state], f"{role} may not acknowledge, {due} has to")
+
+
+def _until_over(context: TaskContext) -> Waiting[None]:
+    """Wait until what stopped the cell is over."""
+    bound_s = context.plant.contract.kpis.recovery_time_s or RECOVERY_S
+    until_ns = min(context.now_ns + round(bound_s * 1e9), context.deadline_ns)
+    while lasting := context.plant.stops.lasting():
+        if context.now_ns >= until_ns:
+            text = f"{lasting[0].component} is still in {lasting[0].state} {bound_s:g} s after it was to be recovered"
+            raise AttemptError(OUTCOME_OF_STOP[lasting[0].state], text)
+        yield Wait(min(until_ns, context.now_ns + _LOOK_NS), (context.plant.control.changed,))
+
+
+def _activate(plant: Plant) -> Waiting[tuple[str, ...]]:
+    """Activate the controllers that the contract has active and that are not: each holds the position that it reads."""
+    problems: tuple[str, ...] = ()
+    for name, entry in plant.contract.managers.items():
+        states = {each.name: each.state for each in plant.control.managers[name].list_controllers()}
+        waiting = tuple(each for each, facts in entry.controllers.items() if facts.active and states[each] != "active")
+        problems += yield from activate(plant, name, waiting)
+    return problems
+
 
 END_STEP = "end"
 

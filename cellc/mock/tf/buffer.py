@@ -8,10 +8,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from cellc.mock.clocks import TimeJump
-from cellc.mock.tf.cache import LATEST, Neighbours, find
-from cellc.mock.tf.failure import Outside, TfFailure, loop, no_data, not_connected, refused_name, unknown_frame
-from cellc.mock.tf.sources import DoubledSource, TransformSource
-from cellc.mock.tf.warnings import TfWarnings
+from cellc.mock.tf.messages import (
+    Outside,
+    TfFailure,
+    TfWarnings,
+    loop,
+    no_data,
+    not_connected,
+    refused_name,
+    unknown_frame,
+)
+from cellc.mock.tf.sources import LATEST, DoubledSource, Neighbours, TransformSource, find
 from cellc.transforms import Pose, identity, interpolate
 
 DEFAULT_BUFFER_S = 10.0

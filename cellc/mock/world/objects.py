@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import partial
 
-from cellc.mock.tf.deferred import DeferredPose
+from cellc.mock.tf.sources import DeferredPose
 from cellc.mock.world.joint_states import JointStateHistory
 from cellc.mock.world.links import LinkTree
 from cellc.transforms import Pose

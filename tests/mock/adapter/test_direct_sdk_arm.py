@@ -13,7 +13,7 @@ from cellc.contract.rehearsals import FaultEntry, RehearsalEntry, StepEntry
 from cellc.mock import MockCell, RehearsalResult, load
 from cellc.mock.campaign.execute import execute
 from cellc.mock.campaign.limits import check_limits
-from cellc.mock.campaign.run import CampaignRun
+from cellc.mock.campaign.plan import CampaignRun
 from cellc.mock.control import GripperGoal, TrajectoryGoal, TrajectoryPoint
 from cellc.mock.control.journal import CommandJournal
 from cellc.mock.faults.possible import possible_faults

@@ -7,10 +7,9 @@ from typing import Any
 
 from cellc.contract.contract import ContractEndpoint, ContractInterface, ContractQos
 from cellc.contract.network import ContractNetwork
-from cellc.mock.bus.events import QosEventKind
-from cellc.mock.bus.middleware import DDS, Middleware
-from cellc.mock.bus.network import Network
-from cellc.mock.bus.subscription import Subscription
+from cellc.mock.bus.edge import Subscription
+from cellc.mock.bus.network import Network, QosEventKind
+from cellc.mock.bus.qos import DDS, Middleware
 from cellc.mock.bus.topic import Topic
 from cellc.mock.engine.queue import EventQueue
 

@@ -13,8 +13,7 @@ import pytest
 
 from cellc.contract.contract import ContractQos
 from cellc.contract.network import ContractNetwork
-from cellc.mock.bus.behaviour import SEVERED, EdgeBehaviour, edge_random
-from cellc.mock.bus.events import QosEventKind
+from cellc.mock.bus.network import SEVERED, EdgeBehaviour, QosEventKind, edge_random
 from tests.mock.bus.bench import MS, TOPIC, Bench, qos
 
 BEST_EFFORT = qos(reliability="best_effort")

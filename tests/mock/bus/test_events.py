@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from cellc.mock.bus.behaviour import EdgeBehaviour
-from cellc.mock.bus.events import QosEventKind
-from cellc.mock.bus.middleware import ZENOH
+from cellc.mock.bus.network import EdgeBehaviour, QosEventKind
+from cellc.mock.bus.qos import ZENOH
 from cellc.mock.bus.timers import StreamDeadline
 from tests.mock.bus.bench import MS, TOPIC, Bench, StepClock, qos
 

@@ -11,7 +11,7 @@ import pytest
 
 from cellc.contract.rehearsals import FaultEntry
 from cellc.mock import MockCell, RehearsalResult, load
-from cellc.mock.bus.events import QosEventKind
+from cellc.mock.bus.network import QosEventKind
 from cellc.mock.plant import Plant
 from tests.mock.engine.conftest import built_folder, folder
 

@@ -9,8 +9,7 @@ import pytest
 
 from cellc.contract.contract import ContractInterface, ContractQos
 from cellc.contract.network import ContractNetwork
-from cellc.mock.bus.behaviour import SEVERED
-from cellc.mock.bus.network import EdgeName, Network
+from cellc.mock.bus.network import SEVERED, EdgeName, Network
 from cellc.mock.bus.stream import NEVER_NS, IntArray, StreamEdge
 from tests.mock.bus.bench import MS, TOPIC, StepClock, qos
 

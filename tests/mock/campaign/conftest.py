@@ -8,9 +8,9 @@ import pytest
 
 from cellc.contract.contract import Contract
 from cellc.mock import MockCell, load
-from cellc.mock.campaign import command
 from cellc.mock.campaign.campaign import make_plan
 from cellc.mock.campaign.plan import CampaignPlan
+from cellc.mock.command import campaign as command  # FIXME rename
 from cellc.mock.faults.case import FaultCase
 from cellc.mock.faults.possible import possible_faults
 from cellc.output.write import write

@@ -8,8 +8,7 @@ from numpy.typing import NDArray
 
 from cellc.contract.contract import Contract
 from cellc.mock import MockCell
-from cellc.mock.campaign.limits import check_limits
-from cellc.mock.campaign.limits_report import LimitsReport
+from cellc.mock.campaign.limits import LimitsReport, check_limits
 from cellc.mock.control.journal import Cause, CommandSamples, Interruption
 
 PERIOD_NS = 2_000_000

@@ -7,8 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from cellc.contract.clock import ContractClock
-from cellc.mock.clocks import Clock, Clocks, Segment, TimeJump, build_clocks
-from cellc.mock.clocks.build import clock_from
+from cellc.mock.clocks import Clock, Clocks, Segment, TimeJump, build_clocks, clock_from
 
 MS = 1_000_000
 SECOND = 1_000_000_000

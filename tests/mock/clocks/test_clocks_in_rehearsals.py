@@ -13,10 +13,10 @@ import pytest
 
 from cellc.contract.clock import ContractClock
 from cellc.mock import MockCell, RehearsalResult
-from cellc.mock.clocks.build import clock_from
+from cellc.mock.clocks import clock_from
 from cellc.mock.plant import Plant
 from cellc.mock.tf.buffer import Transform
-from cellc.mock.tf.failure import TfFailure
+from cellc.mock.tf.messages import TfFailure
 
 SECOND = 1_000_000_000
 WATCHED_S = 0.52

@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 from cellc.mock import MockCell, to_json_lines
-from cellc.mock.record import PacketStep
+from cellc.mock.result import PacketStep
 from tests.mock.engine.conftest import ROOT
 
 # Chapter 4, "Manufacturing Cell Checkpoint": what every attempt logs.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from cellc.mock import MockCell
-from cellc.mock.record import AttemptRecord
+from cellc.mock.result import AttemptRecord
 from tests.mock.engine.conftest import Fault, LoadWith, fault
 
 

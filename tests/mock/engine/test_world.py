@@ -11,12 +11,10 @@ import pytest
 
 from cellc.mock.clocks import Clocks
 from cellc.mock.control import JointStateBlock
-from cellc.mock.nodes.joint_state_feed import JointStateFeed
-from cellc.mock.nodes.robot_state_publisher import RobotStatePublisher
+from cellc.mock.nodes.robot_state_publisher import JointStateFeed, RobotStatePublisher
 from cellc.mock.tf.buffer import Transform, TransformBuffer
-from cellc.mock.tf.deferred import DeferredPose
-from cellc.mock.tf.sources import SampledSource
-from cellc.mock.tf.warnings import TfWarnings
+from cellc.mock.tf.messages import TfWarnings
+from cellc.mock.tf.sources import DeferredPose, SampledSource
 from cellc.mock.world.joint_states import JointStateHistory, LateArrival
 from cellc.mock.world.links import LinkTree, read_links
 from cellc.mock.world.objects import World

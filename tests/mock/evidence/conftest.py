@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from cellc.mock import MockCell, load
-from cellc.mock.evidence.begin import begin_evidence
+from cellc.mock.command.rehearsals import begin_evidence
 from cellc.mock.result import RehearsalResult
 from cellc.output.write import write
 from cellc.pipeline import check, compile_cell

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from cellc.mock.clocks import Clock, Segment
-from cellc.mock.evidence.trace.age_builder import AgeBuilder, AgeTrace
+from cellc.mock.evidence.envelope import AgeBuilder, AgeTrace
 
 MS = 1_000_000
 

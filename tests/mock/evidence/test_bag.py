@@ -13,7 +13,7 @@ import yaml
 from mcap.reader import make_reader
 
 from cellc.mock import MockCell
-from cellc.mock.record import to_json_line
+from cellc.mock.result import to_json_line
 from tests.mock.evidence.conftest import Received, Written, received, stamp_ns
 
 TOPICS = {

@@ -10,8 +10,8 @@ from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from cellc.mock.control import GripperGoal, Trajectory, TrajectoryPoint
 from cellc.mock.evidence.bag import messages
-from cellc.mock.evidence.bag.definitions import schema
-from cellc.mock.evidence.bag.shapes import CONTROLLER_STATE, Point, controller_state_rows, joint_state_shape
+from cellc.mock.evidence.bag.bag_file import schema
+from cellc.mock.evidence.bag.messages import CONTROLLER_STATE, Point, controller_state_rows, joint_state_shape
 from cellc.transforms import Pose
 from tests.oracles import UPSTREAM, needs_upstream
 

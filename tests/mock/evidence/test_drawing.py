@@ -9,9 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from cellc.mock.evidence.trace.envelope import Envelope, EnvelopeBuilder
-from cellc.mock.report_page.curve import path
-from cellc.mock.report_page.scale import Scale, ticks
+from cellc.mock.evidence.envelope import Envelope, EnvelopeBuilder
+from cellc.mock.report_page.axes import Scale, path, ticks
 
 SAMPLES = st.lists(st.floats(-5.0, 5.0), min_size=1, max_size=400)
 

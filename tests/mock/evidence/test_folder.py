@@ -10,7 +10,7 @@ import pytest
 
 from cellc.mock import MockCell
 from cellc.mock.errors import MockError
-from cellc.mock.evidence.file_names import file_names
+from cellc.mock.evidence.folder import file_names
 from tests.mock.evidence.conftest import Written, write_evidence
 
 
@@ -74,7 +74,7 @@ def test_interrupted_call_leaves_the_folder_as_it_was(
     folder = tmp_path / "evidence"
     write_evidence(cell, folder, "cancelled")
     before = contents(folder)
-    monkeypatch.setattr("cellc.mock.evidence.collect.to_report", _interrupt)
+    monkeypatch.setattr("cellc.mock.command.evidence.to_report", _interrupt)
     with pytest.raises(KeyboardInterrupt):
         write_evidence(cell, folder, "cancelled", seed=3)
     assert contents(folder) == before

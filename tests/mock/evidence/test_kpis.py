@@ -8,10 +8,8 @@ import pytest
 
 from cellc.contract.contract import ContractKpis
 from cellc.mock.evidence.kpis import Kpi, kpis
-from cellc.mock.evidence.trace.claims import Claim, StateChange
-from cellc.mock.evidence.trace.run_trace import TraceResult
-from cellc.mock.record import AttemptRecord, CancelRecord, PacketStep, TracePoint
-from cellc.mock.result import RehearsalResult
+from cellc.mock.evidence.run_trace import Claim, StateChange, TraceResult
+from cellc.mock.result import AttemptRecord, CancelRecord, PacketStep, RehearsalResult, TracePoint
 from tests.mock.evidence.conftest import Written
 
 TARGETS = ContractKpis(

@@ -14,8 +14,7 @@ from cellc.contract.closed_lists import FaultKind
 from cellc.contract.rehearsals import FaultEntry, FaultEvent, RehearsalEntry, StepEntry
 from cellc.mock import MockCell, load
 from cellc.mock.plant import Plant
-from cellc.mock.record import AttemptRecord
-from cellc.mock.result import RehearsalResult
+from cellc.mock.result import AttemptRecord, RehearsalResult
 from cellc.output.write import write
 from cellc.pipeline import check, compile_cell
 

@@ -10,8 +10,8 @@ from cellc.contract.closed_lists import FaultKind
 from cellc.contract.rehearsals import FaultEntry, RehearsalEntry
 from cellc.mock import MockCell
 from cellc.mock.faults.possible import possible_faults
-from cellc.mock.record import to_json_lines
-from cellc.mock.task.outcome import Outcome
+from cellc.mock.result import to_json_lines
+from cellc.mock.task.context import Outcome
 from tests.mock.faults.conftest import ACKNOWLEDGE, DETECT, HOME, PICK, Rehearse, during, wait
 
 NAMED = {outcome.value for outcome in Outcome}

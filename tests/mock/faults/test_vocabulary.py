@@ -8,7 +8,7 @@ from cellc.contract.closed_lists import FaultKind, OutcomeName
 from cellc.mock import MockCell
 from cellc.mock.faults.build import _BUILDERS
 from cellc.mock.faults.possible import possible_faults
-from cellc.mock.task.outcome import Outcome
+from cellc.mock.task.context import Outcome
 from cellc.rules.evidence.merged_failure_layers import _LAYERS
 from cellc.spec import faults
 from cellc.spec.faults import FAULT_KEYS, FaultFields

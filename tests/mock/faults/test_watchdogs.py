@@ -12,7 +12,7 @@ from cellc.mock.faults.restart_driver import RestartDriver
 from cellc.mock.nodes.observations import ObservationInbox
 from cellc.mock.plant import Plant
 from cellc.mock.stops import Stops
-from cellc.mock.task import execute, grip, joint_state, move
+from cellc.mock.task import context, execute, grip, move
 from cellc.mock.task.context import TaskContext
 from tests.mock.faults.conftest import ACKNOWLEDGE, DETECT, HOME, PICK, Rehearse, during, wait
 
@@ -52,7 +52,7 @@ WATCHDOGS: list[tuple[str, FaultEntry, str, Remove]] = [
         "joint states",
         during(3, "freeze", "arm"),
         "stale_state",
-        _everywhere("joint_state_age_s", lambda _: 1e9, joint_state),
+        _everywhere("joint_state_age_s", lambda _: 1e9, context),
     ),
     (
         "observation",

@@ -11,7 +11,7 @@ import pytest
 from cellc.mock import MockCell, load
 from cellc.mock.folder import GeneratedFolder
 from cellc.mock.gates import GateCheck, GateResult, Witness, rehearsal_witnesses, sign_gates
-from cellc.mock.record import AttemptRecord
+from cellc.mock.result import AttemptRecord
 from cellc.output.write import write
 from cellc.pipeline import check, compile_cell
 

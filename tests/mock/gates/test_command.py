@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from cellc.contract.contract import Contract
-from cellc.mock.campaign import command
+from cellc.mock.command import campaign as command  # FIXME rename
 from cellc.mock.faults.case import FaultCase
 from cellc.mock.faults.possible import possible_faults
 from cellc.mock.task.context import TaskContext

@@ -8,10 +8,10 @@ from functools import partial
 import pytest
 
 from cellc.mock import MockCell
-from cellc.mock.campaign.limits_report import LimitExcess, LimitsReport, Peak
+from cellc.mock.campaign.limits import LimitExcess, LimitsReport, Peak
 from cellc.mock.folder import GeneratedFolder
 from cellc.mock.gates import Verdict, Witness, sign_gates
-from cellc.mock.record import CancelRecord
+from cellc.mock.result import CancelRecord
 from tests.mock.gates.conftest import gate, line, with_attempt
 
 PASSED, FAILED, UNKNOWN = Verdict.PASSED, Verdict.FAILED, Verdict.UNKNOWN

@@ -8,7 +8,7 @@ import pytest
 
 from cellc.mock.clocks import Clock, Segment, TimeJump
 from cellc.mock.tf.buffer import Transform, TransformBuffer
-from cellc.mock.tf.failure import TfFailure, TfFailureKind
+from cellc.mock.tf.messages import TfFailure, TfFailureKind
 from cellc.mock.tf.sources import SampledSource, StaticSource
 from cellc.transforms import Pose, from_xyz_rpy, identity
 

@@ -7,9 +7,8 @@ import math
 import pytest
 
 from cellc.mock.tf.buffer import Transform, TransformBuffer
-from cellc.mock.tf.failure import TfFailure, TfFailureKind
+from cellc.mock.tf.messages import TfFailure, TfFailureKind, TfWarnings
 from cellc.mock.tf.sources import SampledSource, StaticSource
-from cellc.mock.tf.warnings import TfWarnings
 from cellc.transforms import Pose, from_xyz_rpy
 
 SECOND = 1_000_000_000

@@ -1,13 +1,17 @@
 """The Common Data Representation of ROS 2 messages: OMG CDR, little endian, as every RMW puts it on the wire.
 
 Written here because it is small, and because messages of one shape can then be made by the thousand as rows of an array
-(`rows`); the tests compare the bytes with those of an independent implementation.
+(`MessageRows`); the tests compare the bytes with those of an independent implementation.
 """
 
 from __future__ import annotations
 
 import struct
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
 
 _HEADER = b"\x00\x01\x00\x00"
 """Representation identifier CDR_LE and no options (RTPS 2.5, table 10.3)."""
@@ -75,3 +79,35 @@ class CdrWriter:
         self.int32(stamp_ns // _NANOSECONDS)
         self.uint32(stamp_ns % _NANOSECONDS)
         return len(self._bytes) - 8
+
+
+@dataclass(frozen=True, slots=True)
+class MessageRows:
+    """Encodes messages that differ in their stamp and in sequences of float64 of fixed length.
+
+    Attributes:
+        template: one encoded message.
+        stamp_at: offset of its stamp, sec and nanosec.
+        numbers_at: offset of the first element of each sequence.
+    """
+
+    template: bytes
+    stamp_at: int
+    numbers_at: tuple[int, ...]
+
+    def encode(self, stamps_ns: NDArray[np.int64], numbers: Sequence[NDArray[np.float64]]) -> list[bytes]:
+        """Return one message a stamp; ``numbers`` has one array of shape (messages, length) a sequence."""
+        rows = np.tile(np.frombuffer(self.template, dtype=np.uint8), (len(stamps_ns), 1))
+        seconds = (stamps_ns // _NANOSECONDS).astype("<i4")
+        nanoseconds = (stamps_ns % _NANOSECONDS).astype("<u4")
+        self._put(rows, self.stamp_at, seconds.view(np.uint8).reshape(-1, 4))
+        self._put(rows, self.stamp_at + 4, nanoseconds.view(np.uint8).reshape(-1, 4))
+        for offset, values in zip(self.numbers_at, numbers, strict=True):
+            if values.shape[1]:
+                packed = np.ascontiguousarray(values, dtype="<f8")
+                self._put(rows, offset, packed.view(np.uint8).reshape(len(rows), -1))
+        return [row.tobytes() for row in rows]
+
+    @staticmethod
+    def _put(rows: NDArray[np.uint8], offset: int, packed: NDArray[np.uint8]) -> None:
+        rows[:, offset : offset + packed.shape[1]] = packed

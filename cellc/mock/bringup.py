@@ -1,0 +1,226 @@
+"""Bring-up of the simulated cell in four stages, each with its evidence: discover, configure, observe, claim."""
+
+from __future__ import annotations
+
+from cellc.contract.contract import ContractManager
+from cellc.mock.bus.qos import hears, task_node, unmatched_pairs
+from cellc.mock.control import ControllerManager
+from cellc.mock.engine.process import Wait, Waiting
+from cellc.mock.nodes.robot_state_publisher import NODE
+from cellc.mock.plant import Plant
+from cellc.mock.result import StageEvidence
+from cellc.mock.tf.buffer import Transform
+
+_LEVELS = ("WARN", "ERROR", "FATAL")
+
+
+class LogMark:
+    """A place in the log of a manager."""
+
+    def __init__(self, manager: ControllerManager) -> None:
+        """Mark the present end of the log."""
+        self._manager = manager
+        self._length = len(manager.log.lines())
+
+    def reasons(self) -> str:
+        """Return the warnings and errors written since, joined to one line; empty where there are none."""
+        lines = self._manager.log.lines()[self._length :]
+        return "; ".join(" ".join(line.text.split()) for line in lines if line.level.value in _LEVELS)
+
+
+_SETTLE_CYCLES = 5
+"""A controller that activates and throws in its first update is seen a few cycles later."""
+
+
+def activate(plant: Plant, manager_name: str, controllers: tuple[str, ...]) -> Waiting[tuple[str, ...]]:
+    """Activate controllers of one manager one after the other; return the problems, in the words of the manager."""
+    manager = plant.control.managers[manager_name]
+    problems: list[str] = []
+    for controller in controllers:
+        mark = LogMark(manager)
+        response = manager.switch_controllers([controller], [])
+        until_ns = plant.now_ns + _SETTLE_CYCLES * manager.period_ns
+        while plant.now_ns < until_ns:
+            yield Wait(until_ns)
+        states = {entry.name: entry.state for entry in manager.list_controllers()}
+        if states.get(controller) != "active":
+            reason = mark.reasons() or response.message or f"it is {states.get(controller, 'not loaded')}"
+            problems.append(f"`{controller}` cannot be activated: {reason}")
+    return tuple(problems)
+
+
+def discover(plant: Plant) -> Waiting[StageEvidence]:
+    """List hardware components and endpoints; a description that was refused is a problem.
+
+    Endpoints that do not connect are facts: the cell comes up without the data, as it does in reality.
+    """
+    yield Wait(plant.now_ns)
+    facts: list[str] = []
+    problems: list[str] = []
+    for name, manager in plant.control.managers.items():
+        if manager.description_error:
+            problems.append(f"`{name}`: robot description refused: {manager.description_error}")
+        components = manager.list_hardware_components()
+        facts += [f"`{name}`: hardware component `{entry.name}` is {entry.state}" for entry in components]
+    facts += unmatched_pairs(plant.contract)
+    return StageEvidence("discover", tuple(facts), tuple(problems))
+
+
+def configure(plant: Plant) -> Waiting[StageEvidence]:
+    """Spawn every controller as inactive, one by one, with the parameters of its file, and connect every adapter."""
+    yield Wait(plant.now_ns)
+    facts: list[str] = []
+    problems: list[str] = []
+    for name, entry in plant.contract.managers.items():
+        manager = plant.control.managers[name]
+        for controller, declared in entry.controllers.items():
+            if "mock" not in declared.targets:
+                facts.append(f"`{controller}` is left out: it is for real hardware alone")
+                continue
+            mark = LogMark(manager)
+            response = manager.spawn((controller,), inactive=True)
+            if response.ok:
+                facts.append(f"`{controller}` is configured")
+            else:
+                problems.append(f"`{controller}` cannot be configured: {mark.reasons() or response.reason}")
+    for device, server in plant.control.adapters.items():
+        server.adapter.connect()
+        facts.append(f"the adapter of `{device}` is connected and {server.adapter.phase.value}")
+    if not problems:
+        plant.control.subscribe_joint_states()
+    return StageEvidence("configure", tuple(facts), tuple(problems))
+
+
+_PATIENCE_NS = 1_000_000_000
+_LOOK_NS = 20_000_000
+_WATCH_NS = 500_000_000
+"""How long states are watched before anything may move; afterwards the buffers hold what an observation needs."""
+
+
+def observe(plant: Plant) -> Waiting[StageEvidence]:
+    """Wait for joint states of every group's joints and for a transform of every fixed frame and link."""
+    problems: list[str] = []
+    for name, manager in plant.contract.managers.items():
+        publishing = tuple(
+            controller
+            for controller, entry in manager.controllers.items()
+            if entry.active and not entry.command_interfaces and "mock" in entry.targets
+        )
+        problems += yield from activate(plant, name, publishing)
+    if problems:
+        return StageEvidence("observe", (), tuple(problems))
+    until_ns = plant.now_ns + _PATIENCE_NS
+    while (missing := _missing_joints(plant)) and plant.now_ns < until_ns:
+        yield Wait(plant.now_ns + _LOOK_NS)
+    if missing:
+        return StageEvidence("observe", (), tuple(f"no state of joint `{joint}` is published" for joint in missing))
+    watched_until_ns = plant.now_ns + _WATCH_NS
+    while plant.now_ns < watched_until_ns:
+        yield Wait(watched_until_ns)
+    task = task_node(plant.contract)
+    plant.robot_state_publisher.announce(
+        plant.buffer,
+        hears_static=hears(plant.contract, "/tf_static", NODE, task),
+        hears_moving=hears(plant.contract, "/tf", NODE, task),
+    )
+    plant.robot_state_publisher.catch_up(plant.now_ns)
+    facts = [_freshness(plant), *plant.buffer.conflicts]
+    return StageEvidence("observe", tuple(facts), tuple(_missing_frames(plant)))
+
+
+def _missing_joints(plant: Plant) -> tuple[str, ...]:
+    published = {joint for history in plant.control.histories.values() for joint in history.names}
+    wanted = {joint for group in plant.contract.groups.values() for joint in group.joints}
+    return tuple(sorted(wanted - published))
+
+
+def _freshness(plant: Plant) -> str:
+    stamps = [int(history.stamps[-1]) for history in plant.control.histories.values() if len(history.stamps)]
+    if not stamps:
+        return "no joint states are published"
+    joints = sum(len(history.names) for history in plant.control.histories.values())
+    return f"states of {joints} joints, the oldest {(plant.now_ns - min(stamps)) / 1e9:.3f} s old"
+
+
+def _missing_frames(plant: Plant) -> list[str]:
+    problems: list[str] = []
+    root = plant.contract.root_frame
+    for name, frame in plant.contract.frames.items():
+        if frame.kind == "dynamic" or name == root:
+            continue
+        latest_ns = plant.buffer.latest_ns(root, name)
+        answer = plant.buffer.lookup(root, name, 0 if latest_ns is None else latest_ns)
+        if not isinstance(answer, Transform):
+            problems.append(f"frame `{name}`: {answer.text.strip()}")
+    return problems
+
+
+def claim(plant: Plant) -> Waiting[StageEvidence]:
+    """Activate the commanding controllers and adapters, and compare the claims of controllers with the contract."""
+    facts: list[str] = []
+    problems: list[str] = []
+    for name, entry in plant.contract.managers.items():
+        commanding = tuple(
+            controller
+            for controller, facts_of in entry.controllers.items()
+            if facts_of.active and facts_of.command_interfaces and "mock" in facts_of.targets
+        )
+        problems += yield from activate(plant, name, commanding)
+        claims = _claims(plant.control.managers[name])
+        facts += [f"`{interface}` is claimed by `{owner}`" for interface, owner in sorted(claims.items())]
+        if not problems:
+            problems += _differences(entry, claims)
+    for device, server in plant.control.adapters.items() if not problems else ():
+        server.adapter.activate()
+        client = plant.contract.adapters[device].client
+        facts.append(f"the adapter of `{device}` is {server.adapter.phase.value}, for `{client or 'nobody'}` alone")
+    return StageEvidence("claim", tuple(facts), tuple(problems))
+
+
+def _claims(manager: ControllerManager) -> dict[str, str]:
+    return {
+        interface: controller.name
+        for controller in manager.list_controllers()
+        for interface in controller.claimed_interfaces
+    }
+
+
+def _differences(entry: ContractManager, claims: dict[str, str]) -> list[str]:
+    expected = {
+        interface: name
+        for name, controller in entry.controllers.items()
+        if controller.active and "mock" in controller.targets
+        for interface in controller.command_interfaces
+    }
+    return [
+        f"`{interface}` is claimed by `{claims.get(interface, 'nobody')}`, "
+        f"the contract says `{expected.get(interface, 'nobody')}`"
+        for interface in sorted({*expected, *claims})
+        if claims.get(interface) != expected.get(interface)
+    ]
+
+
+class Bringup:
+    """Brings a plant up.
+
+    Attributes:
+        evidence: of each stage that was begun.
+    """
+
+    def __init__(self, plant: Plant) -> None:
+        """Bind the bring-up to a plant whose nodes have started."""
+        self.evidence: list[StageEvidence] = []
+        self._plant = plant
+
+    @property
+    def passed(self) -> bool:
+        """Tell whether every stage passed, so that motion may be asked for."""
+        return all(stage.passed for stage in self.evidence)
+
+    def run(self) -> Waiting[None]:
+        """Run the stages up to the first that fails."""
+        for stage in (discover, configure, observe, claim):
+            evidence = yield from stage(self._plant)
+            self.evidence.append(evidence)
+            if not evidence.passed:
+                return

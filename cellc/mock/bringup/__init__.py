@@ -1,1 +1,0 @@
-"""Bring-up of the simulated cell in stages, each with its evidence: discover, configure, observe, claim."""

@@ -1,0 +1,195 @@
+"""The command behind `--campaign`, `--list` and `--replay`: plan, run, report, and say how it went."""
+
+from __future__ import annotations
+
+import shlex
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+from time import perf_counter
+
+from cellc.diagnostics import nearest
+from cellc.mock.campaign.campaign import Campaign, conduct, make_plan
+from cellc.mock.campaign.execute import usable_cores
+from cellc.mock.campaign.plan import CampaignPlan, CampaignRun
+from cellc.mock.campaign.summary import campaign_json, campaign_lines, end_lines
+from cellc.mock.cell import MockCell, cell_of, load
+from cellc.mock.command.options import write_text
+from cellc.mock.command.rehearsals import begin_evidence
+from cellc.mock.errors import MockError
+from cellc.mock.faults.possible import possible_faults
+from cellc.mock.result import to_json_lines
+
+
+@dataclass(frozen=True, slots=True)
+class CampaignOptions:
+    """What the command line asks for.
+
+    Attributes:
+        program: how the command was called, for the commands that replay a run.
+        seed: of planning, of seeded faults, and of the choice of pairs.
+        jobs: processes; None for as many as there are cores.
+        pairs: number of runs with two faults.
+        records: file that the attempt records of all runs are written to, as JSON lines.
+        evidence: folder that bags and the report are written to, of replayed runs or of the declared rehearsals.
+    """
+
+    program: str = "cellc mock"
+    seed: int = 0
+    jobs: int | None = None
+    pairs: int = 0
+    as_json: bool = False
+    records: str | None = None
+    evidence: str | None = None
+
+
+Choice = Callable[[CampaignPlan], Sequence[CampaignRun]]
+
+
+def run_campaign(folder: str, options: CampaignOptions) -> int:
+    """Run every fault at every step, and pairs; print the matrix.
+
+    Returns:
+        0 where every run ended in a named outcome within bounds and limits, 1 where one did not, 2 where the folder or
+        an option is unusable.
+    """
+
+    try:
+        cell = load_checked(folder, options)
+        campaign = conduct_all(cell, options)
+        keep_evidence_of(cell, campaign, options)
+    except (MockError, KeyboardInterrupt) as stop:
+        return stopped(stop)
+    replay = partial(_replay_command, folder, options)
+    if options.as_json:
+        print(campaign_json(campaign, cell.notes, replay))
+    else:
+        print("\n".join((*(f"note: {note}" for note in cell.notes), *campaign_lines(campaign, replay))))
+    return 0 if campaign.passed else 1
+
+
+def replay_runs(folder: str, identifiers: Sequence[str], options: CampaignOptions) -> int:
+    """Run some runs of a campaign alone; they end as they did in it, to the last bit."""
+
+    def named_runs(plan: CampaignPlan) -> Sequence[CampaignRun]:
+        return [_found(plan, identifier) for identifier in dict.fromkeys(identifiers)]
+
+    try:
+        cell = load_checked(folder, options)
+        campaign = _conduct(cell, named_runs, replace(options, jobs=1))
+        if options.evidence is not None:
+            _keep_evidence(cell, campaign, Path(options.evidence))
+    except (MockError, KeyboardInterrupt) as stop:
+        return stopped(stop)
+    replay = partial(_replay_command, folder, options)
+    if options.as_json:
+        print(campaign_json(replace(campaign, baselines=()), cell.notes, replay))
+    else:
+        print("\n".join(line for end in campaign.ends for line in end_lines(end, replay(end.run.identifier))))
+    return 0 if all(end.passed for end in campaign.ends) else 1
+
+
+def keep_evidence_of(cell: MockCell, campaign: Campaign, options: CampaignOptions) -> None:
+    """Write bags of the declared rehearsals and a report over them and the campaign, where evidence is asked for."""
+    if options.evidence is None:
+        return
+    with begin_evidence(cell, Path(options.evidence), cell.rehearsals, campaign.seed) as collector:
+        for name in cell.rehearsals:
+            collector.run(name)
+        collector.settle(campaign)
+
+
+def _keep_evidence(cell: MockCell, campaign: Campaign, folder: Path) -> None:
+    """Run the runs once more as rehearsals of the cell, and write what they leave."""
+    known = cell.folder.rehearsals
+    added = tuple(
+        end.run.entry.model_copy(update={"expect": end.result.outcome} if end.named else {}) for end in campaign.ends
+    )
+    widened = cell_of(replace(cell.folder, rehearsals=(*known, *added)))
+    names = [entry.name for entry in added]
+    with begin_evidence(widened, folder, names, campaign.seed) as collector:
+        for name in names:
+            collector.run(name)
+        collector.settle()
+
+
+def list_runs(folder: str, options: CampaignOptions) -> int:
+    """Print the identifiers of the runs of a campaign; only the rehearsals without faults are run."""
+    try:
+        cell = load_checked(folder, options)
+        plan, _ = make_plan(cell, possible_faults(cell.contract), options.seed)
+    except (MockError, KeyboardInterrupt) as stop:
+        return stopped(stop)
+    for run in (*plan.singles(), *plan.pairs(options.pairs, options.seed)):
+        print(run.identifier)
+    return 0
+
+
+def load_checked(folder: str, options: CampaignOptions) -> MockCell:
+    """Load a folder, and check the numbers of the options; raise MockError where either cannot be used."""
+    for name, value, least in (
+        ("seed", options.seed, 0),
+        ("number of pairs", options.pairs, 0),
+        ("number of jobs", options.jobs, 1),
+    ):
+        if value is not None and value < least:
+            raise MockError("", f"the {name} is {value}; it must be {least} or greater")
+    return load(Path(folder))
+
+
+def conduct_all(cell: MockCell, options: CampaignOptions) -> Campaign:
+    """Conduct the whole campaign; raise MockError where a run cannot be executed."""
+
+    def all_runs(plan: CampaignPlan) -> Sequence[CampaignRun]:
+        return (*plan.singles(), *plan.pairs(options.pairs, options.seed))
+
+    return _conduct(cell, all_runs, options)
+
+
+def _conduct(cell: MockCell, choose: Choice, options: CampaignOptions) -> Campaign:
+    begun = perf_counter()
+    plan, baselines = make_plan(cell, possible_faults(cell.contract), options.seed)
+    runs = choose(plan)
+    jobs = usable_cores() if options.jobs is None else options.jobs
+    campaign = conduct(cell, runs, baselines, seed=options.seed, jobs=jobs, progress=_tell_progress)
+    if options.records is not None:
+        attempts = (record for end in campaign.all_ends for record in end.result.attempts)
+        write_text(Path(options.records), to_json_lines(attempts))
+    _end_progress(f"{len(runs)} runs in {perf_counter() - begun:.1f} s, {jobs} processes")
+    return campaign
+
+
+def _found(plan: CampaignPlan, identifier: str) -> CampaignRun:
+    run = plan.find(identifier)
+    if run is not None:
+        return run
+    known = [run.identifier for run in plan.singles()]
+    close = ", ".join(f"`{name}`" for name in nearest(identifier, known))
+    hint = f"; the nearest are {close}" if close else "; --list prints all"
+    raise MockError("", f"there is no run `{identifier}`{hint}")
+
+
+def _replay_command(folder: str, options: CampaignOptions, identifier: str) -> str:
+    seed = f" --seed {options.seed}" if options.seed else ""
+    return f"{options.program} {shlex.quote(folder)} --replay {shlex.quote(identifier)}{seed}"
+
+
+def _tell_progress(done: int, total: int, failed: int) -> None:
+    if sys.stderr.isatty():
+        text = f"run {done} of {total}" + (f", {failed} failed" if failed else "")
+        print(f"\r\x1b[K{text}", end="", file=sys.stderr, flush=True)
+
+
+def _end_progress(text: str) -> None:
+    if sys.stderr.isatty():
+        print(f"\r\x1b[K{text}", file=sys.stderr, flush=True)
+
+
+def stopped(stop: BaseException) -> int:
+    """Say why nothing came of it; return the exit code."""
+    text = "interrupted; no records were written" if isinstance(stop, KeyboardInterrupt) else str(stop)
+    _end_progress("")
+    print(f"error: {text}", file=sys.stderr)
+    return 2

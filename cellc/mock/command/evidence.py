@@ -1,0 +1,139 @@
+"""Runs rehearsals and writes their evidence: a bag, records and figures of each, and one report over all."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from types import TracebackType
+
+import yaml
+
+from cellc.contract.rehearsals import RehearsalEntry
+from cellc.mock.campaign.campaign import Campaign
+from cellc.mock.cell import MockCell
+from cellc.mock.evidence.bag.bag_file import Bag
+from cellc.mock.evidence.folder import EvidenceFolder, file_names
+from cellc.mock.evidence.kpis import Kpi, kpis, to_kpi_json
+from cellc.mock.evidence.listener import Onlooker
+from cellc.mock.evidence.run_bag import RunBag
+from cellc.mock.evidence.run_trace import RunTrace, TraceResult
+from cellc.mock.folder import GeneratedFolder
+from cellc.mock.gates import campaign_witnesses, rehearsal_witnesses, sign_gates
+from cellc.mock.plant import Plant
+from cellc.mock.report_page.content import ReportContent, RunEvidence
+from cellc.mock.report_page.page import to_report
+from cellc.mock.result import RehearsalResult, to_json_lines
+from cellc.mock.task.bounds import joint_state_age_s
+
+
+def path_tolerances(folder: GeneratedFolder) -> dict[str, float]:
+    """Return `constraints.<joint>.trajectory` of each joint that has one above zero; zero is no tolerance."""
+    return dict(found for text in folder.parameters.values() for found in _tolerances(text))
+
+
+def _tolerances(text: str) -> Iterator[tuple[str, float]]:
+    try:
+        nodes = yaml.safe_load(text)
+    except yaml.YAMLError:
+        return  # the controller manager says what is wrong with it
+    for node in nodes.values() if isinstance(nodes, dict) else ():
+        parameters = node.get("ros__parameters") if isinstance(node, dict) else None
+        constraints = parameters.get("constraints") if isinstance(parameters, dict) else None
+        for joint, constraint in constraints.items() if isinstance(constraints, dict) else ():
+            value = constraint.get("trajectory") if isinstance(constraint, dict) else None
+            if isinstance(value, (int, float)) and not isinstance(value, bool) and value > 0.0:
+                yield str(joint), float(value)
+
+
+REPORT = "report.html"
+
+
+class EvidenceCollector:
+    """Runs rehearsals of one call; used as a context, so that nothing half done is left behind."""
+
+    def __init__(self, cell: MockCell, folder: Path, names: Sequence[str], seed: int) -> None:
+        """Make ready to run rehearsals by name.
+
+        Raises:
+            MockError: the folder cannot take the evidence.
+        """
+        self._runs: list[RunEvidence] = []
+        self._cell = cell
+        self._tolerances = path_tolerances(cell.folder)
+        self._seed = seed
+        self._stems = file_names(names)
+        files = [REPORT, *(name for stem in self._stems.values() for name in _files(stem))]
+        self._folder = EvidenceFolder(folder, files)
+
+    def __enter__(self) -> EvidenceCollector:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        self._folder.discard()
+
+    def run(self, name: str) -> RehearsalResult:
+        """Run a rehearsal, and keep its evidence.
+
+        Raises:
+            MockError: it names what the contract does not have.
+        """
+        entry = self._cell.entry(name)
+        bag_file, records_file, kpis_file = _files(self._stems[entry.name])
+        watched: list[tuple[Onlooker, RunTrace, Plant]] = []
+        with self._folder.open(bag_file) as file:
+            bag = Bag(file, self._cell.contract.distro, self._identity(entry))
+
+            def watch(plant: Plant) -> None:
+                writer, trace = RunBag(bag, plant), RunTrace(plant)
+                writer.begin(self._cell.folder.urdf)
+                watched.append((Onlooker(plant, writer, trace), trace, plant))
+
+            result = self._cell.rehearse(entry, seed=self._seed, watch=watch)
+            for onlooker, _, _ in watched:
+                onlooker.end(result.attempts)
+            bag.finish()
+        trace = watched[0][1].result() if watched else None
+        figures = () if trace is None else self._figures(result, trace)
+        self._folder.write(records_file, to_json_lines(result.attempts))
+        self._folder.write(kpis_file, to_kpi_json(entry, result, figures))
+        files = (bag_file, records_file, kpis_file)
+        self._runs.append(RunEvidence(entry, result, trace, figures, self._tolerances, files))
+        return result
+
+    def settle(self, campaign: Campaign | None = None) -> None:
+        """Write the report and put everything in its place.
+
+        Args:
+            campaign: what a campaign found, which the report shows and the gates are judged by too.
+
+        Raises:
+            MockError: the folder cannot take it.
+        """
+        contract = self._cell.contract
+        witnesses = rehearsal_witnesses(self._cell.entries, [run.result for run in self._runs])
+        if campaign is not None:
+            witnesses = (*witnesses, *campaign_witnesses(campaign))
+        gates = sign_gates(self._cell.folder, witnesses, self._seed)
+        content = ReportContent(contract, self._cell.notes, self._seed, tuple(self._runs), gates, campaign)
+        self._folder.write(REPORT, to_report(content))
+        self._folder.settle({"cell": contract.cell, "configuration_id": contract.configuration_id, "seed": self._seed})
+
+    def _figures(self, result: RehearsalResult, trace: TraceResult) -> tuple[Kpi, ...]:
+        contract = self._cell.contract
+        return kpis(contract.kpis, result, trace, joint_state_age_s(contract))
+
+    def _identity(self, entry: RehearsalEntry) -> dict[str, str]:
+        contract = self._cell.contract
+        return {
+            "cell": contract.cell,
+            "configuration_id": contract.configuration_id,
+            "rehearsal": entry.name,
+            "seed": str(self._seed),
+            **{f"version.{part}": version for part, version in sorted(contract.version_tuple.items())},
+        }
+
+
+def _files(stem: str) -> tuple[str, str, str]:
+    return f"{stem}.mcap", f"{stem}.records.jsonl", f"{stem}.kpis.json"

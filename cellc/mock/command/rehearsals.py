@@ -1,0 +1,162 @@
+"""The command behind `cellc mock FOLDER`: run rehearsals, print results as lines or JSON, and begin their evidence."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from time import perf_counter
+from typing import TYPE_CHECKING
+
+from cellc.mock.cell import MockCell, load
+from cellc.mock.command.options import write_text
+from cellc.mock.errors import MockError
+from cellc.mock.result import RehearsalResult, to_json_lines
+
+if TYPE_CHECKING:
+    from cellc.mock.command.evidence import EvidenceCollector
+
+
+@dataclass(frozen=True, slots=True)
+class TimedResult:
+    """A result with the time that the host needed, which stands in no record and no evidence."""
+
+    result: RehearsalResult
+    wall_time_s: float
+
+
+def to_summary_json(configuration_id: str, timed: Sequence[TimedResult], notes: Sequence[str]) -> str:
+    """Return the machine-readable summary of a run."""
+    rehearsals = [
+        {
+            "name": each.result.name,
+            "outcome": each.result.outcome,
+            "expected": each.result.expected,
+            "passed": each.result.passed,
+            "sim_time_s": each.result.sim_time_s,
+            "wall_time_s": round(each.wall_time_s, 4),
+            "response_s": each.result.response_s,
+            "within_s": each.result.within_s,
+            "reason": reason(each.result),
+        }
+        for each in timed
+    ]
+    summary = {"configuration_id": configuration_id, "rehearsals": rehearsals, "notes": list(notes)}
+    return json.dumps(summary, ensure_ascii=False, indent=2)
+
+
+def to_lines(timed: Sequence[TimedResult], notes: Sequence[str]) -> Iterator[str]:
+    """Yield the summary for people: one line a rehearsal, the reason below where it is not a plain success."""
+    for note in notes:
+        yield f"note: {note}"
+    if not timed:
+        yield "note: no rehearsal is declared; nothing was run, and nothing is shown"
+    for each in timed:
+        result = each.result
+        verdict = "passed" if result.passed else "FAILED"
+        speed = result.sim_time_s / each.wall_time_s if each.wall_time_s > 0.0 else 0.0
+        yield (
+            f"{verdict}  {result.name}: {result.outcome} (expected {result.expected}), "
+            f"{result.sim_time_s:.2f} s simulated in {each.wall_time_s:.2f} s ({speed:.0f} x real time)"
+        )
+        if result.within_s is not None and result.response_s is not None:
+            yield f"        bound: {result.response_s * 1e3:.0f} ms of {result.within_s * 1e3:.0f} ms"
+        if text := reason(result):
+            yield f"        reason: {text}"
+        for finding in result.findings:
+            yield f"        finding: {finding}"
+
+
+def reason(result: RehearsalResult) -> str:
+    """Return why a rehearsal ended as it did; empty after a plain success."""
+    problems = [problem for stage in result.bringup for problem in stage.problems]
+    if problems:
+        return "; ".join(problems)
+    return result.attempts[-1].fault_code if result.attempts else ""
+
+
+def run_command(
+    folder: str,
+    *,
+    names: Sequence[str] = (),
+    as_json: bool = False,
+    records: str | None = None,
+    evidence: str | None = None,
+    seed: int = 0,
+) -> int:
+    """Run rehearsals of a folder and print the results.
+
+    Args:
+        names: rehearsals to run; all where there are none.
+        as_json: print a JSON summary in place of lines for people.
+        records: file that the attempt records are written to, as JSON lines.
+        evidence: folder that bags, records, figures and a report are written to.
+        seed: of everything that is drawn.
+
+    Returns:
+        0 where every rehearsal passed, 1 where one did not or there is none, 2 where the folder or a name is unusable.
+    """
+    try:
+        if seed < 0:
+            raise MockError("", f"the seed is {seed}; it must be 0 or greater")
+        cell = load(Path(folder))
+        chosen = tuple(dict.fromkeys(names)) or cell.rehearsals
+        timed = _run(cell, chosen, seed) if evidence is None else _run_with_evidence(cell, chosen, seed, Path(evidence))
+        if records is not None:
+            write_text(Path(records), to_json_lines(record for each in timed for record in each.result.attempts))
+    except MockError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("error: interrupted; nothing was written", file=sys.stderr)
+        return 2
+    if as_json:
+        print(to_summary_json(cell.contract.configuration_id, timed, cell.notes))
+    else:
+        print("\n".join(to_lines(timed, cell.notes)))
+    return 0 if timed and all(each.result.passed for each in timed) else 1
+
+
+def _run(cell: MockCell, names: Sequence[str], seed: int) -> list[TimedResult]:
+    return _timed(names, lambda name: cell.run(name, seed=seed))
+
+
+def _run_with_evidence(cell: MockCell, names: Sequence[str], seed: int, folder: Path) -> list[TimedResult]:
+    with begin_evidence(cell, folder, names, seed) as collector:
+        timed = _timed(names, collector.run)
+        collector.settle()
+    return timed
+
+
+def _timed(names: Sequence[str], run: Callable[[str], RehearsalResult]) -> list[TimedResult]:
+    on_terminal = sys.stderr.isatty()
+    timed: list[TimedResult] = []
+    for number, name in enumerate(names, start=1):
+        if on_terminal:
+            print(f"\r\x1b[Krehearsal {number} of {len(names)}: {name}", end="", file=sys.stderr, flush=True)
+        begun = perf_counter()
+        result = run(name)
+        timed.append(TimedResult(result, perf_counter() - begun))
+    if on_terminal:
+        print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+    return timed
+
+
+def begin_evidence(cell: MockCell, folder: Path, names: Sequence[str], seed: int) -> EvidenceCollector:
+    """Return what runs rehearsals of a cell and writes their evidence to a folder.
+
+    Raises:
+        MockError: the package is missing, a name is unknown, or the folder cannot take the evidence.
+    """
+    try:
+        from cellc.mock.command.evidence import EvidenceCollector
+    except ModuleNotFoundError as error:
+        if (error.name or "").partition(".")[0] != "mcap":
+            raise
+        text = "evidence needs the package `mcap`; install it with `pip install 'cellc[evidence]'`"
+        raise MockError("", text) from None
+    for name in names:
+        cell.entry(name)
+    return EvidenceCollector(cell, folder, names, seed)

@@ -1,0 +1,88 @@
+"""Listens to one rehearsal from its first cycle on, and hands what happens to the bag and to the trace."""
+
+from __future__ import annotations
+
+from functools import partial
+
+from cellc.mock.control import ControlEvent, ControllerChanged, HardwareChanged, JointStateBlock
+from cellc.mock.control.controllers.joint_trajectory.recorder import Recorder
+from cellc.mock.engine.watcher import GoalSent
+from cellc.mock.evidence.run_bag import RunBag, TransformStream
+from cellc.mock.evidence.run_trace import RunTrace
+from cellc.mock.evidence.topics import TRAJECTORY_BEHAVIOURS
+from cellc.mock.plant import Plant
+from cellc.mock.result import AttemptRecord
+
+_PIECE_NS = 250_000_000
+"""States of controllers are taken four times a second, so that memory stays flat."""
+_DIAGNOSTIC_NS = 1_000_000_000
+"""diagnostic_updater publishes once a second by default."""
+
+
+class Onlooker:
+    """Hands what happens on to the bag and to the trace of the run; it changes nothing."""
+
+    def __init__(self, plant: Plant, bag: RunBag, trace: RunTrace) -> None:
+        """Listen to a plant in which nothing has run yet."""
+        self._plant = plant
+        self._bag = bag
+        self._trace = trace
+        self._recorders: dict[str, Recorder] = {}
+        self._streams = {key: TransformStream(plant, history) for key, history in plant.control.histories.items()}
+        self._piece_due_ns = 0
+        self._diagnostics_due_ns = 0
+        plant.control.watch(self)
+        plant.control.listen(self._hear)
+        for frame, perception in plant.perceptions.items():
+            perception.listen(partial(bag.pose, frame))
+        for frame, inbox in plant.inboxes.items():
+            inbox.listen(partial(trace.observation, frame))
+
+    def configured(self) -> None:
+        """Record every trajectory controller, update by update."""
+        for name, manager in self._plant.contract.managers.items():
+            for controller, facts in manager.controllers.items():
+                if facts.behaviour in TRAJECTORY_BEHAVIOURS:
+                    rate_hz = manager.update_rate_hz
+                    self._recorders[controller] = self._plant.control.managers[name].record(controller, rate_hz)
+
+    def joint_states(self, manager: str, controller: str, block: JointStateBlock) -> None:
+        """Take joint states; now and then what controllers did, and the diagnostics."""
+        if not len(block.stamps_ns):
+            return
+        self._bag.joint_states(manager, controller, block)
+        self._trace.joint_states(manager, controller, block)
+        for message in self._streams[(manager, controller)].take(block):
+            self._bag.transforms(message)
+            self._trace.transforms(message)
+        last_ns = int(block.stamps_ns[-1])
+        if last_ns >= self._piece_due_ns:
+            self._take_states()
+            self._piece_due_ns = last_ns + _PIECE_NS
+        if last_ns >= self._diagnostics_due_ns:
+            self._bag.diagnostics(last_ns)
+            self._diagnostics_due_ns = last_ns + _DIAGNOSTIC_NS
+
+    def goal_sent(self, sent: GoalSent) -> None:
+        """Take a goal."""
+        self._bag.goal(sent)
+
+    def end(self, attempts: tuple[AttemptRecord, ...]) -> None:
+        """Take what is left when the rehearsal is over."""
+        self._take_states()
+        for record in attempts:
+            self._bag.attempt(record)
+        self._bag.diagnostics(self._plant.now_ns)
+        self._trace.end(self._plant.now_ns)
+
+    def _take_states(self) -> None:
+        for controller, recorder in self._recorders.items():
+            recording = recorder.take()
+            if len(recording.stamps_ns):
+                self._bag.controller_states(controller, recording)
+                self._trace.controller_states(controller, recording)
+
+    def _hear(self, event: ControlEvent) -> None:
+        if isinstance(event, (ControllerChanged, HardwareChanged)):
+            self._bag.diagnostics(event.stamp_ns)
+            self._trace.changed(event)

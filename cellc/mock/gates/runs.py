@@ -1,0 +1,91 @@
+"""Runs as witnesses: what was injected, how it ended, and whether that is as it must be."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+from cellc.contract.contract import Contract
+from cellc.contract.rehearsals import FaultEntry, RehearsalEntry
+from cellc.mock.campaign.campaign import Campaign
+from cellc.mock.campaign.limits import LimitsReport
+from cellc.mock.folder import GeneratedFolder
+from cellc.mock.result import AttemptRecord, PacketStep, RehearsalResult
+
+SUCCEEDED = "succeeded"
+
+
+@dataclass(frozen=True, slots=True)
+class Witness:
+    """One run.
+
+    Attributes:
+        declared: it is a rehearsal of the folder, not a run of a campaign.
+        passed: it ended in an outcome that its faults may have, within its bound.
+        limits: how commands compare with limits; None where nobody looked.
+    """
+
+    entry: RehearsalEntry
+    result: RehearsalResult
+    declared: bool
+    passed: bool
+    limits: LimitsReport | None
+
+    @property
+    def name(self) -> str:
+        """The run as its evidence names it."""
+        return self.entry.name
+
+    @property
+    def undisturbed(self) -> bool:
+        """Tell whether no fault was injected."""
+        return not self.entry.faults
+
+    def has_mark(self, attempt: AttemptRecord, *steps: PacketStep) -> bool:
+        """Tell whether the packet of an attempt came through all these steps."""
+        return set(steps) <= {point.step for point in attempt.trace}
+
+
+@dataclass(frozen=True, slots=True)
+class Testimony:
+    """Everything that gates are judged by."""
+
+    folder: GeneratedFolder
+    witnesses: tuple[Witness, ...]
+
+    @property
+    def contract(self) -> Contract:
+        """The contract of the cell."""
+        return self.folder.contract
+
+    def undisturbed(self) -> tuple[Witness, ...]:
+        """Return the runs without faults."""
+        return tuple(witness for witness in self.witnesses if witness.undisturbed)
+
+    def attempts(self, controller: str) -> Iterator[tuple[Witness, AttemptRecord]]:
+        """Yield the attempts of all runs that sent a goal to a controller."""
+        for witness in self.witnesses:
+            for attempt in witness.result.attempts:
+                if attempt.controller_name == controller:
+                    yield witness, attempt
+
+    def with_fault(self, *kinds: str) -> Iterator[tuple[Witness, FaultEntry]]:
+        """Yield the runs with a fault of one of these kinds, and the fault."""
+        for witness in self.witnesses:
+            for fault in witness.entry.faults:
+                if fault.kind in kinds:
+                    yield witness, fault
+
+
+def rehearsal_witnesses(entries: Sequence[RehearsalEntry], results: Iterable[RehearsalResult]) -> tuple[Witness, ...]:
+    """Return declared rehearsals as witnesses; ``entries`` are those of the folder."""
+    known = {entry.name: entry for entry in entries}
+    return tuple(Witness(known[result.name], result, True, result.passed, None) for result in results)
+
+
+def campaign_witnesses(campaign: Campaign) -> tuple[Witness, ...]:
+    """Return the runs of a campaign as witnesses; its undisturbed runs are declared rehearsals."""
+    return tuple(
+        Witness(end.run.entry, end.result, not end.run.hits, end.named and end.in_time, end.limits)
+        for end in campaign.all_ends
+    )

@@ -1,0 +1,99 @@
+"""Elements of the page as a tree, so that no text of the spec is taken for markup, and figures with their units."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from xml.etree.ElementTree import Element, tostring
+
+Child = Element | str
+_UNPRINTABLE = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff\ufdd0-\ufdef\ufffe\uffff]")
+"""Characters that HTML text must not hold."""
+
+
+def tag(name: str, *children: Child, **attributes: str) -> Element:
+    """Return an element; a trailing underscore of an attribute is dropped, other underscores become hyphens."""
+    names = {key: key.removesuffix("_").replace("_", "-") for key in attributes}
+    element = Element(name, {names[key]: _clean(value) for key, value in attributes.items()})
+    return extend(element, children)
+
+
+def extend(element: Element, children: Iterable[Child]) -> Element:
+    """Add children to an element and return it."""
+    for child in children:
+        if isinstance(child, Element):
+            element.append(child)
+        elif len(element):
+            element[-1].tail = (element[-1].tail or "") + _clean(child)
+        else:
+            element.text = (element.text or "") + _clean(child)
+    return element
+
+
+def svg(width: float, height: float, label: str, *children: Child, class_: str = "plot") -> Element:
+    """Return a drawing that fills the width of its place; the label is read aloud in its stead."""
+    element = tag("svg", tag("title", label), *children, class_=class_, role="img")
+    element.set("viewBox", f"0 0 {width:g} {height:g}")
+    return element
+
+
+def to_page(title: str, style: str, body: Element) -> str:
+    """Return a whole page."""
+    head = tag(
+        "head",
+        tag("meta", charset="utf-8"),
+        tag("meta", name_="viewport", content="width=device-width, initial-scale=1"),
+        tag("meta", name_="color-scheme", content="light dark"),
+        tag("title", title),
+        tag("style", style),
+    )
+    html = tag("html", head, body, lang="en")
+    return "<!DOCTYPE html>\n" + tostring(html, encoding="unicode", method="html") + "\n"
+
+
+def _clean(text: str) -> str:
+    return _UNPRINTABLE.sub("\ufffd", text)
+
+
+_NONE = "–"
+
+
+def seconds(value_s: float | None) -> str:
+    """Return a time: milliseconds below one second."""
+    if value_s is None:
+        return _NONE
+    if abs(value_s) < 1.0:
+        return f"{value_s * 1e3:.3g} ms"
+    return f"{value_s:.4g} s"
+
+
+def at(stamp_ns: int) -> str:
+    """Return an instant of simulated time."""
+    return f"{stamp_ns / 1e9:.3f} s"
+
+
+def span(low: float, high: float, unit: str) -> str:
+    """Return the range of a joint's positions, with four digits after the point."""
+    return f"{low:.4f} … {high:.4f} {unit}".replace("-", "−")
+
+
+def small(value: float, unit: str) -> str:
+    """Return a deviation in thousandths or millionths of its unit, whatever reads best; rounding is no deviation."""
+    for factor, prefix in ((1.0, ""), (1e3, "m"), (1e6, "µ"), (1e9, "n")):
+        if abs(value) * factor >= 1.0:
+            return f"{value * factor:.3g} {prefix}{unit}"
+    return f"0 {unit}" if value == 0.0 else f"below 1 n{unit}"
+
+
+def plain(value: float | None, unit: str) -> str:
+    """Return a figure of the checkpoint."""
+    if value is None:
+        return _NONE
+    if unit == "s":
+        return seconds(value)
+    return f"{value:.0%}" if unit == "share" else f"{value:g} {unit.removesuffix('s') if value == 1 else unit}"
+
+
+def count(number: int, noun: str) -> str:
+    """Return a number with its noun, in the plural where there are several."""
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
