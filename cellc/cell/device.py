@@ -95,6 +95,10 @@ class DeviceVersions:
     sdk: str = UNKNOWN
     description: str = UNKNOWN
 
+    def part(self, name: str) -> str:
+        """Return a part by its name, such as ``firmware``."""
+        return str(getattr(self, name))
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Connection:

@@ -119,7 +119,7 @@ def diagnose(text: str, cell: Cell | None) -> tuple[Suspicion, ...]:
 
 def _suspicion(match: Match, text: str, cell: Cell | None) -> Suspicion:
     area = match.layer.owner
-    owner = f"owner of the approval `{area}`" if cell is None else str(getattr(cell.spec.owners.approvals, area))
+    owner = f"owner of the approval `{area}`" if cell is None else str(getattr(cell.owners.approvals, area))
     return Suspicion(
         layer=match.layer.title,
         symptom=match.symptom.name,

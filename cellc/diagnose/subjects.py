@@ -44,13 +44,13 @@ Rows = list[tuple[str, ...]]
 
 
 def _cell(cell: Cell) -> Rows:
-    network, safety = cell.spec.network, cell.spec.safety
+    network, safety = cell.network, cell.safety
     publishers = dict.fromkeys(frame.authority for frame in cell.frames if frame.kind is FrameKind.DYNAMIC)
     return [
         (
             cell.name,
             str(network.domain_id),
-            str(cell.spec.versions.rmw).split(" ")[0],
+            str(cell.versions.rmw).split(" ")[0],
             network.discovery,
             ", ".join(["robot_state_publisher", *publishers]),
             safety.stop.authority,
@@ -148,20 +148,21 @@ def _lifecycle_nodes(cell: Cell) -> Rows:
 
 
 def _devices(cell: Cell) -> Rows:
-    return [_device(one) for one in cell.devices]
+    return [_device(cell, one) for one in cell.devices]
 
 
-def _device(device: Device) -> tuple[str, ...]:
-    connection, payload, safety = device.spec.connection, device.spec.payload, device.facts.safety
+def _device(cell: Cell, device: Device) -> tuple[str, ...]:
+    connection = device.connection
     address = _NOT_STATED if connection is None else connection.address or connection.port or _NOT_STATED
-    load = "" if payload is None else f"{payload.mass.text}, centre of mass {payload.center_of_mass.text}"
+    mass, center = (cell.text(*device.path, "payload", key) for key in ("mass", "center_of_mass"))
+    load = "" if device.payload is None else f"{mass}, centre of mass {center}"
     return (
         device.name,
         address,
-        _list(() if safety is None else safety.modes),
-        _list(() if safety is None else (state.name for state in safety.states)),
-        str(device.spec.firmware),
-        str(device.spec.driver),
+        _list(device.safety.modes),
+        _list(state.name for state in device.safety.states),
+        device.versions.firmware,
+        device.versions.driver,
         load or _NOT_STATED,
     )
 

@@ -28,7 +28,7 @@ def adapted_devices(cell: Cell) -> tuple[AdaptedDevice, ...]:
     found: list[AdaptedDevice] = []
     for device in cell.devices:
         joints = [joint.name for joint in device.actuated_joints]
-        if device.spec.architecture != "direct_sdk" or not joints or any(name in driven for name in joints):
+        if device.architecture != "direct_sdk" or not joints or any(name in driven for name in joints):
             continue
         action = _of_source(cell, device, InterfaceKind.ACTION, TRAJECTORY_ACTION)
         state = _of_source(cell, device, InterfaceKind.TOPIC, JOINT_STATE)

@@ -75,6 +75,6 @@ def _share(cell: Cell, topic: Interface) -> AgeShare:
 
 
 def _exposure_s(cell: Cell, topic: Interface) -> float:
-    stamps = {device.name: device.spec.stamp for device in cell.devices}
+    stamps = {device.name: device.stamp for device in cell.devices}
     found = (stamps.get(source.node) for source in topic.sources)
-    return max((stamp.exposure.si for stamp in found if stamp is not None and stamp.exposure is not None), default=0.0)
+    return max((stamp.exposure_s for stamp in found if stamp is not None and stamp.exposure_s is not None), default=0.0)

@@ -82,7 +82,7 @@ def _of_devices(cell: Cell) -> Iterator[Judgement]:
         if not pin.known:
             yield Judgement(pin, Answer.UNKNOWN, "not pinned")
             continue
-        rows = [row for row in devices[pin.holder].facts.versions if row.part == pin.part]
+        rows = [row for row in devices[pin.holder].version_rows if row.part == pin.part]
         judge = _firmware_answer if pin.part == "firmware" else _package_answer
         answer, evidence = judge(pin, rows, cell.distro)
         yield Judgement(pin, answer, evidence)

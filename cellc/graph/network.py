@@ -58,15 +58,15 @@ def build_network(cell: Cell) -> NetworkGraph:
     """Read the addresses of hosts and devices."""
     nics = tuple(
         Nic(host, name, nic.address, read_interface(nic.address), nic.carries, ("hosts", host, "nics", name))
-        for host, spec in cell.spec.hosts.items()
-        for name, nic in spec.nics.items()
+        for host, computer in cell.hosts.items()
+        for name, nic in computer.nics.items()
     )
     devices = tuple(
         DeviceAddress(
-            name, link.host, link.nic, link.address, read_address(link.address), ("devices", name, "connection")
+            device.name, link.host, link.nic, link.address, read_address(link.address), (*device.path, "connection")
         )
-        for name, spec in cell.spec.devices.items()
-        if (link := spec.connection) is not None
+        for device in cell.devices
+        if (link := device.connection) is not None
     )
     return NetworkGraph(nics, devices)
 

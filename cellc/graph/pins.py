@@ -31,7 +31,7 @@ class Pin:
 
 def cell_pins(cell: Cell) -> Iterator[Pin]:
     """Yield the parts of the tuple that belong to the whole cell; MoveIt is no part of a cell that has no goals."""
-    versions = cell.spec.versions
+    versions = cell.versions
     texts = {
         "os": versions.os,
         "kernel": versions.kernel,
@@ -48,10 +48,10 @@ def cell_pins(cell: Cell) -> Iterator[Pin]:
 def device_pins(cell: Cell) -> Iterator[Pin]:
     """Yield the parts of the tuple of each device; what its catalogue entry says it has none of is left out."""
     for device in cell.devices:
-        packages = device.facts.packages
+        packages = device.packages
         absent = {"driver": packages.driver, "sdk": packages.sdk, "description": packages.description}
         for part in _DEVICE_PARTS:
-            text = str(getattr(device.spec, part))
+            text = device.versions.part(part)
             if text != UNKNOWN or absent.get(part, part) is not None:
                 yield Pin(device.name, part, text, (*device.path, part))
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from cellc.cell.cell import Cell
+from cellc.cell.interface import NodeSource
 from cellc.diagnostics import YamlPath
 
 UNKNOWN = "UNKNOWN"
@@ -47,21 +48,24 @@ class Responsibilities:
 
 def build_responsibilities(cell: Cell) -> Responsibilities:
     """Gather the owners that the spec names."""
-    spec = cell.spec
     items = [
         Responsibility("responsibility", name, str(owner), ("owners", "responsibilities", name))
-        for name, owner in spec.owners.responsibilities
+        for name, owner in cell.owners.responsibilities.items()
     ]
     items += [
         Responsibility("approval", name, str(owner), ("owners", "approvals", name))
-        for name, owner in spec.owners.approvals
+        for name, owner in cell.owners.approvals.items()
     ]
     items += [
         Responsibility("calibration", name, calibration.owner, ("calibrations", name, "owner"))
-        for name, calibration in spec.calibrations.items()
+        for name, calibration in cell.calibrations.items()
     ]
-    items += [Responsibility("node", name, node.owner, ("nodes", name, "owner")) for name, node in spec.nodes.items()]
-    recovery = spec.safety.recovery
+    items += [
+        Responsibility("node", node.name, node.owner, (*node.path, "owner"))
+        for node in cell.nodes
+        if node.source is NodeSource.SPEC
+    ]
+    recovery = cell.safety.recovery
     items.append(Responsibility("procedure", "recovery", recovery.owner, ("safety", "recovery", "owner")))
     items.append(Responsibility("procedure", "observer", recovery.observer, ("safety", "recovery", "observer")))
     return Responsibilities(tuple(items))

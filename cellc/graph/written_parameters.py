@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from cellc.cell.cell import Cell
 from cellc.cell.control import Controller
+from cellc.cell.interface import ParameterValue
 from cellc.diagnostics import YamlPath
-from cellc.spec.base import ParameterValue
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,9 +23,6 @@ class WrittenParameter:
 
 def written_parameters(cell: Cell) -> Iterator[WrittenParameter]:
     """Yield every parameter under ``parameters:`` of a controller."""
-    managers = dict(cell.spec.managers)
-    if cell.spec.control is not None:
-        managers["control"] = cell.spec.control
     for controller in cell.controllers:
-        for name, value in managers[controller.manager].controllers[controller.name].parameters.items():
+        for name, value in controller.written_parameters.items():
             yield WrittenParameter(controller, name, value, (*controller.path, "parameters", name))

@@ -153,7 +153,7 @@ def _catalogue_entry(cell: Cell, entity: Entity) -> str:
     if isinstance(entity, Controller):
         return f"controllers/{entity.kind}"
     device = next((one for one in cell.devices if entity.path[:2] == one.path), None)
-    return "interfaces" if device is None else f"devices/{device.facts.model}"
+    return "interfaces" if device is None else f"devices/{device.model}"
 
 
 def _text(value: object) -> str:

@@ -53,7 +53,7 @@ class Presence:
 def presence_of(graph: CellGraph) -> Presence:
     """Return how the other cells of a site meet this one."""
     cell = graph.cell
-    network = cell.spec.network
+    network = cell.network
     return Presence(
         name=cell.name,
         named_at=cell.locate("cell"),

@@ -20,7 +20,7 @@ def verify(artifacts: Sequence[Artifact], graph: CellGraph) -> tuple[Diagnostic,
     Each finding is a bug of cellc; it stands at the name of the cell. Importing this module takes about half a second
     and is left to commands that build.
     """
-    place = graph.cell.document.locate(("cell",))
+    place = graph.cell.locate("cell")
     found = [disagreement.at(place) for disagreement in _disagreements(artifacts, graph)]
     return tuple(sorted(found, key=Diagnostic.sort_key))
 

@@ -48,7 +48,7 @@ def found_in(edits: dict[str, tuple[str, str]], cell: str = "ur5e_pick") -> set[
         assert not pattern or text != artifact.text
         edited.append(replace(artifact, text=text))
     diagnostics = verify(edited, graph)
-    assert all(d.span == graph.cell.document.locate(("cell",)) for d in diagnostics)
+    assert all(d.span == graph.cell.locate("cell") for d in diagnostics)
     assert all("bug of cellc" in d.message and "\n" not in d.message for d in diagnostics)
     return {(d.code, d.message.split("`")[1]) for d in diagnostics}
 

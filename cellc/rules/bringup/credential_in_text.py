@@ -26,10 +26,8 @@ a password in the user information of an address is deprecated.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 
-from cellc.rules.kit import CellGraph, Findings, Severity, YamlPath, found, rule
-from cellc.source.document import Plain
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _CREDENTIALS = (
     ("an address with a password", re.compile(r"[a-z][a-z0-9+.-]*://[^/\s:@]*:[^/\s@]+@", re.IGNORECASE)),
@@ -41,19 +39,8 @@ _CREDENTIALS = (
 @rule(Severity.ERROR, assumes=("secret-in-spec",))
 def check(graph: CellGraph) -> Findings:
     """Yield texts that look like a credential, wherever they stand."""
-    for path, text in _texts((), graph.cell.document.data):
+    for path, text in graph.cell.places.texts.items():
         kind = next((kind for kind, pattern in _CREDENTIALS if pattern.search(text)), None)
         if kind is not None:
             message = f"the text holds {kind}"
             yield found(graph, path, message, "name a file or an environment variable that holds it")
-
-
-def _texts(path: YamlPath, value: Plain) -> Iterator[tuple[YamlPath, str]]:
-    if isinstance(value, str):
-        yield path, value
-    elif isinstance(value, dict):
-        for key, item in value.items():
-            yield from _texts((*path, key), item)
-    elif isinstance(value, list):
-        for index, item in enumerate(value):
-            yield from _texts((*path, index), item)

@@ -41,11 +41,13 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield a first motion whose delta needs more time at its velocity than allowed."""
-    motion = graph.cell.spec.bringup.first_motion
-    if motion is None or motion.velocity.si == 0.0:
+    motion = graph.cell.bringup.first_motion
+    if motion is None or motion.velocity.value == 0.0:
         return
-    needed = abs(motion.max_delta.si / motion.velocity.si)
-    if needed > motion.timeout.si:
-        move = f"{motion.max_delta.text} at {motion.velocity.text}"
-        message = f"{move} takes {needed:.3g} s, the timeout is {motion.timeout.text}"
+    needed = abs(motion.max_delta.value / motion.velocity.value)
+    if needed > motion.timeout_s:
+        max_delta, velocity, timeout = (
+            graph.cell.text("bringup", "first_motion", key) for key in ("max_delta", "velocity", "timeout")
+        )
+        message = f"{max_delta} at {velocity} takes {needed:.3g} s, the timeout is {timeout}"
         yield found(graph, ("bringup", "first_motion", "timeout"), message, f"allow more than {needed:.3g} s")

@@ -41,7 +41,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, did_you_mean, found, 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield a first motion whose joint no device drives."""
-    motion = graph.cell.spec.bringup.first_motion
+    motion = graph.cell.bringup.first_motion
     driven = [f"{device.name}/{joint.local_name}" for device in graph.cell.devices for joint in device.actuated_joints]
     if motion is not None and motion.joint not in driven:
         message = f"no device drives a joint `{motion.joint}`"

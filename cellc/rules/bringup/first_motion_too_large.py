@@ -46,13 +46,14 @@ _LARGEST_M = 0.05
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield a delta or velocity above the bound of a first motion."""
-    motion = graph.cell.spec.bringup.first_motion
+    motion = graph.cell.bringup.first_motion
     if motion is None:
         return
     for field, value in (("max_delta", motion.max_delta), ("velocity", motion.velocity)):
-        linear = value.unit.startswith(("m", "c", "u"))  # m, mm, cm, um; not deg, rad
-        if abs(value.si) > (_LARGEST_M if linear else _LARGEST_RAD):
-            largest = "50 mm" if linear else "15 deg"
+        if abs(value.value) > (_LARGEST_M if value.linear else _LARGEST_RAD):
+            path = ("bringup", "first_motion", field)
+            largest = "50 mm" if value.linear else "15 deg"
             per = " per second" if field == "velocity" else ""
-            message = f"the first motion has {field.replace('_', ' ')} {value.text}, at most {largest}{per} are allowed"
-            yield found(graph, ("bringup", "first_motion", field), message, f"write at most {largest}{per}")
+            written = f"{field.replace('_', ' ')} {graph.cell.text(*path)}"
+            message = f"the first motion has {written}, at most {largest}{per} are allowed"
+            yield found(graph, path, message, f"write at most {largest}{per}")

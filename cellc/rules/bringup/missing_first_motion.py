@@ -31,6 +31,6 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 def check(graph: CellGraph) -> Findings:
     """Yield a cell that moves joints and does not state its first motion."""
     moves = any(controller.command_interfaces for controller in graph.cell.controllers)
-    if moves and graph.cell.spec.bringup.first_motion is None:
+    if moves and graph.cell.bringup.first_motion is None:
         message = "the single-joint move of gate G6 is not stated"
         yield found(graph, ("bringup", "first_motion"), message, "add `bringup.first_motion`")

@@ -22,18 +22,15 @@ Source: chapter 4, sections 5 and 11: gates L1 to L6 and G0 to G7.
 
 from __future__ import annotations
 
+from cellc.cell.site import GATES, LADDER
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
-
-_LADDERS = (tuple(f"G{number}" for number in range(8)), tuple(f"L{number}" for number in range(1, 7)))
 
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield each ladder of gates that is not complete and in order."""
-    gates = graph.cell.spec.bringup.gates
-    if gates == "standard":
-        return
-    for ladder in _LADDERS:
+    gates = graph.cell.bringup.gates
+    for ladder in (GATES, LADDER):
         written = [gate for gate in gates if gate in ladder]
         missing = [gate for gate in ladder if gate not in written]
         if missing:

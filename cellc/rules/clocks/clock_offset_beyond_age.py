@@ -30,8 +30,8 @@ from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 def check(graph: CellGraph) -> Findings:
     """Yield sensors whose clock offset reaches the age limit of one of their topics."""
     for device in graph.cell.devices:
-        stamp = device.spec.stamp
-        if stamp is None or stamp.max_offset is None:
+        stamp = device.stamp
+        if stamp is None or stamp.clock.max_offset_s is None:
             continue
         limits = [
             interface
@@ -39,8 +39,9 @@ def check(graph: CellGraph) -> Findings:
             if interface.max_age_s is not None and any(end.node == device.name for end in interface.sources)
         ]
         shortest = min(limits, key=lambda interface: interface.max_age_s or 0.0, default=None)
-        if shortest is not None and stamp.max_offset.si >= (shortest.max_age_s or 0.0):
-            message = f"clock of `{device.name}` may be off by {stamp.max_offset.text}, `{shortest.name}` only that old"
-            related = (Related("the age is limited here", graph.cell.locate(*shortest.path, "max_age")),)
+        if shortest is not None and stamp.clock.max_offset_s >= (shortest.max_age_s or 0.0):
             path = (*device.path, "stamp", "max_offset")
+            offset = graph.cell.text(*path)
+            message = f"clock of `{device.name}` may be off by {offset}, `{shortest.name}` only that old"
+            related = (Related("the age is limited here", graph.cell.locate(*shortest.path, "max_age")),)
             yield found(graph, path, message, "tighten the synchronisation", related)

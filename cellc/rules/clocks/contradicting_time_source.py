@@ -50,7 +50,7 @@ def check(graph: CellGraph) -> Findings:
 
 def _clocks(graph: CellGraph, interface: Interface) -> Iterator[tuple[str, str]]:
     """Yield each publisher with its clock: what a sensor states, what a node runs on, or ros."""
-    stamps = {device.name: device.spec.stamp for device in graph.cell.devices}
+    stamps = {device.name: device.stamp for device in graph.cell.devices}
     clocks = {node.name: node.clock for node in graph.cell.nodes}
     for source in interface.sources:
         stamp = stamps.get(source.node)

@@ -36,9 +36,9 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 def check(graph: CellGraph) -> Findings:
     """Yield topics whose age limit is below their budget."""
     exposures = {
-        device.name: device.spec.stamp.exposure.si
+        device.name: device.stamp.exposure_s
         for device in graph.cell.devices
-        if device.spec.stamp is not None and device.spec.stamp.exposure is not None
+        if device.stamp is not None and device.stamp.exposure_s is not None
     }
     for interface in graph.cell.interfaces:
         if interface.max_age_s is None or not interface.rate_hz:

@@ -30,9 +30,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield nodes whose clock is not that of a target that starts them."""
-    targets = {"mock": "wall", "real": "wall"}
-    for name, target in graph.cell.spec.targets.items():
-        targets[name] = target.clock or ("sim" if name == "sim" else "wall")
+    targets = {name: target.clock for name, target in graph.cell.targets.items()}
     for node in graph.cell.nodes:
         other = next((target for target, clock in targets.items() if node.clock not in (None, clock)), None)
         if other is not None:

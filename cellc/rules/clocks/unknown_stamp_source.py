@@ -32,15 +32,15 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 def check(graph: CellGraph) -> Findings:
     """Yield cameras whose stamp source or clock domain is UNKNOWN or not stated."""
     for device in graph.cell.devices:
-        if device.facts.kind != "camera":
+        if device.kind != "camera":
             continue
-        stamp = device.spec.stamp
+        stamp = device.stamp
         path = (*device.path, "stamp")
         if stamp is None or stamp.source == UNKNOWN:
             yield found(
                 graph, (*path, "source"), f"the stamp source of `{device.name}` is UNKNOWN", "write what is stamped"
             )
-        elif stamp.clock == UNKNOWN:
+        elif stamp.clock.domain == UNKNOWN:
             yield found(
                 graph, (*path, "clock"), f"the clock domain of `{device.name}` is UNKNOWN", "write whose clock it is"
             )

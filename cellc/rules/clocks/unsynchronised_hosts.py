@@ -33,11 +33,11 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 @rule(Severity.BLOCKER)
 def check(graph: CellGraph) -> Findings:
     """Yield hosts of a cell with several that are not synchronised within a bound."""
-    hosts = graph.cell.spec.hosts
+    hosts = graph.cell.hosts
     if len(hosts) < 2:
         return
     for name, host in hosts.items():
-        if host.clock.synchronised_by is None or host.clock.max_offset is None:
+        if host.clock.synchronised_by is None or host.clock.max_offset_s is None:
             field = "synchronised_by" if host.clock.synchronised_by is None else "max_offset"
             message = f"the clock of host `{name}` has no stated `{field}`"
             path = ("hosts", name, "clock", field)

@@ -31,13 +31,13 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 @rule(Severity.BLOCKER)
 def check(graph: CellGraph) -> Findings:
     """Yield stamps of a clock of their own without synchronisation or without a bound."""
-    host_domains = {host.clock.domain for host in graph.cell.spec.hosts.values()} or {"ros"}
+    host_domains = {host.clock.domain for host in graph.cell.hosts.values()} or {"ros"}
     for device in graph.cell.devices:
-        stamp = device.spec.stamp
-        if stamp is None or stamp.source != "hardware" or stamp.clock in (UNKNOWN, *host_domains):
+        stamp = device.stamp
+        if stamp is None or stamp.source != "hardware" or stamp.clock.domain in (UNKNOWN, *host_domains):
             continue
-        if stamp.synchronised_by is None or stamp.max_offset is None:
-            field = "synchronised_by" if stamp.synchronised_by is None else "max_offset"
-            message = f"clock `{stamp.clock}` of `{device.name}` has no stated `{field}`"
+        if stamp.clock.synchronised_by is None or stamp.clock.max_offset_s is None:
+            field = "synchronised_by" if stamp.clock.synchronised_by is None else "max_offset"
+            message = f"clock `{stamp.clock.domain}` of `{device.name}` has no stated `{field}`"
             path = (*device.path, "stamp", field)
             yield found(graph, path, message, "write `synchronised_by` and `max_offset`")

@@ -37,7 +37,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield controllers that read a scaling factor though their device has none."""
-    scaling = {device.name for device in graph.cell.devices if device.facts.speed_scaling is not None}
+    scaling = {device.name for device in graph.cell.devices if device.speed_scaling is not None}
     for controller in graph.cell.controllers:
         reads = controller.behaviour == "scaled_joint_trajectory" or bool(
             controller.parameters.get("speed_scaling.state_interface")

@@ -29,9 +29,10 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 def check(graph: CellGraph) -> Findings:
     """Yield shares above 100 %."""
     for device in graph.cell.devices:
-        limits = device.spec.limits
-        shares = () if limits is None else (("velocity", limits.velocity), ("acceleration", limits.acceleration))
-        for name, share in shares:
-            if share is not None and share.si > 1.0:
-                message = f"`{device.name}` asks for {share.text} of its own {name} limit, at most 100 % are allowed"
-                yield found(graph, (*device.path, "limits", name), message, "write 100 % or less")
+        shares = device.limit_shares
+        for name, share in (("velocity", shares.velocity), ("acceleration", shares.acceleration)):
+            if share > 1.0:
+                path = (*device.path, "limits", name)
+                text = graph.cell.text(*path)
+                message = f"`{device.name}` asks for {text} of its own {name} limit, at most 100 % are allowed"
+                yield found(graph, path, message, "write 100 % or less")

@@ -28,9 +28,9 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 def check(graph: CellGraph) -> Findings:
     """Yield shares of zero and below."""
     for device in graph.cell.devices:
-        limits = device.spec.limits
-        shares = () if limits is None else (("velocity", limits.velocity), ("acceleration", limits.acceleration))
-        for name, share in shares:
-            if share is not None and share.si <= 0.0:
-                message = f"`{device.name}` is left {share.text} of its {name} limit"
-                yield found(graph, (*device.path, "limits", name), message, "write a share above zero")
+        shares = device.limit_shares
+        for name, share in (("velocity", shares.velocity), ("acceleration", shares.acceleration)):
+            if share <= 0.0:
+                path = (*device.path, "limits", name)
+                message = f"`{device.name}` is left {graph.cell.text(*path)} of its {name} limit"
+                yield found(graph, path, message, "write a share above zero")

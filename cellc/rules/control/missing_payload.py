@@ -29,7 +29,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 def check(graph: CellGraph) -> Findings:
     """Yield arms that carry devices and state no payload."""
     for device in graph.cell.devices:
-        if device.facts.kind == "arm" and device.carries and device.spec.payload is None:
+        if device.kind == "arm" and device.carries and device.payload is None:
             names = ", ".join(f"`{name}`" for name in device.carries)
             message = f"`{device.name}` carries {names}, but its payload is not stated"
             yield found(graph, device.path, message, "add `payload:` with mass and centre of mass at the flange")

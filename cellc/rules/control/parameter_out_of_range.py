@@ -26,10 +26,10 @@ Source: parameter declarations of the controller, in the catalogue with their so
 from __future__ import annotations
 
 from cellc.catalog.controller_kind import ParameterFacts
+from cellc.cell.interface import ParameterValue
 from cellc.graph.controller_kinds import kind_of
 from cellc.graph.written_parameters import written_parameters
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
-from cellc.spec.base import ParameterValue
 
 
 @rule(Severity.ERROR)

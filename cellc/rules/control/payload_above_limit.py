@@ -28,8 +28,8 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 def check(graph: CellGraph) -> Findings:
     """Yield payloads above that of the device."""
     for device in graph.cell.devices:
-        payload, limit = device.spec.payload, device.facts.limits.payload
-        if payload is not None and limit is not None and payload.mass.si > limit.value.si:
-            message = f"`{device.name}` is to carry {payload.mass.text}, at most {limit.value.text} are allowed"
+        payload, limit_kg = device.payload, device.payload_limit_kg
+        if payload is not None and limit_kg is not None and payload.mass_kg > limit_kg:
             path = (*device.path, "payload", "mass")
+            message = f"`{device.name}` is to carry {graph.cell.text(*path)}, at most {limit_kg:g} kg are allowed"
             yield found(graph, path, message, "choose a lighter tool or another arm")

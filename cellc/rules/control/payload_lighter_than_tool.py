@@ -30,13 +30,14 @@ _ROUNDING_KG = 0.05  # masses of descriptions are rounded, and a mounting plate 
 def check(graph: CellGraph) -> Findings:
     """Yield arms whose payload is below the sum of masses of what they carry."""
     for device in graph.cell.devices:
-        payload = device.spec.payload
-        if payload is None or device.facts.kind != "arm":
+        payload = device.payload
+        if payload is None or device.kind != "arm":
             continue
         carried = [graph.cell.device(name) for name in device.carries]
         mass = sum(
             link.inertial.mass for tool in carried for link in tool.description.links if link.inertial is not None
         )
-        if mass > payload.mass.si + _ROUNDING_KG:
-            message = f"`{device.name}` is told of {payload.mass.text}, but carries {mass:.3g} kg"
-            yield found(graph, (*device.path, "payload", "mass"), message, f"write at least {mass:.3g} kg")
+        if mass > payload.mass_kg + _ROUNDING_KG:
+            path = (*device.path, "payload", "mass")
+            message = f"`{device.name}` is told of {graph.cell.text(*path)}, but carries {mass:.3g} kg"
+            yield found(graph, path, message, f"write at least {mass:.3g} kg")

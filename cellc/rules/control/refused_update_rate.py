@@ -30,9 +30,9 @@ def check(graph: CellGraph) -> Findings:
     """Yield managers whose rate a device that they drive does not list."""
     for manager in graph.cell.managers:
         for device in (graph.cell.device(name) for name in manager.devices):
-            rates = () if device.facts.control is None else device.facts.control.update_rates
-            if rates and all(abs(rate.si - manager.update_rate_hz) > 1e-9 for rate in rates):
-                accepted = " or ".join(rate.text for rate in rates)
+            rates = device.update_rates_hz
+            if rates and all(abs(rate - manager.update_rate_hz) > 1e-9 for rate in rates):
+                accepted = " or ".join(f"{rate:g} Hz" for rate in rates)
                 message = f"`{device.name}` is driven at {accepted}, not at {manager.update_rate_hz:g} Hz"
                 path = (*manager.path, "update_rate")
                 yield found(graph, path, message, f"write {accepted}, or give the device a manager of its own")

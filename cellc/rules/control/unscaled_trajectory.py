@@ -32,12 +32,12 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 @rule(Severity.WARNING)
 def check(graph: CellGraph) -> Findings:
     """Yield trajectory controllers on a scaling device that do not read its factor."""
-    scaling = {device.name: device for device in graph.cell.devices if device.facts.speed_scaling is not None}
+    scaling = {device.name: device for device in graph.cell.devices if device.speed_scaling is not None}
     for controller in graph.cell.controllers:
         if controller.behaviour != "joint_trajectory" or controller.device not in scaling:
             continue
         if not controller.parameters.get("speed_scaling.state_interface"):
             message = f"`{controller.device}` scales its speed, `{controller.name}` does not follow"
-            kinds = [kind for kind in scaling[controller.device].facts.controllers if "trajectory" in kind]
+            kinds = [kind for kind in scaling[controller.device].controller_kinds if "trajectory" in kind]
             advice = f"use `type: {kinds[0]}`" if kinds else "use a controller that reads the scaling factor"
             yield found(graph, (*controller.path, "type"), message, advice)

@@ -29,10 +29,11 @@ from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield actions whose cancel may take longer than the target."""
-    target = graph.cell.spec.kpis.cancel
+    target = graph.cell.kpis.cancel_s
     for interface in graph.cell.interfaces if target is not None else ():
         bound = interface.cancel_within_s
-        if target is not None and bound is not None and bound > target.si and not interface.derived:
-            message = f"`{interface.name}` may take {bound * 1e3:g} ms to cancel, the target is {target.text}"
+        if target is not None and bound is not None and bound > target and not interface.derived:
+            allowed = graph.cell.text("kpis", "cancel")
+            message = f"`{interface.name}` may take {bound * 1e3:g} ms to cancel, the target is {allowed}"
             related = (Related("the target is here", graph.cell.locate("kpis", "cancel")),)
             yield found(graph, (*interface.path, "cancel_within"), message, "tighten it, or loosen the target", related)

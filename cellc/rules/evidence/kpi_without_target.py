@@ -27,7 +27,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 @rule(Severity.WARNING)
 def check(graph: CellGraph) -> Findings:
     """Yield the figures without a target in one finding."""
-    missing = [name for name, target in graph.cell.spec.kpis if target is None]
+    missing = graph.cell.kpis.without_target()
     if missing:
         names = ", ".join(f"`{name}`" for name in missing)
         yield found(graph, ("kpis",), f"{names} {'have' if len(missing) > 1 else 'has'} no target", "write the target")

@@ -22,15 +22,15 @@ Source: chapter 4, manufacturing cell checkpoint, list of what to log.
 
 from __future__ import annotations
 
-from cellc.deploy.recording import STANDARD
+from cellc.cell.site import ATTEMPT_FIELDS
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield the missing fields in one finding."""
-    fields = graph.cell.spec.recording.attempt_fields
-    missing = [] if fields == "standard" else [field for field in STANDARD if field not in fields]
+    fields = graph.cell.recording.attempt_fields
+    missing = [field for field in ATTEMPT_FIELDS if field not in fields]
     if missing:
         names = ", ".join(f"`{field}`" for field in missing)
         path = ("recording", "attempt_fields")

@@ -27,10 +27,11 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield a target above zero wrong owners, and below all stale samples rejected."""
-    kpis = graph.cell.spec.kpis
+    kpis = graph.cell.kpis
     if kpis.wrong_owner_events:
         message = f"{kpis.wrong_owner_events} commands of a wrong owner are tolerated"
         yield found(graph, ("kpis", "wrong_owner_events"), message, "write 0")
-    if kpis.stale_state_rejection is not None and kpis.stale_state_rejection.si < 1.0:
-        message = f"only {kpis.stale_state_rejection.text} of stale samples have to be rejected"
-        yield found(graph, ("kpis", "stale_state_rejection"), message, "write 100 %")
+    if kpis.stale_state_rejection is not None and kpis.stale_state_rejection < 1.0:
+        path = ("kpis", "stale_state_rejection")
+        message = f"only {graph.cell.text(*path)} of stale samples have to be rejected"
+        yield found(graph, path, message, "write 100 %")

@@ -33,7 +33,7 @@ def check(graph: CellGraph) -> Findings:
     known = {*_ALWAYS, *(interface.name for interface in graph.cell.interfaces)}
     for device in graph.cell.devices:
         known |= set(device_topics(graph.cell, device))
-    for index, topic in enumerate(graph.cell.spec.recording.topics):
+    for index, topic in enumerate(graph.cell.recording.topics):
         if topic not in known:
             path = ("recording", "topics", index)
             yield found(graph, path, f"nobody publishes `{topic}`", did_you_mean(topic, known, "topics"))

@@ -34,18 +34,18 @@ from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 @rule(Severity.ERROR, assumes=("short-transform-buffer",))
 def check(graph: CellGraph) -> Findings:
     """Yield dynamic frames of goals whose buffer is below age limit plus plan-to-execute target."""
-    target = graph.cell.spec.kpis.plan_to_execute
+    target = graph.cell.kpis.plan_to_execute_s
     goals = {goal.frame for goal in graph.cell.goals}
     for frame in graph.cell.frames:
         if frame.kind is not FrameKind.DYNAMIC or frame.buffer_s is None or frame.name not in goals or target is None:
             continue
         oldest = _oldest(graph, frame.authority)
-        if oldest is None or oldest.max_age_s is None or oldest.max_age_s + target.si <= frame.buffer_s:
+        if oldest is None or oldest.max_age_s is None or oldest.max_age_s + target <= frame.buffer_s:
             continue
-        needed = oldest.max_age_s + target.si
+        needed = oldest.max_age_s + target
         message = (
             f"`{frame.name}` is kept for {frame.buffer_s:g} s, its goals take {needed:g} s: "
-            f"`{oldest.name}` {oldest.max_age_s:g} s + plan to execute {target.si:g} s"
+            f"`{oldest.name}` {oldest.max_age_s:g} s + plan to execute {target:g} s"
         )
         related = (
             Related("the age is allowed here", graph.cell.locate(*oldest.path, "max_age")),

@@ -34,8 +34,12 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 @rule(Severity.WARNING)
 def check(graph: CellGraph) -> Findings:
     """Yield calibrations without samples, residual or method."""
-    for name, calibration in graph.cell.spec.calibrations.items():
-        stated = (("method", calibration.method), ("samples", calibration.samples), ("residual", calibration.residual))
+    for name, calibration in graph.cell.calibrations.items():
+        stated = (
+            ("method", calibration.method),
+            ("samples", calibration.samples),
+            ("residual", calibration.residual_m),
+        )
         missing = [field for field, value in stated if value is None or value == UNKNOWN]
         if missing:
             fields = ", ".join(f"`{field}`" for field in missing)

@@ -34,13 +34,13 @@ _IMAGES = ("sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage", "sensor_m
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield image topics of a camera in a frame that is none of its optical ones."""
-    cameras = {device.name: device for device in graph.cell.devices if device.facts.optical_frames}
+    cameras = {device.name: device for device in graph.cell.devices if device.optical_frames}
     for interface in graph.cell.interfaces:
         source = next((cameras[end.node] for end in interface.sources if end.node in cameras), None)
         if source is None or interface.frame is None or interface.type not in _IMAGES:
             continue
-        optical = {source.frames[name] for name in source.facts.optical_frames}
+        optical = {source.frames[name] for name in source.optical_frames}
         if interface.frame not in optical:
             message = f"`{interface.name}` carries images in `{interface.frame}`, which is no optical frame"
-            names = ", ".join(f"`{source.name}/{name}`" for name in source.facts.optical_frames)
+            names = ", ".join(f"`{source.name}/{name}`" for name in source.optical_frames)
             yield found(graph, (*interface.path, "frame"), message, f"use one of {names}")

@@ -24,13 +24,14 @@ Source: chapter 4, section 3, acceptance gate 4.
 
 from __future__ import annotations
 
+from cellc.cell.frame import FrameKind
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield dynamic frames without a rate."""
-    for name, frame in graph.cell.spec.frames.items():
-        if frame.dynamic and frame.rate is None:
-            message = f"dynamic frame `{name}` has no rate"
-            yield found(graph, ("frames", name), message, "add `rate:`, such as `10 Hz`")
+    for frame in graph.cell.frames:
+        if frame.kind is FrameKind.DYNAMIC and frame.rate_hz is None:
+            message = f"dynamic frame `{frame.name}` has no rate"
+            yield found(graph, frame.path, message, "add `rate:`, such as `10 Hz`")

@@ -23,15 +23,15 @@ Source: chapter 4, section 3: a frame has one authority.
 
 from __future__ import annotations
 
+from cellc.cell.frame import FrameKind
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield dynamic frames with a transform or a calibration of their own."""
-    for name, frame in graph.cell.spec.frames.items():
-        stated = (("xyz", frame.xyz), ("rpy", frame.rpy), ("calibration", frame.calibration))
-        field = next((field for field, value in stated if value is not None), None)
-        if frame.dynamic and field is not None:
-            message = f"frame `{name}` is dynamic but states `{field}`"
-            yield found(graph, ("frames", name, field), message, "remove it; the mock reads `simulated_pose`")
+    for frame in graph.cell.frames:
+        field = next((key for key in ("xyz", "rpy", "calibration") if graph.cell.states(*frame.path, key)), None)
+        if frame.kind is FrameKind.DYNAMIC and field is not None:
+            message = f"frame `{frame.name}` is dynamic but states `{field}`"
+            yield found(graph, (*frame.path, field), message, "remove it; the mock reads `simulated_pose`")

@@ -24,14 +24,15 @@ Source: chapter 4, section 3: one canonical publisher for deployed frames.
 
 from __future__ import annotations
 
+from cellc.cell.frame import FrameKind
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield static frames with a publisher or a rate."""
-    for name, frame in graph.cell.spec.frames.items():
-        if not frame.dynamic and (frame.published_by is not None or frame.rate is not None):
-            field = "published_by" if frame.published_by is not None else "rate"
-            message = f"frame `{name}` is static but states `{field}`"
-            yield found(graph, ("frames", name, field), message, f"write `dynamic: true`, or remove `{field}`")
+    for frame in graph.cell.frames:
+        field = next((key for key in ("published_by", "rate") if graph.cell.states(*frame.path, key)), None)
+        if frame.kind is FrameKind.FIXED and field is not None:
+            message = f"frame `{frame.name}` is static but states `{field}`"
+            yield found(graph, (*frame.path, field), message, f"write `dynamic: true`, or remove `{field}`")

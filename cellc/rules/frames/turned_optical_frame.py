@@ -50,7 +50,7 @@ _COS_10_DEG = 0.985  # the calibrated mount of an imager is off by a few degrees
 def check(graph: CellGraph) -> Findings:
     """Yield optical frames whose axes, seen from the root link of their device, are not those of REP-103."""
     for device in graph.cell.devices:
-        for name in device.facts.optical_frames:
+        for name in device.optical_frames:
             pose = _pose_in(graph, device.frames[name], device.root_link)
             if pose is not None and not _looks_forward(pose):
                 message = f"`{device.name}/{name}` does not look along z: x right, y down, z forward are due"

@@ -33,7 +33,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 @rule(Severity.BLOCKER)
 def check(graph: CellGraph) -> Findings:
     """Yield fixed frames and camera mounts without a calibration."""
-    cameras = {device.name for device in graph.cell.devices if device.facts.kind == "camera"}
+    cameras = {device.name for device in graph.cell.devices if device.kind == "camera"}
     for frame in graph.cell.frames:
         measured = frame.kind is FrameKind.FIXED or (frame.kind is FrameKind.MOUNT and frame.device in cameras)
         if measured and not frame.designed and frame.calibration is None:

@@ -29,7 +29,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 @rule(Severity.BLOCKER)
 def check(graph: CellGraph) -> Findings:
     """Yield calibrations whose `measured` is no date."""
-    for name, calibration in graph.cell.spec.calibrations.items():
-        if calibration.measured_on() is None:
+    for name, calibration in graph.cell.calibrations.items():
+        if calibration.measured_on is None:
             message = f"calibration `{name}` was measured on `{calibration.measured}`, which is no date"
             yield found(graph, ("calibrations", name, "measured"), message, "write the day as YYYY-MM-DD")

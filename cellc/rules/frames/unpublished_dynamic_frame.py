@@ -23,13 +23,14 @@ Source: chapter 4, section 3, acceptance gate 1.
 
 from __future__ import annotations
 
+from cellc.cell.frame import FrameKind
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield dynamic frames without a publisher."""
-    for name, frame in graph.cell.spec.frames.items():
-        if frame.dynamic and frame.published_by is None:
-            message = f"dynamic frame `{name}` has no publisher"
-            yield found(graph, ("frames", name), message, "add `published_by:` with the node that broadcasts it")
+    for frame in graph.cell.frames:
+        if frame.kind is FrameKind.DYNAMIC and not graph.cell.states(*frame.path, "published_by"):
+            message = f"dynamic frame `{frame.name}` has no publisher"
+            yield found(graph, frame.path, message, "add `published_by:` with the node that broadcasts it")

@@ -32,7 +32,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 def check(graph: CellGraph) -> Findings:
     """Yield calibrations that no frame and no mount names."""
     used = {frame.calibration for frame in graph.cell.frames}
-    for name in graph.cell.spec.calibrations:
+    for name in graph.cell.calibrations:
         if name not in used:
             message = f"no frame rests on calibration `{name}`"
             yield found(graph, ("calibrations", name), message, "name it at the frame that it measured, or delete it")

@@ -27,79 +27,73 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import inf
 
+from cellc.cell.cell import Cell
 from cellc.rules.kit import CellGraph, Findings, Severity, YamlPath, found, rule
-from cellc.spec.cell_spec import CellSpec
-from cellc.spec.devices import EVERY_JOINT
-from cellc.spec.interfaces import TopicSpec
-from cellc.spec.quantity import Quantity
 
 DRIFT = 0.01
 """A hundred times what a quartz clock drifts."""
 
-_LENGTHS = ("m", "c", "u")
-"""How units of length begin; those of angle are deg and rad."""
-
-Bounded = tuple[YamlPath, Quantity | None, float, float]
+Bounded = tuple[YamlPath, float | None, float, float]
 """A figure at its place, with the least and the greatest value that it may have."""
 
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield simulated figures outside their range."""
-    spec = graph.cell.spec
-    for path, written, least, greatest in (*_clocks(spec), *_networks(spec), *_adapters(spec), *_joints(spec)):
-        if written is not None and not least <= written.si <= greatest:
-            message = f"`{path[-1]}` is `{written.text}`, which none can have"
+    cell = graph.cell
+    for path, written, least, greatest in (*_clocks(cell), *_networks(cell), *_adapters(cell), *_joints(cell)):
+        if written is not None and not least <= written <= greatest:
+            message = f"`{path[-1]}` is `{cell.text(*path)}`, which none can have"
             yield found(graph, path, message, "write a figure that a network, clock or device can have")
     yield from _other_units(graph)
 
 
-def _clocks(spec: CellSpec) -> Iterator[Bounded]:
-    for name, host in spec.hosts.items():
-        yield ("hosts", name, "clock", "simulated_drift"), host.clock.simulated_drift, -DRIFT, DRIFT
-    for name, device in spec.devices.items():
+def _clocks(cell: Cell) -> Iterator[Bounded]:
+    for host in cell.hosts.values():
+        yield (*host.path, "clock", "simulated_drift"), host.clock.simulated_drift, -DRIFT, DRIFT
+    for device in cell.devices:
         if device.stamp is not None:
-            yield ("devices", name, "stamp", "simulated_drift"), device.stamp.simulated_drift, -DRIFT, DRIFT
+            yield (*device.path, "stamp", "simulated_drift"), device.stamp.clock.simulated_drift, -DRIFT, DRIFT
 
 
-def _networks(spec: CellSpec) -> Iterator[Bounded]:
-    for name, interface in spec.interfaces.items():
-        figures = interface.simulated if isinstance(interface, TopicSpec) else None
-        if figures is not None:
-            at = ("interfaces", name, "simulated")
-            yield (*at, "latency"), figures.latency, 0.0, inf
-            yield (*at, "jitter"), figures.jitter, 0.0, inf
+def _networks(cell: Cell) -> Iterator[Bounded]:
+    for interface in cell.interfaces:
+        if interface.simulated is not None:
+            figures, at = interface.simulated, (*interface.path, "simulated")
+            yield (*at, "latency"), figures.latency_s, 0.0, inf
+            yield (*at, "jitter"), figures.jitter_s, 0.0, inf
             yield (*at, "loss"), figures.loss, 0.0, 1.0
             yield (*at, "reordering"), figures.reordering, 0.0, 1.0
 
 
-def _adapters(spec: CellSpec) -> Iterator[Bounded]:
+def _adapters(cell: Cell) -> Iterator[Bounded]:
     shortest_s = 1e-6  # a microsecond: shorter than any command period, and not zero
-    for name, device in spec.devices.items():
+    for device in cell.devices:
         if device.adapter is not None:
-            at = ("devices", name, "adapter")
-            yield (*at, "command_timeout"), device.adapter.command_timeout, shortest_s, inf
-            yield (*at, "stop_time"), device.adapter.stop_time, shortest_s, inf
+            at = (*device.path, "adapter")
+            yield (*at, "command_timeout"), device.adapter.command_timeout_s, shortest_s, inf
+            yield (*at, "stop_time"), device.adapter.stop_time_s, shortest_s, inf
 
 
-def _joints(spec: CellSpec) -> Iterator[Bounded]:
-    for name, device in spec.devices.items():
-        for joint, figures in device.simulated_joints.items():
-            at = ("devices", name, "simulated_joints", joint)
-            yield (*at, "lag"), figures.lag, 0.0, inf
-            yield (*at, "noise"), figures.noise, 0.0, inf
-            yield (*at, "velocity"), figures.velocity, 1e-9, inf  # one that never moves is the fault `stick`
+def _joints(cell: Cell) -> Iterator[Bounded]:
+    for device in cell.devices:
+        for figures in device.simulated_joints:
+            noise, velocity = figures.noise, figures.velocity
+            yield (*figures.path, "lag"), figures.lag_s, 0.0, inf
+            yield (*figures.path, "noise"), None if noise is None else noise.value, 0.0, inf
+            # One that never moves is the fault `stick`.
+            yield (*figures.path, "velocity"), None if velocity is None else velocity.value, 1e-9, inf
 
 
 def _other_units(graph: CellGraph) -> Findings:
     """Yield lengths of joints that turn, and angles of joints that slide, once where they are said of all joints."""
     for device in graph.cell.devices:
-        for key, figures in device.spec.simulated_joints.items():
-            joints = [j for j in device.actuated_joints if key in (EVERY_JOINT, j.name.removeprefix(device.prefix))]
+        for figures in device.simulated_joints:
+            joints = [device.joint(name) for name in figures.joints]
             for field, written in (("noise", figures.noise), ("velocity", figures.velocity)):
-                linear = written is not None and written.unit.startswith(_LENGTHS)
+                linear = written is not None and written.linear
                 other = next((joint for joint in joints if (joint.type == "prismatic") != linear), None)
                 if written is not None and other is not None:
-                    message = f"`{field}` is `{written.text}`, but `{other.name}` is {other.type}"
-                    path = ("devices", device.name, "simulated_joints", key, field)
+                    path = (*figures.path, field)
+                    message = f"`{field}` is `{graph.cell.text(*path)}`, but `{other.name}` is {other.type}"
                     yield found(graph, path, message, "write a length where a joint slides, else an angle")

@@ -35,7 +35,7 @@ def check(graph: CellGraph) -> Findings:
     for interface in graph.cell.interfaces:
         if interface.derived or interface.kind is not InterfaceKind.TOPIC or interface.sinks:
             continue
-        if interface.name not in graph.cell.spec.recording.topics:
+        if interface.name not in graph.cell.recording.topics:
             yield found(
                 graph, interface.path, f"nobody subscribes to `{interface.name}`", "name its readers under `to:`"
             )

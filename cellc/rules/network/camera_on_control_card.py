@@ -27,7 +27,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield cameras on a card that carries control."""
-    cameras = {device.name for device in graph.cell.devices if device.facts.kind == "camera"}
+    cameras = {device.name for device in graph.cell.devices if device.kind == "camera"}
     for device in graph.network.devices:
         nic = graph.network.nic_of(device)
         if nic is not None and "control" in nic.carries and device.device in cameras:

@@ -29,8 +29,8 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield a discovery range or peers with a middleware that ignores them."""
-    network = graph.cell.spec.network
-    if not graph.cell.spec.versions.rmw.startswith("rmw_zenoh"):
+    network = graph.cell.network
+    if not graph.cell.versions.rmw.startswith("rmw_zenoh"):
         return
     if network.discovery != "multicast" or network.peers:
         field = "discovery" if network.discovery != "multicast" else "peers"

@@ -29,7 +29,7 @@ _LARGEST = 232
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield a domain outside 0 to 232."""
-    domain = graph.cell.spec.network.domain_id
+    domain = graph.cell.network.domain_id
     if not 0 <= domain <= _LARGEST:
         message = f"domain {domain} is outside 0 to {_LARGEST}"
         yield found(graph, ("network", "domain_id"), message, "use 0 to 101")

@@ -29,7 +29,7 @@ _FIRST, _LAST = 102, 214
 @rule(Severity.WARNING)
 def check(graph: CellGraph) -> Findings:
     """Yield a domain whose ports are ephemeral ones."""
-    domain = graph.cell.spec.network.domain_id
+    domain = graph.cell.network.domain_id
     if _FIRST <= domain <= _LAST:
         message = f"the ports of domain {domain} are ephemeral ports of Linux"
         yield found(graph, ("network", "domain_id"), message, "use 0 to 101")

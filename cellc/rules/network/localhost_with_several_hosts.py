@@ -33,7 +33,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield discovery that is bound to the host in a cell of several hosts."""
-    discovery, hosts = graph.cell.spec.network.discovery, graph.cell.spec.hosts
+    discovery, hosts = graph.cell.network.discovery, graph.cell.hosts
     if discovery in ("localhost", "off") and len(hosts) > 1:
         names = " and ".join(f"`{name}`" for name in hosts)
         message = f"discovery is `{discovery}`, but the cell runs on {names}"

@@ -27,7 +27,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield targets other than real with real hardware."""
-    for name, target in graph.cell.spec.targets.items():
+    for name, target in graph.cell.targets.items():
         if name != "real" and target.hardware == "real":
             path = ("targets", name, "hardware")
             yield found(graph, path, f"target `{name}` uses real hardware", f"write `hardware: {name}`")

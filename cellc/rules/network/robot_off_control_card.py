@@ -29,7 +29,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 @rule(Severity.WARNING)
 def check(graph: CellGraph) -> Findings:
     """Yield arms that want a dedicated link on a card without control."""
-    dedicated = {d.name for d in graph.cell.devices if d.facts.network is not None and d.facts.network.dedicated_link}
+    dedicated = {d.name for d in graph.cell.devices if d.network is not None and d.network.dedicated_link}
     for device in graph.network.devices:
         nic = graph.network.nic_of(device)
         if device.device in dedicated and nic is not None and "control" not in nic.carries:

@@ -27,7 +27,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield unicast discovery of a single host without peers."""
-    network = graph.cell.spec.network
-    if network.discovery == "unicast" and not network.peers and len(graph.cell.spec.hosts) < 2:
+    network = graph.cell.network
+    if network.discovery == "unicast" and not network.peers and len(graph.cell.hosts) < 2:
         message = "discovery is unicast, but there is no second host and no peer"
         yield found(graph, ("network", "discovery"), message, "list `peers:`, or use `localhost`")

@@ -30,10 +30,10 @@ def check(graph: CellGraph) -> Findings:
     """Yield hosts that run drivers for which real time is asked, with a generic or unknown kernel."""
     reported: set[str] = set()
     for device in graph.cell.devices:
-        facts, link = device.facts.network, device.spec.connection
-        if facts is None or link is None or facts.realtime == "not_needed" or link.host in reported:
+        needs, link = device.network, device.connection
+        if needs is None or link is None or needs.realtime == "not_needed" or link.host in reported:
             continue
-        host = graph.cell.spec.hosts.get(link.host)
+        host = graph.cell.hosts.get(link.host)
         if host is not None and host.scheduling in ("generic", UNKNOWN):
             reported.add(link.host)
             message = f"`{device.name}` asks for real-time scheduling, `{link.host}` has `{host.scheduling}`"

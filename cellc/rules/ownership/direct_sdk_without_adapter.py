@@ -31,7 +31,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 def check(graph: CellGraph) -> Findings:
     """Yield direct-SDK devices without a topic of stamped, rated, age-limited state."""
     for device in graph.cell.devices:
-        if device.spec.architecture != "direct_sdk":
+        if device.architecture != "direct_sdk":
             continue
         contract = any(
             source.node == device.name and interface.rate_hz and interface.max_age_s

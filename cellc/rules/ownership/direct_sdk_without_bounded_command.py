@@ -52,7 +52,7 @@ def check(graph: CellGraph) -> Findings:
     }
     for device in graph.cell.devices:
         moves = any(joint.name not in driven for joint in device.actuated_joints)
-        if device.spec.architecture == "direct_sdk" and moves and device.name not in bounded:
+        if device.architecture == "direct_sdk" and moves and device.name not in bounded:
             message = f"`{device.name}` is driven by a direct SDK, but no action bounds its commands"
             path = (*device.path, "architecture")
             yield found(graph, path, message, f"declare an action with `server: {device.name}` and a timeout")

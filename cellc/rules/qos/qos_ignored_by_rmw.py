@@ -50,7 +50,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 @rule(Severity.WARNING)
 def check(graph: CellGraph) -> Findings:
     """Yield endpoints that set a policy which Zenoh does not watch."""
-    if not graph.cell.spec.versions.rmw.startswith("rmw_zenoh"):
+    if not graph.cell.versions.rmw.startswith("rmw_zenoh"):
         return
     for topic in graph.cell.interfaces:
         for end in (*topic.sources, *topic.sinks):

@@ -27,6 +27,6 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield a recovery that acknowledges itself."""
-    if graph.cell.spec.safety.recovery.acknowledge == "automatic":
+    if graph.cell.safety.recovery.acknowledge == "automatic":
         path = ("safety", "recovery", "acknowledge")
         yield found(graph, path, "recovery goes on without a person", "write `acknowledge: operator`")

@@ -28,10 +28,10 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield hosts that a known stop path may need."""
-    stop = graph.cell.spec.safety.stop
+    stop = graph.cell.safety.stop
     if stop.path == UNKNOWN and stop.authority == UNKNOWN:
         return  # nothing is known yet, which is reported as such
-    needed = [host for host in graph.cell.spec.hosts if host not in stop.independent_of]
+    needed = [host for host in graph.cell.hosts if host not in stop.independent_of]
     if needed:
         names = " and ".join(f"`{host}`" for host in needed)
         path = ("safety", "stop", "independent_of")

@@ -27,6 +27,6 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield a recovery that resumes goals."""
-    if graph.cell.spec.safety.recovery.on_reconnect == "resume_goal":
+    if graph.cell.safety.recovery.on_reconnect == "resume_goal":
         path = ("safety", "recovery", "on_reconnect")
         yield found(graph, path, "an old goal is resumed after a reconnect", "write `on_reconnect: discard_goal`")

@@ -35,7 +35,7 @@ _SOFTWARE = re.compile(
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield pieces of evidence that name something of the software."""
-    for index, text in enumerate(graph.cell.spec.safety.stop.evidence):
+    for index, text in enumerate(graph.cell.safety.stop.evidence):
         match = _SOFTWARE.search(text)
         if match is not None:
             path = ("safety", "stop", "evidence", index)

@@ -27,6 +27,6 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield a stop path of software."""
-    if graph.cell.spec.safety.stop.path == "software":
+    if graph.cell.safety.stop.path == "software":
         message = "the stop reaches the drives by software"
         yield found(graph, ("safety", "stop", "path"), message, "write `hardwired` or `safety_bus`, and build it")

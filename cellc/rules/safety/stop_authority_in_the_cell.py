@@ -33,8 +33,8 @@ _SOFTWARE = re.compile(
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield an authority that is a host, node or controller of the cell, or a word for software."""
-    authority = graph.cell.spec.safety.stop.authority
-    parts = {*graph.cell.spec.hosts, *(n.name for n in graph.cell.nodes), *(c.name for c in graph.cell.controllers)}
+    authority = graph.cell.safety.stop.authority
+    parts = {*graph.cell.hosts, *(n.name for n in graph.cell.nodes), *(c.name for c in graph.cell.controllers)}
     if authority in parts or _SOFTWARE.search(authority):
         message = f"`{authority}` has the authority to stop, but is itself what has to be stopped"
         yield found(graph, ("safety", "stop", "authority"), message, "name the safety controller or relay")

@@ -27,8 +27,8 @@ from cellc.rules.kit import CellGraph, Findings, Severity, did_you_mean, found, 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield names that are no host."""
-    hosts = graph.cell.spec.hosts
-    for index, name in enumerate(graph.cell.spec.safety.stop.independent_of):
+    hosts = graph.cell.hosts
+    for index, name in enumerate(graph.cell.safety.stop.independent_of):
         if name not in hosts:
             path = ("safety", "stop", "independent_of", index)
             yield found(graph, path, f"there is no host `{name}`", did_you_mean(name, hosts, "hosts"))

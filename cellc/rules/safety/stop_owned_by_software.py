@@ -37,7 +37,7 @@ _SOFTWARE = re.compile(
 def check(graph: CellGraph) -> Findings:
     """Yield owners of the safety that are a part of the cell or a word for software."""
     cell = graph.cell
-    parts = {*cell.spec.hosts, *(node.name for node in cell.nodes), *(c.name for c in cell.controllers)}
+    parts = {*cell.hosts, *(node.name for node in cell.nodes), *(c.name for c in cell.controllers)}
     for path, owner in _safety_owners(graph):
         if owner in parts or _SOFTWARE.search(owner):
             message = f"`{path[-1]}` is answered for by `{owner}`, which is software"
@@ -45,7 +45,7 @@ def check(graph: CellGraph) -> Findings:
 
 
 def _safety_owners(graph: CellGraph) -> Iterator[tuple[YamlPath, str]]:
-    owners, recovery = graph.cell.spec.owners, graph.cell.spec.safety.recovery
+    owners, recovery = graph.cell.owners, graph.cell.safety.recovery
     yield ("owners", "responsibilities", "vendor_safety"), owners.responsibilities.vendor_safety
     yield ("owners", "responsibilities", "physical_stop"), owners.responsibilities.physical_stop
     yield ("owners", "approvals", "safety"), owners.approvals.safety

@@ -28,7 +28,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 @rule(Severity.BLOCKER)
 def check(graph: CellGraph) -> Findings:
     """Yield a stated stop without evidence."""
-    stop = graph.cell.spec.safety.stop
+    stop = graph.cell.safety.stop
     if stop.authority != UNKNOWN and not stop.evidence:
         path = ("safety", "stop", "evidence")
         yield found(

@@ -28,7 +28,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 @rule(Severity.BLOCKER)
 def check(graph: CellGraph) -> Findings:
     """Yield an unknown stop authority or path."""
-    stop = graph.cell.spec.safety.stop
+    stop = graph.cell.safety.stop
     if not any(controller.command_interfaces for controller in graph.cell.controllers):
         return
     missing = [name for name, text in (("authority", stop.authority), ("path", stop.path)) if text == UNKNOWN]

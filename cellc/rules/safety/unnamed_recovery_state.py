@@ -29,7 +29,7 @@ _DUE = ("protective_stop", "emergency_stop", "fault")
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield the states that are missing, in one finding."""
-    states = graph.cell.spec.safety.recovery.states
+    states = graph.cell.safety.recovery.states
     missing = [state for state in _DUE if state not in states]
     if missing:
         names = ", ".join(f"`{state}`" for state in missing)

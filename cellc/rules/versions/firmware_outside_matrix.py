@@ -30,8 +30,8 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 def check(graph: CellGraph) -> Findings:
     """Yield firmware below the minimum or beyond the range of the rows for its product."""
     for device in graph.cell.devices:
-        text = device.spec.firmware
-        rows = [row for row in device.facts.versions if row.part == "firmware" and row.product == text.split()[0]]
+        text = device.versions.firmware
+        rows = [row for row in device.version_rows if row.part == "firmware" and row.product == text.split()[0]]
         numbers = version_numbers(text)
         for row in rows if numbers else ():
             minimum, below = version_numbers(row.minimum or ""), version_numbers(row.below or "")

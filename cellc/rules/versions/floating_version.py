@@ -32,7 +32,7 @@ _FLOATING = re.compile(r"(?i)\b(latest|main|master|devel|develop|head|nightly|st
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield parts of the tuple that name a branch, a range or the latest."""
-    rollback = graph.cell.spec.versions.rollback
+    rollback = graph.cell.versions.rollback
     pins = [*cell_pins(graph.cell), *device_pins(graph.cell)]
     pins.append(Pin(graph.cell.name, "rollback image", rollback.image, ("versions", "rollback", "image")))
     for pin in pins:

@@ -33,7 +33,7 @@ _ANSWERS = {
 @rule(Severity.BLOCKER)
 def check(graph: CellGraph) -> Findings:
     """Yield the unknown parts of the rollback in one finding."""
-    rollback = graph.cell.spec.versions.rollback
+    rollback = graph.cell.versions.rollback
     parts = (("image", rollback.image), ("configuration", rollback.configuration))
     missing = [part for part, text in parts if text == UNKNOWN]
     if missing:

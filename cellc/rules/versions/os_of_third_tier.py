@@ -30,7 +30,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 def check(graph: CellGraph) -> Findings:
     """Yield an operating system of the third tier of the distribution."""
     facts = distribution(graph.cell)
-    system = graph.cell.spec.versions.os
+    system = graph.cell.versions.os
     written = system.lower()
     if facts is not None and any(written == tier or written.startswith(f"{tier}.") for tier in facts.os_tier3):
         tested = ", ".join(f"`{name}`" for name in facts.os)

@@ -31,7 +31,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 def check(graph: CellGraph) -> Findings:
     """Yield an operating system that the distribution is not built for."""
     facts = distribution(graph.cell)
-    system = graph.cell.spec.versions.os
+    system = graph.cell.versions.os
     if facts is None or system == UNKNOWN:
         return
     written = system.lower()

@@ -28,7 +28,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 @rule(Severity.ERROR, assumes=("floating-version",))
 def check(graph: CellGraph) -> Findings:
     """Yield an image that is no digest."""
-    image = graph.cell.spec.versions.rollback.image
+    image = graph.cell.versions.rollback.image
     if image != UNKNOWN and "sha256:" not in image:
         message = f"the rollback image `{image}` is a name that can be moved"
         yield found(graph, ("versions", "rollback", "image"), message, "write its digest, `sha256:…`")

@@ -34,7 +34,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 def check(graph: CellGraph) -> Findings:
     """Yield a distribution whose end of life lies before the latest calibration."""
     facts = distribution(graph.cell)
-    measured = [day for c in graph.cell.spec.calibrations.values() if (day := c.measured_on()) is not None]
+    measured = [c.measured_on for c in graph.cell.calibrations.values() if c.measured_on is not None]
     if facts is None or not measured:
         return
     date, end = max(measured).isoformat(), str(facts.end_of_life)

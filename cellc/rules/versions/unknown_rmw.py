@@ -31,7 +31,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, did_you_mean, found, 
 def check(graph: CellGraph) -> Findings:
     """Yield a middleware that the distribution does not have."""
     facts = distribution(graph.cell)
-    written = graph.cell.spec.versions.rmw
+    written = graph.cell.versions.rmw
     if facts is None or written == UNKNOWN:
         return
     known = (*facts.rmw, *facts.rmw_unverified)

@@ -30,8 +30,8 @@ def check(graph: CellGraph) -> Findings:
     """Yield drivers, SDKs and descriptions that no row knows, unless they are of the line of another distribution."""
     for device in graph.cell.devices:
         for part in ("driver", "sdk", "description"):
-            text = {"driver": device.spec.driver, "sdk": device.spec.sdk, "description": device.spec.description}[part]
-            rows = [row for row in device.facts.versions if row.part == part and row.known]
+            text = device.versions.part(part)
+            rows = [row for row in device.version_rows if row.part == part and row.known]
             here = {name for row in rows if row.distro in (None, graph.cell.distro) for name in row.known}
             elsewhere = {_line(name) for row in rows for name in row.known} - {_line(name) for name in here}
             ours = version_number(text)

@@ -31,8 +31,8 @@ def check(graph: CellGraph) -> Findings:
     """Yield parts whose major version is that of a row of another distribution and of none of this one."""
     for device in graph.cell.devices:
         for part in ("driver", "sdk", "description"):
-            text = {"driver": device.spec.driver, "sdk": device.spec.sdk, "description": device.spec.description}[part]
-            rows = [row for row in device.facts.versions if row.part == part and row.known]
+            text = device.versions.part(part)
+            rows = [row for row in device.version_rows if row.part == part and row.known]
             ours = version_numbers(text)[:1]
             here = {
                 version_numbers(known)[:1]
