@@ -22,8 +22,8 @@ from cellc.cli.findings import (
 )
 from cellc.diagnostics import Span
 from cellc.diagnostics.findings import Findings
+from cellc.output.codes import shared_output
 from cellc.output.compare import Difference, compare
-from cellc.output.shared import shared_output
 from cellc.output.write import WriteReport, write
 from cellc.report.progress import progress
 from cellc.report.text_report import render_difference

@@ -7,9 +7,9 @@ from pathlib import Path
 import click
 
 from cellc.diagnostics import did_you_mean
-from cellc.output.whole_file import write_whole
 from cellc.report.handbook import render_handbook
 from cellc.report.pages import all_pages, render_page
+from cellc.store.swap import write_whole
 
 
 @click.command()

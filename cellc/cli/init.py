@@ -13,7 +13,7 @@ from cellc.catalog.catalog_model import DISTROS, Distro
 from cellc.catalog.load import CatalogDevice, device_names, load_device
 from cellc.catalog.starter import starter_spec
 from cellc.diagnostics import did_you_mean
-from cellc.output.whole_file import write_whole
+from cellc.store.swap import write_whole
 
 
 @click.command()

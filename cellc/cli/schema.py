@@ -6,8 +6,8 @@ from pathlib import Path
 
 import click
 
-from cellc.output.whole_file import write_whole
 from cellc.spec.schema import schema_files
+from cellc.store.swap import write_whole
 
 
 @click.command()

@@ -1,8 +1,10 @@
-"""Every code that writing the generated folder can report, with its documentation page."""
+"""Every code that writing the generated folder can report, with its page, and the diagnostics made from them."""
 
 from __future__ import annotations
 
-from cellc.diagnostics import Severity
+from pathlib import Path
+
+from cellc.diagnostics import Diagnostic, Related, Severity, Span
 from cellc.diagnostics.page import CodePage
 
 
@@ -58,3 +60,37 @@ CODES: tuple[CodePage, ...] = (
         "make the folder writable and free space, then build again",
     ),
 )
+
+_PAGES = {page.code: page for page in CODES}
+
+
+def finding(code: str, message: str, file: Path, advice: str = "") -> Diagnostic:
+    """Return the diagnostic; it marks the first line of the file or folder that it is about.
+
+    Raises:
+        KeyError: the code has no page.
+    """
+    page = _PAGES[code]
+    place = Span(file.as_posix(), 1, 1, 1, 1)
+    return Diagnostic(code, page.severity, message, place, (), advice or page.fix)
+
+
+def shared_output(name: str, here: Span, first: Span) -> Diagnostic | None:
+    """Report that another spec of the call has made the folder already; the same file named twice is no fault.
+
+    Args:
+        name: of the cell, and so of its folder.
+        here: where the later spec names its cell.
+        first: where the earlier one does.
+    """
+    if Path(here.file).resolve() == Path(first.file).resolve():
+        return None
+    return Diagnostic(
+        "output-shared",
+        Severity.ERROR,
+        f"two specs of this call are called `{name}` and would replace each other's folder",
+        here,
+        ("cell",),
+        "rename one of the cells, or build them with different `--output` folders",
+        (Related("the other cell of this name", first),),
+    )

@@ -9,8 +9,7 @@ from pathlib import Path
 from typing import Literal
 
 from cellc.artifact import Artifact
-from cellc.output.hashes import MANIFEST
-from cellc.output.plan import content_of, plan
+from cellc.output.plan import MANIFEST, content_of, plan
 
 
 @dataclass(frozen=True, slots=True)

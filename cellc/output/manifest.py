@@ -8,7 +8,7 @@ from cellc import __version__
 from cellc.artifact import Artifact
 from cellc.contract.manifest import ConfigurationInputs, Manifest
 from cellc.formats.json_text import render
-from cellc.output.hashes import MANIFEST, sha256
+from cellc.output.plan import MANIFEST, sha256
 
 
 def with_manifest(

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 import stat
+import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 from cellc.artifact import Artifact
 from cellc.diagnostics import Diagnostic
-from cellc.output.finding import finding
-from cellc.output.hashes import MANIFEST, hashes_in, sha256
+from cellc.output.codes import finding
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,3 +99,66 @@ def _is_ours(path: str, content: bytes, known: Sequence[Mapping[str, str]]) -> b
 def _is_inside(path: str) -> bool:
     # A manifest is data that others may have written: it must not make a build delete what lies elsewhere.
     return bool(path) and not Path(path).is_absolute() and ".." not in Path(path).parts and "\0" not in path
+
+
+MANIFEST = "manifest.json"
+_FORMAT = 1
+
+
+def sha256(content: bytes) -> str:
+    """Return the digest of a file's bytes as hexadecimal digits."""
+    return hashlib.sha256(content).hexdigest()
+
+
+def hashes_in(content: bytes | None) -> dict[str, str]:
+    """Return the hashes of the files that a manifest lists; none where it is absent or not a manifest.
+
+    Only what is needed is read, without the model of the whole file: a build that changes nothing loads no models.
+    """
+    try:
+        manifest = json.loads(content or b"")
+    except (ValueError, RecursionError):
+        return {}
+    if not isinstance(manifest, dict) or manifest.get("format") != _FORMAT:
+        return {}
+    files = manifest.get("files")
+    if not isinstance(files, dict) or not all(isinstance(digest, str) for digest in files.values()):
+        return {}
+    return files
+
+
+# Forbidden in names of one of the common file systems.
+_RESERVED = frozenset('<>:"|?*\\')
+
+
+def check_paths(artifacts: Sequence[Artifact], folder: Path) -> Iterator[Diagnostic]:
+    """Yield a diagnostic for each path that leads out of the folder, is not portable, or collides with another."""
+    seen: dict[str, str] = {}
+    for artifact in artifacts:
+        reason = _reason(artifact.path)
+        key = unicodedata.normalize("NFC", artifact.path).casefold()
+        if not reason and key in seen:
+            reason = f"is the same file as `{seen[key]}` where case does not count"
+        seen.setdefault(key, artifact.path)
+        if reason:
+            shown = artifact.path.encode("unicode_escape").decode().replace("`", "'")
+            yield finding("bad-artifact-path", f"`{shown}` {reason}", folder)
+    yield from _files_as_folders(seen, folder)
+
+
+def _files_as_folders(seen: dict[str, str], folder: Path) -> Iterator[Diagnostic]:
+    for key, path in seen.items():
+        parent = next((seen[str(p)] for p in PurePosixPath(key).parents if str(p) in seen), None)
+        if parent is not None:
+            yield finding("bad-artifact-path", f"`{path}` needs a folder where the file `{parent}` stands", folder)
+
+
+def _reason(path: str) -> str:
+    parts = path.split("/")
+    if path.startswith("/"):
+        return "is absolute"
+    if any(part in ("", ".", "..") for part in parts):
+        return "leads out of the folder or has an empty part"
+    if any(char in _RESERVED or not char.isprintable() for char in path):
+        return "holds a character that not every file system allows"
+    return "is longer than file systems allow" if any(len(part.encode()) > 255 for part in parts) else ""

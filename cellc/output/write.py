@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import os
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from cellc.artifact import Artifact
 from cellc.diagnostics import Diagnostic, Outcome
-from cellc.output.finding import finding
-from cellc.output.paths import check_paths
-from cellc.output.plan import Plan, check_places, plan
-from cellc.output.staging import fill, hashes_of_interrupted
+from cellc.output.codes import finding
+from cellc.output.plan import MANIFEST, Plan, check_paths, check_places, content_of, hashes_in, plan
 from cellc.store.swap import Swap, discard, is_alive, others, staging_of
 
 
@@ -110,3 +109,24 @@ def _prune(former: Sequence[str], folder: Path) -> None:
 def _edited(path: str, folder: Path) -> Diagnostic:
     message = f"`{path}` is not as cellc wrote it"
     return finding("edited-by-hand", message, folder / path)
+
+
+def hashes_of_interrupted(stagings: Sequence[Path]) -> tuple[Mapping[str, str], ...]:
+    """Return the hashes of the files that killed builds were writing."""
+    return tuple(hashes_in(content_of(staging / "new" / MANIFEST)) for staging in stagings)
+
+
+def fill(staging: Path, artifacts: Sequence[Artifact]) -> None:
+    """Write artifacts below ``new`` and have the system put them on the disk.
+
+    Raises:
+        OSError: the disk is full, or writing is refused.
+    """
+    os.mkdir(staging)
+    for artifact in artifacts:
+        path = staging / "new" / artifact.path
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with path.open("xb") as file:
+            file.write(artifact.text.encode())
+            file.flush()
+            os.fsync(file.fileno())

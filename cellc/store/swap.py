@@ -1,4 +1,4 @@
-"""Replace files of a folder at once or not at all.
+"""Put files in place at once or not at all: those of a folder, or one.
 
 New files are made ready in a staging folder beside it, then moved; or every old file is put back. The staging folder is
 called ``.<name>.tmp-<process>``; one that a killed process left behind still holds what it was about to write.
@@ -121,3 +121,29 @@ def discard(staging: Path) -> None:
 
 def _literal(name: str) -> str:
     return "".join(f"[{char}]" if char in "*?[" else char for char in name)
+
+
+def write_whole(file: Path, text: str) -> None:
+    """Write a text; a reader sees the old file or the new one, and a failure leaves nothing behind.
+
+    Raises:
+        OSError: the disk is full, or writing is refused; it names ``file``.
+    """
+    real = Path(os.path.realpath(file))
+    part = real.with_name(f".{real.name}.tmp-{os.getpid()}")
+    try:
+        real.parent.mkdir(parents=True, exist_ok=True)
+        part.write_text(text, encoding="utf-8", newline="\n")
+        os.replace(part, real)
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(file)) from error
+    finally:
+        _remove(part)
+
+
+def _remove(part: Path) -> None:
+    try:
+        part.unlink()
+    except OSError:
+        # It has become the file, or never came to be.
+        return

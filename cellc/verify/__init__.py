@@ -1,0 +1,1 @@
+"""Read our artifacts back with parsers that we did not write."""

@@ -1,8 +1,10 @@
-"""Every code that reading our own artifacts back can report; each of them is a bug of cellc."""
+"""What a foreign parser can say against an artifact, and the page of each code; each of them is a bug of cellc."""
 
 from __future__ import annotations
 
-from cellc.diagnostics import Severity
+from dataclasses import dataclass
+
+from cellc.diagnostics import Diagnostic, Severity, Span
 from cellc.diagnostics.page import CodePage
 
 _FIX = "report it with the spec; nothing in the spec has to be changed"
@@ -41,3 +43,26 @@ CODES: tuple[CodePage, ...] = (
         "pinocchio and yourdfpy read every URDF before it is written; what they refuse no robot can load.",
     ),
 )
+
+_PAGES = {page.code: page for page in CODES}
+
+
+@dataclass(frozen=True, slots=True)
+class Disagreement:
+    """A bug of cellc: which artifact is wrong, and how.
+
+    Args:
+        code: one of the ``verify-`` codes.
+        path: the artifact.
+        reason: continues "`path`: ".
+    """
+
+    code: str
+    path: str
+    reason: str
+
+    def at(self, place: Span) -> Diagnostic:
+        """Return the diagnostic; the place is the name of the cell, since no line of the spec is to blame."""
+        page = _PAGES[self.code]
+        message = f"generated `{self.path}`: {self.reason} (this is a bug of cellc)"
+        return Diagnostic(self.code, page.severity, " ".join(message.split()), place, ("cell",), page.fix)

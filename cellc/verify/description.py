@@ -7,11 +7,10 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from cellc.artifact import Artifact
 from cellc.cell.device import DeviceJoint
-from cellc.transforms import Pose
-from cellc.verify.by_pinocchio import read_by_pinocchio
-from cellc.verify.by_yourdfpy import read_by_yourdfpy
-from cellc.verify.disagreement import Disagreement
-from cellc.verify.reading import JointReading, Reading, RefusedError
+from cellc.graph.frame_tree import FrameTree
+from cellc.transforms import Pose, identity
+from cellc.verify.codes import Disagreement
+from cellc.verify.parsers import JointReading, Reading, RefusedError, read_by_pinocchio, read_by_yourdfpy
 
 _LIMITS = ("lower", "upper", "velocity", "effort")
 
@@ -84,3 +83,17 @@ def distance(first: Pose, second: Pose) -> tuple[float, float]:
     sign = math.copysign(1.0, sum(a * b for a, b in zip(first.quaternion, second.quaternion, strict=True)))
     chord = math.dist(first.quaternion, tuple(sign * part for part in second.quaternion))
     return metres, 2.0 * math.acos(min(1.0, cosine)) if chord > 0.1 else 2.0 * chord
+
+
+def cell_poses(frames: FrameTree) -> dict[str, Pose]:
+    """Return the pose in the root of every frame that hangs on it without a dynamic edge."""
+    poses: dict[str, Pose] = {}
+    for name in frames.names():
+        pose: Pose | None = identity()
+        for frame in frames.chain(name):
+            if not frame.parent:
+                break
+            pose = frame.transform_to_parent @ pose if pose and frame.transform_to_parent else None
+        if pose is not None:
+            poses[name] = pose
+    return poses

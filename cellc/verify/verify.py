@@ -7,11 +7,9 @@ from collections.abc import Iterator, Sequence
 from cellc.artifact import Artifact
 from cellc.diagnostics import Diagnostic
 from cellc.graph.cell_graph import CellGraph
-from cellc.verify.cell_poses import cell_poses
-from cellc.verify.description import check_description
-from cellc.verify.disagreement import Disagreement
-from cellc.verify.json_files import check_json
-from cellc.verify.well_formed import check_text
+from cellc.verify.codes import Disagreement
+from cellc.verify.description import cell_poses, check_description
+from cellc.verify.files import check_json, check_text
 
 
 def verify(artifacts: Sequence[Artifact], graph: CellGraph) -> tuple[Diagnostic, ...]:

@@ -91,7 +91,7 @@ def test_document_of_all_codes_is_replaced_as_a_whole_or_not_at_all(
 
     document = tmp_path / "rules.md"
     document.write_text("the old one")
-    monkeypatch.setattr("cellc.output.whole_file.os.replace", full)
+    monkeypatch.setattr("cellc.store.swap.os.replace", full)
     ran = run("explain", "--all", "-o", document.as_posix())
     assert (ran.code, ran.err) == (1, f"error: {document.as_posix()}: no space left on device\n")
     assert [(file.name, file.read_text()) for file in tmp_path.iterdir()] == [("rules.md", "the old one")]

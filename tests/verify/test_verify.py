@@ -17,11 +17,9 @@ from cellc.artifact import Artifact
 from cellc.graph.cell_graph import CellGraph
 from cellc.pipeline import check, compile_cell
 from cellc.transforms import from_xyz_rpy, identity
-from cellc.verify.by_pinocchio import read_by_pinocchio
-from cellc.verify.by_yourdfpy import read_by_yourdfpy
-from cellc.verify.cell_poses import cell_poses
 from cellc.verify.codes import CODES
-from cellc.verify.description import distance
+from cellc.verify.description import cell_poses, distance
+from cellc.verify.parsers import read_by_pinocchio, read_by_yourdfpy
 from cellc.verify.verify import verify
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -141,7 +139,7 @@ def test_check_of_a_cell_does_not_import_foreign_parsers() -> None:
 
 def test_what_was_hidden_can_be_imported_after_a_verification() -> None:
     program = (
-        "import sys\nfrom cellc.verify.lean_import import import_yourdfpy\nimport_yourdfpy()\n"
+        "import sys\nfrom cellc.verify.parsers import import_yourdfpy\nimport_yourdfpy()\n"
         "assert not {'scipy', 'networkx', 'PIL', 'shapely'} & set(sys.modules)\n"
         "import PIL.Image, networkx, scipy.spatial, shapely"
     )
