@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from cellc.description.expansion_limits import MAX_ELEMENTS, MAX_INCLUDE_DEPTH, MAX_MACRO_DEPTH
-from cellc.description.xml_tree import MAX_BYTES, MAX_DEPTH
+from cellc.description.xml_tree import MAX_BYTES, MAX_DEPTH, MAX_ELEMENTS, MAX_INCLUDE_DEPTH, MAX_MACRO_DEPTH
 from cellc.diagnostics import Severity
 from cellc.diagnostics.page import CodePage
 

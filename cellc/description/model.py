@@ -154,12 +154,60 @@ class Joint:
 
 
 @dataclass(frozen=True, slots=True)
+class HardwareInterface:
+    """A command or state interface in ``<ros2_control>``; initial value and bounds as written, empty where absent."""
+
+    name: str
+    data_type: str
+    initial_value: str
+    minimum: str
+    maximum: str
+
+
+@dataclass(frozen=True, slots=True)
+class HardwarePart:
+    """A joint, sensor or gpio of a hardware component.
+
+    Attributes:
+        mimic: the ``mimic`` attribute as written, None where absent.
+        limits_enabled: False with ``<limits enable="false"/>``.
+    """
+
+    name: str
+    command_interfaces: tuple[HardwareInterface, ...]
+    state_interfaces: tuple[HardwareInterface, ...]
+    mimic: str | None
+    limits_enabled: bool
+
+
+@dataclass(frozen=True, slots=True)
+class HardwareComponent:
+    """One ``<ros2_control>`` element; an ``rw_rate`` of 0 means the rate of the controller manager."""
+
+    name: str
+    type: str
+    plugin: str
+    rw_rate: int
+    is_async: bool
+    parameters: dict[str, str]
+    joints: tuple[HardwarePart, ...]
+    sensors: tuple[HardwarePart, ...]
+    gpios: tuple[HardwarePart, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Description:
-    """A robot model: links and joints in the order of the file."""
+    """A robot model: links, joints and hardware components in the order of the file.
+
+    ``hardware_error`` is what the parser of hardware_interface says where it refuses a ``<ros2_control>`` element:
+    ``hardware`` is empty then. The compiler looks at neither, because it writes ``<ros2_control>`` itself.
+    """
 
     name: str
     links: tuple[Link, ...]
     joints: tuple[Joint, ...]
+    hardware: tuple[HardwareComponent, ...] = ()
+    hardware_error: str = ""
 
     def link(self, name: str) -> Link | None:
         """Find a link, the first where a name stands twice."""
@@ -173,6 +221,19 @@ class Description:
         """Name the links that are no joint's child, in the order of the file; a valid model has exactly one."""
         children = {joint.child for joint in self.joints}
         return tuple(link.name for link in self.links if link.name not in children)
+
+    def unreached(self, root: str) -> tuple[str, ...]:
+        """Name the links that no chain of joints joins to a root, in the order of the file; cycles are among them."""
+        children: dict[str, list[str]] = {}
+        for joint in self.joints:
+            children.setdefault(joint.parent, []).append(joint.child)
+        reached, waiting = set[str](), [root]
+        while waiting:
+            link = waiting.pop()
+            if link not in reached:
+                reached.add(link)
+                waiting += children.get(link, [])
+        return tuple(link.name for link in self.links if link.name not in reached)
 
     def renamed(self, prefix: str) -> Description:
         """Put ``prefix`` before the name of every link and joint, and in every reference to one."""

@@ -7,8 +7,7 @@ from pathlib import Path
 
 from cellc.description.model import Description
 from cellc.description.urdf_reader import read_urdf
-from cellc.description.xacro_expander import expand_xacro
-from cellc.description.xacro_expansion import Expansion, expand_here
+from cellc.description.xacro_expansion import Expansion, expand_here, expand_xacro
 from cellc.description.xacro_files import ConfinedFiles, XacroRefusedError
 from cellc.diagnostics import Diagnostic, Outcome, Severity, Span
 

@@ -1,7 +1,7 @@
 """URDF text into a Description, every link and joint with its place in the file.
 
-Reads what the URDF specification calls the model. Elements of other consumers (``<ros2_control>``, ``<transmission>``,
-``<gazebo>``) are not part of it: the compiler writes its own.
+Reads what the URDF specification calls the model, and the components of ``<ros2_control>``. Elements of other consumers
+(``<transmission>``, ``<gazebo>``) are left out.
 """
 
 from __future__ import annotations
@@ -10,15 +10,23 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import TypeVar
 
 from cellc.description.model import (
+    Box,
+    Collision,
+    Cylinder,
     Description,
+    Geometry,
+    Inertial,
     Joint,
     JointDynamics,
     JointLimit,
     Link,
+    Mesh,
     Mimic,
     SafetyController,
+    Sphere,
+    Visual,
 )
-from cellc.description.urdf_shapes import read_link
+from cellc.description.ros2_control import read_hardware
 from cellc.description.urdf_values import (
     UrdfError,
     number,
@@ -69,7 +77,8 @@ def read_urdf(text: str, file: str, origins: Origins | None = None) -> Outcome[D
     found.extend(_left_from_xacro(root))
     if found:
         return Outcome(None, tuple(found))
-    return Outcome(Description(name[0], tuple(links), tuple(joints)))
+    hardware, hardware_error = read_hardware(root)
+    return Outcome(Description(name[0], tuple(links), tuple(joints), hardware, hardware_error))
 
 
 def _read_each(elements: Iterable[XmlElement], read: Callable[[XmlElement], _T], found: list[Diagnostic]) -> list[_T]:
@@ -165,3 +174,66 @@ def _read_safety(element: XmlElement) -> SafetyController:
         k_position=number_or(element, "k_position", 0.0),
         k_velocity=number(element, "k_velocity"),
     )
+
+
+Rgba = tuple[float, float, float, float]
+
+
+def read_link(element: XmlElement, colours: Mapping[str, Rgba]) -> Link:
+    """Read one ``<link>``; ``colours`` are the materials that the robot names at its top level."""
+    inertial = element.first("inertial")
+    return Link(
+        name=required(element, "name"),
+        inertial=None if inertial is None else _read_inertial(inertial),
+        visuals=tuple(_read_visual(visual, colours) for visual in element.all("visual")),
+        collisions=tuple(_read_collision(collision) for collision in element.all("collision")),
+        span=element.span,
+    )
+
+
+def _read_inertial(element: XmlElement) -> Inertial:
+    mass, inertia = required_child(element, "mass"), required_child(element, "inertia")
+    return Inertial(
+        pose=origin_pose(element),
+        mass=number(mass, "value"),
+        ixx=number(inertia, "ixx"),
+        ixy=number(inertia, "ixy"),
+        ixz=number(inertia, "ixz"),
+        iyy=number(inertia, "iyy"),
+        iyz=number(inertia, "iyz"),
+        izz=number(inertia, "izz"),
+    )
+
+
+def _read_collision(element: XmlElement) -> Collision:
+    return Collision(element.attributes.get("name"), origin_pose(element), _read_geometry(element))
+
+
+def _read_visual(element: XmlElement, colours: Mapping[str, Rgba]) -> Visual:
+    material = element.first("material")
+    name = None if material is None else material.attributes.get("name")
+    rgba = colours.get(name) if name is not None else None
+    colour = None if material is None else material.first("color")
+    if colour is not None:
+        r, g, b, a = numbers(colour, "rgba", 4)
+        rgba = (r, g, b, a)
+    return Visual(element.attributes.get("name"), origin_pose(element), _read_geometry(element), name, rgba)
+
+
+def _read_geometry(element: XmlElement) -> Geometry:
+    geometry = required_child(element, "geometry")
+    if len(geometry.children) != 1:
+        message = f"`<geometry>` holds {len(geometry.children)} shapes, expected one"
+        raise refused("urdf-bad-geometry", geometry, message)
+    shape = geometry.children[0]
+    if shape.tag == "box":
+        return Box(vector(shape, "size"))
+    if shape.tag == "cylinder":
+        return Cylinder(number(shape, "radius"), number(shape, "length"))
+    if shape.tag == "sphere":
+        return Sphere(number(shape, "radius"))
+    if shape.tag == "mesh":
+        scale = vector(shape, "scale") if "scale" in shape.attributes else (1.0, 1.0, 1.0)
+        return Mesh(required(shape, "filename"), scale)
+    help_text = "use `box`, `cylinder`, `sphere` or `mesh`"
+    raise refused("urdf-bad-geometry", shape, f"`<{shape.tag}>` is not a shape of URDF", help_text)

@@ -63,7 +63,7 @@ def numbers(element: XmlElement, attribute: str, count: int) -> tuple[float, ...
     """Return exactly ``count`` finite numbers separated by white space."""
     parts = required(element, attribute).split()
     if len(parts) != count:
-        message = f"`{attribute}` of `<{element.tag}>` has {len(parts)} numbers where {count} are due"
+        message = f"`{attribute}` of `<{element.tag}>` has {len(parts)} numbers, expected {count}"
         raise refused("urdf-bad-number", element, message)
     return tuple(_finite(element, attribute, part) for part in parts)
 

@@ -17,11 +17,9 @@ from xml.dom import minidom
 
 import xacro
 
-from cellc.description.expansion_limits import MAX_ELEMENTS, MAX_INCLUDE_DEPTH, MAX_MACRO_DEPTH
-from cellc.description.package_search import find_package, searched_folders
 from cellc.description.xacro_expression import evaluate, functions
-from cellc.description.xacro_files import ConfinedFiles, XacroRefusedError
-from cellc.description.xml_tree import XmlElement, read_xml
+from cellc.description.xacro_files import ConfinedFiles, XacroRefusedError, find_package, searched_folders
+from cellc.description.xml_tree import MAX_ELEMENTS, MAX_INCLUDE_DEPTH, MAX_MACRO_DEPTH, XmlElement, read_xml
 from cellc.diagnostics import Span
 
 _PLACE = "cellc-place"

@@ -1,20 +1,35 @@
-"""One expansion of a xacro file in this process, every failure told as a diagnostic."""
+"""One expansion of a xacro file, every failure told as a diagnostic: in this process, or in a child with limits.
+
+A file of the catalogue is expanded here. A file of the user is expanded in a child process with bounded time, memory
+and output: the confinement refuses what reaches out of the folder, the process ends an expansion that takes too long.
+Started as a program, this module is that child: it reads one request from stdin and answers on stdout.
+"""
 
 from __future__ import annotations
 
+import json
 import os
+import subprocess
+import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 from xml.dom import minidom
 
 import xacro
 
+import cellc
 from cellc.description.xacro_confinement import Confinement, place_of
 from cellc.description.xacro_expression import ExpressionError
 from cellc.description.xacro_files import XacroRefusedError
 from cellc.description.xml_tree import MAX_BYTES
 from cellc.diagnostics import Diagnostic, Outcome, Severity, Span, did_you_mean
+
+WALL_SECONDS = 10.0
+CPU_SECONDS = 8
+MEMORY_BYTES = 1024 * 1024 * 1024
+"""What the child process may use."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,3 +126,99 @@ def _failure(error: Exception, confinement: Confinement, start: Span) -> Diagnos
 def _one_line(text: str) -> str:
     line = " ".join(text.replace(os.getcwd() + os.sep, "").split())
     return line if len(line) <= 300 else line[:299] + "…"
+
+
+def expand_xacro(
+    file: Path, arguments: Mapping[str, str], root: Path, wall_seconds: float = WALL_SECONDS
+) -> Outcome[Expansion]:
+    """Expand a xacro file that the compiler does not vouch for.
+
+    Args:
+        file: the xacro file, as the user named it.
+        arguments: values of ``<xacro:arg>``.
+        root: the folder that no file may lie outside of.
+        wall_seconds: time after which the expansion is ended.
+
+    Returns:
+        The URDF text with the places of its links and joints, or diagnostics; never an exception.
+    """
+    request = {
+        "file": file.as_posix(),
+        "arguments": dict(arguments),
+        "root": root.as_posix(),
+        "folder": os.getcwd(),
+    }
+    start = Span(file.as_posix(), 1, 1, 1, 1)
+    try:
+        answer = subprocess.run(
+            [sys.executable, "-m", "cellc.description.xacro_expansion"],
+            input=json.dumps(request).encode(),
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            # `-m` puts the current folder first on the import path: it must not be one that a stranger filled.
+            cwd=Path(cellc.__file__).resolve().parents[1],
+            env={**os.environ, "PYTHONHASHSEED": "0"},
+            timeout=wall_seconds,
+            check=False,
+        )
+    except subprocess.TimeoutExpired:
+        return _ended(f"the expansion takes longer than {wall_seconds:g} s", start)
+    if answer.returncode != 0:
+        return _ended("the expansion takes more time or memory than it may use", start)
+    return _decoded(json.loads(answer.stdout))
+
+
+def _ended(message: str, start: Span) -> Outcome[Expansion]:
+    help_text = "look for a macro or an include that calls itself"
+    return Outcome(None, (Diagnostic("xacro-too-large", Severity.ERROR, message, start, help=help_text),))
+
+
+def _encoded(outcome: Outcome[Expansion]) -> dict[str, Any]:
+    """Write an outcome as JSON values, for the way from the child to the parent."""
+    expansion = outcome.value
+    return {
+        "text": None if expansion is None else expansion.text,
+        "origins": [] if expansion is None else [[*key, _span_values(span)] for key, span in expansion.origins.items()],
+        "diagnostics": [
+            [found.code, found.severity.value, found.message, _span_values(found.span), found.help]
+            for found in outcome.diagnostics
+        ],
+    }
+
+
+def _span_values(span: Span) -> list[str | int]:
+    return [span.file, span.line, span.column, span.end_line, span.end_column]
+
+
+def _decoded(answer: dict[str, Any]) -> Outcome[Expansion]:
+    diagnostics = tuple(
+        Diagnostic(code, Severity(severity), message, Span(*span), help=help_text)
+        for code, severity, message, span, help_text in answer["diagnostics"]
+    )
+    if answer["text"] is None:
+        return Outcome(None, diagnostics)
+    origins = {(tag, name): Span(*span) for tag, name, span in answer["origins"]}
+    return Outcome(Expansion(answer["text"], origins), diagnostics)
+
+
+def main() -> None:
+    """Expand what stdin asks for."""
+    _limit_resources()
+    request = json.load(sys.stdin)
+    os.chdir(request["folder"])  # names in diagnostics stay those that the user wrote
+    json.dump(_encoded(expand_here(request["file"], request["arguments"], request["root"])), sys.stdout)
+
+
+def _limit_resources() -> None:
+    try:
+        import resource
+    except ImportError:  # not a POSIX system: the parent's wall time is the limit
+        return
+    for kind, amount in ((resource.RLIMIT_CPU, CPU_SECONDS), (resource.RLIMIT_AS, MEMORY_BYTES)):
+        hard = resource.getrlimit(kind)[1]
+        allowed = amount if hard == resource.RLIM_INFINITY else min(amount, hard)
+        resource.setrlimit(kind, (allowed, hard))
+
+
+if __name__ == "__main__":
+    main()

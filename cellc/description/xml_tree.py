@@ -13,16 +13,25 @@ from cellc.diagnostics import Diagnostic, Outcome, Severity, Span
 
 MAX_BYTES = 8 * 1024 * 1024
 MAX_DEPTH = 64
+MAX_MACRO_DEPTH = 100
+MAX_INCLUDE_DEPTH = 32
+MAX_ELEMENTS = 50_000
+"""Bounds of a file, and of one expansion of xacro; a large real robot stays below a tenth of each."""
+
 _START_TAG = re.compile(rb"""<[^>"']*(?:(?:"[^"]*"|'[^']*')[^>"']*)*>""")
 
 
 @dataclass(slots=True)
 class XmlElement:
-    """One element: tag and attributes as written, children in order, ``span`` its start tag."""
+    """One element: tag and attributes as written, children in order, ``span`` its start tag.
+
+    ``text`` is what stands between its start tag and its first child, or its end tag where it has no child.
+    """
 
     tag: str
     attributes: dict[str, str]
     span: Span
+    text: str = ""
     children: list[XmlElement] = field(default_factory=list)
 
     def first(self, tag: str) -> XmlElement | None:
@@ -83,6 +92,7 @@ class _TreeBuilder:
         self.parser = expat.ParserCreate(encoding="utf-8")
         self.parser.StartElementHandler = self.start
         self.parser.EndElementHandler = self.end
+        self.parser.CharacterDataHandler = self.characters
         self.parser.StartDoctypeDeclHandler = self.doctype
 
     def here(self) -> Span:
@@ -101,6 +111,11 @@ class _TreeBuilder:
 
     def end(self, tag: str) -> None:
         self.stack.pop()
+
+    def characters(self, text: str) -> None:
+        element = self.stack[-1]
+        if not element.children:
+            element.text += text
 
     def doctype(self, name: str, system_id: str | None, public_id: str | None, has_subset: bool) -> None:
         raise _XmlError(

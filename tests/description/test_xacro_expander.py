@@ -10,8 +10,7 @@ from hypothesis import strategies as st
 
 from cellc.catalog.codes import CODES
 from cellc.description.read_description import read_description
-from cellc.description.xacro_expander import expand_xacro
-from cellc.description.xacro_expansion import expand_here
+from cellc.description.xacro_expansion import expand_here, expand_xacro
 from cellc.diagnostics import Diagnostic
 
 HEAD = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="mine">'
