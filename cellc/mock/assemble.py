@@ -146,7 +146,7 @@ def _managers(folder: GeneratedFolder, seed: int) -> Mapping[str, ControllerMana
     contract = folder.contract
     managers = {
         name: ControllerManager(
-            folder.urdf,
+            folder.description,
             folder.parameters[name],
             namespace=manager.namespace,
             distro=contract.distro,

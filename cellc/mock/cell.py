@@ -21,7 +21,6 @@ from cellc.mock.plant import Plant
 from cellc.mock.result import BRINGUP_FAILURE, AttemptRecord, RehearsalResult, StageEvidence
 from cellc.mock.task.context import Outcome, TaskContext
 from cellc.mock.task.task import Task
-from cellc.mock.world.links import read_links
 
 SUCCEEDED = "succeeded"
 
@@ -199,8 +198,7 @@ def cell_of(folder: GeneratedFolder) -> MockCell:
     Raises:
         MockError: its parts do not fit together.
     """
-    links = read_links(folder.urdf, folder.contract.files.urdf_mock)
-    return MockCell(folder, PlanMemory(build_motion_model(folder.contract, folder.urdf, links)))
+    return MockCell(folder, PlanMemory(build_motion_model(folder.contract, folder.urdf, folder.description)))
 
 
 def run_all(cell: MockCell, *, seed: int = 0) -> tuple[RehearsalResult, ...]:

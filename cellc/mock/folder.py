@@ -13,6 +13,8 @@ from pydantic import BaseModel, ValidationError
 from cellc.contract.contract import Contract
 from cellc.contract.manifest import Manifest
 from cellc.contract.rehearsals import RehearsalEntry, Rehearsals
+from cellc.description.model import Description
+from cellc.description.urdf_reader import read_urdf
 from cellc.mock.errors import MockError
 
 CONTRACT_FILE = "contract.json"
@@ -31,6 +33,8 @@ class GeneratedFolder:
     """The parts of a generated folder that the mock executes.
 
     Attributes:
+        urdf: text of the robot description that the mock executes.
+        description: what it says.
         parameters: text of the parameter file of each controller manager, by manager.
         notes: what is odd but no reason to stop, such as a file edited by hand.
     """
@@ -38,6 +42,7 @@ class GeneratedFolder:
     contract: Contract
     rehearsals: tuple[RehearsalEntry, ...]
     urdf: str
+    description: Description
     parameters: dict[str, str]
     notes: tuple[str, ...]
 
@@ -60,13 +65,23 @@ def read_folder(folder: Path) -> GeneratedFolder:
     missing = sorted(set(contract.managers) - set(contract.files.parameters))
     if missing:
         raise MockError(CONTRACT_FILE, f"controller manager `{missing[0]}` has no parameter file")
+    urdf = _read_text(folder, contract.files.urdf_mock)
     return GeneratedFolder(
         contract=contract,
         rehearsals=rehearsals.rehearsals,
-        urdf=_read_text(folder, contract.files.urdf_mock),
+        urdf=urdf,
+        description=_described(urdf, contract.files.urdf_mock),
         parameters={name: _read_text(folder, path) for name, path in contract.files.parameters.items()},
         notes=tuple(_notes(folder, contract, rehearsals, manifest)),
     )
+
+
+def _described(urdf: str, file: str) -> Description:
+    read = read_urdf(urdf, file)
+    if read.value is None:
+        found = read.diagnostics[0]
+        raise MockError(f"{file}:{found.span.line}", found.message)
+    return read.value
 
 
 def _check_rehearsals(file: str, rehearsals: Rehearsals) -> None:

@@ -6,9 +6,9 @@ a gripper whose follower has the lesser name would be refused.
 
 from __future__ import annotations
 
-import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass
 
+from cellc.description.model import Description
 from cellc.planning.failure import ModelError
 
 
@@ -22,30 +22,24 @@ class Mimic:
     offset: float
 
 
-def read_mimics(text: str) -> tuple[Mimic, ...]:
-    """Read the mimic joints of a URDF in document order; a mimic of a mimic is led by the joint at the end.
+def resolve_mimics(description: Description) -> tuple[Mimic, ...]:
+    """Return the mimic joints in the order of the file; a mimic of a mimic is led by the joint at the end.
 
     Raises:
-        ModelError: the joint followed does not exist or is fixed, joints follow each other in a circle, or a factor is
-            no number.
+        ModelError: the joint followed does not exist or is fixed, or joints follow each other in a circle.
     """
-    joints = {joint.get("name", ""): joint for joint in ElementTree.fromstring(text).findall("joint")}
-    elements = ((name, joint.find("mimic")) for name, joint in joints.items())
-    direct = {name: _read(name, element) for name, element in elements if element is not None}
+    types = {joint.name: joint.type for joint in description.joints}
+    direct = {
+        joint.name: Mimic(joint.name, joint.mimic.joint, joint.mimic.multiplier, joint.mimic.offset)
+        for joint in description.joints
+        if joint.mimic is not None
+    }
     for mimic in direct.values():
-        if mimic.leader not in joints:
+        if mimic.leader not in types:
             raise ModelError(f"joint `{mimic.joint}` mimics `{mimic.leader}`, which does not exist")
-        if joints[mimic.leader].get("type") == "fixed":
+        if types[mimic.leader] == "fixed":
             raise ModelError(f"joint `{mimic.joint}` mimics `{mimic.leader}`, which is fixed")
     return tuple(_resolve(mimic, direct) for mimic in direct.values())
-
-
-def _read(name: str, element: ElementTree.Element) -> Mimic:
-    try:
-        multiplier, offset = float(element.get("multiplier", "1")), float(element.get("offset", "0"))
-    except ValueError as error:
-        raise ModelError(f"the mimic of joint `{name}` has no number where one is needed: {error}") from None
-    return Mimic(name, element.get("joint", ""), multiplier, offset)
 
 
 def _resolve(mimic: Mimic, direct: dict[str, Mimic]) -> Mimic:

@@ -10,10 +10,12 @@ from typing import Any
 import numpy as np
 import pinocchio
 
+from cellc.description.model import Description
+from cellc.description.urdf_reader import read_urdf
 from cellc.planning.failure import ModelError
 from cellc.planning.limits import Array
-from cellc.planning.mimic import Mimic, read_mimics
-from cellc.planning.urdf_check import check_urdf
+from cellc.planning.mimic import Mimic, resolve_mimics
+from cellc.planning.urdf_check import check_description
 from cellc.transforms import Pose
 
 # pinocchio ships no type information: its values are Any, and stay inside this package.
@@ -41,18 +43,22 @@ class RobotModel:
     mimics: tuple[Mimic, ...]
 
     @classmethod
-    def from_urdf(cls, text: str, *, package_dirs: Iterable[str] = ()) -> RobotModel:
+    def from_urdf(
+        cls, text: str, *, description: Description | None = None, package_dirs: Iterable[str] = ()
+    ) -> RobotModel:
         """Read the text of an expanded URDF.
 
         Args:
             text: URDF; collision shapes may be primitives, or meshes under one of ``package_dirs``.
+            description: what was read of ``text`` before; it is read here where absent.
             package_dirs: folders in which ``package://`` names are looked up.
 
         Raises:
             ModelError: the text is no robot description, with the reason that the parser would print to stderr only.
         """
-        check_urdf(text)
-        mimics = read_mimics(text)
+        described = _described(text) if description is None else description
+        check_description(described)
+        mimics = resolve_mimics(described)
         try:
             model = pinocchio.buildModelFromXML(text)
             geometry = pinocchio.buildGeomFromUrdfString(
@@ -120,6 +126,13 @@ class RobotModel:
         at = self.kinematics.idx_qs[index]
         lower, upper = self.kinematics.lowerPositionLimit[at], self.kinematics.upperPositionLimit[at]
         return float(min(max(0.0, lower), upper))
+
+
+def _described(text: str) -> Description:
+    read = read_urdf(text, "robot_description")
+    if read.value is None:
+        raise ModelError(f"the robot description cannot be read: {read.diagnostics[0].message}")
+    return read.value
 
 
 def to_pose(transform: PinTransform) -> Pose:

@@ -11,8 +11,8 @@ from pathlib import Path
 
 from tests.cli.run import ROOT
 
-# The mock, the format between it and the compiler, and the mathematics that both use.
-NEEDED = ("mock", "contract", "transforms", "planning", "adapter")
+# The mock, the format between it and the compiler, the reader of URDF and the mathematics that both use.
+NEEDED = ("mock", "contract", "transforms", "planning", "description", "diagnostics", "adapter")
 
 
 def test_mock_runs_a_folder_where_the_compiler_is_absent(pick: Path, tmp_path: Path) -> None:

@@ -84,7 +84,7 @@ def test_joint_at_rest_outside_zero_stands_at_its_nearest_limit() -> None:
     ("text", "reason"),
     [
         ("<robot", "not well-formed XML"),
-        ("<cell/>", "the root element is `cell`, not `robot`"),
+        ("<cell/>", "the root element is `<cell>`, a URDF begins with `<robot>`"),
         ("<robot name='x'/>", "has no link"),
         (arm_urdf('<link name="base"/>'), "link `base` is declared twice"),
         (arm_urdf('<link name="loose"/>'), "exactly one root, found `table`, `loose`"),
@@ -93,7 +93,7 @@ def test_joint_at_rest_outside_zero_stands_at_its_nearest_limit() -> None:
         (arm_urdf(GRIPPER.replace('mimic joint="leader"', 'mimic joint="lead"')), "mimics `lead`, which does not"),
         (arm_urdf(GRIPPER.replace('mimic joint="leader"', 'mimic joint="mount"')), "mimics `mount`, which is fixed"),
         (arm_urdf(GRIPPER.replace('mimic joint="leader"', 'mimic joint="follower"')), "mimics itself"),
-        (arm_urdf(GRIPPER.replace('multiplier="-2"', 'multiplier="two"')), "no number"),
+        (arm_urdf(GRIPPER.replace('multiplier="-2"', 'multiplier="two"')), "`two` in `multiplier` of `<mimic>`"),
         (arm_urdf().replace('<cylinder length="0.04" radius="0.04"/>', MESH), "x.stl"),
     ],
 )

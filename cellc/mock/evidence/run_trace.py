@@ -234,7 +234,7 @@ class RunTrace:
 
     def _unit(self, joint: str) -> str:
         links = self._plant.robot_state_publisher.links.joints.values()
-        return "m" if any(each.name == joint and each.kind == "prismatic" for each in links) else "rad"
+        return "m" if any(each.name == joint and each.slides for each in links) else "rad"
 
     def _age(self, source: str, max_age_s: float | None) -> AgeBuilder:
         if source not in self._ages:

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from cellc.contract.contract import ContractController
 from cellc.mock.campaign.limits import merge
 from cellc.mock.gates.gate import GateCheck, failed, judged, passed, unknown
-from cellc.mock.gates.model import read_description
 from cellc.mock.gates.runs import Testimony
 from cellc.mock.result import PacketStep
 from cellc.mock.task.bounds import cancel_bound_s
@@ -95,8 +94,10 @@ def command_path_checks(testimony: Testimony) -> Iterator[GateCheck]:
 def _no_real_interface(testimony: Testimony) -> GateCheck:
     good: list[str] = []
     bad: list[str] = []
-    for component, plugin in read_description(testimony.folder.urdf).plugins.items():
-        (good if plugin.startswith(_MOCK_PACKAGE) else bad).append(f"{component}: {plugin or 'no plugin'}")
+    for component in testimony.folder.description.hardware:
+        (good if component.plugin.startswith(_MOCK_PACKAGE) else bad).append(
+            f"{component.name}: {component.plugin or 'no plugin'}"
+        )
     name = testimony.contract.files.urdf_mock
     return judged(f"No component of {name} is a route to a real interface", good, bad, "a hardware component")
 

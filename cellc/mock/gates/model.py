@@ -7,103 +7,11 @@ from __future__ import annotations
 
 import hashlib
 import math
-import xml.etree.ElementTree as ElementTree
 from collections.abc import Iterator
-from dataclasses import dataclass
 
+from cellc.description.model import Description, Joint, JointLimit
 from cellc.mock.gates.gate import GateCheck, failed, judged, passed, unknown
 from cellc.mock.gates.runs import Testimony
-
-_MOVABLE = ("revolute", "continuous", "prismatic")
-
-
-@dataclass(frozen=True, slots=True)
-class DescribedJoint:
-    """A joint as the URDF has it; limits in rad or m, None where there is none.
-
-    Attributes:
-        axis_length: length of the axis as written; 1 where none is.
-    """
-
-    name: str
-    kind: str
-    parent: str
-    child: str
-    axis_length: float
-    lower: float | None
-    upper: float | None
-    velocity: float | None
-
-    @property
-    def moves(self) -> bool:
-        """Tell whether it has a degree of freedom."""
-        return self.kind in _MOVABLE
-
-
-@dataclass(frozen=True, slots=True)
-class Description:
-    """Links, joints, and the plugin of each hardware component."""
-
-    links: tuple[str, ...]
-    joints: tuple[DescribedJoint, ...]
-    plugins: dict[str, str]
-
-    def roots(self) -> tuple[str, ...]:
-        """Return the links that no joint carries."""
-        carried = {joint.child for joint in self.joints}
-        return tuple(link for link in self.links if link not in carried)
-
-    def unreached(self, root: str) -> tuple[str, ...]:
-        """Return the links that cannot be reached from a root, cycles included."""
-        children: dict[str, list[str]] = {}
-        for joint in self.joints:
-            children.setdefault(joint.parent, []).append(joint.child)
-        reached, waiting = set[str](), [root]
-        while waiting:
-            link = waiting.pop()
-            if link not in reached:
-                reached.add(link)
-                waiting += children.get(link, [])
-        return tuple(link for link in self.links if link not in reached)
-
-
-def read_description(urdf: str) -> Description:
-    """Read a URDF that the mock has loaded before, so that it is known to be well-formed."""
-    root = ElementTree.fromstring(urdf)
-    return Description(
-        links=tuple(link.get("name", "") for link in root.findall("link")),
-        joints=tuple(_joints(root)),
-        plugins={
-            component.get("name", ""): (component.findtext("hardware/plugin") or "").strip()
-            for component in root.findall("ros2_control")
-        },
-    )
-
-
-def _joints(root: ElementTree.Element) -> Iterator[DescribedJoint]:
-    for joint in root.findall("joint"):
-        axis, limit = joint.find("axis"), joint.find("limit")
-        yield DescribedJoint(
-            name=joint.get("name", ""),
-            kind=joint.get("type", ""),
-            parent=_link(joint, "parent"),
-            child=_link(joint, "child"),
-            axis_length=1.0 if axis is None else math.hypot(*map(float, axis.get("xyz", "1 0 0").split())),
-            lower=_number(limit, "lower"),
-            upper=_number(limit, "upper"),
-            velocity=_number(limit, "velocity"),
-        )
-
-
-def _link(joint: ElementTree.Element, end: str) -> str:
-    found = joint.find(end)
-    return "" if found is None else found.get("link", "")
-
-
-def _number(limit: ElementTree.Element | None, name: str) -> float | None:
-    text = None if limit is None else limit.get(name)
-    return None if text is None else float(text)
-
 
 _UNIT = 1e-6
 """By which the length of an axis may differ from 1: URDF has six digits of it."""
@@ -111,7 +19,7 @@ _UNIT = 1e-6
 
 def model_checks(testimony: Testimony) -> Iterator[GateCheck]:
     """Yield the lines of G1."""
-    description = read_description(testimony.folder.urdf)
+    description = testimony.folder.description
     yield _generated(testimony)
     yield _one_tree(description)
     yield _axes(description)
@@ -151,11 +59,12 @@ def _one_tree(description: Description) -> GateCheck:
 
 
 def _axes(description: Description) -> GateCheck:
-    moving = [joint for joint in description.joints if joint.moves]
+    moving = [joint for joint in description.joints if joint.movable]
+    lengths = {joint.name: math.hypot(*joint.axis) for joint in moving}
     bad = [
-        f"the axis of joint {joint.name} has the length {joint.axis_length:g}"
-        for joint in moving
-        if abs(joint.axis_length - 1.0) > _UNIT
+        f"the axis of joint {name} has the length {length:g}"
+        for name, length in lengths.items()
+        if abs(length - 1.0) > _UNIT
     ]
     good = [f"{len(moving)} moving joints"] if moving else []
     return judged("Axes are of unit length", good, bad, "a joint that moves")
@@ -170,16 +79,17 @@ def _limits(testimony: Testimony, description: Description) -> GateCheck:
     return judged("Limits of the cell are within those of the description", good, bad, "a joint with limits")
 
 
-def _wider(testimony: Testimony, name: str, described: DescribedJoint | None) -> Iterator[str]:
+def _wider(testimony: Testimony, name: str, joint: Joint | None) -> Iterator[str]:
     limit = testimony.contract.joint_limits[name]
-    if described is None:
+    if joint is None:
         yield f"joint {name} is not in the description"
         return
+    described = joint.limit or JointLimit(None, None, None, None)
     if limit.lower is not None and limit.upper is not None and limit.lower > limit.upper:
         yield f"joint {name}: lower {limit.lower:g} is above upper {limit.upper:g}"
     if described.velocity is not None and limit.velocity > described.velocity:
         yield f"joint {name}: velocity {limit.velocity:g}, {described.velocity:g} in the description"
-    if described.kind == "continuous":
+    if joint.type == "continuous":
         return
     if described.lower is not None and (limit.lower is None or limit.lower < described.lower):
         yield f"joint {name}: lower {limit.lower}, {described.lower:g} in the description"

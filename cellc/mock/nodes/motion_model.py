@@ -7,8 +7,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from cellc.contract.contract import Contract, ContractGroup, ContractJointLimits
+from cellc.description.model import Description
 from cellc.mock.errors import MockError
-from cellc.mock.world.links import LinkTree
+from cellc.mock.world.links import LinkTree, link_tree
 from cellc.planning import (
     CollisionScene,
     JointLimits,
@@ -39,16 +40,16 @@ class MotionModel:
     links: LinkTree
 
 
-def build_motion_model(contract: Contract, urdf: str, links: LinkTree) -> MotionModel:
+def build_motion_model(contract: Contract, urdf: str, description: Description) -> MotionModel:
     """Build the planners of all groups; raise MockError where the URDF and the contract do not fit together."""
     try:
-        robot = RobotModel.from_urdf(urdf)
+        robot = RobotModel.from_urdf(urdf, description=description)
         disabled = [(pair.first, pair.second) for pair in contract.disabled_collisions]
         scene = CollisionScene(robot, disabled_collisions=disabled)
     except ModelError as error:
         raise MockError(contract.files.urdf_mock, str(error)) from None
     groups = {name: _group_model(name, group, contract, robot, scene) for name, group in contract.groups.items()}
-    return MotionModel(robot, groups, scene, links)
+    return MotionModel(robot, groups, scene, link_tree(description))
 
 
 def _group_model(

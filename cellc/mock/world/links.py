@@ -3,25 +3,24 @@
 from __future__ import annotations
 
 import math
-import xml.etree.ElementTree as ElementTree
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from cellc.mock.errors import MockError
-from cellc.transforms import Pose, Vector3, from_xyz_rpy, identity
-
-_MOVABLE = ("revolute", "continuous", "prismatic")
+from cellc.description.model import Description, Joint
+from cellc.transforms import Pose, Vector3, identity
 
 
 @dataclass(frozen=True, slots=True)
 class LinkJoint:
     """A joint of the URDF: ``origin`` in the parent link, ``axis`` of unit length in its own frame.
 
-    A mimic joint stands at ``multiplier * position of follows + offset``.
+    The child ``moves`` in the parent or is fixed to it; it ``slides`` along the axis or turns about it. A mimic joint
+    stands at ``multiplier * position of follows + offset``.
     """
 
     name: str
-    kind: str
+    moves: bool
+    slides: bool
     parent: str
     child: str
     origin: Pose
@@ -29,11 +28,6 @@ class LinkJoint:
     follows: str | None
     multiplier: float
     offset: float
-
-    @property
-    def moves(self) -> bool:
-        """Tell whether the child moves in the parent."""
-        return self.kind in _MOVABLE
 
     def pose(self, positions: Mapping[str, float]) -> Pose:
         """Return the pose of the child link in the parent link; joints that are not named stand at zero."""
@@ -43,7 +37,7 @@ class LinkJoint:
         """Return how far a moving joint has moved its child, in the frame of the joint."""
         position = self.multiplier * positions.get(self.follows or self.name, 0.0) + self.offset
         x, y, z = self.axis
-        if self.kind == "prismatic":
+        if self.slides:
             return Pose((x * position, y * position, z * position), (0.0, 0.0, 0.0, 1.0))
         sine = math.sin(position / 2.0)
         return Pose((0.0, 0.0, 0.0), (x * sine, y * sine, z * sine, math.cos(position / 2.0)))
@@ -94,46 +88,24 @@ class LinkTree:
         return first, tuple(moving)
 
 
-def read_links(urdf: str, file: str) -> LinkTree:
-    """Read the joints of a URDF; raise MockError with the name of ``file`` where a value is no pose or number."""
-    try:
-        root = ElementTree.fromstring(urdf)
-        joints = [_joint(element) for element in root.findall("joint")]
-    except ElementTree.ParseError as error:
-        raise MockError(file, f"is not well-formed XML: {error}") from None
-    except ValueError as error:
-        raise MockError(file, str(error)) from None
-    return LinkTree({joint.child: joint for joint in joints})
+def link_tree(description: Description) -> LinkTree:
+    """Return the joints of a robot description as a tree of links."""
+    return LinkTree({joint.child: _link_joint(joint) for joint in description.joints})
 
 
-def _joint(element: ElementTree.Element) -> LinkJoint:
-    name = element.get("name", "")
-    origin, axis, mimic = element.find("origin"), element.find("axis"), element.find("mimic")
-    xyz = (0.0, 0.0, 0.0) if origin is None else _triple(origin.get("xyz", "0 0 0"), name)
-    rpy = (0.0, 0.0, 0.0) if origin is None else _triple(origin.get("rpy", "0 0 0"), name)
+def _link_joint(joint: Joint) -> LinkJoint:
     return LinkJoint(
-        name=name,
-        kind=element.get("type", ""),
-        parent=_link(element, "parent"),
-        child=_link(element, "child"),
-        origin=from_xyz_rpy(xyz, rpy),
-        axis=_unit((1.0, 0.0, 0.0) if axis is None else _triple(axis.get("xyz", "1 0 0"), name)),
-        follows=None if mimic is None else mimic.get("joint"),
-        multiplier=1.0 if mimic is None else float(mimic.get("multiplier", "1")),
-        offset=0.0 if mimic is None else float(mimic.get("offset", "0")),
+        name=joint.name,
+        moves=joint.movable,
+        slides=joint.type == "prismatic",
+        parent=joint.parent,
+        child=joint.child,
+        origin=joint.pose,
+        axis=_unit(joint.axis),
+        follows=None if joint.mimic is None else joint.mimic.joint,
+        multiplier=1.0 if joint.mimic is None else joint.mimic.multiplier,
+        offset=0.0 if joint.mimic is None else joint.mimic.offset,
     )
-
-
-def _link(element: ElementTree.Element, end: str) -> str:
-    found = element.find(end)
-    return "" if found is None else found.get("link", "")
-
-
-def _triple(text: str, joint: str) -> Vector3:
-    values = [float(word) for word in text.split()]
-    if len(values) != 3:
-        raise ValueError(f"joint `{joint}` has `{text}` where three numbers are due")
-    return (values[0], values[1], values[2])
 
 
 def _unit(axis: Vector3) -> Vector3:

@@ -9,6 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from cellc.description.model import Description
+from cellc.description.urdf_reader import read_urdf
 from cellc.mock.clocks import Clocks
 from cellc.mock.control import JointStateBlock
 from cellc.mock.nodes.robot_state_publisher import JointStateFeed, RobotStatePublisher
@@ -16,7 +18,7 @@ from cellc.mock.tf.buffer import Transform, TransformBuffer
 from cellc.mock.tf.messages import TfWarnings
 from cellc.mock.tf.sources import DeferredPose, SampledSource
 from cellc.mock.world.joint_states import JointStateHistory, LateArrival
-from cellc.mock.world.links import LinkTree, read_links
+from cellc.mock.world.links import LinkTree, link_tree
 from cellc.mock.world.objects import World
 from cellc.planning import RobotModel
 from cellc.transforms import Pose, from_xyz_rpy, identity
@@ -44,14 +46,21 @@ def history_of(positions: list[float], period_ms: int = 2, skip: frozenset[int] 
     return history
 
 
+def described(urdf: str) -> Description:
+    """Return the model of a URDF that can be read."""
+    description = read_urdf(urdf, "robot_description").value
+    assert description is not None
+    return description
+
+
 @pytest.fixture
 def links() -> LinkTree:
-    return read_links(SLIDER, "slider.urdf")
+    return link_tree(described(SLIDER))
 
 
 def test_links_of_the_real_cell_are_where_pinocchio_has_them(built_folder: Path) -> None:
     urdf = (built_folder / "urdf" / "ur5e_pick.mock.urdf").read_text()
-    model, links = RobotModel.from_urdf(urdf), read_links(urdf, "urdf")
+    model, links = RobotModel.from_urdf(urdf), link_tree(described(urdf))
     generator = random.Random(0)
     for _ in range(20):
         positions = {joint: generator.uniform(0.0, 0.8) for joint in model.joints}

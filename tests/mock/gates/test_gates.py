@@ -7,6 +7,7 @@ from functools import partial
 
 import pytest
 
+from cellc.description.urdf_reader import read_urdf
 from cellc.mock import MockCell
 from cellc.mock.campaign.limits import LimitExcess, LimitsReport, Peak
 from cellc.mock.folder import GeneratedFolder
@@ -24,7 +25,10 @@ def witness(witnesses: Witnesses, name: str) -> Witness:
 
 def changed_urdf(folder: GeneratedFolder, old: str, new: str) -> GeneratedFolder:
     assert old in folder.urdf
-    return replace(folder, urdf=folder.urdf.replace(old, new, 1))
+    urdf = folder.urdf.replace(old, new, 1)
+    description = read_urdf(urdf, folder.contract.files.urdf_mock).value
+    assert description is not None
+    return replace(folder, urdf=urdf, description=description)
 
 
 def test_rehearsals_confirm_what_they_showed_and_leave_the_rest_unknown(pick: MockCell, rehearsed: Witnesses) -> None:

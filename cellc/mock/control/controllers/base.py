@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from cellc.mock.control.block import Block
-from cellc.mock.control.description import RobotDescription
 from cellc.mock.control.events import ControlEvent
 from cellc.mock.control.hardware import CommandLimiter
 from cellc.mock.control.interfaces import InterfaceTable
 from cellc.mock.control.log import Log
 from cellc.mock.control.parameters import ParameterSet, ParameterValue
+from cellc.mock.control.robot_description import RobotDescription
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cellc.mock.control.description import ComponentInfo, InterfaceInfo
+from cellc.description.model import HardwareComponent, HardwareInterface
 from cellc.mock.control.interfaces import Array, InterfaceTable
 
 MOVING = ("position", "velocity", "acceleration")
@@ -42,7 +42,7 @@ class Exporter:
         table: where they are exported to.
     """
 
-    def __init__(self, info: ComponentInfo, table: InterfaceTable) -> None:
+    def __init__(self, info: HardwareComponent, table: InterfaceTable) -> None:
         self._info = info
         self._table = table
         self._commands: list[str] = []
@@ -82,13 +82,13 @@ class Exporter:
                 self._export_state(part.name, state, initial[state.name])
         return {kind: np.array(column) for kind, column in values.items()}
 
-    def _export_command(self, part: str, interface: InterfaceInfo, value: float) -> None:
+    def _export_command(self, part: str, interface: HardwareInterface, value: float) -> None:
         name = f"{part}/{interface.name}"
         if not self._table.has_command(name):
             self._table.add_command(name, value, interface.data_type)
             self._commands.append(name)
 
-    def _export_state(self, part: str, interface: InterfaceInfo, value: float) -> None:
+    def _export_state(self, part: str, interface: HardwareInterface, value: float) -> None:
         name = f"{part}/{interface.name}"
         if not self._table.has_state(name):
             self._table.add_state(name, value, interface.data_type)

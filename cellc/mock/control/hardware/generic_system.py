@@ -12,13 +12,12 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from cellc.mock.control.description import ComponentInfo
-from cellc.mock.control.description.component import parse_bool
-from cellc.mock.control.description.urdf import UrdfJoint, UrdfMimic
+from cellc.description.model import HardwareComponent, Joint, Mimic
 from cellc.mock.control.hardware.disturbances import Disturbances
 from cellc.mock.control.hardware.export import Exporter
 from cellc.mock.control.hardware.joint_states import Motion, differences, hold_last, integral
 from cellc.mock.control.interfaces import Array, InterfaceTable
+from cellc.mock.control.robot_description import follows, read_flag
 
 _MODES = ("position", "velocity", "acceleration")
 
@@ -37,19 +36,19 @@ class GenericSystem:
     """
 
     def __init__(
-        self, info: ComponentInfo, joints: Mapping[str, UrdfJoint], table: InterfaceTable, disturbances: Disturbances
+        self, info: HardwareComponent, joints: Mapping[str, Joint], table: InterfaceTable, disturbances: Disturbances
     ) -> None:
         self.info = info
         self._table = table
         self._disturbances = disturbances
         self._first_cycle = self._read_cycles = 0
         parameters = info.parameters
-        self._dynamics = parse_bool(parameters.get("calculate_dynamics", "false"))
-        self.commands_disabled = parse_bool(parameters.get("disable_commands", "false"))
+        self._dynamics = read_flag(parameters.get("calculate_dynamics", "false"))
+        self.commands_disabled = read_flag(parameters.get("disable_commands", "false"))
         self._offset = float(parameters.get("position_state_following_offset") or 0.0)
         self._custom_offset = parameters.get("custom_interface_with_following_offset", "")
-        mock_sensors = parse_bool(parameters.get("mock_sensor_commands", "false"))
-        mock_gpios = parse_bool(parameters.get("mock_gpio_commands", "false"))
+        mock_sensors = read_flag(parameters.get("mock_sensor_commands", "false"))
+        mock_gpios = read_flag(parameters.get("mock_gpio_commands", "false"))
         exported = Exporter(info, table).export(0.0 if self._custom_offset else self._offset, mock_sensors, mock_gpios)
         self.command_names, self.state_names = exported.commands, exported.states
         self._position, self._velocity, self._acceleration = exported.position, exported.velocity, exported.acceleration
@@ -66,11 +65,11 @@ class GenericSystem:
 
     # -- what follows what -------------------------------------------------------------------------------------------
 
-    def _find_mimics(self, joints: Mapping[str, UrdfJoint]) -> list[tuple[int, int, UrdfMimic]]:
+    def _find_mimics(self, joints: Mapping[str, Joint]) -> list[tuple[int, int, Mimic]]:
         found = []
         for index, part in enumerate(self.info.joints):
             mimic = joints[part.name].mimic
-            if mimic is not None and (part.mimic is None or part.mimic.strip().lower() != "false"):
+            if mimic is not None and follows(part):
                 found.append((index, self._names.index(mimic.joint), mimic))
         return found
 

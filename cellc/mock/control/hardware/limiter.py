@@ -13,12 +13,12 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from cellc.mock.control.block import Block
-from cellc.mock.control.description import JointLimits
 from cellc.mock.control.errors import UpdateError
 from cellc.mock.control.hardware.joint_states import hold_last
 from cellc.mock.control.hardware.ramp import clamp, rate_limit, step_bounds
 from cellc.mock.control.interfaces import InterfaceTable
 from cellc.mock.control.log import Log
+from cellc.mock.control.robot_description import JointLimits
 
 # ros2_control, joint_limits_helpers: half a degree, the same figure for prismatic joints.
 _OUT_OF_BOUNDS_TOLERANCE = 0.0087

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
+from cellc.description.model import Description
 from cellc.mock.control.controllers.base import DeclaredInterfaces
-from cellc.mock.control.description import RobotDescription, read_description
 from cellc.mock.control.errors import DescriptionError
 from cellc.mock.control.events import ControlEvent
 from cellc.mock.control.hardware import CommandLimiter, Disturbances
@@ -19,6 +19,7 @@ from cellc.mock.control.manager.settings import NODE_NAME, read_file, read_setti
 from cellc.mock.control.manager.switch_checks import SwitchChecker
 from cellc.mock.control.manager.switching import Switcher
 from cellc.mock.control.parameters import ParameterSet
+from cellc.mock.control.robot_description import RobotDescription, take_description
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,11 +79,15 @@ class _Late:
 
 
 def _load_hardware(
-    urdf: str, table: InterfaceTable, disturbances: Disturbances, log: Log, events: list[ControlEvent]
+    source: str | Description,
+    table: InterfaceTable,
+    disturbances: Disturbances,
+    log: Log,
+    events: list[ControlEvent],
 ) -> tuple[RobotDescription, HardwareSet | None, str]:
     """Read the description; where it is refused, no hardware comes up and the reason is returned."""
     try:
-        description = read_description(urdf)
+        description = take_description(source)
     except DescriptionError as error:
         reason = f"Error importing joint limiters: {error.reason}"
         log.error(NODE_NAME, reason)
@@ -99,11 +104,13 @@ def _load_hardware(
         return RobotDescription({}, ()), None, error.reason
 
 
-def assemble(urdf: str, parameters: str, options: NodeOptions, changed: Callable[[], None]) -> Stack:
+def assemble(
+    robot_description: str | Description, parameters: str, options: NodeOptions, changed: Callable[[], None]
+) -> Stack:
     """Make all parts.
 
     Args:
-        urdf: the robot description.
+        robot_description: the text of a URDF, or what was read of it before.
         parameters: text of the parameter file.
         options: how the node is started.
         changed: called before each change that comes from outside.
@@ -118,7 +125,7 @@ def assemble(urdf: str, parameters: str, options: NodeOptions, changed: Callable
     settings = read_settings(ParameterSet(file.of_node(NODE_NAME, options.namespace)), options.distro)
     rate, period_ns = settings.update_rate, 1_000_000_000 // settings.update_rate
     disturbances = Disturbances(changed, late.skip, late.set_state, late.stand)
-    description, hardware, reason = _load_hardware(urdf, table, disturbances, log, events)
+    description, hardware, reason = _load_hardware(robot_description, table, disturbances, log, events)
     limiter = None
     if hardware is not None:
         hardware.set_initial(settings.initially_unconfigured, settings.initially_inactive)

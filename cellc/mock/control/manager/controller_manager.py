@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from cellc.description.model import Description
 from cellc.mock.control.controllers.base import Controller, DeclaredInterfaces
 from cellc.mock.control.controllers.forward_command import ForwardCommandController
 from cellc.mock.control.controllers.gpio import GpioCommandController
@@ -38,7 +39,7 @@ class ControllerManager:
     """A simulated ros2_control_node.
 
     Args:
-        urdf: the robot description.
+        robot_description: the text of a URDF, or what was read of it before.
         parameters: text of the parameter file (controllers.yaml); empty for none.
         namespace: namespace of the manager and its controllers.
         distro: humble, jazzy, kilted or lyrical.
@@ -52,7 +53,7 @@ class ControllerManager:
 
     def __init__(
         self,
-        urdf: str,
+        robot_description: str | Description,
         parameters: str,
         *,
         namespace: str = "",
@@ -62,7 +63,7 @@ class ControllerManager:
         declared: Mapping[str, DeclaredInterfaces] | None = None,
     ) -> None:
         options = NodeOptions(namespace, distro, plugin_behaviours or {}, start_ns, declared or {})
-        stack = assemble(urdf, parameters, options, self._touch)
+        stack = assemble(robot_description, parameters, options, self._touch)
         self.log, self.disturbances = stack.log, stack.disturbances
         self.journal = stack.table.journal
         self.description_error = stack.description_error

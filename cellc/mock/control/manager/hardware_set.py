@@ -6,8 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cellc.mock.control.description import RobotDescription, joint_limits
-from cellc.mock.control.description.limits import JointLimits
 from cellc.mock.control.errors import DescriptionError
 from cellc.mock.control.events import ControlEvent, HardwareChanged
 from cellc.mock.control.hardware import Disturbances, GenericSystem
@@ -15,6 +13,7 @@ from cellc.mock.control.interfaces import InterfaceTable
 from cellc.mock.control.log import Log
 from cellc.mock.control.manager.plugins import HARDWARE_BEHAVIOURS
 from cellc.mock.control.messages import HardwareStateResponse
+from cellc.mock.control.robot_description import JointLimits, RobotDescription, joint_limits
 
 _STATES = ("unconfigured", "inactive", "active", "finalized")
 _LOGGER = "resource_manager"

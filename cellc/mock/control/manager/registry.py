@@ -6,7 +6,6 @@ import math
 from collections.abc import Mapping, Sequence
 
 from cellc.mock.control.controllers.base import ConfigureError, Context, DeclaredInterfaces
-from cellc.mock.control.description import RobotDescription
 from cellc.mock.control.events import ControlEvent, ControllerChanged
 from cellc.mock.control.hardware import CommandLimiter
 from cellc.mock.control.interfaces import InterfaceTable
@@ -16,6 +15,7 @@ from cellc.mock.control.manager.plugins import controller_factory
 from cellc.mock.control.manager.settings import NODE_NAME
 from cellc.mock.control.messages import ServiceResponse
 from cellc.mock.control.parameters import Parameter, ParameterError, ParameterFile, ParameterSet
+from cellc.mock.control.robot_description import RobotDescription
 
 
 class ControllerRegistry:
