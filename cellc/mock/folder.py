@@ -80,7 +80,7 @@ def _described(urdf: str, file: str) -> Description:
     read = read_urdf(urdf, file)
     if read.value is None:
         found = read.diagnostics[0]
-        raise MockError(f"{file}:{found.span.line}", found.message)
+        raise MockError(file, f"line {found.span.line}: {found.message}")
     return read.value
 
 

@@ -12,13 +12,15 @@ from pathlib import Path
 from tests.cli.run import ROOT
 
 # The mock, the format between it and the compiler, the reader of URDF and the mathematics that both use.
-NEEDED = ("mock", "contract", "transforms", "planning", "description", "diagnostics", "adapter")
+NEEDED = ("mock", "contract", "planning", "description", "diagnostics", "adapter")
+MODULES = ("__init__.py", "transforms.py")
 
 
 def test_mock_runs_a_folder_where_the_compiler_is_absent(pick: Path, tmp_path: Path) -> None:
     package = tmp_path / "cellc"
     package.mkdir()
-    shutil.copy(ROOT / "cellc/__init__.py", package)
+    for name in MODULES:
+        shutil.copy(ROOT / "cellc" / name, package)
     for name in NEEDED:
         shutil.copytree(ROOT / "cellc" / name, package / name, ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copytree(pick, tmp_path / "folder")
