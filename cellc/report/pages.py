@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import re
+
 from cellc.diagnostics.page import CodePage
 from cellc.report.families import STAGES
 from cellc.rules.run import ALL_RULES
+
+_MARK = re.compile(r"^(?:#|<!--) expect.*\n|  (?:#|<!--) expect.*$", re.MULTILINE)
 
 
 def all_pages() -> dict[str, CodePage]:
@@ -22,5 +26,5 @@ def render_page(page: CodePage) -> str:
 
 
 def _body(page: str) -> str:
-    """Return a rule's docstring without its title line."""
-    return page.partition("\n")[2]
+    """Return a rule's docstring without its title line, and without the marks by which the tests know what is found."""
+    return _MARK.sub("", page.partition("\n")[2])

@@ -1,4 +1,9 @@
-"""Runs the examples of a rule's page: a fragment merged into a complete cell, or into a description of it."""
+"""Runs the examples of a rule's page: a fragment merged into a complete cell, or into a description of it.
+
+The reported example marks what is found: ``# expect at KEY`` on the line of the key, ``# expect: CODE at KEY`` where it
+is another code than the page's, ``<!-- expect -->`` in a description. A mark on a line of its own, such as
+``# expect at a.b.KEY``, names a place of the complete cell, which the example does not show.
+"""
 
 from __future__ import annotations
 
@@ -24,8 +29,10 @@ BASE = Path(__file__).resolve().parents[1] / "corpus" / "invalid" / "base"
 """The parts of a complete cell of made-up devices; nothing in it is to be reported."""
 HEAD = {"format": "1", "cell": "demo"}
 # Hundreds of cells are written and read here: libyaml does it in a tenth of the time, where PyYAML has it.
+_LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _DUMPER = getattr(yaml, "CSafeDumper", yaml.SafeDumper)
 _FENCE = re.compile(r"```(yaml|xml)\n(.*?)```", re.DOTALL)
+_MARK = re.compile(r"(?:#|<!--) expect(?:: (?P<code>[a-z0-9-]+))?(?: at (?P<key>\S+))?")
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +47,69 @@ def examples(rule: Rule) -> tuple[Example, Example]:
     """Return the example that is reported and the one that is accepted."""
     reported, accepted = (Example(language, text) for language, text in _FENCE.findall(rule.page))
     return reported, accepted
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """What is found where: the line of the example, 0 outside of it; the path, which a description has none of."""
+
+    code: str
+    line: int
+    path: str
+
+
+def matches(place: Place, expected: Place) -> bool:
+    """Tell whether a place is the one of a mark, which gives the end of the path."""
+    end = f".{place.path}".endswith(f".{expected.path}")
+    return (place.code, place.line) == (expected.code, expected.line) and end
+
+
+def marks(rule: Rule, example: Example) -> list[Place]:
+    """Return what an example is marked with."""
+    places = []
+    for number, line in enumerate(example.text.splitlines(), start=1):
+        for mark in _MARK.finditer(line):
+            own_line = line.lstrip().startswith(("#", "<!--"))
+            places.append(Place(mark["code"] or rule.code, 0 if own_line else number, mark["key"] or ""))
+    return places
+
+
+def places(example: Example, folder: Path) -> list[Place]:
+    """Return what is found in an example that was merged into the complete cell in ``folder``."""
+    return [_place(one, example, folder) for one in diagnose_example(example, folder)]
+
+
+def _place(found: Diagnostic, example: Example, folder: Path) -> Place:
+    file = Path(found.span.file)
+    if file.suffix != ".yaml":
+        before = file.read_text(encoding="utf-8").partition(example.text)[0].count("\n")
+        return Place(found.code, found.span.line - before, "")
+    merged = {line: path for path, line in _lines((folder / "cell.yaml").read_text(encoding="utf-8")).items()}
+    path = merged[found.span.line]
+    line = _lines(example.text).get(path, 0) if example.language == "yaml" else 0
+    return Place(found.code, line, ".".join(path))
+
+
+@cache
+def _lines(text: str) -> dict[tuple[str, ...], int]:
+    """Return the line of every key and list item of a YAML text, outer ones first."""
+    found: dict[tuple[str, ...], int] = {}
+
+    def walk(node: yaml.Node, path: tuple[str, ...]) -> None:
+        children: list[tuple[str, yaml.Node, yaml.Node]] = []
+        if isinstance(node, yaml.MappingNode):
+            children = [(key.value, key, value) for key, value in node.value]
+        elif isinstance(node, yaml.SequenceNode):
+            children = [(str(index), item, item) for index, item in enumerate(node.value)]
+        for name, start, value in children:
+            inner = (*path, name)
+            found[inner] = start.start_mark.line + 1
+            walk(value, inner)
+
+    root = yaml.compose(text, Loader=_LOADER)
+    assert root is not None
+    walk(root, ())
+    return found
 
 
 def diagnose(path: Path) -> tuple[Diagnostic, ...]:
@@ -103,12 +173,11 @@ def _typed(value: Any) -> Any:
 
 
 def _merge_description(fragment: str, path: Path) -> None:
-    """Replace the links and joints that the fragment names, and add those that are new."""
+    """Replace the links and joints that the fragment names, and add those that are new, all on their lines."""
     robot = ElementTree.fromstring(path.read_text(encoding="utf-8"))
-    new = list(ElementTree.fromstring(f"<robot>{fragment}</robot>"))
-    named = {(element.tag, element.get("name")) for element in new}
+    named = {(element.tag, element.get("name")) for element in ElementTree.fromstring(f"<robot>{fragment}</robot>")}
     for element in list(robot):
         if (element.tag, element.get("name")) in named:
             robot.remove(element)
-    robot.extend(new)
-    path.write_text(ElementTree.tostring(robot, encoding="unicode"), encoding="utf-8")
+    text = ElementTree.tostring(robot, encoding="unicode")
+    path.write_text(text.replace("</robot>", f"\n{fragment}</robot>"), encoding="utf-8")

@@ -9,7 +9,7 @@ import pytest
 
 from cellc.rules.kit import FAMILIES, Rule
 from cellc.rules.run import ALL_RULES
-from tests.rules.examples import Example, diagnose_example, examples
+from tests.rules.examples import Example, diagnose_example, examples, marks, matches, places
 
 RULES = [pytest.param(rule, id=rule.code) for rule in ALL_RULES]
 FOLDER = Path(__file__).resolve().parents[2] / "cellc" / "rules"
@@ -54,15 +54,22 @@ def test_page_has_title_reason_examples_fix_and_source(rule: Rule) -> None:
 
 
 @pytest.mark.parametrize("rule", RULES)
-def test_reported_example_is_reported(rule: Rule, tmp_path: Path) -> None:
+def test_reported_example_is_reported_where_it_is_marked_and_nowhere_else(rule: Rule, tmp_path: Path) -> None:
     reported, _ = examples(rule)
-    diagnostics = diagnose_example(reported, tmp_path)
-    assert rule.code in {diagnostic.code for diagnostic in diagnostics}, diagnostics
-    for diagnostic in diagnostics:
-        if diagnostic.code == rule.code:
-            assert diagnostic.severity is rule.severity
-            assert diagnostic.help
-            assert "\n" not in diagnostic.message
+    found = sorted(places(reported, tmp_path), key=lambda place: (place.code, place.line))
+    expected = sorted(marks(rule, reported), key=lambda place: (place.code, place.line))
+    assert rule.code in {place.code for place in expected}
+    assert len(found) == len(expected), found
+    assert all(map(matches, found, expected)), found
+
+
+@pytest.mark.parametrize("rule", RULES)
+def test_finding_of_the_example_has_the_severity_of_its_rule_and_help_in_one_line(rule: Rule, tmp_path: Path) -> None:
+    for found in diagnose_example(examples(rule)[0], tmp_path):
+        if found.code == rule.code:
+            assert found.severity is rule.severity
+            assert found.help
+            assert "\n" not in found.message + found.help
 
 
 @pytest.mark.parametrize("rule", RULES)

@@ -7,7 +7,7 @@ Example that is reported:
 
 ```yaml
 nodes:
-  task: {parameters: {stream: "rtsp://viewer:hunter2@10.10.0.40/live"}}
+  task: {parameters: {stream: "rtsp://viewer:hunter2@10.10.0.40/live"}}  # expect at stream
 ```
 
 Example that is accepted:

@@ -11,7 +11,7 @@ bringup:
     direction: +
     max_delta: 10 deg
     velocity: 1 deg/s
-    timeout: 5 s
+    timeout: 5 s  # expect at timeout
     stop_if: [wrong direction]
 ```
 

@@ -7,7 +7,7 @@ Example that is reported:
 ```yaml
 bringup:
   first_motion:
-    joint: arm/joint_7
+    joint: arm/joint_7  # expect at joint
     direction: +
     max_delta: 5 deg
     velocity: 5 deg/s

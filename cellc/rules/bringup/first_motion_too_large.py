@@ -9,7 +9,7 @@ bringup:
   first_motion:
     joint: arm/joint_6
     direction: +
-    max_delta: 90 deg
+    max_delta: 90 deg  # expect at max_delta
     velocity: 5 deg/s
     timeout: 20 s
     stop_if: [wrong direction]

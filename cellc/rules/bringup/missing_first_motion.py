@@ -6,7 +6,7 @@ it.
 Example that is reported:
 
 ```yaml
-bringup: {first_motion: null}
+bringup: {first_motion: null}  # expect at bringup
 ```
 
 Example that is accepted:

@@ -6,7 +6,7 @@ mistake moves the arm.
 Example that is reported:
 
 ```yaml
-bringup: {gates: [L1, L2, L3, L4, L5, L6, G0, G1, G2, G3, G4, G5, G7]}
+bringup: {gates: [L1, L2, L3, L4, L5, L6, G0, G1, G2, G3, G4, G5, G7]}  # expect at gates
 ```
 
 Example that is accepted:

@@ -7,7 +7,7 @@ Example that is reported:
 
 ```yaml
 nodes:
-  task: {respawn: true}
+  task: {respawn: true}  # expect at respawn
 ```
 
 Example that is accepted:

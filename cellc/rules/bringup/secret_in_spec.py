@@ -6,7 +6,7 @@ Example that is reported:
 
 ```yaml
 nodes:
-  task: {parameters: {api_token: 9f2c1a77}}
+  task: {parameters: {api_token: 9f2c1a77}}  # expect at api_token
 ```
 
 Example that is accepted:

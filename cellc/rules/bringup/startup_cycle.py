@@ -12,7 +12,8 @@ nodes:
 interfaces:
   /to_left: {service: std_srvs/srv/Trigger, server: left, client: right, timeout: 1 s, on_timeout: error,
              on_error: response.success is false}
-  /to_right: {service: std_srvs/srv/Trigger, server: right, client: left, timeout: 1 s, on_timeout: error,
+  /to_right: {service: std_srvs/srv/Trigger, server: right, client: left, timeout: 1 s,  # expect at /to_right
+              on_timeout: error,
               on_error: response.success is false}
 ```
 

@@ -7,7 +7,7 @@ Example that is reported:
 
 ```yaml
 nodes:
-  warmer: {run: cell_tasks/warmer, host: control_pc, owner: integration}
+  warmer: {run: cell_tasks/warmer, host: control_pc, owner: integration}  # expect at warmer
 ```
 
 Example that is accepted:

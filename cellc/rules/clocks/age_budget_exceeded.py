@@ -7,7 +7,7 @@ Example that is reported:
 
 ```yaml
 interfaces:
-  /object_pose: {max_age: 120 ms}
+  /object_pose: {max_age: 120 ms}  # expect at max_age
 ```
 
 Example that is accepted:

@@ -6,7 +6,8 @@ Example that is reported:
 
 ```yaml
 devices:
-  camera: {stamp: {source: hardware, clock: camera, synchronised_by: global_time, max_offset: 500 ms}}
+  camera: {stamp: {source: hardware, clock: camera, synchronised_by: global_time,
+                   max_offset: 500 ms}}  # expect at max_offset
 ```
 
 Example that is accepted:

@@ -8,7 +8,7 @@ Example that is reported:
 ```yaml
 interfaces:
   /markers: {topic: geometry_msgs/msg/PoseStamped, from: perception, to: {task: {depth: 1}}, frame: world,
-             wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: continue}
+             wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: continue}  # expect at on_stale
 ```
 
 Example that is accepted:

@@ -7,7 +7,8 @@ Example that is reported:
 
 ```yaml
 interfaces:
-  /inspect: {service: std_srvs/srv/Trigger, server: perception, client: task, timeout: 1 s, on_timeout: continue,
+  /inspect: {service: std_srvs/srv/Trigger, server: perception, client: task, timeout: 1 s,
+             on_timeout: continue,  # expect at on_timeout
              on_error: response.success is false}
 ```
 

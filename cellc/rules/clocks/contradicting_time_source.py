@@ -8,7 +8,8 @@ Example that is reported:
 ```yaml
 interfaces:
   /preview: {topic: sensor_msgs/msg/Image, from: perception, to: {task: {depth: 1}}, frame: camera/color_optical,
-             wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: reject_goal, time_source: hardware}
+             wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: reject_goal,
+             time_source: hardware}  # expect at time_source
 ```
 
 Example that is accepted:

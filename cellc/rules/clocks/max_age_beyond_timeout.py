@@ -7,7 +7,8 @@ Example that is reported:
 ```yaml
 interfaces:
   /markers: {topic: geometry_msgs/msg/PoseStamped, from: perception, to: {task: {depth: 1}}, frame: world,
-             wants: newest, rate: 10 Hz, max_age: 60 s, on_stale: reject_goal}
+             wants: newest, rate: 10 Hz, max_age: 60 s, on_stale: reject_goal}  # expect at max_age
+# expect: short-transform-buffer at frames.object.buffer
 ```
 
 Example that is accepted:

@@ -9,7 +9,7 @@ Example that is reported:
 ```yaml
 interfaces:
   /markers: {topic: geometry_msgs/msg/PoseStamped, from: perception, to: {task: {depth: 1}}, frame: world,
-             wants: newest, rate: 10 Hz, max_age: 50 ms, on_stale: reject_goal}
+             wants: newest, rate: 10 Hz, max_age: 50 ms, on_stale: reject_goal}  # expect at max_age
 ```
 
 Example that is accepted:

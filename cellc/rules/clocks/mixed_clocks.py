@@ -7,7 +7,7 @@ Example that is reported:
 
 ```yaml
 nodes:
-  perception: {clock: sim}
+  perception: {clock: sim}  # expect at clock
 ```
 
 Example that is accepted:

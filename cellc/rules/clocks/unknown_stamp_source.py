@@ -7,7 +7,7 @@ Example that is reported:
 
 ```yaml
 devices:
-  camera: {stamp: {source: UNKNOWN}}
+  camera: {stamp: {source: UNKNOWN}}  # expect at source
 ```
 
 Example that is accepted:

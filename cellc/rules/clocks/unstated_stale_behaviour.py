@@ -6,7 +6,8 @@ Example that is reported:
 
 ```yaml
 interfaces:
-  /markers: {topic: geometry_msgs/msg/PoseStamped, from: perception, to: {task: {depth: 1}}, frame: world,
+  /markers: {topic: geometry_msgs/msg/PoseStamped, from: perception, to: {task: {depth: 1}},  # expect at /markers
+             frame: world,
              wants: newest, rate: 10 Hz, max_age: 200 ms}
 ```
 

@@ -6,7 +6,7 @@ Example that is reported:
 
 ```yaml
 hosts:
-  vision_pc: {scheduling: generic, clock: {domain: ros}}
+  vision_pc: {scheduling: generic, clock: {domain: ros}}  # expect at clock
 network: {discovery: multicast}
 safety: {stop: {independent_of: [control_pc, vision_pc]}}
 ```

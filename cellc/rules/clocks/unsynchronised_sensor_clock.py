@@ -7,7 +7,7 @@ Example that is reported:
 
 ```yaml
 devices:
-  camera: {stamp: {source: hardware, clock: camera, synchronised_by: null, max_offset: null}}
+  camera: {stamp: {source: hardware, clock: camera, synchronised_by: null, max_offset: null}}  # expect at stamp
 ```
 
 Example that is accepted:

@@ -9,7 +9,8 @@ Example that is reported:
 control:
   controllers:
     gripper_action: null
-    gripper_trajectory: {type: joint_trajectory, device: gripper, client: task, goal_time: 1 s, path_tolerance: 0.2 rad,
+    gripper_trajectory: {type: joint_trajectory, device: gripper, client: task,  # expect at gripper_trajectory
+                         goal_time: 1 s, path_tolerance: 0.2 rad,
                          goal_tolerance: 0.1 rad,
                          parameters: {speed_scaling.state_interface: arm_speed_scaling/speed_scaling_factor}}
 ```

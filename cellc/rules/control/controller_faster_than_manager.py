@@ -7,7 +7,7 @@ Example that is reported:
 ```yaml
 control:
   controllers:
-    arm_trajectory: {update_rate: 1000 Hz}
+    arm_trajectory: {update_rate: 1000 Hz}  # expect at update_rate
 ```
 
 Example that is accepted:

@@ -8,7 +8,7 @@ Example that is reported:
 ```yaml
 control:
   controllers:
-    arm_trajectory: {path_tolerance: 0.05 rad, goal_tolerance: 0.1 rad}
+    arm_trajectory: {path_tolerance: 0.05 rad, goal_tolerance: 0.1 rad}  # expect at goal_tolerance
 ```
 
 Example that is accepted:

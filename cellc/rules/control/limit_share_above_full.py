@@ -6,7 +6,7 @@ the vendor's controller ends with a protective stop.
 Example that is reported:
 
 ```yaml
-devices: {arm: {limits: {velocity: 150 %}}}
+devices: {arm: {limits: {velocity: 150 %}}}  # expect at velocity
 ```
 
 Example that is accepted:

@@ -5,7 +5,7 @@ A share of zero or less leaves no trajectory that ends. Whoever wants to hold an
 Example that is reported:
 
 ```yaml
-devices: {arm: {limits: {velocity: 0 %}}}
+devices: {arm: {limits: {velocity: 0 %}}}  # expect at velocity
 ```
 
 Example that is accepted:

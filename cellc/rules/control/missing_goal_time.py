@@ -8,7 +8,7 @@ Example that is reported:
 ```yaml
 control:
   controllers:
-    arm_trajectory: {goal_time: null}
+    arm_trajectory: {goal_time: null}  # expect at arm_trajectory
 ```
 
 Example that is accepted:

@@ -7,7 +7,7 @@ Example that is reported:
 ```yaml
 control:
   controllers:
-    arm_trajectory: {goal_tolerance: null}
+    arm_trajectory: {goal_tolerance: null}  # expect at arm_trajectory
 ```
 
 Example that is accepted:

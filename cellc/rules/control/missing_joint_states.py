@@ -6,7 +6,7 @@ Example that is reported:
 
 ```yaml
 control:
-  controllers:
+  controllers:  # expect at controllers
     joint_states: null
 ```
 

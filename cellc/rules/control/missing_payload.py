@@ -6,7 +6,7 @@ triggers for nothing or not at all, and the brakes are loaded.
 Example that is reported:
 
 ```yaml
-devices: {arm: {payload: null}}
+devices: {arm: {payload: null}}  # expect at arm
 ```
 
 Example that is accepted:

@@ -6,7 +6,8 @@ Example that is reported:
 
 ```yaml
 devices:
-  bare_arm: {model: ./bare_arm, mount: {parent: world, xyz: 0 2 0 m}, revision: A, firmware: bare 1.0.0}
+  bare_arm: {model: ./bare_arm, mount: {parent: world, xyz: 0 2 0 m}, revision: A,  # expect at model
+             firmware: bare 1.0.0}
 ```
 
 Example that is accepted:

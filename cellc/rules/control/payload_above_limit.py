@@ -5,7 +5,7 @@ Beyond its payload the arm keeps neither its path nor its stopping distance.
 Example that is reported:
 
 ```yaml
-devices: {arm: {payload: {mass: 50 kg, center_of_mass: 0 0 58 mm}}}
+devices: {arm: {payload: {mass: 50 kg, center_of_mass: 0 0 58 mm}}}  # expect at mass
 ```
 
 Example that is accepted:

@@ -5,7 +5,7 @@ The masses of the mounted devices alone exceed the payload that the controller i
 Example that is reported:
 
 ```yaml
-devices: {arm: {payload: {mass: 0.1 kg, center_of_mass: 0 0 58 mm}}}
+devices: {arm: {payload: {mass: 0.1 kg, center_of_mass: 0 0 58 mm}}}  # expect at mass
 ```
 
 Example that is accepted:

@@ -7,7 +7,7 @@ Example that is reported:
 ```yaml
 control:
   controllers:
-    arm_trajectory: {command_interfaces: [velocity, position]}
+    arm_trajectory: {command_interfaces: [velocity, position]}  # expect at command_interfaces
 ```
 
 Example that is accepted:

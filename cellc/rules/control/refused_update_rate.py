@@ -6,7 +6,7 @@ or stops with a communication error.
 Example that is reported:
 
 ```yaml
-control: {update_rate: 400 Hz}
+control: {update_rate: 400 Hz}  # expect at update_rate
 ```
 
 Example that is accepted:

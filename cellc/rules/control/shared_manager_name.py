@@ -6,7 +6,7 @@ Example that is reported:
 
 ```yaml
 managers:
-  second:
+  second:  # expect at second
     update_rate: 500 Hz
     controllers: {second_states: {type: joint_state_broadcaster}}
 ```

@@ -8,7 +8,7 @@ Example that is reported:
 ```yaml
 control:
   controllers:
-    arm_trajectory: {update_rate: 300 Hz}
+    arm_trajectory: {update_rate: 300 Hz}  # expect at update_rate
 ```
 
 Example that is accepted:

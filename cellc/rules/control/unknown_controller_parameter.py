@@ -7,7 +7,7 @@ Example that is reported:
 ```yaml
 control:
   controllers:
-    arm_trajectory: {parameters: {action_monitor_rat: 50.0}}
+    arm_trajectory: {parameters: {action_monitor_rat: 50.0}}  # expect at action_monitor_rat
 ```
 
 Example that is accepted:

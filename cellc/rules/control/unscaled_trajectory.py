@@ -8,7 +8,7 @@ Example that is reported:
 ```yaml
 control:
   controllers:
-    arm_trajectory: {type: joint_trajectory}
+    arm_trajectory: {type: joint_trajectory}  # expect at type
 ```
 
 Example that is accepted:

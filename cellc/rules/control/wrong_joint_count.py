@@ -8,7 +8,7 @@ Example that is reported:
 ```yaml
 control:
   controllers:
-    gripper_action: {device: camera}
+    gripper_action: {device: camera}  # expect at device
 ```
 
 Example that is accepted:

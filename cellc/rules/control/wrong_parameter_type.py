@@ -7,7 +7,7 @@ Example that is reported:
 ```yaml
 control:
   controllers:
-    arm_trajectory: {parameters: {action_monitor_rate: 50}}
+    arm_trajectory: {parameters: {action_monitor_rate: 50}}  # expect at action_monitor_rate
 ```
 
 Example that is accepted:

@@ -6,7 +6,7 @@ Example that is reported:
 
 ```yaml
 interfaces:
-  /move_action: {cancel_within: 800 ms}
+  /move_action: {cancel_within: 800 ms}  # expect at cancel_within
 ```
 
 Example that is accepted:

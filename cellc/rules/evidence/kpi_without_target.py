@@ -5,7 +5,7 @@ A figure without a target is looked at when it is good.
 Example that is reported:
 
 ```yaml
-kpis: {recovery_time: null}
+kpis: {recovery_time: null}  # expect at kpis
 ```
 
 Example that is accepted:

@@ -7,7 +7,7 @@ Example that is reported:
 
 ```yaml
 rehearsals:
-  lost_frame: {use: pick_and_place, inject: {drop_frame: object, at: 0 s}, expect: timeout}
+  lost_frame: {use: pick_and_place, inject: {drop_frame: object, at: 0 s}, expect: timeout}  # expect at expect
 ```
 
 Example that is accepted:

@@ -6,7 +6,7 @@ without the controller's name nobody knows who moved.
 Example that is reported:
 
 ```yaml
-recording: {attempt_fields: [attempt_id, goal_frame, goal_stamp]}
+recording: {attempt_fields: [attempt_id, goal_frame, goal_stamp]}  # expect at attempt_fields
 ```
 
 Example that is accepted:

@@ -5,7 +5,7 @@ One command of a wrong owner is one too many, and a stale sample that is used is
 Example that is reported:
 
 ```yaml
-kpis: {wrong_owner_events: 3}
+kpis: {wrong_owner_events: 3}  # expect at wrong_owner_events
 ```
 
 Example that is accepted:

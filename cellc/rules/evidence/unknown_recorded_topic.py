@@ -5,7 +5,7 @@ The bag has no such channel, and it is noticed when it is needed.
 Example that is reported:
 
 ```yaml
-recording: {topics: [/object_posee]}
+recording: {topics: [/object_posee]}  # expect at topics.0
 ```
 
 Example that is accepted:

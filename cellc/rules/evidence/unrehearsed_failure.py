@@ -6,7 +6,7 @@ nothing.
 Example that is reported:
 
 ```yaml
-rehearsals: {stale_camera: null}
+rehearsals: {stale_camera: null}  # expect at rehearsals
 ```
 
 Example that is accepted:

@@ -7,7 +7,8 @@ Example that is reported:
 
 ```yaml
 devices:
-  side_arm: {model: ./turned_arm, mount: {parent: world, xyz: 0 2 0 m}, revision: A, firmware: bare 1.0.0}
+  side_arm: {model: ./turned_arm, mount: {parent: world, xyz: 0 2 0 m}, revision: A,  # expect at model
+             firmware: bare 1.0.0}
 ```
 
 Example that is accepted:

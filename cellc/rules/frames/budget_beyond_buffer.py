@@ -8,7 +8,7 @@ Example that is reported:
 
 ```yaml
 frames:
-  object: {buffer: 600 ms}
+  object: {buffer: 600 ms}  # expect at buffer
 ```
 
 Example that is accepted:

@@ -10,7 +10,7 @@ calibrations:
   tray: {revision: 1, measured: 2026-07-02, method: touch probe, samples: 5, residual: 0.3 mm, owner: perception}
 frames:
   tray: {parent: world, xyz: 0.4 0.1 0.8 m, calibration: tray}
-  bin: {parent: world, xyz: 0.1 0.5 0.8 m, calibration: tray}
+  bin: {parent: world, xyz: 0.1 0.5 0.8 m, calibration: tray}  # expect at calibration
 ```
 
 Example that is accepted:

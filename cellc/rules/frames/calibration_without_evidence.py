@@ -6,7 +6,7 @@ Example that is reported:
 
 ```yaml
 calibrations:
-  spare: {revision: 1, measured: 2026-07-02, method: touch probe, owner: perception}
+  spare: {revision: 1, measured: 2026-07-02, method: touch probe, owner: perception}  # expect at spare
 frames:
   tray: {parent: world, calibration: spare}
 ```

@@ -6,7 +6,8 @@ Example that is reported:
 
 ```yaml
 calibrations:
-  fixture_a: {revision: 2, measured: 2026-07-02, method: touch probe, samples: 5, residual: 0.3 mm, owner: UNKNOWN}
+  fixture_a: {revision: 2, measured: 2026-07-02, method: touch probe, samples: 5, residual: 0.3 mm,
+              owner: UNKNOWN}  # expect at owner
 ```
 
 Example that is accepted:

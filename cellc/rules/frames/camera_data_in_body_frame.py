@@ -7,7 +7,8 @@ Example that is reported:
 
 ```yaml
 interfaces:
-  /depth: {topic: sensor_msgs/msg/Image, from: camera, to: [perception], frame: camera/link,
+  /depth: {topic: sensor_msgs/msg/Image, from: camera, to: [perception],  # expect: backlog-of-newest at to.0
+           frame: camera/link,  # expect at frame
            wants: newest, rate: 30 Hz, max_age: 200 ms, on_stale: reject_goal}
 ```
 

@@ -7,7 +7,7 @@ Example that is reported:
 
 ```yaml
 frames:
-  part: {parent: world, dynamic: true, published_by: perception}
+  part: {parent: world, dynamic: true, published_by: perception}  # expect at part
 ```
 
 Example that is accepted:

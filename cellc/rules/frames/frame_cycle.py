@@ -6,7 +6,7 @@ Example that is reported:
 
 ```yaml
 frames:
-  left: {parent: right, designed: true}
+  left: {parent: right, designed: true}  # expect at parent
   right: {parent: left, designed: true}
 ```
 

@@ -9,7 +9,7 @@ Example that is reported:
 calibrations:
   tray: {revision: 1, measured: 2026-07-02, method: touch probe, samples: 5, residual: 0.3 mm, owner: perception}
 frames:
-  tray: {parent: world, xyz: 400 100 850 m, calibration: tray}
+  tray: {parent: world, xyz: 400 100 850 m, calibration: tray}  # expect at xyz
 ```
 
 Example that is accepted:

@@ -8,7 +8,7 @@ Example that is reported:
 ```yaml
 motion:
   goals:
-    regrasp: {frame: object, rpy: 180 0 0 deg, transform_at: latest}
+    regrasp: {frame: object, rpy: 180 0 0 deg, transform_at: latest}  # expect at transform_at
 ```
 
 Example that is accepted:

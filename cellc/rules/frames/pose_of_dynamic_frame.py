@@ -6,7 +6,7 @@ Example that is reported:
 
 ```yaml
 frames:
-  part: {parent: world, xyz: 1 0 0 m, dynamic: true, published_by: perception, rate: 10 Hz}
+  part: {parent: world, xyz: 1 0 0 m, dynamic: true, published_by: perception, rate: 10 Hz}  # expect at xyz
 ```
 
 Example that is accepted:

@@ -7,7 +7,7 @@ Example that is reported:
 
 ```yaml
 frames:
-  tray: {parent: world, designed: true, published_by: perception}
+  tray: {parent: world, designed: true, published_by: perception}  # expect at published_by
 ```
 
 Example that is accepted:

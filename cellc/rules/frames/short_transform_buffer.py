@@ -7,7 +7,7 @@ Example that is reported:
 
 ```yaml
 frames:
-  part: {parent: world, dynamic: true, published_by: perception, rate: 10 Hz, buffer: 100 ms}
+  part: {parent: world, dynamic: true, published_by: perception, rate: 10 Hz, buffer: 100 ms}  # expect at buffer
 ```
 
 Example that is accepted:

@@ -8,7 +8,7 @@ Example that is reported:
 ```yaml
 motion:
   groups:
-    elbow: {base: arm/base_link, tip: arm/link_4}
+    elbow: {base: arm/base_link, tip: arm/link_4}  # expect at tip
 ```
 
 Example that is accepted:

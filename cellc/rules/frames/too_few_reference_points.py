@@ -9,7 +9,7 @@ Example that is reported:
 calibrations:
   tray: {revision: 1, measured: 2026-07-02, method: touch probe, samples: 5, residual: 0.3 mm, owner: perception}
 frames:
-  tray: {parent: world, calibration: tray, reference_points: 2}
+  tray: {parent: world, calibration: tray, reference_points: 2}  # expect at reference_points
 ```
 
 Example that is accepted:

@@ -8,7 +8,7 @@ Example that is reported:
 ```yaml
 devices:
   side_camera:
-    model: ./turned_camera
+    model: ./turned_camera  # expect at model
     mount: {parent: world, xyz: 1 0 1 m, calibration: side}
     revision: C
     firmware: sensor 5.16.0

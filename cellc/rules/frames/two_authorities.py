@@ -7,7 +7,7 @@ Example that is reported:
 
 ```yaml
 frames:
-  camera_link: {parent: world, xyz: 0 0 1 m, designed: true}
+  camera_link: {parent: world, xyz: 0 0 1 m, designed: true}  # expect at camera_link
 ```
 
 Example that is accepted:

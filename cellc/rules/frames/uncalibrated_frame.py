@@ -7,7 +7,7 @@ Example that is reported:
 
 ```yaml
 frames:
-  tray: {parent: world, xyz: 0.4 0.1 0.8 m}
+  tray: {parent: world, xyz: 0.4 0.1 0.8 m}  # expect at tray
 ```
 
 Example that is accepted:

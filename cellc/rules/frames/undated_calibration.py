@@ -6,7 +6,8 @@ Example that is reported:
 
 ```yaml
 calibrations:
-  fixture_a: {revision: 2, method: touch probe, samples: 5, residual: 0.3 mm, owner: perception, measured: UNKNOWN}
+  fixture_a: {revision: 2, method: touch probe, samples: 5, residual: 0.3 mm, owner: perception,
+              measured: UNKNOWN}  # expect at measured
 ```
 
 Example that is accepted:

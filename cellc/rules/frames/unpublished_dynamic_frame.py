@@ -6,7 +6,7 @@ Example that is reported:
 
 ```yaml
 frames:
-  part: {parent: world, dynamic: true, rate: 10 Hz}
+  part: {parent: world, dynamic: true, rate: 10 Hz}  # expect at part
 ```
 
 Example that is accepted:

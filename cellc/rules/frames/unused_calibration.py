@@ -6,7 +6,8 @@ Example that is reported:
 
 ```yaml
 calibrations:
-  spare: {revision: 1, measured: 2026-07-02, method: touch probe, samples: 5, residual: 0.3 mm, owner: perception}
+  spare: {revision: 1, measured: 2026-07-02, method: touch probe, samples: 5, residual: 0.3 mm,  # expect at spare
+          owner: perception}
 ```
 
 Example that is accepted:

@@ -6,7 +6,8 @@ Example that is reported:
 
 ```yaml
 interfaces:
-  /dock: {action: moveit_msgs/action/MoveGroup, server: dock, client: task, frame: world, timeout: 20 s,
+  /dock: {action: moveit_msgs/action/MoveGroup, server: dock, client: task, frame: world,  # expect at /dock
+          timeout: 20 s,
           on_timeout: cancel_and_hold}
 nodes:
   dock: {run: cell_tasks/dock, host: control_pc, owner: integration}

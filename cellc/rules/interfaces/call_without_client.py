@@ -6,7 +6,8 @@ Example that is reported:
 
 ```yaml
 interfaces:
-  /inspect: {service: std_srvs/srv/Trigger, server: perception, client: [], timeout: 1 s, on_timeout: error,
+  /inspect: {service: std_srvs/srv/Trigger, server: perception, client: [], timeout: 1 s,  # expect at client
+             on_timeout: error,
              on_error: response.success is false}
 ```
 

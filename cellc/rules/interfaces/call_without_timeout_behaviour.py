@@ -6,7 +6,7 @@ Example that is reported:
 
 ```yaml
 interfaces:
-  /inspect: {service: std_srvs/srv/Trigger, server: perception, client: task, timeout: 1 s,
+  /inspect: {service: std_srvs/srv/Trigger, server: perception, client: task, timeout: 1 s,  # expect at /inspect
              on_error: response.success is false}
 ```
 

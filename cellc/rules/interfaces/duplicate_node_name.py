@@ -8,6 +8,7 @@ Example that is reported:
 ```yaml
 nodes:
   arm_trajectory: {run: cell_tasks/tracker, host: control_pc, owner: integration}
+# expect at control.controllers.arm_trajectory
 ```
 
 Example that is accepted:

@@ -7,7 +7,7 @@ Example that is reported:
 
 ```yaml
 interfaces:
-  /move_action/_action/feedback:
+  /move_action/_action/feedback:  # expect at /move_action/_action/feedback
              {topic: geometry_msgs/msg/PoseStamped, from: perception, to: {task: {depth: 1}}, frame: world,
              wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: reject_goal}
 ```

@@ -6,7 +6,8 @@ Example that is reported:
 
 ```yaml
 interfaces:
-  /camera-markers: {topic: geometry_msgs/msg/PoseStamped, from: perception, to: {task: {depth: 1}}, frame: world,
+  /camera-markers: {topic: geometry_msgs/msg/PoseStamped, from: perception,  # expect at /camera-markers
+                    to: {task: {depth: 1}}, frame: world,
              wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: reject_goal}
 ```
 

@@ -6,7 +6,7 @@ Example that is reported:
 
 ```yaml
 hosts:
-  control_pc: {clock: {simulated_drift: 200000 ppm}}
+  control_pc: {clock: {simulated_drift: 200000 ppm}}  # expect at simulated_drift
 ```
 
 Example that is accepted:

@@ -7,7 +7,8 @@ Example that is reported:
 
 ```yaml
 interfaces:
-  /inspect: {service: sensor_msgs/msg/Image, server: perception, client: task, timeout: 1 s, on_timeout: error,
+  /inspect: {service: sensor_msgs/msg/Image, server: perception, client: task, timeout: 1 s,  # expect at service
+             on_timeout: error,
              on_error: response.success is false}
 ```
 

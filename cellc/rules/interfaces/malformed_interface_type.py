@@ -6,7 +6,8 @@ Example that is reported:
 
 ```yaml
 interfaces:
-  /markers: {topic: geometry_msgs/PoseStamped, from: perception, to: {task: {depth: 1}}, frame: world,
+  /markers: {topic: geometry_msgs/PoseStamped, from: perception, to: {task: {depth: 1}},  # expect at topic
+             frame: world,
              wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: reject_goal}
 ```
 

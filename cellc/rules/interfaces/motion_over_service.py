@@ -7,7 +7,8 @@ Example that is reported:
 
 ```yaml
 interfaces:
-  /move_to_bin: {service: cell_msgs/srv/MoveToPose, server: move_group, client: task, timeout: 20 s,
+  /move_to_bin: {service: cell_msgs/srv/MoveToPose, server: move_group, client: task,  # expect at service
+                 timeout: 20 s,
                  on_timeout: error, on_error: response.success is false}
 ```
 

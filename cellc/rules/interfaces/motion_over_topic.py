@@ -7,7 +7,8 @@ Example that is reported:
 
 ```yaml
 interfaces:
-  /arm_trajectory/joint_trajectory: {topic: trajectory_msgs/msg/JointTrajectory, from: task, to: [arm_trajectory],
+  /arm_trajectory/joint_trajectory: {topic: trajectory_msgs/msg/JointTrajectory, from: task,
+                                     to: [arm_trajectory],  # expect at to.0
                                      wants: every_sample, rate: 1 Hz, max_age: 2 s, on_stale: ignore_sample,
                                      frame: world}
 ```

@@ -6,7 +6,8 @@ Example that is reported:
 
 ```yaml
 interfaces:
-  /inspect: {service: std_srvs/srv/Trigger, server: perception, client: task, timeout: 1 s, on_timeout: error}
+  /inspect: {service: std_srvs/srv/Trigger, server: perception, client: task, timeout: 1 s,  # expect at /inspect
+             on_timeout: error}
 ```
 
 Example that is accepted:

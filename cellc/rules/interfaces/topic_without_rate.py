@@ -6,7 +6,8 @@ Example that is reported:
 
 ```yaml
 interfaces:
-  /markers: {topic: geometry_msgs/msg/PoseStamped, from: perception, to: {task: {depth: 1}}, frame: world,
+  /markers: {topic: geometry_msgs/msg/PoseStamped, from: perception, to: {task: {depth: 1}},  # expect at /markers
+             frame: world,
              wants: newest, max_age: 200 ms, on_stale: reject_goal}
 ```
 

@@ -6,7 +6,7 @@ Example that is reported:
 
 ```yaml
 interfaces:
-  /camera/camera/color/camera_info: {topic: sensor_msgs/msg/Image, from: {camera: {depth: 1}},
+  /camera/camera/color/camera_info: {topic: sensor_msgs/msg/Image, from: {camera: {depth: 1}},  # expect at topic
                                      to: {perception: {depth: 1}}, frame: camera/color_optical, wants: newest,
                                      rate: 30 Hz, max_age: 100 ms, on_stale: reject_goal}
 ```

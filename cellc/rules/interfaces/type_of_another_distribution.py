@@ -7,11 +7,14 @@ Example that is reported:
 
 ```yaml
 interfaces:
-  /squeeze: {action: control_msgs/action/ParallelGripperCommand, server: squeezer, client: task, frame: world,
+  /squeeze: {action: control_msgs/action/ParallelGripperCommand, server: squeezer, client: task,  # expect at action
+             frame: world,
              timeout: 5 s, on_timeout: cancel_and_hold, cancel_within: 200 ms}
 versions: {os: ubuntu 22.04, ros: humble, rmw: rmw_fastrtps_cpp 6.2.10, ros2_control: 2.54.0, moveit: 2.5.9}
 nodes: {squeezer: {run: cell_tasks/squeezer, host: control_pc, owner: integration}}
 control: {controllers: {gripper_action: null}}
+# expect: version-outside-matrix at devices.arm.driver
+# expect: gripper-without-controller at rehearsals.pick_and_place.steps.3.grip
 ```
 
 Example that is accepted:

@@ -6,7 +6,7 @@ Example that is reported:
 
 ```yaml
 interfaces:
-  /dock: {action: moveit_msgs/action/MoveGroup, server: dock, client: task, frame: world,
+  /dock: {action: moveit_msgs/action/MoveGroup, server: dock, client: task, frame: world,  # expect at /dock
           on_timeout: cancel_and_hold, cancel_within: 200 ms}
 nodes:
   dock: {run: cell_tasks/dock, host: control_pc, owner: integration}

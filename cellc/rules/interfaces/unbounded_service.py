@@ -6,7 +6,7 @@ Example that is reported:
 
 ```yaml
 interfaces:
-  /inspect: {service: std_srvs/srv/Trigger, server: perception, client: task, on_timeout: error,
+  /inspect: {service: std_srvs/srv/Trigger, server: perception, client: task, on_timeout: error,  # expect at /inspect
              on_error: response.success is false}
 ```
 

@@ -7,7 +7,8 @@ Example that is reported:
 
 ```yaml
 interfaces:
-  /part_height: {topic: std_msgs/msg/Float64, from: perception, to: {task: {depth: 1}}, wants: newest, rate: 10 Hz,
+  /part_height: {topic: std_msgs/msg/Float64, from: perception, to: {task: {depth: 1}},  # expect at /part_height
+                 wants: newest, rate: 10 Hz,
                  max_age: 200 ms, on_stale: reject_goal}
 ```
 

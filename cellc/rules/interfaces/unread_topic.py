@@ -6,7 +6,7 @@ Example that is reported:
 
 ```yaml
 interfaces:
-  /markers: {topic: geometry_msgs/msg/PoseStamped, from: perception, to: [], frame: world,
+  /markers: {topic: geometry_msgs/msg/PoseStamped, from: perception, to: [], frame: world,  # expect at /markers
              wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: reject_goal}
 ```
 

@@ -6,7 +6,7 @@ an end.
 Example that is reported:
 
 ```xml
-<joint name="slide" type="prismatic">
+<joint name="slide" type="prismatic">  <!-- expect -->
   <parent link="base"/> <child link="carriage"/> <axis xyz="0 0 1"/>
   <limit lower="0" upper="0.5" velocity="1" effort="10"/>
   <mimic joint="slide"/>

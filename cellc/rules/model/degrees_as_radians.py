@@ -6,7 +6,7 @@ winds up the cables.
 Example that is reported:
 
 ```xml
-<joint name="turn" type="revolute">
+<joint name="turn" type="revolute">  <!-- expect -->
   <parent link="base"/> <child link="arm"/> <axis xyz="0 0 1"/>
   <limit lower="-180" upper="180" velocity="1" effort="10"/>
 </joint>

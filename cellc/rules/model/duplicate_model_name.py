@@ -6,7 +6,7 @@ Example that is reported:
 
 ```xml
 <joint name="slide" type="fixed"><parent link="base"/> <child link="carriage"/></joint>
-<joint name="slide" type="fixed"><parent link="arm"/> <child link="probe"/></joint>
+<joint name="slide" type="fixed"><parent link="arm"/> <child link="probe"/></joint>  <!-- expect -->
 <link name="probe"/>
 ```
 

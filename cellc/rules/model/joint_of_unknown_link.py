@@ -5,7 +5,7 @@ The tree breaks off there: everything behind the joint is lost to TF, to the pla
 Example that is reported:
 
 ```xml
-<joint name="slide" type="fixed"><parent link="armm"/> <child link="carriage"/></joint>
+<joint name="slide" type="fixed"><parent link="armm"/> <child link="carriage"/></joint>  <!-- expect -->
 ```
 
 Example that is accepted:

@@ -7,7 +7,7 @@ Example that is reported:
 
 ```xml
 <joint name="slide" type="fixed"><parent link="arm"/> <child link="carriage"/></joint>
-<joint name="bridge" type="fixed"><parent link="base"/> <child link="carriage"/></joint>
+<joint name="bridge" type="fixed"><parent link="base"/> <child link="carriage"/></joint>  <!-- expect -->
 ```
 
 Example that is accepted:

@@ -7,7 +7,7 @@ Example that is reported:
 
 ```xml
 <joint name="flange" type="fixed"><parent link="arm"/> <child link="tool"/></joint>
-<joint name="slide" type="prismatic">
+<joint name="slide" type="prismatic">  <!-- expect -->
   <parent link="base"/> <child link="carriage"/> <axis xyz="0 0 1"/>
   <limit lower="0" upper="0.5" velocity="1" effort="10"/>
   <mimic joint="flange"/>

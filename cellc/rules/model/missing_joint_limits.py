@@ -6,7 +6,7 @@ one takes infinity; the planner then moves the joint into its mechanical stop.
 Example that is reported:
 
 ```xml
-<joint name="slide" type="prismatic">
+<joint name="slide" type="prismatic">  <!-- expect -->
   <parent link="base"/> <child link="carriage"/> <axis xyz="0 0 1"/>
 </joint>
 ```

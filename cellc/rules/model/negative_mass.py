@@ -6,7 +6,7 @@ simulation or a gravity compensation that pushes down.
 Example that is reported:
 
 ```xml
-<link name="carriage">
+<link name="carriage">  <!-- expect -->
   <inertial><mass value="-1"/><inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial>
 </link>
 ```

@@ -6,7 +6,7 @@ different amounts in the planner, in the viewer and in the controller.
 Example that is reported:
 
 ```xml
-<joint name="slide" type="prismatic">
+<joint name="slide" type="prismatic">  <!-- expect -->
   <parent link="base"/> <child link="carriage"/> <axis xyz="0 0 2"/>
   <limit lower="0" upper="0.5" velocity="1" effort="10"/>
 </joint>

@@ -6,7 +6,7 @@ controller that clamps to them jumps to one end.
 Example that is reported:
 
 ```xml
-<joint name="slide" type="prismatic">
+<joint name="slide" type="prismatic">  <!-- expect -->
   <parent link="base"/> <child link="carriage"/> <axis xyz="1 0 0"/>
   <limit lower="0.5" upper="-0.5" velocity="1" effort="10"/>
 </joint>

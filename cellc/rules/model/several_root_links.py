@@ -6,7 +6,7 @@ nobody can look it up. One public parser picks a root and is silent.
 Example that is reported:
 
 ```xml
-<link name="stray"/>
+<link name="stray"/>  <!-- expect -->
 ```
 
 Example that is accepted:

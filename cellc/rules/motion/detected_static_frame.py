@@ -6,7 +6,7 @@ Example that is reported:
 
 ```yaml
 rehearsals:
-  look: {steps: [detect: fixture_A]}
+  look: {steps: [detect: fixture_A]}  # expect at detect
 ```
 
 Example that is accepted:

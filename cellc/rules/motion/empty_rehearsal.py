@@ -6,7 +6,7 @@ Example that is reported:
 
 ```yaml
 rehearsals:
-  nothing: {steps: []}
+  nothing: {steps: []}  # expect at nothing
 ```
 
 Example that is accepted:

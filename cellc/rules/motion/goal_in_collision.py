@@ -8,6 +8,7 @@ Example that is reported:
 ```yaml
 scene:
   crate: {parent: fixture_A, xyz: 0 0 100 mm, box: 200 200 200 mm}
+# expect at motion.goals.place.frame
 ```
 
 Example that is accepted:

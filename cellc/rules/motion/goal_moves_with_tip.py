@@ -8,7 +8,7 @@ Example that is reported:
 frames:
   pocket: {parent: arm/tool0, xyz: 0 0 100 mm, designed: true}
 motion:
-  goals: {stow: {frame: pocket}}
+  goals: {stow: {frame: pocket}}  # expect at frame
 ```
 
 Example that is accepted:

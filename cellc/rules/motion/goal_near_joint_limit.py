@@ -8,6 +8,7 @@ Example that is reported:
 ```yaml
 motion:
   poses: {home: {manipulator: 350 -90 90 -90 -90 0 deg}}
+# expect at motion.goals.place.frame
 ```
 
 Example that is accepted:

@@ -9,7 +9,7 @@ Example that is reported:
 frames:
   far: {parent: world, xyz: 3000 0 800 mm, designed: true}
 motion:
-  goals: {fetch: {frame: far}}
+  goals: {fetch: {frame: far}}  # expect at frame
 ```
 
 Example that is accepted:

@@ -7,6 +7,7 @@ Example that is reported:
 ```yaml
 control:
   controllers: {gripper_action: null}
+# expect at rehearsals.pick_and_place.steps.3.grip
 ```
 
 Example that is accepted:

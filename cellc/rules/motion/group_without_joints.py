@@ -6,7 +6,7 @@ Example that is reported:
 
 ```yaml
 motion:
-  groups: {fingers: {base: arm/tool0, tip: tcp}}
+  groups: {fingers: {base: arm/tool0, tip: tcp}}  # expect at fingers
 ```
 
 Example that is accepted:

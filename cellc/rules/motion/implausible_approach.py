@@ -6,7 +6,7 @@ Example that is reported:
 
 ```yaml
 motion:
-  goals: {pick: {frame: object, approach: 0 0 -100 m}}
+  goals: {pick: {frame: object, approach: 0 0 -100 m}}  # expect at approach
 ```
 
 Example that is accepted:

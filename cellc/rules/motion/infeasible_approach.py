@@ -7,7 +7,7 @@ Example that is reported:
 
 ```yaml
 motion:
-  goals: {place: {frame: fixture_A, rpy: 180 0 0 deg, approach: 0 0 -900 mm}}
+  goals: {place: {frame: fixture_A, rpy: 180 0 0 deg, approach: 0 0 -900 mm}}  # expect at approach
 ```
 
 Example that is accepted:

@@ -9,7 +9,7 @@ Example that is reported:
 scene:
   table: {parent: world, xyz: 350 0 700 mm, box: 900 1200 40 mm}
 motion:
-  poses: {low: {manipulator: 0 40 0 -90 -90 0 deg}}
+  poses: {low: {manipulator: 0 40 0 -90 -90 0 deg}}  # expect at manipulator
 ```
 
 Example that is accepted:

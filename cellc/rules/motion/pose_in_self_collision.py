@@ -7,7 +7,7 @@ Example that is reported:
 
 ```yaml
 motion:
-  poses: {folded: {manipulator: 0 -90 170 -90 -90 0 deg}}
+  poses: {folded: {manipulator: 0 -90 170 -90 -90 0 deg}}  # expect at manipulator
 ```
 
 Example that is accepted:

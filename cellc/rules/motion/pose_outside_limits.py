@@ -7,7 +7,7 @@ Example that is reported:
 
 ```yaml
 motion:
-  poses: {home: {manipulator: 0 -400 90 -90 -90 0 deg}}
+  poses: {home: {manipulator: 0 -400 90 -90 -90 0 deg}}  # expect at manipulator
 ```
 
 Example that is accepted:

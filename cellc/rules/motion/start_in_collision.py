@@ -9,7 +9,7 @@ Example that is reported:
 scene:
   wall: {parent: world, xyz: 700 100 1000 mm, box: 100 1000 400 mm}
 motion:
-  poses: {home: null, ready: {manipulator: 0 -90 90 -90 -90 0 deg}}
+  poses: {home: null, ready: {manipulator: 0 -90 90 -90 -90 0 deg}}  # expect at poses
 rehearsals:
   pick_and_place: {steps: [move: ready]}
 ```

@@ -9,6 +9,7 @@ Example that is reported:
 <link name="tool">
   <collision><geometry><mesh filename="package://nowhere/tool.stl"/></geometry></collision>
 </link>
+<!-- expect at motion.groups -->
 ```
 
 Example that is accepted:

@@ -7,7 +7,7 @@ Example that is reported:
 
 ```yaml
 rehearsals:
-  blind: {steps: [move: home, move: pick]}
+  blind: {steps: [move: home, move: pick]}  # expect at move
 ```
 
 Example that is accepted:

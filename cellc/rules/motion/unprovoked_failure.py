@@ -6,7 +6,7 @@ Example that is reported:
 
 ```yaml
 rehearsals:
-  odd: {steps: [move: home], expect: stale_state}
+  odd: {steps: [move: home], expect: stale_state}  # expect at expect
 ```
 
 Example that is accepted:

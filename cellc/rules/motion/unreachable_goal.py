@@ -9,7 +9,7 @@ Example that is reported:
 frames:
   edge: {parent: world, xyz: 820 100 850 mm, designed: true}
 motion:
-  goals: {fetch: {frame: edge, rpy: 180 0 0 deg}}
+  goals: {fetch: {frame: edge, rpy: 180 0 0 deg}}  # expect at frame
 ```
 
 Example that is accepted:

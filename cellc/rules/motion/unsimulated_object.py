@@ -7,7 +7,7 @@ Example that is reported:
 
 ```yaml
 frames:
-  part: {parent: world, dynamic: true, published_by: perception, rate: 10 Hz}
+  part: {parent: world, dynamic: true, published_by: perception, rate: 10 Hz}  # expect at part
 rehearsals:
   look: {steps: [detect: part]}
 ```

@@ -7,7 +7,7 @@ Example that is reported:
 
 ```yaml
 nodes:
-  task: {parameters: {robot_ip: 192.168.56.101}}
+  task: {parameters: {robot_ip: 192.168.56.101}}  # expect at robot_ip
 ```
 
 Example that is accepted:

@@ -5,7 +5,7 @@ Its stream fills the queue of the card, whatever `carries` says.
 Example that is reported:
 
 ```yaml
-devices: {camera: {connection: {nic: robot}}}
+devices: {camera: {connection: {nic: robot}}}  # expect at nic
 ```
 
 Example that is accepted:

@@ -6,7 +6,7 @@ Example that is reported:
 
 ```yaml
 hosts:
-  control_pc: {nics: {bulk: {address: 192.168.56.11/24}}}
+  control_pc: {nics: {bulk: {address: 192.168.56.11/24}}}  # expect at address
 ```
 
 Example that is accepted:

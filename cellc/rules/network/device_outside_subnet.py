@@ -5,7 +5,7 @@ Packets to it leave by another card or by the default route, if at all.
 Example that is reported:
 
 ```yaml
-devices: {arm: {connection: {address: 192.168.57.101}}}
+devices: {arm: {connection: {address: 192.168.57.101}}}  # expect at address
 ```
 
 Example that is accepted:

@@ -5,7 +5,7 @@ With discovery off, nodes in two processes never meet, on one host either.
 Example that is reported:
 
 ```yaml
-network: {discovery: "off"}
+network: {discovery: "off"}  # expect at discovery
 ```
 
 Example that is accepted:

@@ -6,7 +6,7 @@ Example that is reported:
 
 ```yaml
 versions: {rmw: rmw_zenoh_cpp 0.2.10}
-network: {discovery: localhost}
+network: {discovery: localhost}  # expect at discovery
 ```
 
 Example that is accepted:

@@ -5,7 +5,7 @@ DDS derives its ports from the domain. Above 232 they do not exist, and below 0 
 Example that is reported:
 
 ```yaml
-network: {domain_id: 300}
+network: {domain_id: 300}  # expect at domain_id
 ```
 
 Example that is accepted:

@@ -5,7 +5,7 @@ A browser or an update may take a port of the domain first, and one node then do
 Example that is reported:
 
 ```yaml
-network: {domain_id: 150}
+network: {domain_id: 150}  # expect at domain_id
 ```
 
 Example that is accepted:

@@ -5,7 +5,7 @@ Packets reach whichever answered last. The link looks unstable, and commands may
 Example that is reported:
 
 ```yaml
-devices: {arm: {connection: {address: 192.168.56.10}}}
+devices: {arm: {connection: {address: 192.168.56.10}}}  # expect at address
 ```
 
 Example that is accepted:

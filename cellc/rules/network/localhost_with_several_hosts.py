@@ -7,7 +7,7 @@ Example that is reported:
 ```yaml
 hosts:
   vision_pc: {scheduling: generic, clock: {domain: ros, synchronised_by: chrony, max_offset: 1 ms}}
-network: {discovery: localhost}
+network: {discovery: localhost}  # expect at discovery
 safety: {stop: {independent_of: [control_pc, vision_pc]}}
 ```
 

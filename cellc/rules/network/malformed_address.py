@@ -7,7 +7,7 @@ Example that is reported:
 
 ```yaml
 hosts:
-  control_pc: {nics: {robot: {address: 192.168.56.10}}}
+  control_pc: {nics: {robot: {address: 192.168.56.10}}}  # expect at address
 ```
 
 Example that is accepted:

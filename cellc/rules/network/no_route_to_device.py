@@ -5,7 +5,7 @@ The driver's host has no card in the subnet of the device.
 Example that is reported:
 
 ```yaml
-devices: {arm: {connection: {nic: null, address: 172.16.0.2}}}
+devices: {arm: {connection: {nic: null, address: 172.16.0.2}}}  # expect at address
 ```
 
 Example that is accepted:

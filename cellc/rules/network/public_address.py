@@ -5,7 +5,7 @@ A robot controller has no business there: either the address is mistyped, or the
 Example that is reported:
 
 ```yaml
-devices: {arm: {connection: {nic: null, address: 8.8.8.8}}}
+devices: {arm: {connection: {nic: null, address: 8.8.8.8}}}  # expect at address
 hosts: {control_pc: {nics: {robot: {address: 8.8.8.10/24}}}}
 ```
 

@@ -5,7 +5,7 @@ What is started to be safe would move the arm.
 Example that is reported:
 
 ```yaml
-targets: {mock: {hardware: real}}
+targets: {mock: {hardware: real}}  # expect at hardware
 ```
 
 Example that is accepted:

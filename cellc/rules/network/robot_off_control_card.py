@@ -7,6 +7,7 @@ Example that is reported:
 ```yaml
 hosts:
   control_pc: {nics: {robot: {address: 192.168.56.10/24, carries: [ros]}}}
+# expect at devices.arm.connection.nic
 ```
 
 Example that is accepted:

@@ -6,7 +6,7 @@ Example that is reported:
 
 ```yaml
 hosts:
-  control_pc: {nics: {robot: {address: 192.168.56.10/24, carries: [control, camera]}}}
+  control_pc: {nics: {robot: {address: 192.168.56.10/24, carries: [control, camera]}}}  # expect at carries
 ```
 
 Example that is accepted:

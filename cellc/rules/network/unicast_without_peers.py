@@ -5,7 +5,7 @@ Without multicast a participant finds only those that it is told of.
 Example that is reported:
 
 ```yaml
-network: {discovery: unicast}
+network: {discovery: unicast}  # expect at discovery
 ```
 
 Example that is accepted:

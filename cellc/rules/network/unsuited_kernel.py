@@ -5,7 +5,7 @@ An ordinary kernel lets other work delay the loop by many milliseconds. The vend
 Example that is reported:
 
 ```yaml
-hosts: {control_pc: {scheduling: generic}}
+hosts: {control_pc: {scheduling: generic}}  # expect at scheduling
 ```
 
 Example that is accepted:

@@ -8,7 +8,7 @@ Example that is reported:
 ```yaml
 control:
   controllers:
-    arm_trajectory: {client: null}
+    arm_trajectory: {client: null}  # expect at arm_trajectory
 ```
 
 Example that is accepted:

@@ -7,7 +7,7 @@ Example that is reported:
 
 ```yaml
 devices:
-  gripper: {architecture: direct_sdk}
+  gripper: {architecture: direct_sdk}  # expect at architecture
 ```
 
 Example that is accepted:

@@ -8,7 +8,7 @@ Example that is reported:
 ```yaml
 control:
   controllers:
-    arm_forward: {type: forward_command, device: arm, client: task, active: true,
+    arm_forward: {type: forward_command, device: arm, client: task, active: true,  # expect at arm_forward
                   parameters: {interface_name: position}}
 ```
 

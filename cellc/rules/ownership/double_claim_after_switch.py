@@ -11,7 +11,7 @@ control:
     arm_forward: {type: forward_command, device: arm, client: task, active: false,
                   parameters: {interface_name: position}}
   switches:
-    to_forward: {activate: [arm_forward]}
+    to_forward: {activate: [arm_forward]}  # expect at to_forward
 ```
 
 Example that is accepted:

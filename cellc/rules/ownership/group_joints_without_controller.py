@@ -8,7 +8,7 @@ Example that is reported:
 ```yaml
 control:
   controllers:
-    arm_trajectory: {joints: [arm/joint_1, arm/joint_2, arm/joint_3]}
+    arm_trajectory: {joints: [arm/joint_1, arm/joint_2, arm/joint_3]}  # expect at joints
 ```
 
 Example that is accepted:

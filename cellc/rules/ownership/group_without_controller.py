@@ -9,6 +9,7 @@ control:
   controllers:
     arm_trajectory: null
     arm_forward: {type: forward_command, device: arm, client: move_group, parameters: {interface_name: position}}
+# expect at motion.groups.manipulator
 ```
 
 Example that is accepted:

@@ -7,7 +7,7 @@ Example that is reported:
 ```yaml
 control:
   controllers:
-    arm_forward: {type: forward_command, device: arm, client: task, active: false,
+    arm_forward: {type: forward_command, device: arm, client: task, active: false,  # expect at arm_forward
                   parameters: {interface_name: position}}
 ```
 

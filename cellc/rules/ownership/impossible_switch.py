@@ -11,7 +11,7 @@ control:
     arm_forward: {type: forward_command, device: arm, client: task, active: false,
                   parameters: {interface_name: position}}
   switches:
-    to_trajectory: {activate: [arm_trajectory], deactivate: [arm_forward]}
+    to_trajectory: {activate: [arm_trajectory], deactivate: [arm_forward]}  # expect at to_trajectory
 ```
 
 Example that is accepted:

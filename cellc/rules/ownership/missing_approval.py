@@ -6,7 +6,7 @@ Example that is reported:
 
 ```yaml
 owners:
-  approvals: {safety: UNKNOWN}
+  approvals: {safety: UNKNOWN}  # expect at safety
 ```
 
 Example that is accepted:

@@ -7,7 +7,7 @@ Example that is reported:
 
 ```yaml
 owners:
-  responsibilities: {limits: UNKNOWN}
+  responsibilities: {limits: UNKNOWN}  # expect at limits
 ```
 
 Example that is accepted:

@@ -6,7 +6,7 @@ Example that is reported:
 
 ```yaml
 nodes:
-  tracker: {run: cell_tasks/tracker, host: control_pc, lifecycle: true}
+  tracker: {run: cell_tasks/tracker, host: control_pc, lifecycle: true}  # expect at tracker
 ```
 
 Example that is accepted:

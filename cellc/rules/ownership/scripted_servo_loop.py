@@ -9,8 +9,10 @@ Example that is reported:
 nodes:
   follower: {run: cell_tasks/follower, host: control_pc, owner: integration, language: python}
 interfaces:
-  /arm_forward/commands: {topic: std_msgs/msg/Float64MultiArray, from: {follower: {depth: 1}},
-                          to: {arm_forward: {depth: 1}}, unit: rad, wants: newest, rate: 250 Hz, max_age: 20 ms,
+  /arm_forward/commands: {topic: std_msgs/msg/Float64MultiArray,  # expect: unstamped-age-limit at topic
+                          from: {follower: {depth: 1}},  # expect at follower
+                          to: {arm_forward: {depth: 1}}, unit: rad,  # expect: motion-over-topic at arm_forward
+                          wants: newest, rate: 250 Hz, max_age: 20 ms,
                           on_stale: stop_and_hold}
 control:
   controllers:

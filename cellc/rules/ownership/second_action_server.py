@@ -8,7 +8,7 @@ Example that is reported:
 interfaces:
   /arm_trajectory/follow_joint_trajectory:
     action: control_msgs/action/FollowJointTrajectory
-    server: task
+    server: task  # expect at server
     client: move_group
     frame: world
     timeout: 20 s

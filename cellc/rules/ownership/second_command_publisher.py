@@ -6,8 +6,10 @@ Example that is reported:
 
 ```yaml
 interfaces:
-  /arm_trajectory/joint_trajectory: {topic: trajectory_msgs/msg/JointTrajectory, from: [task, move_group],
-                                     to: [arm_trajectory], wants: every_sample, rate: 1 Hz, max_age: 2 s,
+  /arm_trajectory/joint_trajectory: {topic: trajectory_msgs/msg/JointTrajectory,
+                                     from: [task, move_group],  # expect at from.1
+                                     to: [arm_trajectory], wants: every_sample,  # expect: motion-over-topic at to.0
+                                     rate: 1 Hz, max_age: 2 s,
                                      on_stale: ignore_sample, frame: world}
 ```
 

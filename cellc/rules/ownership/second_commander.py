@@ -10,7 +10,7 @@ interfaces:
   /arm_trajectory/follow_joint_trajectory:
     action: control_msgs/action/FollowJointTrajectory
     server: arm_trajectory
-    client: [move_group, task]
+    client: [move_group, task]  # expect at client.1
     frame: world
     timeout: 20 s
     on_timeout: cancel_and_hold

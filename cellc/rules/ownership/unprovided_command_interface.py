@@ -7,7 +7,7 @@ Example that is reported:
 ```yaml
 control:
   controllers:
-    arm_trajectory: {command_interfaces: [effort]}
+    arm_trajectory: {command_interfaces: [effort]}  # expect at command_interfaces
 ```
 
 Example that is accepted:

@@ -10,7 +10,7 @@ interfaces:
   /markers:
     topic: geometry_msgs/msg/PoseStamped
     from: {perception: {depth: 1}}
-    to: {task: {reliability: reliable, depth: 10}}
+    to: {task: {reliability: reliable, depth: 10}}  # expect at task
     frame: world
     wants: newest
     rate: 10 Hz

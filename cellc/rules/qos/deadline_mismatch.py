@@ -9,7 +9,7 @@ interfaces:
   /markers:
     topic: geometry_msgs/msg/PoseStamped
     from: {perception: {depth: 1, deadline: 300 ms}}
-    to: {task: {depth: 1, deadline: 150 ms}}
+    to: {task: {depth: 1, deadline: 150 ms}}  # expect at task
     frame: world
     wants: newest
     rate: 10 Hz

@@ -9,7 +9,7 @@ interfaces:
   /markers:
     topic: geometry_msgs/msg/PoseStamped
     from: {perception: {durability: volatile, depth: 1}}
-    to: {task: {durability: transient_local, depth: 1}}
+    to: {task: {durability: transient_local, depth: 1}}  # expect at task
     frame: world
     wants: newest
     rate: 10 Hz

@@ -9,7 +9,7 @@ interfaces:
   /markers:
     topic: geometry_msgs/msg/PoseStamped
     from: {perception: {depth: 1, lease_duration: 2 s}}
-    to: {task: {depth: 1, lease_duration: 1 s}}
+    to: {task: {depth: 1, lease_duration: 1 s}}  # expect at task
     frame: world
     wants: newest
     rate: 10 Hz

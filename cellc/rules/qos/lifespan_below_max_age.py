@@ -8,7 +8,7 @@ Example that is reported:
 interfaces:
   /markers:
     topic: geometry_msgs/msg/PoseStamped
-    from: {perception: {depth: 1, lifespan: 100 ms}}
+    from: {perception: {depth: 1, lifespan: 100 ms}}  # expect at lifespan
     to: {task: {depth: 1}}
     frame: world
     wants: newest

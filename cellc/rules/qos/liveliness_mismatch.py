@@ -9,7 +9,7 @@ interfaces:
   /markers:
     topic: geometry_msgs/msg/PoseStamped
     from: {perception: {depth: 1, liveliness: automatic}}
-    to: {task: {depth: 1, liveliness: manual_by_topic}}
+    to: {task: {depth: 1, liveliness: manual_by_topic}}  # expect at task
     frame: world
     wants: newest
     rate: 10 Hz

@@ -9,7 +9,7 @@ interfaces:
   /markers:
     topic: geometry_msgs/msg/PoseStamped
     from: {perception: {reliability: best_effort}}
-    to: {task: {reliability: best_effort}}
+    to: {task: {reliability: best_effort}}  # expect at task
     frame: world
     wants: every_sample
     rate: 10 Hz

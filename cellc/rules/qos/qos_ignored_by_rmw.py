@@ -9,7 +9,7 @@ Example that is reported:
 interfaces:
   /markers:
     topic: geometry_msgs/msg/PoseStamped
-    from: {perception: {depth: 1, deadline: 150 ms}}
+    from: {perception: {depth: 1, deadline: 150 ms}}  # expect at deadline
     to: {task: {depth: 1}}
     frame: world
     wants: newest

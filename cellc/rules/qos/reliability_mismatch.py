@@ -9,7 +9,7 @@ interfaces:
   /markers:
     topic: geometry_msgs/msg/PoseStamped
     from: {perception: {reliability: best_effort, depth: 1}}
-    to: {task: {reliability: reliable, depth: 1}}
+    to: {task: {reliability: reliable, depth: 1}}  # expect at task
     frame: world
     wants: newest
     rate: 10 Hz

@@ -9,7 +9,7 @@ interfaces:
   /markers:
     topic: geometry_msgs/msg/PoseStamped
     from: {perception: {reliability: reliable, depth: 10}}
-    to: {task: {reliability: reliable, depth: 1}}
+    to: {task: {reliability: reliable, depth: 1}}  # expect at task
     frame: world
     wants: every_sample
     rate: 10 Hz

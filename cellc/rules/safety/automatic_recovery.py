@@ -5,7 +5,7 @@ What triggered the stop may still be there, and somebody may be in the cell to l
 Example that is reported:
 
 ```yaml
-safety: {recovery: {acknowledge: automatic}}
+safety: {recovery: {acknowledge: automatic}}  # expect at acknowledge
 ```
 
 Example that is accepted:

@@ -5,7 +5,7 @@ If the path of the stop needs a computer of the cell, it fails together with wha
 Example that is reported:
 
 ```yaml
-safety: {stop: {independent_of: []}}
+safety: {stop: {independent_of: []}}  # expect at independent_of
 ```
 
 Example that is accepted:

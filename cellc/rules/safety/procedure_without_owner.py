@@ -5,7 +5,7 @@ A procedure that nobody owns is not trained, and the place at the stop button st
 Example that is reported:
 
 ```yaml
-safety: {recovery: {observer: UNKNOWN}}
+safety: {recovery: {observer: UNKNOWN}}  # expect at observer
 ```
 
 Example that is accepted:

@@ -5,7 +5,7 @@ The goal was made for a scene that has changed since. The arm starts to move the
 Example that is reported:
 
 ```yaml
-safety: {recovery: {on_reconnect: resume_goal}}
+safety: {recovery: {on_reconnect: resume_goal}}  # expect at on_reconnect
 ```
 
 Example that is accepted:

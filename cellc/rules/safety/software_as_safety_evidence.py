@@ -6,7 +6,7 @@ protective stop is cleared or that nobody stands in the cell.
 Example that is reported:
 
 ```yaml
-safety: {stop: {evidence: [lifecycle active]}}
+safety: {stop: {evidence: [lifecycle active]}}  # expect at evidence.0
 ```
 
 Example that is accepted:

@@ -5,7 +5,7 @@ A message may be late, lost or refused. A stop has to work when everything that 
 Example that is reported:
 
 ```yaml
-safety: {stop: {path: software}}
+safety: {stop: {path: software}}  # expect at path
 ```
 
 Example that is accepted:

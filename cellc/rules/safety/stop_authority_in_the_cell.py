@@ -5,7 +5,7 @@ A computer that plans and controls is what has to be stopped. It hangs, reboots 
 Example that is reported:
 
 ```yaml
-safety: {stop: {authority: control_pc}}
+safety: {stop: {authority: control_pc}}  # expect at authority
 ```
 
 Example that is accepted:

@@ -5,7 +5,7 @@ A misspelt host leaves the real one unmentioned.
 Example that is reported:
 
 ```yaml
-safety: {stop: {independent_of: [control_pc, controll_pc]}}
+safety: {stop: {independent_of: [control_pc, controll_pc]}}  # expect at independent_of.1
 ```
 
 Example that is accepted:

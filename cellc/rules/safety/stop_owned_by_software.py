@@ -6,7 +6,7 @@ of the cell cannot answer for them, nor can a QoS event, a domain id or a lifecy
 Example that is reported:
 
 ```yaml
-owners: {responsibilities: {physical_stop: task}}
+owners: {responsibilities: {physical_stop: task}}  # expect at physical_stop
 ```
 
 Example that is accepted:

@@ -5,7 +5,7 @@ A stop that was never pressed is an assumption.
 Example that is reported:
 
 ```yaml
-safety: {stop: {evidence: []}}
+safety: {stop: {evidence: []}}  # expect at evidence
 ```
 
 Example that is accepted:

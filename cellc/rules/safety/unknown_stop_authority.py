@@ -5,7 +5,7 @@ Before anything is enabled, everybody knows what stops it and by which path. UNK
 Example that is reported:
 
 ```yaml
-safety: {stop: {authority: UNKNOWN}}
+safety: {stop: {authority: UNKNOWN}}  # expect at authority
 ```
 
 Example that is accepted:

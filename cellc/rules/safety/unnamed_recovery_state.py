@@ -5,7 +5,7 @@ Recovery from a state that nobody named is a restart and a hope.
 Example that is reported:
 
 ```yaml
-safety: {recovery: {states: [emergency_stop]}}
+safety: {recovery: {states: [emergency_stop]}}  # expect at states
 ```
 
 Example that is accepted:

@@ -6,7 +6,7 @@ nobody tested.
 Example that is reported:
 
 ```yaml
-devices: {arm: {firmware: controller 4.2.0}}
+devices: {arm: {firmware: controller 4.2.0}}  # expect at firmware
 ```
 
 Example that is accepted:

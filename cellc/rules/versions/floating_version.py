@@ -5,7 +5,7 @@ A branch, a range or "latest" means another thing tomorrow. What was tested is t
 Example that is reported:
 
 ```yaml
-versions: {moveit: main}
+versions: {moveit: main}  # expect at moveit
 ```
 
 Example that is accepted:

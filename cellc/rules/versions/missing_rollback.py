@@ -5,7 +5,7 @@ When the new configuration fails on Friday evening, the way back has to be a rep
 Example that is reported:
 
 ```yaml
-versions: {rollback: {image: UNKNOWN}}
+versions: {rollback: {image: UNKNOWN}}  # expect at image
 ```
 
 Example that is accepted:

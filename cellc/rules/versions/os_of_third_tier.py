@@ -6,7 +6,7 @@ planner's author says nothing about the vendor's driver.
 Example that is reported:
 
 ```yaml
-versions: {os: ubuntu 22.04}
+versions: {os: ubuntu 22.04}  # expect at os
 ```
 
 Example that is accepted:

@@ -6,7 +6,7 @@ against other libraries than they were tested with.
 Example that is reported:
 
 ```yaml
-versions: {os: ubuntu 26.04}
+versions: {os: ubuntu 26.04}  # expect at os
 ```
 
 Example that is accepted:

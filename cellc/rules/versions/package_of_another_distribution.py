@@ -6,7 +6,7 @@ Mixed, they do not build, or they load plugins with another binary interface.
 Example that is reported:
 
 ```yaml
-versions: {ros2_control: 2.54.0}
+versions: {ros2_control: 2.54.0}  # expect at ros2_control
 ```
 
 Example that is accepted:

@@ -5,7 +5,7 @@ A tag can be moved to another image. A digest cannot.
 Example that is reported:
 
 ```yaml
-versions: {rollback: {image: "cell-image:v4"}}
+versions: {rollback: {image: "cell-image:v4"}}  # expect at image
 ```
 
 Example that is accepted:

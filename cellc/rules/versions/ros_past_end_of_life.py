@@ -6,10 +6,11 @@ must not change its answer with the clock of the machine that runs it.
 Example that is reported:
 
 ```yaml
-versions: {os: ubuntu 22.04, ros: humble, rmw: rmw_fastrtps_cpp 6.2.10, ros2_control: 2.54.0, moveit: 2.5.9}
+versions: {os: ubuntu 22.04, ros: humble, rmw: rmw_fastrtps_cpp 6.2.10, ros2_control: 2.54.0,  # expect at ros
+           moveit: 2.5.9}
 calibrations:
   fixture_a: {revision: 3, measured: 2027-09-01, method: touch probe, samples: 5, residual: 0.3 mm, owner: perception}
-devices: {arm: {driver: demo_arm_driver 2.14.0, sdk: null, description: null}}
+devices: {arm: {driver: demo_arm_driver 2.14.0, sdk: null, description: null}}  # expect: unknown-version at arm
 ```
 
 Example that is accepted:

@@ -6,7 +6,7 @@ the others.
 Example that is reported:
 
 ```yaml
-versions: {rmw: rmw_fastrtps 8.4.4}
+versions: {rmw: rmw_fastrtps 8.4.4}  # expect at rmw
 ```
 
 Example that is accepted:

@@ -6,7 +6,7 @@ the real cell closed until somebody looks.
 Example that is reported:
 
 ```yaml
-versions: {kernel: UNKNOWN}
+versions: {kernel: UNKNOWN}  # expect at kernel
 ```
 
 Example that is accepted:

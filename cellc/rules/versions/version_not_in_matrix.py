@@ -5,7 +5,7 @@ Nobody has said that it works, and nobody that it does not. It stays UNKNOWN unt
 Example that is reported:
 
 ```yaml
-devices: {arm: {driver: demo_arm_driver 3.1.0}}
+devices: {arm: {driver: demo_arm_driver 3.1.0}}  # expect at driver
 ```
 
 Example that is accepted:

@@ -6,7 +6,7 @@ interfaces that were never tested together.
 Example that is reported:
 
 ```yaml
-devices: {arm: {driver: demo_arm_driver 2.14.0}}
+devices: {arm: {driver: demo_arm_driver 2.14.0}}  # expect at driver
 ```
 
 Example that is accepted:

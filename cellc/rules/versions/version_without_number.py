@@ -6,7 +6,7 @@ not.
 Example that is reported:
 
 ```yaml
-versions: {rmw: rmw_fastrtps_cpp}
+versions: {rmw: rmw_fastrtps_cpp}  # expect at rmw
 ```
 
 Example that is accepted:
