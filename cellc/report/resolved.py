@@ -4,25 +4,34 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import dataclass, fields, is_dataclass, replace
 from enum import Enum
 from typing import Union
-
-from pydantic import BaseModel
 
 from cellc.cell.cell import Cell
 from cellc.cell.control import Controller
 from cellc.cell.device import Device, DeviceJoint
 from cellc.cell.entity import Entity
 from cellc.cell.frame import Frame
+from cellc.cell.site import JointFigure
 from cellc.diagnostics import YamlPath
-from cellc.spec.quantity import Quantity, QuantityVector
 from cellc.transforms import Pose
 
 Tree = Union["Leaf", dict[str, "Tree"]]
 
-# Fields that a reader of `show` does not ask for: bookkeeping, and the raw forms behind the resolved values.
-_HIDDEN = {"name", "path", "span", "spec", "facts", "description", "document"}
+_BOOKKEEPING = {"name", "path", "span"}
+# What a reader of `show` finds elsewhere: in the catalogue, or among the parameters.
+_HIDDEN = {
+    Controller: {"package", "declared", "plugin_parameters", "written_parameters"},
+    Device: {
+        *("vendor", "kind", "description", "home", "optical_frames", "payload_limit_kg", "update_rates_hz"),
+        *("controller_kinds", "speed_scaling", "gripper", "camera", "offers", "network", "safety", "packages"),
+        *("version_rows", "mock_cannot_prove", "spec", "facts"),
+    },
+}
+_DERIVED = {"measured_on", "joints"}
+# What is shown of a device as the user states it.
+_STATED = {"model", "architecture", "connection", "stamp", "payload", "adapter", "simulated_joints", "limit_shares"}
 # Resolved field → key that the user writes, where dropping the unit's suffix does not give it.
 _KEYS = {
     "transform_to_parent": "xyz",
@@ -56,10 +65,9 @@ class Leaf:
 
 def resolved_tree(cell: Cell) -> dict[str, Tree]:
     """Return the whole cell under the keys that the spec uses."""
-    spec = cell.spec
     tree: dict[str, Tree] = {"cell": Leaf(cell.name, _written(cell, ("cell",)))}
     for section in ("versions", "hosts", "network", "calibrations"):
-        tree[section] = _spec_tree(cell, getattr(spec, section), (section,))
+        tree[section] = _section(cell, getattr(cell, section), (section,))
     tree |= {
         "devices": _entities(cell, cell.devices),
         "frames": _entities(cell, cell.frames),
@@ -76,7 +84,7 @@ def resolved_tree(cell: Cell) -> dict[str, Tree]:
     }
     tree["rehearsals"] = _entities(cell, cell.rehearsals)
     for section in ("owners", "safety", "bringup", "kpis", "recording", "targets"):
-        tree[section] = _spec_tree(cell, getattr(spec, section), (section,))
+        tree[section] = _section(cell, getattr(cell, section), (section,))
     return tree
 
 
@@ -85,22 +93,48 @@ def _entities(cell: Cell, entities: tuple[Entity, ...]) -> Tree:
 
 
 def _entity(cell: Cell, entity: Entity) -> Tree:
+    hidden = _BOOKKEEPING | next((names for kind, names in _HIDDEN.items() if isinstance(entity, kind)), set())
+    if isinstance(entity, Device):
+        hidden |= {*_STATED, "versions"}
     tree: dict[str, Tree] = {}
     for field in fields(entity):
         value = getattr(entity, field.name)
-        if field.name in _HIDDEN or value is None or value == ():
+        if field.name in hidden or value is None or value == ():
             continue
         tree[field.name] = _value(cell, value, _origin(cell, entity, field.name), (*entity.path, field.name))
     if isinstance(entity, Device):
-        tree |= _device_identity(cell, entity)
+        tree |= _stated(cell, entity)
     return tree
 
 
-def _device_identity(cell: Cell, device: Device) -> dict[str, Tree]:
-    """Return what the user states of a device and nothing binds: versions, connection, stamp, payload."""
-    stated = _spec_tree(cell, device.spec, device.path)
-    assert isinstance(stated, dict)
-    return {key: value for key, value in stated.items() if key not in ("mount", "prefix")}
+def _stated(cell: Cell, device: Device) -> dict[str, Tree]:
+    """Return what the user states of a device: versions, connection, stamp, payload and the like."""
+    path = device.path
+    tree: dict[str, Tree] = {"model": Leaf(cell.text(*path, "model"), _written(cell, (*path, "model")))}
+    tree["architecture"] = _section(cell, device.architecture, (*path, "architecture"))
+    tree |= {
+        field.name: _section(cell, getattr(device.versions, field.name), (*path, field.name))
+        for field in fields(device.versions)
+    }
+    for key in ("connection", "payload", "adapter"):
+        tree[key] = _section(cell, getattr(device, key), (*path, key))
+    tree["limits"] = _section(cell, device.limit_shares, (*path, "limits"))
+    tree["simulated_joints"] = {one.name: _section(cell, one, one.path) for one in device.simulated_joints}
+    tree["stamp"] = _stamp(cell, device)
+    return tree
+
+
+def _stamp(cell: Cell, device: Device) -> Tree:
+    """Return the stamp of a sensor, whose clock the spec writes beside the source."""
+    stamp, path = device.stamp, (*device.path, "stamp")
+    if stamp is None:
+        return _section(cell, None, path)
+    clock = _section(cell, replace(stamp.clock, domain=""), path)
+    assert isinstance(clock, dict)
+    shown = {"source": stamp.source, "clock": stamp.clock.domain, "exposure": stamp.exposure_s}
+    return {key: _section(cell, value, (*path, key)) for key, value in shown.items()} | {
+        key: value for key, value in clock.items() if key != "domain"
+    }
 
 
 def _value(cell: Cell, value: object, origin: str, path: YamlPath) -> Tree:
@@ -110,39 +144,46 @@ def _value(cell: Cell, value: object, origin: str, path: YamlPath) -> Tree:
         return {str(key): _value(cell, item, origin, path) for key, item in value.items()}
     if isinstance(value, tuple) and value and all(is_dataclass(item) for item in value):
         return {str(index): _value(cell, item, origin, path) for index, item in enumerate(value)}
-    if is_dataclass(value) and not isinstance(value, (Pose, Quantity, QuantityVector, type)):
+    if is_dataclass(value) and not isinstance(value, (Pose, type)):
         shown = (field.name for field in fields(value) if field.name not in ("path", "span"))
         return {name: _value(cell, getattr(value, name), origin, path) for name in shown}
     return Leaf(_text(value), origin)
 
 
-def _spec_tree(cell: Cell, value: object, path: YamlPath) -> Tree:
-    if isinstance(value, BaseModel):
-        names = {name: field.alias or name for name, field in type(value).model_fields.items()}
-        return {key: _spec_tree(cell, getattr(value, name), (*path, key)) for name, key in names.items()}
+def _section(cell: Cell, value: object, path: YamlPath) -> Tree:
+    """Return what stands under a key of the spec, as written where the user wrote it."""
+    if is_dataclass(value) and not isinstance(value, (JointFigure, type)):
+        hidden = {*_BOOKKEEPING, *_DERIVED} if isinstance(value, Entity) else set[str]()
+        names = {_key(field.name): field.name for field in fields(value) if field.name not in hidden}
+        return {key: _section(cell, getattr(value, name), (*path, key)) for key, name in names.items()}
     if isinstance(value, Mapping):
-        return {str(key): _spec_tree(cell, item, (*path, key)) for key, item in value.items()}
-    return Leaf(_text(value), _written(cell, path))
+        return {str(key): _section(cell, item, (*path, key)) for key, item in value.items()}
+    return Leaf(cell.text(*path) or _text(value), _written(cell, path))
+
+
+def _key(field: str) -> str:
+    """Return the key of the spec behind a field: its name without the unit."""
+    return field.removesuffix("_hz").removesuffix("_kg").removesuffix("_s").removesuffix("_m")
 
 
 def _written(cell: Cell, path: YamlPath) -> str:
-    if not cell.document.has(path):
+    if not cell.states(*path):
         return "default"
-    span = cell.document.locate(path)
+    span = cell.locate(*path)
     return f"{span.file}:{span.line}"
 
 
 def _origin(cell: Cell, entity: Entity, field: str) -> str:
-    key = _KEYS.get(field) or field.removesuffix("_hz").removesuffix("_s")
+    key = _KEYS.get(field) or _key(field)
     path = (*entity.path, key)
     catalogue = f"catalogue {_catalogue_entry(cell, entity)}"
     if isinstance(entity, DeviceJoint):
-        tightened = key == "limits" and cell.document.has((*path, field))
+        tightened = key == "limits" and cell.states(*path, field)
         return f"{_written(cell, (*path, field))} of {catalogue}" if tightened else catalogue
     if isinstance(entity, Controller) and field == "parameters":
         # Some follow from the controller's keys, some from its device, some from its kind.
         return f"{_written(cell, entity.path)} with {catalogue}"
-    if cell.document.has(path):
+    if cell.states(*path):
         return _written(cell, path)
     known = next((names for kind, names in _FROM_CATALOGUE.items() if isinstance(entity, kind)), set[str]())
     derived = field in known or getattr(entity, "derived", False)
@@ -161,8 +202,6 @@ def _text(value: object) -> str:
         xyz = " ".join(_number(part) for part in value.position)
         rpy = " ".join(_number(math.degrees(part)) for part in value.rpy())
         return f"xyz {xyz} m, rpy {rpy} deg"
-    if isinstance(value, (Quantity, QuantityVector)):
-        return value.text
     if isinstance(value, Enum):
         return str(value.value)
     if isinstance(value, bool) or value is None:
