@@ -6,7 +6,6 @@ import hashlib
 import json
 from collections.abc import Iterator
 from dataclasses import dataclass
-from pathlib import PurePosixPath
 
 from cellc.cell.cell import Cell
 from cellc.contract.manifest import ConfigurationInputs
@@ -24,7 +23,7 @@ def configuration_inputs(cell: Cell) -> ConfigurationInputs:
     """Gather what the id is taken over; the same cell on another host gives the same."""
     urdf = render(robot_description(cell, "real"))
     return ConfigurationInputs(
-        calibrations={name: written.revision for name, written in cell.spec.calibrations.items()},
+        calibrations={name: written.revision for name, written in cell.calibrations.items()},
         tf_publishers={frame.name: frame.authority for frame in cell.frames if frame.parent},
         urdf_sha256=hashlib.sha256(urdf.encode()).hexdigest(),
     )
@@ -42,14 +41,14 @@ _OF_DEVICE = ("revision", "serial", "firmware", "driver", "sdk", "description")
 
 def version_tuple(cell: Cell) -> dict[str, str]:
     """Return every part by name: ``kernel``, ``rollback.image``, ``arm.firmware``."""
-    versions = cell.spec.versions
+    versions = cell.versions
     parts = {name: str(getattr(versions, name)) for name in _OF_CELL}
     parts |= {
         "rollback.image": versions.rollback.image,
         "rollback.configuration": versions.rollback.configuration,
     }
     for device in cell.devices:
-        parts |= {f"{device.name}.{name}": str(getattr(device.spec, name)) for name in _OF_DEVICE}
+        parts |= {f"{device.name}.{name}": device.versions.part(name) for name in _OF_DEVICE}
     return parts
 
 
@@ -82,7 +81,7 @@ def _owners(graph: CellGraph) -> Iterator[OpenQuestion]:
 
 
 def _safety(cell: Cell) -> Iterator[OpenQuestion]:
-    stop = cell.spec.safety.stop
+    stop = cell.safety.stop
     for name, value in (("authority", stop.authority), ("path", stop.path)):
         if value == UNKNOWN:
             yield OpenQuestion(f"stop {name}", ("safety", "stop", name))
@@ -93,5 +92,5 @@ def header_of(cell: Cell, configuration_id: str) -> Header:
 
     The user may have named the spec from anywhere, so that the command names it from where cells are kept.
     """
-    file = PurePosixPath(cell.document.file).name
+    file = cell.places.file_name
     return Header(cell.name, configuration_id, f"cellc build cells/{cell.name}/{file}")

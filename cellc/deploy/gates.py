@@ -7,15 +7,15 @@ from dataclasses import dataclass
 
 from cellc.cell.cell import Cell
 from cellc.cell.interface import InterfaceKind
+from cellc.cell.site import FirstMotion
 from cellc.deploy.configuration import version_tuple
 from cellc.deploy.processes import is_mover
-from cellc.deploy.recording import attempt_fields, record_command
+from cellc.deploy.recording import record_command
 from cellc.deploy.releases import move_mock, move_real, start_mock, start_real
 from cellc.formats.header import Header
 from cellc.formats.numbers import shortest
 from cellc.graph.responsibilities import UNKNOWN
 from cellc.link.derived_joint_states import JOINT_STATE_TYPE
-from cellc.spec.safety import FirstMotionSpec
 
 _STARTS = ("ros2 launch ", "ros2 bag record ")
 
@@ -96,7 +96,7 @@ def _model(cell: Cell, header: Header) -> Gate:
             *measured,
         ),
         evidence="G1-model.md",
-        owner=cell.spec.owners.responsibilities.frames,
+        owner=cell.owners.responsibilities.frames,
         stop=("a sign or scale that differs", f"a configuration id other than {header.configuration_id}"),
     )
 
@@ -118,7 +118,7 @@ def _mock(cell: Cell) -> Gate:
             *((Check("Each action has one server and the declared clients", actions),) if actions else ()),
         ),
         evidence="G2-mock.md",
-        owner=cell.spec.owners.approvals.controller,
+        owner=cell.owners.approvals.controller,
         stop=(
             "a second owner of a command interface",
             "a cancel that does not hold",
@@ -145,7 +145,7 @@ def _network(cell: Cell) -> Gate:
             Check("With the real target ended, layer L6 has passed on the mock"),
         ),
         evidence="G3-freshness.md",
-        owner=cell.spec.owners.approvals.network,
+        owner=cell.owners.approvals.network,
         stop=("stale or duplicate state", "an endpoint that the contract does not name"),
     )
 
@@ -167,17 +167,20 @@ def _connected(cell: Cell) -> Gate:
             *_no_stop(cell),
         ),
         evidence="G4-transitions.md",
-        owner=cell.spec.owners.approvals.vendor,
+        owner=cell.owners.approvals.vendor,
         stop=("an unexpected remote mode", "a fault that nobody has explained", "motion of any kind"),
     )
 
 
 def _enabled(cell: Cell) -> Gate:
-    stop, recovery = cell.spec.safety.stop, cell.spec.safety.recovery
+    stop, recovery = cell.safety.stop, cell.safety.recovery
     payloads = tuple(
-        Check(f"{device.name} is told payload {payload.mass.text}, centre of mass {payload.center_of_mass.text}")
+        Check(
+            f"{device.name} is told payload {cell.text(*device.path, 'payload', 'mass')}, "
+            f"centre of mass {cell.text(*device.path, 'payload', 'center_of_mass')}"
+        )
         for device in cell.devices
-        if (payload := device.spec.payload) is not None
+        if device.payload is not None
     )
     return Gate(
         code="G5",
@@ -192,7 +195,7 @@ def _enabled(cell: Cell) -> Gate:
             *(Check(f"There is evidence of the stop: {one}") for one in stop.evidence),
         ),
         evidence="G5-enable.md",
-        owner=cell.spec.owners.approvals.safety,
+        owner=cell.owners.approvals.safety,
         stop=("a stop path that was not tried", "an observer who cannot see or reach the stop"),
     )
 
@@ -206,8 +209,7 @@ def _managed(cell: Cell) -> Iterator[Check]:
 
 def _no_stop(cell: Cell) -> Iterator[Check]:
     for device in cell.devices:
-        states = () if device.facts.safety is None else device.facts.safety.states
-        stops = [f"{state.name} ({state.reported})" for state in states if state.stops]
+        stops = [f"{state.name} ({state.reported})" for state in device.safety.states if state.stops]
         if stops:
             yield Check(f"{device.name} reports none of: {', '.join(stops)}")
 
@@ -231,7 +233,7 @@ def manifest(cell: Cell) -> Gate:
             *_read_by_people(cell),
         ),
         evidence="G0-inventory.md",
-        owner=cell.spec.owners.approvals.vendor,
+        owner=cell.owners.approvals.vendor,
         stop=(f"a part that is {UNKNOWN}", "a part that differs from the tuple"),
     )
 
@@ -266,7 +268,7 @@ _NOT_STATED = "`bringup.first_motion` is not stated: joint, sign, largest change
 
 def one_joint(cell: Cell) -> Gate:
     """Return the gate of the single-joint move that the spec states; without one there is nothing that may move."""
-    first = cell.spec.bringup.first_motion
+    first = cell.bringup.first_motion
     return Gate(
         code="G6",
         title="One joint",
@@ -274,16 +276,19 @@ def one_joint(cell: Cell) -> Gate:
         state="reduced speed and range",
         checks=(Check(_NOT_STATED),) if first is None else _first_motion(cell, first),
         evidence="G6-command-state-error.md",
-        owner=cell.spec.safety.recovery.observer,
+        owner=cell.safety.recovery.observer,
         stop=("no stated first motion",) if first is None else first.stop_if,
     )
 
 
-def _first_motion(cell: Cell, first: FirstMotionSpec) -> tuple[Check, ...]:
+def _first_motion(cell: Cell, first: FirstMotion) -> tuple[Check, ...]:
+    def motion(part: str) -> str:
+        return cell.text("bringup", "first_motion", part)
+
     return (
         Check(
             f"Said aloud before it moves: joint {first.joint}, direction {first.direction}, at most "
-            f"{first.max_delta.text}, {first.velocity.text}, ends within {first.timeout.text}"
+            f"{motion('max_delta')}, {motion('velocity')}, ends within {motion('timeout')}"
         ),
         _recorded(cell, "G6"),
         Check("Positions before the move", _states(cell)),
@@ -308,10 +313,10 @@ def trajectory(cell: Cell) -> Gate:
             *_servers(cell),
             Check("A short goal is accepted, fed back and ended with a result"),
             *_cancels(cell),
-            Check(f"The attempt record holds {', '.join(attempt_fields(cell))}"),
+            Check(f"The attempt record holds {', '.join(cell.recording.attempt_fields)}"),
         ),
         evidence="G7-attempt.md",
-        owner=cell.spec.owners.approvals.graph,
+        owner=cell.owners.approvals.graph,
         stop=("a cancel or hold that is not clear", "a result that does not say which layer failed"),
     )
 

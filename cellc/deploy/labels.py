@@ -101,32 +101,31 @@ def claim_facts(cell: Cell, manager: ControllerManager, controller: Controller) 
         f"frame joints, unit {units(cell, controller)}, {shortest(rate)} Hz, time of the update loop on "
         f"{manager.host or 'its host'}"
     )
-    owner = cell.spec.owners.responsibilities.command
+    owner = cell.owners.responsibilities.command
     yield f"owner {owner}; on a violation: {controller.on_violation}; watchdog: {watchdog(cell, controller)}"
     if device is not None:
         state = "from start-up" if controller.active else "as an alternate, inactive at start-up"
         through = f"through {real_mover(device)}" if "real" in controller.targets else "on the mock alone"
-        yield f"{through}; {state}; architecture: {device.spec.architecture}"
+        yield f"{through}; {state}; architecture: {device.architecture}"
 
 
 def driver_facts(cell: Cell, device: Device, driver: DeviceDriver) -> Iterator[str]:
     """Yield program, goals, owner and watchdog of what moves a device past every controller on real hardware."""
-    safety = device.facts.safety
     goals = ", ".join(action for action, _ in driver.actions.values()) or "none declared"
     yield f"{driver.program}, on real hardware; no controller claims anything there"
     yield f"goals: {goals}; frame joints, on request, time of the driver"
-    watched = (None if safety is None else safety.watchdog) or _NOT_STATED
-    yield f"owner {cell.spec.owners.responsibilities.vendor_safety}; watchdog: {watched}"
-    yield f"architecture: {device.spec.architecture}"
+    watched = device.safety.watchdog or _NOT_STATED
+    yield f"owner {cell.owners.responsibilities.vendor_safety}; watchdog: {watched}"
+    yield f"architecture: {device.architecture}"
 
 
 def stop_facts(cell: Cell) -> Iterator[str]:
     """Yield path, independence and owner of the physical stop, which is no message."""
-    stop, recovery = cell.spec.safety.stop, cell.spec.safety.recovery
+    stop, recovery = cell.safety.stop, cell.safety.recovery
     independent = ", ".join(stop.independent_of) or "nothing stated"
     yield f"path {stop.path}, independent of {independent}; no message, frame or clock"
     yield (
-        f"owner {cell.spec.owners.responsibilities.physical_stop}; recovery acknowledged by {recovery.acknowledge}, "
+        f"owner {cell.owners.responsibilities.physical_stop}; recovery acknowledged by {recovery.acknowledge}, "
         f"owned by {recovery.owner}"
     )
 
@@ -143,8 +142,8 @@ def units(cell: Cell, controller: Controller) -> str:
 
 def watchdog(cell: Cell, controller: Controller) -> str:
     """Return what stops the device when commands stay away, by its vendor."""
-    safety = cell.device(controller.device).facts.safety if controller.device is not None else None
-    return (safety.watchdog if safety is not None else None) or _NOT_STATED
+    stated = None if controller.device is None else cell.device(controller.device).safety.watchdog
+    return stated or _NOT_STATED
 
 
 _NOTHING = "nothing that the catalogue names"

@@ -39,7 +39,7 @@ def _physical(graph: CellGraph) -> Gate:
         state="drives off",
         checks=(Check("Links, addresses and routes are saved", ("ip -br addr", "ip route")), *cards, *routes),
         evidence="L1-links.txt",
-        owner=graph.cell.spec.owners.approvals.network,
+        owner=graph.cell.owners.approvals.network,
         stop=("a duplicate address", "a link that comes and goes", "control traffic on a card that is not for it"),
     )
 
@@ -47,7 +47,8 @@ def _physical(graph: CellGraph) -> Gate:
 def _vendor(cell: Cell) -> Gate:
     identities = tuple(
         Check(
-            f"{device.name} shows serial `{device.spec.serial}`, firmware `{device.spec.firmware}` and its safety state"
+            f"{device.name} shows serial `{device.versions.serial}`, firmware `{device.versions.firmware}` and its "
+            "safety state"
         )
         for device in cell.devices
     )
@@ -58,13 +59,13 @@ def _vendor(cell: Cell) -> Gate:
         state="drives disabled",
         checks=identities,
         evidence="L2-identity.md",
-        owner=cell.spec.owners.approvals.vendor,
+        owner=cell.owners.approvals.vendor,
         stop=("an unexpected remote-control mode", "another device than the one in the spec"),
     )
 
 
 def _discovery(cell: Cell) -> Gate:
-    domain = cell.spec.network.domain_id
+    domain = cell.network.domain_id
     ends = tuple(
         Check(f"`{interface.name}` has its declared ends: {_ends(cell, interface)}", (_info(interface),))
         for interface in cell.interfaces
@@ -83,7 +84,7 @@ def _discovery(cell: Cell) -> Gate:
             *ends,
         ),
         evidence="L3-endpoints.txt",
-        owner=cell.spec.owners.approvals.graph,
+        owner=cell.owners.approvals.graph,
         stop=("an unknown publisher of commands", "two servers of one action"),
     )
 
@@ -96,7 +97,7 @@ def _data(cell: Cell) -> Gate:
         state="drives disabled",
         checks=tuple(_freshness(cell)),
         evidence="L4-age.txt",
-        owner=cell.spec.owners.approvals.data,
+        owner=cell.owners.approvals.data,
         stop=("a stale sample that is taken for a fresh one", "a topic without samples although it is listed"),
     )
 
@@ -118,9 +119,12 @@ def _rate(rate_hz: float, sources: int) -> str:
 
 def _time(cell: Cell) -> Gate:
     clocks = tuple(
-        Check(f"On {name}: its clock is within {host.clock.max_offset.text} of the others", ("chronyc tracking",))
-        for name, host in cell.spec.hosts.items()
-        if host.clock.max_offset is not None
+        Check(
+            f"On {name}: its clock is within {cell.text(*host.path, 'clock', 'max_offset')} of the others",
+            ("chronyc tracking",),
+        )
+        for name, host in cell.hosts.items()
+        if host.clock.max_offset_s is not None
     )
     tips = tuple(
         Check(
@@ -143,7 +147,7 @@ def _time(cell: Cell) -> Gate:
             ),
         ),
         evidence="L5-tf.txt",
-        owner=cell.spec.owners.approvals.time_tf,
+        owner=cell.owners.approvals.time_tf,
         stop=("a jump of a clock", "two authorities of one frame", "another configuration id than this package's"),
     )
 
@@ -166,7 +170,7 @@ def _command(cell: Cell) -> Gate:
             ),
         ),
         evidence="L6-command.md",
-        owner=cell.spec.owners.approvals.controller,
+        owner=cell.owners.approvals.controller,
         stop=("a route to a real interface",),
     )
 

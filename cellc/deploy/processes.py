@@ -13,7 +13,7 @@ from cellc.link.nodes import DESCRIPTION_PUBLISHER, description_home
 def launch_hosts(cell: Cell) -> tuple[str, ...]:
     """Return the hosts on which something is started, in the order of the spec; empty where all runs in one place."""
     used = {host_of(cell, node) for node in cell.nodes} | {host_of_manager(cell, one) for one in cell.managers}
-    hosts = tuple(host for host in cell.spec.hosts if host in used)
+    hosts = tuple(host for host in cell.hosts if host in used)
     return hosts if len(hosts) > 1 else ()
 
 
@@ -29,7 +29,7 @@ def host_of_manager(cell: Cell, manager: ControllerManager) -> str:
 
 def _home(cell: Cell) -> str:
     stated = [manager.host for manager in cell.managers if manager.host is not None]
-    return [*stated, *cell.spec.hosts, ""][0]
+    return [*stated, *cell.hosts, ""][0]
 
 
 def described_by(cell: Cell) -> tuple[str, ...]:

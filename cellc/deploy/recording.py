@@ -1,4 +1,4 @@
-"""What an attempt records: topics with a QoS that suits every publisher, the command that does it, and the fields."""
+"""What an attempt records: topics with a QoS that suits every publisher, and the command that does it."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def recorded_topics(cell: Cell) -> dict[str, Qos]:
     for action in (i for i in cell.interfaces if i.kind is InterfaceKind.ACTION):
         found[f"{action.name}/_action/feedback"] = Qos()
         found[f"{action.name}/_action/status"] = Qos(durability="transient_local", depth=1)
-    for name in ("/diagnostics", *cell.spec.recording.topics):
+    for name in ("/diagnostics", *cell.recording.topics):
         found.setdefault(name, Qos())
     return found
 
@@ -48,28 +48,3 @@ def _offered(interface: Interface) -> Qos:
         durability="volatile" if volatile else "transient_local",
         depth=max((qos.depth for qos in offered), default=10),
     )
-
-
-STANDARD = (
-    "attempt_id",
-    "version_tuple",
-    "calibration_id",
-    "goal_frame",
-    "goal_stamp",
-    "joint_state_age",
-    "tf_lookup_age",
-    "plan_result",
-    "controller_name",
-    "action_goal_id",
-    "speed_scaling",
-    "safety_state",
-    "fault_code",
-    "cancel/result",
-    "operator_intervention",
-)
-
-
-def attempt_fields(cell: Cell) -> tuple[str, ...]:
-    """Return the fields that every attempt of the cell records."""
-    written = cell.spec.recording.attempt_fields
-    return STANDARD if written == "standard" else tuple(written)

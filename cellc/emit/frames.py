@@ -19,9 +19,7 @@ from cellc.graph.cell_graph import CellGraph
 
 def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
     """Yield the frame tree."""
-    calibrations: Tree = {
-        "calibrations": {name: _calibration(graph.cell, name) for name in graph.cell.spec.calibrations}
-    }
+    calibrations: Tree = {"calibrations": {name: _calibration(graph.cell, name) for name in graph.cell.calibrations}}
     frames: Tree = {"frames": {frame.name: _frame(frame) for frame in graph.cell.frames}}
     sections = (
         "# calibrations\n",
@@ -33,16 +31,16 @@ def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
 
 
 def _calibration(cell: Cell, name: str) -> Tree:
-    written = cell.spec.calibrations[name]
-    samples = {} if written.samples is None else {"samples": written.samples}
-    residual = {} if written.residual is None else {"residual_m": written.residual.si}
+    stated = cell.calibrations[name]
+    samples = {} if stated.samples is None else {"samples": stated.samples}
+    residual = {} if stated.residual_m is None else {"residual_m": stated.residual_m}
     return {
-        "revision": written.revision,
-        "measured": written.measured,
-        "method": written.method,
+        "revision": stated.revision,
+        "measured": stated.measured,
+        "method": stated.method,
         **samples,
         **residual,
-        "owner": written.owner,
+        "owner": stated.owner,
     }
 
 

@@ -12,9 +12,7 @@ from collections.abc import Iterator
 from xml.etree.ElementTree import Element
 
 from cellc.artifact import Artifact
-from cellc.catalog.load import load_controller_kind
 from cellc.cell.cell import Cell
-from cellc.cell.control import Controller
 from cellc.deploy.files import plans
 from cellc.formats.header import Header
 from cellc.formats.urdf.hardware import share_folders
@@ -50,9 +48,9 @@ def _package(cell: Cell) -> Element:
         [
             element("name", text=cell.name),
             element("version", text="1.0.0"),
-            element("description", text=cell.spec.summary or f"Robot cell {cell.name}."),
+            element("description", text=cell.summary or f"Robot cell {cell.name}."),
             comment("owners.approvals.graph; the spec holds no mailbox, so that mail to this address goes nowhere"),
-            element("maintainer", {"email": _EMAIL}, text=cell.spec.owners.approvals.graph),
+            element("maintainer", {"email": _EMAIL}, text=cell.owners.approvals.graph),
             element("license", text="Apache-2.0"),
             element("buildtool_depend", text="ament_cmake"),
             *(element("exec_depend", text=name) for name in _dependencies(cell)),
@@ -63,10 +61,10 @@ def _package(cell: Cell) -> Element:
 
 def _dependencies(cell: Cell) -> tuple[str, ...]:
     """Return package names in alphabetical order, so that a new device shows as new lines alone."""
-    controllers = (_package_of(cell, controller) for controller in cell.controllers)
-    hardware = (device.facts.packages.driver for device in cell.devices if device.hardware is not None)
+    controllers = (controller.package for controller in cell.controllers)
+    hardware = (device.packages.driver for device in cell.devices if device.hardware is not None)
     names = {*_ALWAYS, *(node.package for node in cell.nodes)}
-    names |= {name for name in (*controllers, *hardware) if name is not None}
+    names |= {name for name in (*controllers, *hardware) if name}
     names |= {package for device in cell.devices for package in share_folders(device)}
     if plans(cell):
         names |= set(_PLANNING)
@@ -75,24 +73,13 @@ def _dependencies(cell: Cell) -> tuple[str, ...]:
     return tuple(sorted(names))
 
 
-def _package_of(cell: Cell, controller: Controller) -> str | None:
-    """Return the package of a controller's plugin; its type string need not begin with it."""
-    own = {} if controller.device is None else cell.device(controller.device).facts.controllers
-    if controller.kind in own:
-        plugins = own[controller.kind].plugins
-    else:
-        kind = load_controller_kind(controller.kind).value
-        plugins = {} if kind is None else kind.plugins
-    return next((use.package for use in plugins.values() if use.type == controller.plugin), None)
-
-
 def _build_file(cell: Cell) -> Iterator[str]:
     yield "cmake_minimum_required(VERSION 3.8)"
     yield f"project({cell.name} NONE)"
     yield ""
     yield "find_package(ament_cmake REQUIRED)"
     yield ""
-    yield from _install("DIRECTORY", (*_FOLDERS, *((_ON_HOSTS,) if cell.spec.hosts else ())))
+    yield from _install("DIRECTORY", (*_FOLDERS, *((_ON_HOSTS,) if cell.hosts else ())))
     yield from _install("FILES", _FILES)
     yield ""
     yield "ament_package()"

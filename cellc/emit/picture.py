@@ -62,7 +62,7 @@ class Band:
 
 def _bands(cell: Cell) -> tuple[Band, ...]:
     """Return the ROS graph, vendor control and physical safety, in the order in which a goal meets them."""
-    owners = cell.spec.owners.responsibilities
+    owners = cell.owners.responsibilities
     return (
         Band("ROS 2 graph", False, tuple(map(_exchange, cell.interfaces))),
         Band(f"Vendor control (owner {owners.vendor_safety})", True, (*_claims(cell), *_drivers(cell))),
@@ -96,7 +96,7 @@ def _drivers(cell: Cell) -> Iterator[Row]:
 def _stops(cell: Cell) -> Iterator[Row]:
     devices = tuple(device.name for device in cell.devices if device.hardware is not None)
     if devices:
-        yield Row((cell.spec.safety.stop.authority,), "stops, whatever software says", tuple(stop_facts(cell)), devices)
+        yield Row((cell.safety.stop.authority,), "stops, whatever software says", tuple(stop_facts(cell)), devices)
 
 
 def _sheet(bands: tuple[Band, ...]) -> Element:

@@ -50,16 +50,16 @@ def _ros_graph(cell: Cell) -> Iterator[str]:
 
 
 def _vendor_control(cell: Cell) -> Iterator[str]:
-    owner = cell.spec.owners.responsibilities.vendor_safety
+    owner = cell.owners.responsibilities.vendor_safety
     yield f'subgraph vendor["Vendor control: servo, limits, safety state; owner {owner}"]'
     for device in cell.devices:
-        yield f"  {_box('device', device.name, device.facts.model, device.spec.architecture)}"
+        yield f"  {_box('device', device.name, device.model, device.architecture)}"
     yield "end"
 
 
 def _physical_safety(cell: Cell) -> Iterator[str]:
-    stop = cell.spec.safety.stop
-    owner = cell.spec.owners.responsibilities.physical_stop
+    stop = cell.safety.stop
+    owner = cell.owners.responsibilities.physical_stop
     yield 'subgraph safety["Physical safety: outside of all software"]'
     yield f"  {_box('stop', stop.authority, f'path {stop.path}', f'owner {owner}')}"
     yield "end"

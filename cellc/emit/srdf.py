@@ -39,7 +39,7 @@ def _parts(graph: CellGraph) -> Iterator[Element]:
         yield _state(pose)
     named = {group.name for group in cell.groups}
     for device in cell.devices:
-        if device.facts.gripper is not None and device.name not in named:
+        if device.gripper is not None and device.name not in named:
             yield comment(f"devices.{device.name}")
             yield from _gripper(device)
     disabled = disabled_links(graph)
@@ -62,11 +62,11 @@ def _state(pose: NamedPose) -> Element:
 
 
 def _gripper(device: Device) -> Iterator[Element]:
-    facts = device.facts.gripper
-    assert facts is not None
-    joint = device.prefix + facts.joint
+    gripper = device.gripper
+    assert gripper is not None
+    joint = gripper.joint
     yield element("group", {"name": device.name}, [element("joint", {"name": joint})])
-    for name, position in (("open", facts.open.si), ("closed", facts.closed.si)):
+    for name, position in (("open", gripper.open), ("closed", gripper.closed)):
         value = element("joint", {"name": joint, "value": shortest(position)})
         yield element("group_state", {"name": name, "group": device.name}, [value])
     yield element("end_effector", {"name": device.name, "group": device.name, "parent_link": device.parent_frame})

@@ -68,7 +68,7 @@ def approvals(cell: Cell) -> Iterator[str]:
     """Yield the seven approval areas with the question that each answers."""
     yield "| area | question | owner |"
     yield "|---|---|---|"
-    for area, owner in cell.spec.owners.approvals:
+    for area, owner in cell.owners.approvals.items():
         yield f"| {area} | {_QUESTIONS[area]} | {owner} |"
 
 
@@ -76,18 +76,17 @@ def responsibilities(cell: Cell) -> Iterator[str]:
     """Yield the responsibilities with their owners."""
     yield "| responsibility | owner |"
     yield "|---|---|"
-    for name, owner in cell.spec.owners.responsibilities:
+    for name, owner in cell.owners.responsibilities.items():
         yield f"| {name} | {owner} |"
 
 
 def recovery(cell: Cell) -> Iterator[str]:
     """Yield who acknowledges a stop, and the steps of every device."""
-    recovery = cell.spec.safety.recovery
+    recovery = cell.safety.recovery
     yield f"Acknowledged by: {recovery.acknowledge}. Owner: {recovery.owner}."
     yield f"After a reconnect: {recovery.on_reconnect}."
     for device in cell.devices:
-        steps = () if device.facts.safety is None else device.facts.safety.recovery
-        for way in steps:
+        for way in device.safety.recovery:
             yield ""
             yield f"{device.name}, {way.state}:"
             yield ""
@@ -97,8 +96,8 @@ def recovery(cell: Cell) -> Iterator[str]:
 def not_provable(cell: Cell) -> Iterator[str]:
     """Yield what the catalogue says that no mock shows, by device and vendor."""
     for device in cell.devices:
-        of = f"{device.name} ({device.facts.vendor} {device.facts.model})"
-        yield from (f"- {of}: {text}" for text in device.facts.mock_cannot_prove)
+        of = f"{device.name} ({device.vendor} {device.model})"
+        yield from (f"- {of}: {text}" for text in device.mock_cannot_prove)
 
 
 _SPEC_AUTHOR = "author of the spec"
@@ -118,7 +117,7 @@ def _open(graph: CellGraph) -> Iterator[tuple[str, ...]]:
 
 
 def _asked(cell: Cell, question: OpenQuestion) -> tuple[str, str]:
-    approvals = cell.spec.owners.approvals
+    approvals = cell.owners.approvals
     section, part = question.path[0], str(question.path[-1])
     if section == "devices":
         return _asked_of_device(cell, cell.device(str(question.path[1])), part)
@@ -133,10 +132,10 @@ def _asked(cell: Cell, question: OpenQuestion) -> tuple[str, str]:
 
 def _asked_of_device(cell: Cell, device: Device, part: str) -> tuple[str, str]:
     if part in _READ_ON_THE_DEVICE:
-        owner = _person(cell.spec.owners.approvals.vendor)
+        owner = _person(cell.owners.approvals.vendor)
         return owner, f"Which {part} does {device.name} have, by its nameplate or panel?"
-    text = f"Which {part} of {device.facts.model} do you release for ROS 2 {cell.distro}, or is there none?"
-    return f"supplier {device.facts.vendor}", text
+    text = f"Which {part} of {device.model} do you release for ROS 2 {cell.distro}, or is there none?"
+    return f"supplier {device.vendor}", text
 
 
 def _untested(cell: Cell) -> Iterator[tuple[str, ...]]:
@@ -148,7 +147,7 @@ def _untested(cell: Cell) -> Iterator[tuple[str, ...]]:
 
 
 def _asked_for_matrix(cell: Cell, device: Device | None, judged: Judgement) -> tuple[str, ...]:
-    asked = _person(cell.spec.owners.approvals.graph) if device is None else f"supplier {device.facts.vendor}"
+    asked = _person(cell.owners.approvals.graph) if device is None else f"supplier {device.vendor}"
     text = (
         f"Is {judged.pin.part} `{judged.pin.text}` supported with ROS 2 {cell.distro}? Known so far: {judged.evidence}"
     )

@@ -12,9 +12,7 @@ from cellc.deploy.labels import frame_label, interface_facts, units, watchdog
 from cellc.formats.numbers import shortest
 from cellc.formats.parameter_file import qos_parameters
 from cellc.graph.cell_graph import CellGraph
-from cellc.graph.device_topics import device_topics
 from cellc.link.nodes import DESCRIPTION_PUBLISHER
-from cellc.link.placeholders import placeholders
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
@@ -145,7 +143,7 @@ def _nodes(cell: Cell) -> Iterator[tuple[str, ...]]:
         yield f"`{node.full_name}`", program, node.host or "not stated", node.owner, _code(_parameters(cell, node))
     for manager in cell.managers:
         for one in manager.controllers:
-            owner = cell.spec.owners.approvals.controller
+            owner = cell.owners.approvals.controller
             name = f"`{manager.namespace}/{one.name}`"
             yield name, one.plugin, manager.host or "not stated", owner, _code(one.parameters)
 
@@ -167,12 +165,12 @@ def _parameters(cell: Cell, node: Node) -> tuple[str, ...]:
 def _of_drivers(cell: Cell) -> Iterator[tuple[str, ...]]:
     named = {interface.name for interface in cell.interfaces}
     for device in cell.devices:
-        for name, type_ in device_topics(cell, device).items():
+        for name, type_ in device.topics.items():
             if name not in named:
                 yield f"`{name}`", "topic", type_, device.name
-        known = placeholders(device.name, device.prefix, device.spec, cell.spec)
-        for service in device.facts.services:
-            yield f"`{known.fill(service.name)}`", "service", service.type, device.name
+        for one in device.offers:
+            if one.kind is InterfaceKind.SERVICE:
+                yield f"`{one.name}`", "service", one.type, device.name
 
 
 def _interface(interface: Interface) -> tuple[str, ...]:

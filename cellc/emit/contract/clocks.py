@@ -6,20 +6,18 @@ from collections.abc import Iterator
 
 from cellc.cell.cell import Cell
 from cellc.cell.device import Device
+from cellc.cell.site import UNKNOWN, Clock
 from cellc.contract.clock import ContractClock
-from cellc.spec.devices import StampSpec
-from cellc.spec.hosts import ClockSpec
 
 SIM = "sim"
-UNKNOWN = "UNKNOWN"
 
 
 def clocks(cell: Cell) -> dict[str, ContractClock]:
     """Return every clock by the name of the host or device that it ticks in."""
-    found = {name: _clock(host.clock, host.clock.domain) for name, host in cell.spec.hosts.items()}
+    found = {name: _clock(host.clock) for name, host in cell.hosts.items()}
     for device in cell.devices:
-        if (stamp := _own_clock(cell, device)) is not None:
-            found[_clock_name(cell, device)] = _clock(stamp, stamp.clock)
+        if (clock := _own_clock(cell, device)) is not None:
+            found[_clock_name(cell, device)] = _clock(clock)
     if any(node.clock == SIM for node in cell.nodes):
         found[SIM] = ContractClock(domain=SIM, simulated=True)
     return found
@@ -31,7 +29,7 @@ def clock_of(cell: Cell) -> dict[str, str]:
 
 
 def _clock_of(cell: Cell) -> Iterator[tuple[str, str | None]]:
-    hosts = cell.spec.hosts
+    hosts = cell.hosts
     only_host = next(iter(hosts)) if len(hosts) == 1 else None
     for node in cell.nodes:
         yield node.name, SIM if node.clock == SIM else node.host
@@ -40,28 +38,27 @@ def _clock_of(cell: Cell) -> Iterator[tuple[str, str | None]]:
             yield controller.name, manager.host or only_host
             yield controller.label, manager.host or only_host
     for device in cell.devices:
-        connection = device.spec.connection
+        connection = device.connection
         host = only_host if connection is None else connection.host
         yield device.name, _clock_name(cell, device) if _own_clock(cell, device) is not None else host
 
 
-def _own_clock(cell: Cell, device: Device) -> StampSpec | None:
-    """Return the stamp of a device whose clock is not that of a host."""
-    stamp = device.spec.stamp
-    domains = {host.clock.domain for host in cell.spec.hosts.values()}
-    return None if stamp is None or stamp.clock in (UNKNOWN, *domains) else stamp
+def _own_clock(cell: Cell, device: Device) -> Clock | None:
+    """Return the clock that a device stamps with, unless it is that of a host."""
+    domains = {host.clock.domain for host in cell.hosts.values()}
+    clock = None if device.stamp is None else device.stamp.clock
+    return None if clock is None or clock.domain in (UNKNOWN, *domains) else clock
 
 
 def _clock_name(cell: Cell, device: Device) -> str:
-    return f"{device.name}/clock" if device.name in cell.spec.hosts else device.name
+    return f"{device.name}/clock" if device.name in cell.hosts else device.name
 
 
-def _clock(written: ClockSpec | StampSpec, domain: str) -> ContractClock:
-    offset, drift = written.simulated_offset, written.simulated_drift
+def _clock(clock: Clock) -> ContractClock:
     return ContractClock(
-        domain=domain,
-        synchronised_by=written.synchronised_by,
-        max_offset_s=None if written.max_offset is None else written.max_offset.si,
-        offset_s=0.0 if offset is None else offset.si,
-        drift=0.0 if drift is None else drift.si,
+        domain=clock.domain,
+        synchronised_by=clock.synchronised_by,
+        max_offset_s=clock.max_offset_s,
+        offset_s=clock.simulated_offset_s,
+        drift=clock.simulated_drift,
     )

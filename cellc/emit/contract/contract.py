@@ -26,7 +26,6 @@ from cellc.contract.contract import (
 from cellc.contract.network import ContractNetwork
 from cellc.deploy.configuration import version_tuple
 from cellc.deploy.files import REHEARSALS, controllers_file, description_file
-from cellc.deploy.recording import attempt_fields
 from cellc.emit.contract.clocks import clock_of, clocks
 from cellc.emit.contract.devices import adapters, devices, simulated_joints
 from cellc.emit.contract.motion import (
@@ -42,7 +41,6 @@ from cellc.emit.contract.motion import (
 from cellc.formats.header import Header
 from cellc.formats.json_text import render
 from cellc.graph.cell_graph import CellGraph
-from cellc.spec.quantity import Quantity
 
 
 def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
@@ -55,7 +53,7 @@ def _contract(graph: CellGraph, configuration_id: str) -> Contract:
     return Contract(
         format=1,
         cell=cell.name,
-        summary=cell.spec.summary,
+        summary=cell.summary,
         configuration_id=configuration_id,
         distro=cell.distro,
         version_tuple=version_tuple(cell),
@@ -76,11 +74,11 @@ def _contract(graph: CellGraph, configuration_id: str) -> Contract:
         poses=poses(cell),
         goals=goals(cell),
         disabled_collisions=disabled_collisions(graph),
-        responsibilities={name: str(owner) for name, owner in cell.spec.owners.responsibilities},
-        approvals={name: str(owner) for name, owner in cell.spec.owners.approvals},
+        responsibilities=dict(cell.owners.responsibilities.items()),
+        approvals=dict(cell.owners.approvals.items()),
         safety=_safety(cell),
         kpis=_kpis(cell),
-        attempt_fields=attempt_fields(cell),
+        attempt_fields=cell.recording.attempt_fields,
     )
 
 
@@ -94,7 +92,7 @@ def _files(cell: Cell) -> ContractFiles:
 
 
 def _safety(cell: Cell) -> ContractSafety:
-    stop, recovery = cell.spec.safety.stop, cell.spec.safety.recovery
+    stop, recovery = cell.safety.stop, cell.safety.recovery
     return ContractSafety(
         stop_authority=stop.authority,
         stop_path=stop.path,
@@ -105,20 +103,16 @@ def _safety(cell: Cell) -> ContractSafety:
 
 
 def _kpis(cell: Cell) -> ContractKpis:
-    kpis = cell.spec.kpis
+    kpis = cell.kpis
     return ContractKpis(
-        plan_to_execute_s=_si(kpis.plan_to_execute),
-        cancel_s=_si(kpis.cancel),
+        plan_to_execute_s=kpis.plan_to_execute_s,
+        cancel_s=kpis.cancel_s,
         missed_cycles=kpis.missed_cycles,
-        stale_state_rejection=_si(kpis.stale_state_rejection),
+        stale_state_rejection=kpis.stale_state_rejection,
         protective_stops=kpis.protective_stops,
-        recovery_time_s=_si(kpis.recovery_time),
+        recovery_time_s=kpis.recovery_time_s,
         wrong_owner_events=kpis.wrong_owner_events,
     )
-
-
-def _si(quantity: Quantity | None) -> float | None:
-    return None if quantity is None else quantity.si
 
 
 def interfaces(cell: Cell) -> dict[str, ContractInterface]:

@@ -30,7 +30,7 @@ def calibrations(cell: Cell) -> dict[str, ContractCalibration]:
     """Return every calibration with its revision."""
     return {
         name: ContractCalibration(revision=written.revision, owner=written.owner)
-        for name, written in cell.spec.calibrations.items()
+        for name, written in cell.calibrations.items()
     }
 
 

@@ -158,7 +158,7 @@ def address_arguments(cell: Cell) -> Iterator[Element]:
 
 def addresses(cell: Cell) -> dict[str, str]:
     """Return the argument of each device with an address."""
-    connections = ((device.name, device.spec.connection) for device in cell.devices)
+    connections = ((device.name, device.connection) for device in cell.devices)
     return {f"{name}_address": one.address for name, one in connections if one is not None and one.address is not None}
 
 

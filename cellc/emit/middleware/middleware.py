@@ -35,7 +35,7 @@ def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
 
 
 def _profiles(graph: CellGraph, header: Header, binding: Binding) -> Iterator[Artifact]:
-    rmw = graph.cell.spec.versions.rmw.split()[0]
+    rmw = graph.cell.versions.rmw_name
     stem, head = f"middleware/{binding.host}", f"{header.text}\nFrom {', '.join(origins(binding))}."
     if rmw == "rmw_cyclonedds_cpp":
         yield Artifact(f"{stem}.cyclonedds.xml", render(cyclone_profile(graph.cell, binding), head))
@@ -68,10 +68,10 @@ def environment(cell: Cell, header: Header, binding: Binding, profiles: tuple[st
 
 
 def _variables(cell: Cell, binding: Binding, profiles: tuple[str, ...]) -> Iterator[tuple[str, str]]:
-    rmw = cell.spec.versions.rmw.split()[0]
+    rmw = cell.versions.rmw_name
     if rmw != "UNKNOWN":
         yield "RMW_IMPLEMENTATION", rmw
-    yield "ROS_DOMAIN_ID", str(cell.spec.network.domain_id)
+    yield "ROS_DOMAIN_ID", str(cell.network.domain_id)
     yield from _discovery(cell, binding)
     for path in profiles:
         suffix = path[path.index(".") :]
@@ -80,7 +80,7 @@ def _variables(cell: Cell, binding: Binding, profiles: tuple[str, ...]) -> Itera
 
 
 def _discovery(cell: Cell, binding: Binding) -> Iterator[tuple[str, str]]:
-    discovery = cell.spec.network.discovery
+    discovery = cell.network.discovery
     if cell.distro == "humble":  # its only switch; peers stand in the profile
         yield "ROS_LOCALHOST_ONLY", "1" if discovery in ("localhost", "off") else "0"
         return

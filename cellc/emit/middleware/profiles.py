@@ -38,12 +38,12 @@ class Binding:
 
 def bindings(graph: CellGraph) -> tuple[Binding, ...]:
     """Return one binding a host, in the order of the spec."""
-    network = graph.cell.spec.network
+    network = graph.cell.network
     remote = network.discovery in ("multicast", "unicast")
     found: list[Binding] = []
-    for host in graph.cell.spec.hosts:
+    for host in graph.cell.hosts:
         own = _cards(graph, host) if remote else ()
-        others = [address for other in graph.cell.spec.hosts if other != host for address in _cards(graph, other)]
+        others = [address for other in graph.cell.hosts if other != host for address in _cards(graph, other)]
         peers = (*others, *network.peers) if network.discovery == "unicast" else ()
         found.append(Binding(host, (LOOPBACK, *own), tuple(dict.fromkeys(peers))))
     return tuple(found)
@@ -67,14 +67,14 @@ _MOST_PROCESSES = "99"  # rmw_cyclonedds stops at 32 participants where discover
 
 def cyclone_profile(cell: Cell, binding: Binding) -> Element:
     """Return the configuration of the cell's domain on a host."""
-    domain = {"Id": str(cell.spec.network.domain_id)}
+    domain = {"Id": str(cell.network.domain_id)}
     parts = [*_general(cell, binding), *_discovery(cell, binding)]
     return element("CycloneDDS", {"xmlns": "https://cdds.io/config"}, [element("Domain", domain, parts)])
 
 
 def _general(cell: Cell, binding: Binding) -> Iterator[Element]:
     cards = [element("NetworkInterface", {"address": address}) for address in binding.addresses]
-    multicast = "true" if cell.spec.network.discovery == "multicast" else "false"
+    multicast = "true" if cell.network.discovery == "multicast" else "false"
     yield element(
         "General",
         children=[element("Interfaces", children=cards), element("AllowMulticast", text=multicast)],
@@ -82,7 +82,7 @@ def _general(cell: Cell, binding: Binding) -> Iterator[Element]:
 
 
 def _discovery(cell: Cell, binding: Binding) -> Iterator[Element]:
-    if cell.spec.network.discovery == "multicast":
+    if cell.network.discovery == "multicast":
         return
     # Later distributions add the peers of ROS_STATIC_PEERS themselves.
     peers = binding.peers if cell.distro == "humble" else ()

@@ -52,7 +52,7 @@ def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
     blocks = [
         f"<!--\n{header.text}\n-->",
         f"# {cell.name}",
-        cell.spec.summary,
+        cell.summary,
         f"Configuration `{header.configuration_id}`, ROS 2 {cell.distro}. This folder is a ROS 2 package; the spec is "
         "its only source, so that a change is made there.",
         *_way(graph, header),
@@ -101,14 +101,14 @@ def _limits_of_the_mock(cell: Cell) -> Iterator[str]:
     yield "## What the mock cannot prove"
     yield "By device and vendor; these are shown at the gates, or not at all:"
     for device in cell.devices:
-        if device.facts.mock_cannot_prove:
-            yield f"**{device.name}** ({device.facts.vendor} {device.facts.model})"
-            yield "\n".join(f"- {text}" for text in device.facts.mock_cannot_prove)
+        if device.mock_cannot_prove:
+            yield f"**{device.name}** ({device.vendor} {device.model})"
+            yield "\n".join(f"- {text}" for text in device.mock_cannot_prove)
 
 
 def _present(cell: Cell, name: str) -> bool:
     if name == "config/moveit/":
         return plans(cell)
     if name == "middleware/":
-        return bool(cell.spec.hosts)
+        return bool(cell.hosts)
     return name != "launch/move.launch.xml" or bool(movers(cell))

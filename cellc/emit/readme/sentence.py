@@ -73,7 +73,7 @@ def _drives(cell: Cell) -> Iterator[str]:
 
 
 def _stop(cell: Cell) -> str:
-    stop = cell.spec.safety.stop
+    stop = cell.safety.stop
     return f"{stop.authority} stops the cell by a path ({stop.path}) that no software is part of"
 
 

@@ -34,7 +34,7 @@ def walk(graph: CellGraph, header: Header) -> Iterator[str]:
 
 def shell_of(cell: Cell) -> str:
     """Return what every shell needs once: the built package, the host's environment, the folder of the attempt."""
-    environments = [f"source generated/{cell.name}/middleware/{host}.sh  # on {host}" for host in cell.spec.hosts]
+    environments = [f"source generated/{cell.name}/middleware/{host}.sh  # on {host}" for host in cell.hosts]
     return fenced(
         (
             f"colcon build --base-paths generated --packages-select {cell.name}  # once",

@@ -5,7 +5,7 @@ The bring-up may see what it waits for, configure, observe and claim; it may nev
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from xml.etree.ElementTree import Element
 
@@ -14,10 +14,8 @@ from cellc.cell.control import Controller, ControllerManager
 from cellc.cell.interface import InterfaceKind, Node, NodeSource
 from cellc.deploy.processes import described_by
 from cellc.formats.xml_text import element
-from cellc.graph.controller_kinds import kind_of
 from cellc.link.derived_joint_states import JOINT_STATE_TYPE
 from cellc.link.nodes import JOINT_STATES
-from cellc.link.placeholders import placeholders
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,18 +96,16 @@ def node_profile(cell: Cell, node: Node) -> Profile:
 def _driver(cell: Cell, node: Node, granted: Profile) -> Profile:
     """Add what the catalogue says that a driver's node offers: it fails where one of these is denied to it."""
     device = cell.device(node.device or "")
-    known = placeholders(device.name, device.prefix, device.spec, cell.spec)
 
-    def own(offered: Iterable[tuple[str, str]]) -> tuple[str, ...]:
-        names = (known.fill(name) for name, server in offered if f"/{known.fill(server)}" == node.full_name)
+    def own(kind: InterfaceKind) -> tuple[str, ...]:
+        names = (one.name for one in device.offers if one.kind is kind and one.node == node.full_name)
         return tuple(node.remaps.get(name, name) for name in names)
 
-    facts = device.facts
     return replace(
         granted,
-        publish=(*granted.publish, *own((one.name, one.publisher) for one in facts.topics)),
-        reply=(*granted.reply, *own((one.name, one.server) for one in facts.services)),
-        execute=(*granted.execute, *own((one.name, one.server) for one in facts.actions)),
+        publish=(*granted.publish, *own(InterfaceKind.TOPIC)),
+        reply=(*granted.reply, *own(InterfaceKind.SERVICE)),
+        execute=(*granted.execute, *own(InterfaceKind.ACTION)),
     )
 
 
@@ -143,7 +139,7 @@ def _controller(cell: Cell, controller: Controller) -> Profile:
     Nobody is granted to publish what it subscribes to unless an interface of the cell says so.
     """
     granted = _granted(cell, controller.full_name, () if cell.distro == "humble" else _LOGGERS)
-    kind = kind_of(cell, controller)
+    kind = controller.declared
     topics = () if kind is None else tuple(one for one in kind.topics if not one.only or cell.distro in one.only)
     said = tuple(_own(controller, one.name) for one in topics if one.direction == "publish")
     heard = tuple(_own(controller, one.name) for one in topics if one.direction == "subscribe")

@@ -41,7 +41,7 @@ def _parts(cell: Cell, target: str, devices: tuple[str, ...]) -> Iterator[Elemen
     apart = _off_the_tree(cell)
     yield frame_link(WORLD)
     for device in cell.devices:
-        yield comment(f"devices.{device.name}: {device.facts.model}")
+        yield comment(f"devices.{device.name}: {device.model}")
         yield from _device(device)
     for frame in cell.frames:
         if frame.kind is FrameKind.FIXED and frame.authority == ROBOT_STATE_PUBLISHER and frame.name not in apart:
@@ -78,7 +78,7 @@ def _held(name: str, placed: Frame | SceneBox) -> Element:
 
 
 def _calibration(cell: Cell, frame: Frame) -> str:
-    written = cell.spec.calibrations.get(frame.calibration) if frame.calibration else None
+    written = cell.calibrations.get(frame.calibration) if frame.calibration else None
     return f": calibration {frame.calibration}, revision {written.revision}" if written else ""
 
 
@@ -114,18 +114,11 @@ def start_positions(cell: Cell) -> dict[str, float]:
         for joint, position in zip(pose.joints, pose.positions, strict=False)
     }
     return {
-        joint.name: _within(joint, of_cell.get(joint.name, catalogue))
+        joint.name: _within(joint, of_cell.get(joint.name, device.home.get(joint.name, 0.0)))
         for device in cell.devices
-        for joint, catalogue in _catalogue_home(device)
+        for joint in device.joints
+        if joint.mimics is None
     }
-
-
-def _catalogue_home(device: Device) -> Iterator[tuple[DeviceJoint, float]]:
-    home = device.facts.home or {}
-    for joint in device.joints:
-        if joint.mimics is None:
-            written = home.get(joint.local_name)
-            yield joint, 0.0 if written is None else written.si
 
 
 def _within(joint: DeviceJoint, position: float) -> float:
