@@ -7,8 +7,7 @@ from pathlib import Path
 import click
 
 from cellc.diagnostics import did_you_mean
-from cellc.report.handbook import render_handbook
-from cellc.report.pages import all_pages, render_page
+from cellc.report.pages import all_pages, render_handbook, render_page
 from cellc.store.swap import write_whole
 
 
@@ -18,16 +17,17 @@ from cellc.store.swap import write_whole
 @click.option(
     "-o",
     "--output",
-    type=click.Path(path_type=Path, dir_okay=False),
-    help="With --all, write all pages to a file.",
+    type=click.Path(path_type=Path, file_okay=False),
+    help="With --all, write all pages to a folder: an index, and one file for each family.",
 )
 def explain(code: str | None, everything: bool, output: Path | None) -> None:
     """Explain CODE, or list all codes."""
     pages = all_pages()
     if output is not None:
         if not everything:
-            raise click.UsageError("--output writes the document of all codes: give --all too")
-        write_whole(output, render_handbook())
+            raise click.UsageError("--output writes the pages of all codes: give --all too")
+        for name, text in render_handbook().items():
+            write_whole(output / name, text)
         click.echo(f"wrote {output.as_posix()}")
     elif everything:
         click.echo("\n".join(render_page(page) for page in pages.values()), nl=False)

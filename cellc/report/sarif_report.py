@@ -14,9 +14,8 @@ from pathlib import PurePath
 from cellc import __version__
 from cellc.diagnostics import Diagnostic, Severity, Span, format_path
 from cellc.diagnostics.page import CodePage
-from cellc.report.families import family_of
 from cellc.report.github_report import file_uri
-from cellc.report.pages import all_pages, render_page
+from cellc.report.pages import all_pages, family_of, render_page
 from cellc.report.terminal import escape
 
 _SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"

@@ -36,8 +36,7 @@ def selection(select: Iterable[str], ignore: Iterable[str]) -> Selection:
 
 def _codes(names: tuple[str, ...]) -> frozenset[str]:
     # A command that leaves nothing out does not load the pages of all stages.
-    from cellc.report.families import codes_by_family
-    from cellc.report.pages import all_pages
+    from cellc.report.pages import all_pages, codes_by_family
 
     families, pages = codes_by_family(), all_pages()
     codes: set[str] = set()
