@@ -1,17 +1,22 @@
 """The deterministic planner: inverse kinematics, collision-free paths, and jerk-limited trajectories."""
 
-from cellc.planning.disabled import DisabledPair, DisabledReason, disabled_collisions
-from cellc.planning.failure import FailureReason, IkFailure, LimitsError, ModelError, PlanFailure
-from cellc.planning.inverse import IkSolution
-from cellc.planning.limits import JointLimits, PlanningGroup
+from cellc.planning.collision_matrix import DisabledPair, DisabledReason, disabled_collisions
+from cellc.planning.inverse_kinematics import IkSolution
 from cellc.planning.model import RobotModel
-from cellc.planning.path import JointPath
+from cellc.planning.pair_sampling import beyond_reach
 from cellc.planning.planner import Planner
-from cellc.planning.reach import beyond_reach
-from cellc.planning.scene import CollisionScene
-from cellc.planning.shapes import Box
-from cellc.planning.timing import time_parameterize
-from cellc.planning.trajectory import LimitUse, TimedTrajectory, TrajectoryPoint
+from cellc.planning.problem import (
+    FailureReason,
+    IkFailure,
+    JointLimits,
+    JointPath,
+    LimitsError,
+    ModelError,
+    PlanFailure,
+    PlanningGroup,
+)
+from cellc.planning.scene import Box, CollisionScene
+from cellc.planning.trajectory import LimitUse, TimedTrajectory, TrajectoryPoint, time_parameterize
 
 __all__ = [
     "Box",

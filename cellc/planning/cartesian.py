@@ -10,12 +10,10 @@ import numpy as np
 import pinocchio
 
 from cellc.planning.chain import GroupChain
-from cellc.planning.edge import check_lengths
-from cellc.planning.failure import FailureReason, PlanFailure
-from cellc.planning.limits import Array, JointLimits
+from cellc.planning.inverse_kinematics import descend
 from cellc.planning.model import from_pose, to_pose
-from cellc.planning.path import JointPath
-from cellc.planning.solve import descend
+from cellc.planning.problem import Array, FailureReason, JointLimits, JointPath, PlanFailure
+from cellc.planning.rrt_connect import check_lengths
 from cellc.transforms import Pose, interpolate
 
 MAX_STEP_M = 0.005

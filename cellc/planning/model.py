@@ -1,4 +1,10 @@
-"""The robot and its cell as pinocchio sees them: kinematics, and collision shapes read from a URDF."""
+"""The robot as pinocchio sees it: kinematics, and collision shapes read from a URDF.
+
+The parser underneath pinocchio prints its reason to stderr and raises the same sentence for every cause, so the causes
+are looked for here, in the description that our own reader gives. Joints that follow other joints are bound here too:
+pinocchio wants a leader before its followers in a tree that its parser has sorted by name, and would refuse a gripper
+whose follower has the lesser name.
+"""
 
 from __future__ import annotations
 
@@ -10,12 +16,9 @@ from typing import Any
 import numpy as np
 import pinocchio
 
-from cellc.description.model import Description
+from cellc.description.model import Description, Joint
 from cellc.description.urdf_reader import read_urdf
-from cellc.planning.failure import ModelError
-from cellc.planning.limits import Array
-from cellc.planning.mimic import Mimic, resolve_mimics
-from cellc.planning.urdf_check import check_description
+from cellc.planning.problem import Array, ModelError
 from cellc.transforms import Pose
 
 # pinocchio ships no type information: its values are Any, and stay inside this package.
@@ -133,6 +136,98 @@ def _described(text: str) -> Description:
     if read.value is None:
         raise ModelError(f"the robot description cannot be read: {read.diagnostics[0].message}")
     return read.value
+
+
+def check_description(description: Description) -> None:
+    """Raise ModelError with the first reason for which links and joints are no robot."""
+    links = [link.name for link in description.links]
+    if not links:
+        raise ModelError("the robot description has no link")
+    _refuse_repeated("link", links)
+    _refuse_repeated("joint", [joint.name for joint in description.joints])
+    for joint in description.joints:
+        _check_joint(joint, links)
+    _check_tree(description)
+
+
+def _refuse_repeated(kind: str, names: Iterable[str]) -> None:
+    seen: set[str] = set()
+    for name in names:
+        if name in seen:
+            raise ModelError(f"{kind} `{name}` is declared twice")
+        seen.add(name)
+
+
+def _check_joint(joint: Joint, links: list[str]) -> None:
+    for end, link in (("parent", joint.parent), ("child", joint.child)):
+        if link not in links:
+            raise ModelError(f"joint `{joint.name}` has the {end} link `{link}`, which does not exist")
+    if joint.limit is None:
+        if joint.type in ("revolute", "prismatic"):
+            raise ModelError(f"joint `{joint.name}` is {joint.type} and has no limit")
+        return
+    for name, value in (("effort", joint.limit.effort), ("velocity", joint.limit.velocity)):
+        if value is None:
+            raise ModelError(f"the limit of joint `{joint.name}` states no {name}")
+
+
+def _check_tree(description: Description) -> None:
+    children: set[str] = set()
+    for joint in description.joints:
+        if joint.child in children:
+            raise ModelError(f"link `{joint.child}` is the child of two joints")
+        children.add(joint.child)
+    roots = description.roots()
+    if len(roots) != 1:
+        shown = ", ".join(f"`{root}`" for root in roots) or "none"
+        raise ModelError(f"the links must have exactly one root, found {shown}")
+    unreached = description.unreached(roots[0])
+    if unreached:
+        raise ModelError(f"link `{unreached[0]}` is on a cycle of joints")
+
+
+@dataclass(frozen=True, slots=True)
+class Mimic:
+    """A joint that stands at ``multiplier * leader + offset``; the leader itself follows nothing."""
+
+    joint: str
+    leader: str
+    multiplier: float
+    offset: float
+
+
+def resolve_mimics(description: Description) -> tuple[Mimic, ...]:
+    """Return the mimic joints in the order of the file; a mimic of a mimic is led by the joint at the end.
+
+    Raises:
+        ModelError: the joint followed does not exist or is fixed, or joints follow each other in a circle.
+    """
+    types = {joint.name: joint.type for joint in description.joints}
+    direct = {
+        joint.name: Mimic(joint.name, joint.mimic.joint, joint.mimic.multiplier, joint.mimic.offset)
+        for joint in description.joints
+        if joint.mimic is not None
+    }
+    for mimic in direct.values():
+        if mimic.leader not in types:
+            raise ModelError(f"joint `{mimic.joint}` mimics `{mimic.leader}`, which does not exist")
+        if types[mimic.leader] == "fixed":
+            raise ModelError(f"joint `{mimic.joint}` mimics `{mimic.leader}`, which is fixed")
+    return tuple(_resolve(mimic, direct) for mimic in direct.values())
+
+
+def _resolve(mimic: Mimic, direct: dict[str, Mimic]) -> Mimic:
+    multiplier, offset, leader = mimic.multiplier, mimic.offset, mimic.leader
+    for _ in direct:
+        above = direct.get(leader)
+        if above is None:
+            return Mimic(mimic.joint, leader, multiplier, offset)
+        offset += multiplier * above.offset
+        multiplier *= above.multiplier
+        leader = above.leader
+    if leader not in direct:
+        return Mimic(mimic.joint, leader, multiplier, offset)
+    raise ModelError(f"joint `{mimic.joint}` mimics itself over `{mimic.leader}`")
 
 
 def to_pose(transform: PinTransform) -> Pose:

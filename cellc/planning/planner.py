@@ -10,16 +10,20 @@ import numpy as np
 
 from cellc.planning.cartesian import plan_line
 from cellc.planning.chain import GroupChain
-from cellc.planning.connect import connect
-from cellc.planning.edge import edge_is_free
-from cellc.planning.failure import FailureReason, IkFailure, LimitsError, PlanFailure
-from cellc.planning.inverse import IkSolution, solve_inverse
-from cellc.planning.limits import Array, JointLimits, PlanningGroup
+from cellc.planning.inverse_kinematics import IkSolution, singular_values, solve_inverse
 from cellc.planning.model import RobotModel, from_pose, to_pose
-from cellc.planning.path import JointPath
+from cellc.planning.problem import (
+    Array,
+    FailureReason,
+    IkFailure,
+    JointLimits,
+    JointPath,
+    LimitsError,
+    PlanFailure,
+    PlanningGroup,
+)
+from cellc.planning.rrt_connect import connect, edge_is_free, shorten
 from cellc.planning.scene import CollisionScene
-from cellc.planning.shorten import shorten
-from cellc.planning.solve import singular_values
 from cellc.transforms import Pose
 
 # Below this a finite tip speed asks for joint speeds hundreds of times larger: the arm has lost a direction.

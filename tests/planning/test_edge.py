@@ -11,7 +11,7 @@ import pytest
 
 from cellc.planning import CollisionScene, PlanningGroup, RobotModel
 from cellc.planning.chain import GroupChain
-from cellc.planning.edge import EDGE_RESOLUTION_M, edge_is_free
+from cellc.planning.rrt_connect import EDGE_RESOLUTION_M, edge_is_free
 from cellc.transforms import Pose
 from tests.planning.arm import ADJACENT, GROUP, LIMITS, arm_urdf
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from cellc.planning import Box, CollisionScene, ModelError, RobotModel
-from cellc.planning.sampling import draw_configurations
+from cellc.planning.pair_sampling import draw_configurations
 from cellc.transforms import Pose, Vector3
 from tests.planning.arm import ADJACENT, arm_urdf
 

@@ -18,7 +18,7 @@ from cellc.planning import (
     TimedTrajectory,
     time_parameterize,
 )
-from cellc.planning.profile import rest_to_rest, rest_to_rest_durations
+from cellc.planning.motion_law import rest_to_rest, rest_to_rest_durations
 from cellc.transforms import Pose
 
 from .arm import ADJACENT, GROUP, HOME, JOINTS, LIMITS, arm_urdf

@@ -1,14 +1,13 @@
-"""Planning groups and the limits of their joints."""
+"""What a plan is asked for and what it is: planning groups, joint limits, paths, and why there is none."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from enum import Enum
 
 import numpy as np
 import numpy.typing as npt
-
-from cellc.planning.failure import LimitsError
 
 Array = npt.NDArray[np.float64]
 
@@ -74,3 +73,75 @@ class JointLimits:
             if not lower <= value <= upper:
                 return f"joint `{joint}` at {value:.6g} is outside {lower:.6g} to {upper:.6g}"
         return ""
+
+
+Configuration = tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class JointPath:
+    """Sections of motion between standstills.
+
+    A section of two waypoints is the straight edge between them in joint space. A section of more waypoints is the
+    cubic spline through them; they have to be sampled evenly from a smooth motion, such as a straight line of the tip.
+    Each section starts where the one before it ended.
+
+    Attributes:
+        joints: the order of every configuration.
+        sections: waypoints, rad or metres.
+    """
+
+    joints: tuple[str, ...]
+    sections: tuple[tuple[Configuration, ...], ...]
+
+    @property
+    def start(self) -> Configuration:
+        """The first configuration."""
+        return self.sections[0][0]
+
+    @property
+    def goal(self) -> Configuration:
+        """The last configuration."""
+        return self.sections[-1][-1]
+
+    def then(self, other: JointPath) -> JointPath:
+        """Return this path followed by another that starts where this one ends, with a standstill between them."""
+        if other.joints != self.joints or other.start != self.goal:
+            raise ValueError("a path must go on from the goal and with the joints of the path before it")
+        return JointPath(self.joints, self.sections + other.sections)
+
+
+class FailureReason(str, Enum):
+    """The distinct reasons of a planning failure; the value is the word written to the attempt record."""
+
+    NO_IK_SOLUTION = "no_ik_solution"
+    GOAL_IN_COLLISION = "goal_in_collision"
+    START_IN_COLLISION = "start_in_collision"
+    OUT_OF_LIMITS = "out_of_limits"
+    NO_PATH = "no_path"
+    SINGULAR = "singular"
+    JOINT_JUMP = "joint_jump"
+
+
+@dataclass(frozen=True, slots=True)
+class IkFailure:
+    """No configuration puts the tip at the target."""
+
+    reason: FailureReason
+    detail: str
+
+
+@dataclass(frozen=True, slots=True)
+class PlanFailure:
+    """No path leads from the start to the goal."""
+
+    reason: FailureReason
+    detail: str
+
+
+class ModelError(ValueError):
+    """The robot description cannot be used; the message is one line and names the culprit."""
+
+
+class LimitsError(ValueError):
+    """A limit is zero, negative, not a number, or reversed; the message names the joint."""

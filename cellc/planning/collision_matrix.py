@@ -11,12 +11,10 @@ from dataclasses import dataclass
 from enum import Enum
 from itertools import combinations
 
-from cellc.planning.limits import Array
 from cellc.planning.model import RobotModel
-from cellc.planning.pair_check import PairCheck
-from cellc.planning.reach import beyond_reach
-from cellc.planning.sampling import draw_configurations
-from cellc.planning.shapes import LinkPair, shape_links
+from cellc.planning.pair_sampling import PairCheck, beyond_reach, draw_configurations
+from cellc.planning.problem import Array
+from cellc.planning.scene import LinkPair, shape_links
 
 
 class DisabledReason(str, Enum):
