@@ -25,8 +25,6 @@ from cellc.cell.site import (
     Versions,
 )
 from cellc.diagnostics import Span
-from cellc.source.document import SourceDocument
-from cellc.spec.cell_spec import CellSpec
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -34,15 +32,12 @@ class Cell:
     """A linked cell; every tuple is sorted as the user wrote it, derived entities after written ones.
 
     Args:
-        spec, document: about to go; ask the fields below and `locate`, `states`, `text`.
         places: where the user wrote what.
         distro: the pinned distribution, or UNKNOWN.
         behaviours: controller plugin type string → neutral behaviour, for the plugins in use.
     """
 
     name: str
-    spec: CellSpec
-    document: SourceDocument
     places: Places
     distro: str
     summary: str

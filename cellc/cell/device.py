@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from cellc.catalog.device_model import DeviceModel
 from cellc.catalog.device_operation import VersionRow
 from cellc.cell.entity import Entity
 from cellc.cell.interface import InterfaceKind
 from cellc.cell.site import UNKNOWN, Clock, JointFigure
 from cellc.description.model import Description
-from cellc.spec.devices import DeviceSpec
 from cellc.transforms import Pose, Vector3
 
 EVERY_JOINT = "*"
@@ -155,12 +153,13 @@ class SimulatedJoint(Entity):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Gripper:
-    """A gripper as its joint moves it: positions in rad or m, the largest force in N."""
+    """A gripper as its joint moves it: positions and their tolerance in rad or m, the largest force in N."""
 
     joint: str
     open: float
     closed: float
     max_force: float
+    goal_tolerance: float
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -241,7 +240,6 @@ class Device(Entity):
     """A robot, gripper or sensor where it stands.
 
     Args:
-        spec, facts: about to go; ask the fields below.
         model, vendor, kind: as the catalogue names them; the kind is arm, gripper or camera.
         architecture: who owns the command path: ros2, direct_sdk or hybrid.
         description: links and joints with the prefix applied; frames as URDF.
@@ -263,8 +261,6 @@ class Device(Entity):
         mock_cannot_prove: what no mock shows of it.
     """
 
-    spec: DeviceSpec
-    facts: DeviceModel
     model: str
     vendor: str
     kind: str

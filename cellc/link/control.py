@@ -77,7 +77,7 @@ def _manager(
 
 def _managed_devices(written: ManagerSpec, context: ControlContext) -> tuple[str, ...]:
     """One manager loads all hardware of the cell; several load what their own controllers drive."""
-    with_hardware = tuple(name for name, device in context.devices.items() if device.hardware is not None)
+    with_hardware = tuple(name for name, bound in context.devices.items() if bound.device.hardware is not None)
     if not context.spec.managers:
         return with_hardware
     named = {entry.device for entry in written.controllers.values()}

@@ -8,14 +8,15 @@ from dataclasses import dataclass
 from cellc.catalog.catalog_model import Distro
 from cellc.catalog.controller_kind import ControllerKind
 from cellc.catalog.device_control import PluginUse
-from cellc.catalog.device_controller import PASSIVE
+from cellc.catalog.device_controller import PASSIVE, DeviceController
+from cellc.catalog.kind_of import kind_behind
+from cellc.catalog.load import controller_kinds
 from cellc.cell.control import Controller, StandIn
 from cellc.cell.device import Device
 from cellc.cell.interface import TARGETS, ParameterValue
-from cellc.diagnostics import Diagnostic, Outcome, Severity, YamlPath
+from cellc.diagnostics import Diagnostic, Outcome, Severity, YamlPath, did_you_mean
 from cellc.link.controller_parameters import bind_parameters
-from cellc.link.controller_plugin import behaviour_of, choose_plugin
-from cellc.link.placeholders import placeholders
+from cellc.link.devices import BoundDevice
 from cellc.link.unknown import unknown_name
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
@@ -29,7 +30,7 @@ class ControlContext:
     spec: CellSpec
     document: SourceDocument
     distro: Distro
-    devices: Mapping[str, Device]
+    devices: Mapping[str, BoundDevice]
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +42,21 @@ class ControllerPlace:
     manager: str
     namespace: str
     path: YamlPath
+
+
+@dataclass(frozen=True, slots=True)
+class _Chosen:
+    """What a controller is: its kind and plugin, the device that it drives, and the device's own entry for its type."""
+
+    kind: ControllerKind
+    plugin: PluginUse
+    bound: BoundDevice | None
+    own: DeviceController | None
+
+    @property
+    def device(self) -> Device | None:
+        """The device that it drives."""
+        return None if self.bound is None else self.bound.device
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,33 +72,64 @@ class _Interfaces:
 
 def link_controller(place: ControllerPlace, written: ControllerSpec, context: ControlContext) -> Outcome[Controller]:
     """Bind a controller; what it names and nobody has is reported."""
-    device = None if written.device is None else context.devices.get(written.device)
-    if written.device is not None and device is None:
+    bound = None if written.device is None else context.devices.get(written.device)
+    if written.device is not None and bound is None:
         at = (*place.path, "device")
         known = context.devices
         return Outcome(None, (unknown_name("unknown-device", written.device, "device", known, context.document, at),))
-    chosen = choose_plugin(written.type, place.path, device, context.distro, context.document)
-    if chosen.value is None:
-        return Outcome(None, chosen.diagnostics)
-    plugin, kind = chosen.value
-    if kind.scope == "device" and device is None:
+    choice = _choose(written.type, (*place.path, "type"), bound, context)
+    if choice.value is None:
+        return Outcome(None, choice.diagnostics)
+    chosen = choice.value
+    if chosen.kind.scope == "device" and bound is None:
         return Outcome(None, (_no_device(place, written, context),))
-    joints = _joints(written, place.path, kind, device, context)
-    interfaces = _interfaces(joints.value or (), written, kind, device, context)
-    controller = _controller(place, written, device, plugin, kind, interfaces, context)
+    joints = _joints(written, place.path, chosen, context)
+    interfaces = _interfaces(joints.value or (), written, chosen)
+    controller = _controller(place, written, chosen, interfaces, context)
     return Outcome(controller, (*joints.diagnostics, *_unknown_client(place.path, written, context)))
+
+
+def _choose(type_: str, at: YamlPath, bound: BoundDevice | None, context: ControlContext) -> Outcome[_Chosen]:
+    """Choose kind and plugin of a type for the distribution: the device's own kinds come before the neutral ones."""
+    facts = None if bound is None else bound.facts
+    own = {} if facts is None else facts.controllers
+    kind = kind_behind(type_, facts)
+    if kind is None:
+        return Outcome(None, (_unknown_kind(type_, (*own, *controller_kinds()), context.document, at),))
+    plugins = own[type_].plugins if type_ in own else kind.plugins
+    if context.distro in plugins:
+        return Outcome(_Chosen(kind, plugins[context.distro], bound, own.get(type_)))
+    problem = Diagnostic(
+        code="controller-not-in-distro",
+        severity=Severity.ERROR,
+        message=f"`{type_}` does not exist on {context.distro}, only on {', '.join(plugins)}",
+        span=context.document.locate(at),
+        yaml_path=at,
+        help="choose a kind that the pinned distribution has",
+    )
+    return Outcome(None, (problem,))
+
+
+def _unknown_kind(type_: str, known: tuple[str, ...], document: SourceDocument, at: YamlPath) -> Diagnostic:
+    return Diagnostic(
+        code="unknown-controller-kind",
+        severity=Severity.ERROR,
+        message=f"there is no kind of controller `{type_}`",
+        span=document.locate(at),
+        yaml_path=at,
+        help=did_you_mean(type_, known, "kinds of controllers"),
+    )
 
 
 def _controller(
     place: ControllerPlace,
     written: ControllerSpec,
-    device: Device | None,
-    plugin: PluginUse,
-    kind: ControllerKind,
+    chosen: _Chosen,
     interfaces: _Interfaces,
     context: ControlContext,
 ) -> Controller:
-    targets = _targets(written, device)
+    device, kind, plugin = chosen.device, chosen.kind, chosen.plugin
+    targets = _targets(chosen)
     return Controller(
         name=place.name,
         path=place.path,
@@ -93,16 +140,16 @@ def _controller(
         targets=targets,
         stand_in=None if device is None or "real" in targets else _stand_in(kind, device),
         kind=written.type,
-        behaviour=behaviour_of(plugin, device, kind, context.distro),
+        behaviour=_behaviour(chosen, context.distro),
         plugin=plugin.type,
         package=plugin.package,
         declared=kind,
-        plugin_parameters=_plugin_parameters(written, device),
+        plugin_parameters=_plugin_parameters(chosen.own),
         device=written.device,
         joints=interfaces.joints,
         command_interfaces=interfaces.command,
         state_interfaces=interfaces.state,
-        parameters=_parameters(written, device, plugin, kind, interfaces, context),
+        parameters=_parameters(written, chosen, interfaces, context),
         written_parameters=written.parameters,
         active=written.active,
         client=written.client,
@@ -116,34 +163,35 @@ def _controller(
     )
 
 
-def _plugin_parameters(written: ControllerSpec, device: Device | None) -> frozenset[str]:
+def _behaviour(chosen: _Chosen, distro: Distro) -> str:
+    """Return the neutral kind; a trajectory controller that is told of the device's speed scaling follows it."""
+    neutral = chosen.kind.plugins.get(distro)
+    scaling = None if chosen.bound is None else chosen.bound.facts.speed_scaling
+    if scaling is None or (neutral is not None and neutral.type == chosen.plugin.type):
+        return chosen.kind.kind  # where the upstream plugin is used it takes the factor by parameters of its own
+    follows = scaling.state_interface in chosen.plugin.parameters.values()
+    return f"scaled_{chosen.kind.kind}" if follows else chosen.kind.kind
+
+
+def _plugin_parameters(own: DeviceController | None) -> frozenset[str]:
     """Name the parameters that a device's own controller has besides those of its kind."""
-    own = None if device is None else device.facts.controllers.get(written.type)
     plugins = () if own is None else own.plugins.values()
     return frozenset(name for plugin in plugins for name in plugin.parameters)
 
 
 def _parameters(
-    written: ControllerSpec,
-    device: Device | None,
-    plugin: PluginUse,
-    kind: ControllerKind,
-    interfaces: _Interfaces,
-    context: ControlContext,
+    written: ControllerSpec, chosen: _Chosen, interfaces: _Interfaces, context: ControlContext
 ) -> Mapping[str, ParameterValue]:
-    values = bind_parameters(
-        kind, plugin, written, interfaces.joints, interfaces.claims, interfaces.reads, device, context.distro
-    )
-    if device is None:
-        return values
-    return placeholders(device.name, device.prefix, device.spec, context.spec).fill_parameters(values)
+    joints, claims, reads = interfaces.joints, interfaces.claims, interfaces.reads
+    values = bind_parameters(chosen.kind, chosen.plugin, written, joints, claims, reads, chosen.device, context.distro)
+    return values if chosen.bound is None else chosen.bound.names.fill_parameters(values)
 
 
-def _targets(written: ControllerSpec, device: Device | None) -> tuple[str, ...]:
+def _targets(chosen: _Chosen) -> tuple[str, ...]:
     """Return the targets whose hardware has what the controller takes."""
+    device, own = chosen.device, chosen.own
     if device is None:
         return TARGETS
-    own = device.facts.controllers.get(written.type)
     have = TARGETS if device.hardware is None else device.hardware.targets
     return tuple(target for target in have if target == "real" or own is None or not own.real_only)
 
@@ -156,22 +204,16 @@ def _stand_in(kind: ControllerKind, device: Device) -> StandIn | None:
     return StandIn(node=driver.node, action=action, action_type=action_type)
 
 
-def _interfaces(
-    joints: tuple[str, ...],
-    written: ControllerSpec,
-    kind: ControllerKind,
-    device: Device | None,
-    context: ControlContext,
-) -> _Interfaces:
-    own = None if device is None else device.facts.controllers.get(written.type)
-    if device is not None and own is not None and own.behaviour in PASSIVE:
+def _interfaces(joints: tuple[str, ...], written: ControllerSpec, chosen: _Chosen) -> _Interfaces:
+    kind, bound, own = chosen.kind, chosen.bound, chosen.own
+    if bound is not None and own is not None and own.behaviour in PASSIVE:
         # It drives no joint, and names what it takes in full.
-        known = placeholders(device.name, device.prefix, device.spec, context.spec)
-        return _Interfaces((), (), (), tuple(map(known.fill, own.claims)), tuple(map(known.fill, own.reads)))
+        fill = bound.names.fill
+        return _Interfaces((), (), (), tuple(map(fill, own.claims)), tuple(map(fill, own.reads)))
     claims = (
         written.command_interfaces or (own.command_interfaces if own is not None else ()) or kind.command_interfaces
     )
-    reads = _read(kind, joints, device)
+    reads = _read(kind, joints, chosen.device)
     command = tuple(f"{joint}/{claim}" for joint in joints for claim in claims)
     state = tuple(f"{joint}/{read}" for joint in joints for read in reads)
     return _Interfaces(joints, claims, reads, command, state)
@@ -189,11 +231,13 @@ def _no_device(place: ControllerPlace, written: ControllerSpec, context: Control
 
 
 def _joints(
-    written: ControllerSpec, path: YamlPath, kind: ControllerKind, device: Device | None, context: ControlContext
+    written: ControllerSpec, path: YamlPath, chosen: _Chosen, context: ControlContext
 ) -> Outcome[tuple[str, ...]]:
     if not written.joints:
-        return Outcome(() if device is None else _default_joints(kind, device))
-    known = {f"{name}/{joint.local_name}": joint.name for name, one in context.devices.items() for joint in one.joints}
+        return Outcome(() if chosen.device is None else _default_joints(chosen.kind, chosen.device))
+    known = {
+        f"{name}/{joint.local_name}": joint.name for name, one in context.devices.items() for joint in one.device.joints
+    }
     problems = tuple(
         unknown_name("unknown-joint", joint, "joint", known, context.document, (*path, "joints", index))
         for index, joint in enumerate(written.joints)
@@ -203,8 +247,8 @@ def _joints(
 
 
 def _default_joints(kind: ControllerKind, device: Device) -> tuple[str, ...]:
-    if kind.single_joint and device.facts.gripper is not None:
-        return (device.prefix + device.facts.gripper.joint,)
+    if kind.single_joint and device.gripper is not None:
+        return (device.gripper.joint,)
     return tuple(joint.name for joint in device.actuated_joints)
 
 

@@ -70,11 +70,11 @@ def _tolerances(
 def _gripper(
     kind: ControllerKind, written: ControllerSpec, device: Device | None, distro: Distro
 ) -> Iterator[tuple[str, ParameterValue]]:
-    if device is None or device.facts.gripper is None:
+    if device is None or device.gripper is None:
         return
     if _declares(kind, "goal_tolerance", distro):
-        tolerance = written.goal_tolerance or device.facts.gripper.goal_tolerance
-        yield "goal_tolerance", float(tolerance.si)
+        stated = written.goal_tolerance
+        yield "goal_tolerance", device.gripper.goal_tolerance if stated is None else float(stated.si)
     if _declares(kind, "allow_stalling", distro):
         # Fingers that meet a part stand still before their goal: that is a grasp, not a failure.
         yield "allow_stalling", True

@@ -6,21 +6,18 @@ from collections.abc import Iterator
 
 from cellc.catalog.controller_kind import ControllerService, ControllerTopic
 from cellc.catalog.device_controller import PASSIVE
-from cellc.catalog.kind_of import kind_behind
 from cellc.cell.control import Controller
-from cellc.cell.device import Device
 from cellc.cell.interface import Endpoint, Interface, InterfaceKind
 from cellc.link.derivation import Derivation
 
 
 def control_interfaces(source: Derivation) -> Iterator[Interface]:
     """Yield the actions of all controllers, and the topics and services of the passive ones."""
-    devices = {device.name: device for device in source.devices}
     for manager in source.managers:
         for controller in manager.controllers:
             yield from _actions(source, controller)
             if controller.behaviour in PASSIVE:
-                yield from _passive(source, controller, devices[controller.device or ""])
+                yield from _passive(source, controller)
 
 
 def _actions(source: Derivation, controller: Controller) -> Iterator[Interface]:
@@ -60,8 +57,8 @@ def _clients(source: Derivation, controller: Controller, interface: str) -> tupl
     return (source.end(controller.client, interface, (*controller.path, "client")),)
 
 
-def _passive(source: Derivation, controller: Controller, device: Device) -> Iterator[Interface]:
-    kind = kind_behind(controller.kind, device.facts)
+def _passive(source: Derivation, controller: Controller) -> Iterator[Interface]:
+    kind = controller.declared
     if kind is None:
         return
     for topic in kind.topics:

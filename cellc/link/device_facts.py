@@ -110,7 +110,13 @@ def bind_gripper(facts: DeviceModel, prefix: str) -> Gripper | None:
     one = facts.gripper
     if one is None:
         return None
-    return Gripper(joint=prefix + one.joint, open=one.open.si, closed=one.closed.si, max_force=one.max_force.si)
+    return Gripper(
+        joint=prefix + one.joint,
+        open=one.open.si,
+        closed=one.closed.si,
+        max_force=one.max_force.si,
+        goal_tolerance=float(one.goal_tolerance.si),
+    )
 
 
 def bind_camera(facts: DeviceModel, written: DeviceSpec, known: Placeholders, prefix: str) -> Camera | None:

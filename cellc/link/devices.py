@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 from cellc.catalog.device_control import GroupInterfaces, JointInterfaces
 from cellc.catalog.device_model import AccelerationLimit, DeviceModel, JerkLimit
 from cellc.catalog.load import CatalogDevice, device_names, load_device
-from cellc.cell.device import Device, DeviceDriver, DeviceJoint, HardwareComponent, InterfaceGroup
+from cellc.cell.device import EVERY_JOINT, Device, DeviceDriver, DeviceJoint, HardwareComponent, InterfaceGroup
 from cellc.cell.frame import WORLD
 from cellc.description.model import Description, Joint
 from cellc.diagnostics import Diagnostic, Outcome, Severity, did_you_mean
@@ -32,11 +33,20 @@ from cellc.link.placement import pose
 from cellc.link.unknown import unknown_name
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
-from cellc.spec.devices import EVERY_JOINT, DeviceSpec
+from cellc.spec.devices import DeviceSpec
 from cellc.transforms import identity
 
 
-def link_devices(spec: CellSpec, document: SourceDocument) -> Outcome[tuple[Device, ...]]:
+@dataclass(frozen=True, slots=True)
+class BoundDevice:
+    """A device with the catalogue entry that it was bound to, and what fills the placeholders of the entry's texts."""
+
+    device: Device
+    facts: DeviceModel
+    names: Placeholders
+
+
+def link_devices(spec: CellSpec, document: SourceDocument) -> Outcome[tuple[BoundDevice, ...]]:
     """Bind every device of the spec; parents of mounts are resolved among the devices themselves."""
     entries: dict[str, CatalogDevice] = {}
     problems: list[Diagnostic] = []
@@ -48,24 +58,23 @@ def link_devices(spec: CellSpec, document: SourceDocument) -> Outcome[tuple[Devi
         problems += _connection_problems(name, written, spec, document)
     if len(entries) < len(spec.devices):
         return Outcome(None, tuple(problems))
-    devices: list[Device] = []
+    devices: list[BoundDevice] = []
     for name, written in spec.devices.items():
         parent = _parent_frame(name, written, spec, document, entries)
         problems += parent.diagnostics
         if parent.value is not None:
-            device = _device(name, written, spec, document, entries[name], parent.value)
-            problems += _unknown_simulated_joints(device, document)
-            devices.append(device)
+            bound = _device(name, written, spec, document, entries[name], parent.value)
+            problems += _unknown_simulated_joints(bound.device, document)
+            devices.append(bound)
     return Outcome(tuple(devices), tuple(problems))
 
 
 def _unknown_simulated_joints(device: Device, document: SourceDocument) -> list[Diagnostic]:
-    names = [joint.name.removeprefix(device.prefix) for joint in device.actuated_joints]
-    path = ("devices", device.name, "simulated_joints")
+    names = [joint.local_name for joint in device.actuated_joints]
     return [
-        unknown_name("unknown-joint", name, "joint", names, document, (*path, name))
-        for name in device.spec.simulated_joints
-        if name not in (*names, EVERY_JOINT)
+        unknown_name("unknown-joint", one.name, "joint", names, document, one.path)
+        for one in device.simulated_joints
+        if one.name not in (*names, EVERY_JOINT)
     ]
 
 
@@ -130,19 +139,17 @@ def _frame_names(entry: CatalogDevice) -> dict[str, str]:
 
 def _device(
     name: str, written: DeviceSpec, spec: CellSpec, document: SourceDocument, entry: CatalogDevice, parent: str
-) -> Device:
+) -> BoundDevice:
     path = ("devices", name)
     prefix = prefix_of(name, written)
     facts = entry.model
     mount = written.mount
     known = placeholders(name, prefix, written, spec)
     joints = _joints(name, written, document, facts, entry.description, prefix)
-    return Device(
+    device = Device(
         name=name,
         path=path,
         span=document.locate(path),
-        spec=written,
-        facts=facts,
         prefix=prefix,
         description=entry.description.renamed(prefix),
         root_link=prefix + facts.base,
@@ -180,6 +187,7 @@ def _device(
         version_rows=facts.versions,
         mock_cannot_prove=facts.mock_cannot_prove,
     )
+    return BoundDevice(device, facts, known)
 
 
 def _carried(name: str, spec: CellSpec) -> tuple[str, ...]:
@@ -200,8 +208,7 @@ def _joints(
     prefix: str,
 ) -> tuple[DeviceJoint, ...]:
     path = ("devices", device)
-    share_of_velocity = _share(written, "velocity")
-    share_of_acceleration = _share(written, "acceleration")
+    shares = bind_limit_shares(written)
     return tuple(
         DeviceJoint(
             name=prefix + joint.name,
@@ -211,8 +218,8 @@ def _joints(
             type=joint.type,
             lower=None if joint.limit is None else joint.limit.lower,
             upper=None if joint.limit is None else joint.limit.upper,
-            velocity=_scaled(None if joint.limit is None else joint.limit.velocity, share_of_velocity),
-            acceleration=_scaled(_limit(facts.limits.acceleration_of(joint.name)), share_of_acceleration),
+            velocity=_scaled(None if joint.limit is None else joint.limit.velocity, shares.velocity),
+            acceleration=_scaled(_limit(facts.limits.acceleration_of(joint.name)), shares.acceleration),
             jerk=_limit(facts.limits.jerk_of(joint.name)),
             effort=None if joint.limit is None else joint.limit.effort,
             mimics=None if joint.mimic is None else prefix + joint.mimic.joint,
@@ -222,14 +229,6 @@ def _joints(
         for joint in description.joints
         if joint.movable
     )
-
-
-def _share(written: DeviceSpec, kind: str) -> float:
-    limits = written.limits
-    if limits is None:
-        return 1.0
-    ratio = limits.velocity if kind == "velocity" else limits.acceleration
-    return 1.0 if ratio is None else ratio.si
 
 
 def _limit(limit: AccelerationLimit | JerkLimit | None) -> float | None:

@@ -6,10 +6,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 from cellc.cell.control import Controller, ControllerManager
-from cellc.cell.device import Device
 from cellc.cell.interface import TARGETS, Endpoint, Node, NodeSource, Qos, node_labels
 from cellc.diagnostics import Span, YamlPath
-from cellc.link.placeholders import placeholders
+from cellc.link.devices import BoundDevice
 from cellc.link.qos import DEFAULT, QosResolver
 from cellc.spec.cell_spec import CellSpec
 
@@ -61,7 +60,7 @@ class EndpointNames:
 
 def name_endpoints(
     spec: CellSpec,
-    devices: tuple[Device, ...],
+    devices: tuple[BoundDevice, ...],
     nodes: tuple[Node, ...],
     managers: tuple[ControllerManager, ...],
     resolver: QosResolver,
@@ -72,7 +71,7 @@ def name_endpoints(
     words = {
         label: EndName(label, node.full_name, node.owner) for node, label in zip(own, node_labels(own), strict=True)
     }
-    words |= {device.name: _of_device(device, nodes, spec, resolver) for device in devices}
+    words |= {one.device.name: _of_device(one, nodes, spec, resolver) for one in devices}
     command = spec.owners.responsibilities.command
     words |= {c.label: EndName(c.label, c.full_name, command, c.targets) for c in controllers}
     full = {end.full_name: end for end in words.values()}
@@ -94,34 +93,23 @@ def _shared(controllers: tuple[Controller, ...]) -> dict[str, tuple[str, ...]]:
     return shared
 
 
-def _of_device(device: Device, nodes: tuple[Node, ...], spec: CellSpec, resolver: QosResolver) -> EndName:
+def _of_device(bound: BoundDevice, nodes: tuple[Node, ...], spec: CellSpec, resolver: QosResolver) -> EndName:
+    device = bound.device
     own = next((node.full_name for node in nodes if node.device == device.name), f"/{device.name}")
     return EndName(
         node=device.name,
         full_name=own,
         owner=spec.owners.responsibilities.vendor_safety,
-        nodes={name: node for name, node in _nodes_of(device, spec) if any(n.full_name == node for n in nodes)},
-        offered=dict(_offered(device, spec, resolver)),
+        nodes={one.name: one.node for one in device.offers if any(n.full_name == one.node for n in nodes)},
+        offered=dict(_offered(bound, resolver)),
     )
 
 
-def _nodes_of(device: Device, spec: CellSpec) -> Iterator[tuple[str, str]]:
-    """Yield the interfaces of a device with the nodes that the catalogue says offer them."""
-    known = placeholders(device.name, device.prefix, device.spec, spec)
-    facts = device.facts
+def _offered(bound: BoundDevice, resolver: QosResolver) -> Iterator[tuple[str, Qos]]:
+    known, facts = bound.names, bound.facts
     for topic in facts.topics:
-        yield known.fill(topic.name), "/" + known.fill(topic.publisher)
-    for service in facts.services:
-        yield known.fill(service.name), "/" + known.fill(service.server)
-    for action in facts.actions:
-        yield known.fill(action.name), "/" + known.fill(action.server)
-
-
-def _offered(device: Device, spec: CellSpec, resolver: QosResolver) -> Iterator[tuple[str, Qos]]:
-    known = placeholders(device.name, device.prefix, device.spec, spec)
-    for topic in device.facts.topics:
         yield known.fill(topic.name), resolver.writer(topic.qos)
-    if device.facts.camera is not None:
-        for stream in device.facts.camera.streams.values():
+    if facts.camera is not None:
+        for stream in facts.camera.streams.values():
             yield known.fill(stream.topic), resolver.writer(stream.qos)
             yield known.fill(stream.info_topic), resolver.writer(stream.info_qos)

@@ -45,9 +45,9 @@ def fault_targets(
 def _of_devices(devices: tuple[Device, ...]) -> dict[str, Target]:
     """Return the faults that hit a device or one of its joints."""
     jointed = [device for device in devices if device.actuated_joints]
-    seen = [device for device in devices if device.facts.camera is not None or device in jointed]
-    scaled = [device for device in jointed if device.facts.speed_scaling is not None]
-    arms = [device for device in jointed if device.facts.kind == "arm"]
+    seen = [device for device in devices if device.camera is not None or device in jointed]
+    scaled = [device for device in jointed if device.speed_scaling is not None]
+    arms = [device for device in jointed if device.kind == "arm"]
     code = "unknown-device"
     streams = Target("camera or device with joints", code, _named(seen))
     stoppable = Target("device with hardware", code, _named(jointed))

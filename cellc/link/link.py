@@ -6,13 +6,12 @@ from cellc.catalog.catalog_model import DISTROS, Distro
 from cellc.catalog.load import load_qos_profiles
 from cellc.catalog.qos_model import RMWS, Rmw
 from cellc.cell.cell import Cell
-from cellc.cell.device import Device
 from cellc.diagnostics import Diagnostic, Outcome, Severity, did_you_mean
 from cellc.link.control import link_managers
 from cellc.link.controller import ControlContext
 from cellc.link.derivation import Derivation
 from cellc.link.derived import derive_interfaces
-from cellc.link.devices import link_devices
+from cellc.link.devices import BoundDevice, link_devices
 from cellc.link.endpoints import name_endpoints
 from cellc.link.frame_names import name_frames
 from cellc.link.frames import link_frames, link_scene, scene_frames
@@ -52,21 +51,22 @@ def link(spec: CellSpec, document: SourceDocument) -> Outcome[Cell]:
 
 
 def _link_with_devices(
-    spec: CellSpec, document: SourceDocument, distro: Distro, linked_devices: Outcome[tuple[Device, ...]]
+    spec: CellSpec, document: SourceDocument, distro: Distro, linked_devices: Outcome[tuple[BoundDevice, ...]]
 ) -> Outcome[Cell]:
-    devices = linked_devices.value or ()
+    bound = linked_devices.value or ()
+    devices = tuple(one.device for one in bound)
     resolver = _qos_resolver(spec)
     names = name_frames(spec, document, devices)
     scene = link_scene(spec, document, names)
     frames = link_frames(spec, document, devices, names)
     all_frames = (*(frames.value or ()), *scene_frames(scene.value or ()))
-    nodes = link_nodes(spec, document, devices)
-    context = ControlContext(spec, document, distro, {device.name: device for device in devices})
+    nodes = link_nodes(spec, document, bound)
+    context = ControlContext(spec, document, distro, {one.device.name: one for one in bound})
     managers = link_managers(context)
     loops = managers.value or ()
     all_nodes = (*(nodes.value or ()), *standard_nodes(spec, document, loops))
     controllers = tuple(controller for manager in loops for controller in manager.controllers)
-    ends = name_endpoints(spec, devices, all_nodes, loops, resolver)
+    ends = name_endpoints(spec, bound, all_nodes, loops, resolver)
     interfaces = link_interfaces(spec, document, ends, names)
     written = interfaces.value or ()
     derived = derive_interfaces(Derivation(spec, document, distro, loops, devices, all_frames, ends, resolver), written)
@@ -77,8 +77,6 @@ def _link_with_devices(
     places = bind_places(document)
     cell = Cell(
         name=spec.cell,
-        spec=spec,
-        document=document,
         places=places,
         distro=distro,
         summary=spec.summary,

@@ -9,8 +9,8 @@ from cellc.cell.control import ControllerManager
 from cellc.cell.device import Device
 from cellc.cell.interface import Node, NodeSource
 from cellc.diagnostics import Diagnostic, Outcome, Severity, Span, YamlPath
+from cellc.link.devices import BoundDevice
 from cellc.link.frames import ROBOT_STATE_PUBLISHER
-from cellc.link.placeholders import placeholders
 from cellc.link.unknown import unknown_name
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
@@ -26,7 +26,7 @@ Nobody merges: several publishers on it are usual, readers put joints together b
 """
 
 
-def link_nodes(spec: CellSpec, document: SourceDocument, devices: tuple[Device, ...]) -> Outcome[tuple[Node, ...]]:
+def link_nodes(spec: CellSpec, document: SourceDocument, devices: tuple[BoundDevice, ...]) -> Outcome[tuple[Node, ...]]:
     """Bind the nodes of the spec to their hosts, and add the drivers that the catalogue names."""
     nodes: list[Node] = []
     problems: list[Diagnostic] = []
@@ -125,11 +125,11 @@ def _description_publisher(spec: CellSpec, name: str, path: YamlPath, span: Span
     )
 
 
-def _driver_nodes(spec: CellSpec, devices: tuple[Device, ...]) -> Iterator[Node]:
-    for device in devices:
-        connection = device.spec.connection
-        known = placeholders(device.name, device.prefix, device.spec, spec)
-        for entry in device.facts.nodes:
+def _driver_nodes(spec: CellSpec, devices: tuple[BoundDevice, ...]) -> Iterator[Node]:
+    for bound in devices:
+        device, known = bound.device, bound.names
+        connection = device.connection
+        for entry in bound.facts.nodes:
             namespace, _, name = f"/{known.fill(entry.name)}".rpartition("/")
             yield Node(
                 name=name,

@@ -49,7 +49,7 @@ def link_rehearsals(
         poses=tuple(spec.motion.poses),
         goals=tuple(spec.motion.goals),
         frames=frames,
-        grippers=tuple(device.name for device in devices if device.facts.gripper is not None),
+        grippers=tuple(device.name for device in devices if device.gripper is not None),
         faults=fault_targets(spec, devices, managers, interfaces, frames),
     )
     rehearsals: list[Rehearsal] = []
