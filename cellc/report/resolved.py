@@ -26,7 +26,7 @@ _HIDDEN = {
     Device: {
         *("vendor", "kind", "description", "home", "optical_frames", "payload_limit_kg", "update_rates_hz"),
         *("controller_kinds", "speed_scaling", "gripper", "camera", "offers", "network", "safety", "packages"),
-        *("version_rows", "mock_cannot_prove", "spec", "facts"),
+        *("version_rows", "mock_cannot_prove"),
     },
 }
 _DERIVED = {"measured_on", "joints"}
