@@ -7,7 +7,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-from tests.cli.run import ROOT, Ran
+from tests.cells import ROOT
+from tests.cli.run import Ran
 
 
 def assert_refused(ran: Ran, words: str) -> None:

@@ -5,11 +5,10 @@ from __future__ import annotations
 import contextlib
 import io
 from dataclasses import dataclass
-from pathlib import Path
 
 from cellc.cli.main import main
+from tests.cells import ROOT
 
-ROOT = Path(__file__).resolve().parents[2]
 PICK = (ROOT / "cells/ur5e_pick/cell.yaml").as_posix()
 MINIMAL = (ROOT / "cells/minimal/cell.yaml").as_posix()
 

@@ -11,7 +11,8 @@ from concurrent.futures.process import BrokenProcessPool
 import pytest
 
 from cellc.cli.answers import Answer, compute, in_workers, number_of_workers
-from tests.cli.run import MINIMAL, ROOT
+from tests.cells import ROOT
+from tests.cli.run import MINIMAL
 
 FILES = [file.as_posix() for file in sorted((ROOT / "tests/corpus/invalid").glob("un*.yaml"))[:6]]
 

@@ -10,8 +10,9 @@ from pathlib import Path
 
 import pytest
 
+from tests.cells import ROOT
 from tests.cli.refused import assert_refused, everything_below
-from tests.cli.run import MINIMAL, ROOT, Ran, run
+from tests.cli.run import MINIMAL, Ran, run
 
 INIT = ("init", "bench", "ur5e", "-o")
 _AS_ROOT = pytest.mark.skipif(os.name != "posix" or os.geteuid() == 0, reason="root may write where nobody may")

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.run import MINIMAL, PICK, ROOT, run
+from tests.cells import ROOT
+from tests.cli.run import MINIMAL, PICK, run
 
 
 def test_check_of_a_cell_with_blockers_is_good_and_tells_them() -> None:

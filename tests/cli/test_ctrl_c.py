@@ -11,8 +11,9 @@ from pathlib import Path
 
 import pytest
 
+from tests.cells import ROOT
 from tests.cli.refused import everything_below
-from tests.cli.run import MINIMAL, PICK, ROOT, run
+from tests.cli.run import MINIMAL, PICK, run
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="Ctrl-C is sent as a POSIX signal")
 # From the imports to the end of a run, which takes about 1.3 s on two cores.

@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 from cellc.edit.rewrite import Edit, apply_edits, rewrite
-from tests.cli.run import PICK, ROOT, run
+from tests.cells import ROOT
+from tests.cli.run import PICK, run
 
 PICK_TEXT = Path(PICK).read_text(encoding="utf-8")
 

@@ -10,8 +10,9 @@ from pathlib import Path
 
 import pytest
 
+from tests.cells import ROOT
 from tests.cli.refused import process
-from tests.cli.run import MINIMAL, PICK, ROOT, run
+from tests.cli.run import MINIMAL, PICK, run
 
 _COMMANDS = ["check cells/minimal/cell.yaml", "explain --all", "schema", "show cells/minimal/cell.yaml devices"]
 _FULL = Path("/dev/full")

@@ -13,16 +13,10 @@ from pathlib import Path
 import pytest
 import yaml
 
-from cellc.artifact import Artifact
-from cellc.graph.cell_graph import CellGraph
-from cellc.pipeline import check, compile_cell
+from tests.cells import CELLS, DISTROS, Compiled, compiled, spec_of, written
 
 HERE = Path(__file__).resolve().parent
-ROOT = HERE.parents[1]
-SPECS = {path.parent.name: path for path in sorted(ROOT.glob("cells/*/cell.yaml"))} | {
-    "two_arms": HERE / "two_arms.yaml"
-}
-DISTROS = ("humble", "jazzy", "kilted", "lyrical")
+SPECS = {cell: spec_of(cell) for cell in CELLS} | {"two_arms": HERE / "two_arms.yaml"}
 
 every_build = pytest.mark.parametrize(("cell", "distro"), [(cell, distro) for cell in SPECS for distro in DISTROS])
 PLANNING = tuple(cell for cell, path in SPECS.items() if "move_group" in path.read_text(encoding="utf-8"))
@@ -33,18 +27,11 @@ every_cell = pytest.mark.parametrize("cell", list(SPECS))
 
 
 @dataclass(frozen=True, slots=True)
-class Build:
+class Build(Compiled):
     """One cell compiled for one distribution."""
 
     cell: str
     distro: str
-    graph: CellGraph
-    artifacts: tuple[Artifact, ...]
-
-    @property
-    def texts(self) -> dict[str, str]:
-        """The text of every file by its path in the package."""
-        return {artifact.path: artifact.text for artifact in self.artifacts}
 
     def urdf(self, target: str) -> str:
         """Return the description that robot_state_publisher gets."""
@@ -73,15 +60,8 @@ def in_place(other: Build) -> Iterator[None]:
 def _compiled(cell: str, distro: str) -> Build:
     """Compile a cell for a distribution; errors and findings of foreign parsers fail the test."""
     with tempfile.TemporaryDirectory() as folder:
-        spec = Path(folder) / "cell.yaml"
-        spec.write_text(spec_for(cell, distro), encoding="utf-8")
-        checked = check(spec)
-        assert checked.ok, [f"{found.code}: {found.message}" for found in checked.diagnostics]
-        compiled = compile_cell(checked)
-    assert not compiled.diagnostics, [found.message for found in compiled.diagnostics]
-    assert compiled.value is not None
-    assert checked.graph is not None
-    return Build(cell, distro, checked.graph, compiled.value)
+        build = compiled(written(Path(folder), spec_for(cell, distro)))
+    return Build(build.graph, build.artifacts, cell, distro)
 
 
 def spec_for(cell: str, distro: str) -> str:

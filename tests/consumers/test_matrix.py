@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from tests.consumers.matrix import DISTROS, SPECS, build, every_build, spec_for
+from tests.cells import DISTROS
+from tests.consumers.matrix import SPECS, build, every_build, spec_for
 
 
 @every_build

@@ -8,7 +8,8 @@ from typing import Any
 
 import yaml
 
-from tests.consumers.matrix import ROOT, build, every_build, spec_for
+from tests.cells import ROOT
+from tests.consumers.matrix import build, every_build, spec_for
 from tests.consumers.starting import node_name, processes, written
 
 _OF_CELL = ("os", "kernel", "ros", "rmw", "ros2_control", "moveit")

@@ -7,8 +7,9 @@ from typing import Any
 
 import pytest
 
+from tests.cells import DISTROS
 from tests.consumers.declared import complaints
-from tests.consumers.matrix import DISTROS, build, every_build
+from tests.consumers.matrix import build, every_build
 from tests.consumers.parameter_files import sections, told
 from tests.consumers.starting import node_name, processes
 from tests.oracles import needs_upstream

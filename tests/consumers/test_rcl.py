@@ -15,8 +15,9 @@ from typing import Any
 
 import pytest
 
+from tests.cells import DISTROS
 from tests.consumers.declared import match
-from tests.consumers.matrix import DISTROS, HERE, SPECS, build, every_build
+from tests.consumers.matrix import HERE, SPECS, build, every_build
 from tests.consumers.parameter_files import told
 from tests.consumers.starting import node_name, processes
 from tests.oracles import needs_upstream

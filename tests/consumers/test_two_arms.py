@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 
 from cellc.mock.cell import load, run_all
-from tests.consumers.matrix import DISTROS, build
+from tests.cells import DISTROS
+from tests.consumers.matrix import build
 
 
 @pytest.mark.parametrize("distro", DISTROS)

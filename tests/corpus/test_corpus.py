@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.rules.examples import diagnose
+from tests.cells import diagnose
 
 CORPUS = Path(__file__).parent
 INVALID = sorted((CORPUS / "invalid").glob("*.yaml"))

@@ -14,9 +14,9 @@ from cellc.cell.cell import Cell
 from cellc.diagnose.diagnose import Step, classify, diagnose
 from cellc.diagnose.symptoms import LAYERS, Observation, Symptom, knowledge
 from cellc.pipeline import check
+from tests.cells import ROOT
 from tests.oracles import RECORDED
 
-ROOT = Path(__file__).resolve().parents[2]
 # The recordings are long: libyaml reads them in a tenth of the time, where PyYAML has it.
 _LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 EVERY_SYMPTOM = [symptom for layer in knowledge() for symptom in layer.symptoms]

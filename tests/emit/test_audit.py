@@ -8,8 +8,9 @@ from pathlib import Path
 import pytest
 
 from cellc.emit.audit.tables import table
+from tests.cells import spec_text
 from tests.cli.run import MINIMAL, PICK, run
-from tests.emit.cells import CELLS, artifacts_of, emitted, spec_text
+from tests.emit.cells import CELLS, artifacts_of, emitted
 
 
 def section(text: str, title: str) -> list[list[str]]:

@@ -9,11 +9,12 @@ from pathlib import Path
 import pytest
 
 from cellc.deploy.configuration import configuration_id, configuration_inputs
-from tests.emit.cells import emitted, graph_of, spec_text
+from tests.cells import graph_of, spec_text, written
+from tests.emit.cells import emitted
 
 
 def _id(folder: Path, text: str) -> str:
-    return configuration_id(configuration_inputs(graph_of(folder, text).cell))
+    return configuration_id(configuration_inputs(graph_of(written(folder, text)).cell))
 
 
 @pytest.mark.parametrize(
@@ -55,5 +56,5 @@ def test_hash_is_that_of_the_real_urdf_without_its_header(tmp_path: Path) -> Non
     text = spec_text("ur5e_pick")
     urdf = emitted(tmp_path, text)["urdf/ur5e_pick.real.urdf"]
     body = re.sub(r"<!--.*?-->\n", "", urdf, count=1, flags=re.DOTALL)
-    inputs = configuration_inputs(graph_of(tmp_path, text).cell)
+    inputs = configuration_inputs(graph_of(written(tmp_path, text)).cell)
     assert inputs.urdf_sha256 == hashlib.sha256(body.encode()).hexdigest()

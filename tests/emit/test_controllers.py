@@ -9,7 +9,8 @@ from typing import Any
 import pytest
 import yaml
 
-from tests.emit.cells import CELLS, DISTROS, artifacts_of, emitted, spec_text
+from tests.cells import DISTROS, spec_text
+from tests.emit.cells import CELLS, artifacts_of, emitted
 from tests.oracles import UPSTREAM, needs_upstream
 
 _TRAJECTORY = "joint_trajectory_controller__joint_trajectory_controller"

@@ -11,7 +11,8 @@ import pytest
 import yaml
 import yourdfpy
 
-from tests.emit.cells import artifacts_of, graph_of, spec_text
+from tests.cells import graph_of, spec_text, written
+from tests.emit.cells import artifacts_of
 
 
 def test_joint_limits_are_those_of_the_cell() -> None:
@@ -64,7 +65,7 @@ def test_mock_begins_at_full_speed_scaling() -> None:
 
 def test_every_body_and_follower_is_that_of_the_devices(tmp_path: Path) -> None:
     urdf = yourdfpy.URDF.load(io.BytesIO(artifacts_of("ur5e_pick")["urdf/ur5e_pick.real.urdf"].encode()))
-    devices = graph_of(tmp_path, spec_text("ur5e_pick")).cell.devices
+    devices = graph_of(written(tmp_path, spec_text("ur5e_pick"))).cell.devices
     for link in (link for device in devices for link in device.description.links if link.inertial is not None):
         body, read = link.inertial, urdf.link_map[link.name].inertial
         assert body is not None

@@ -10,7 +10,8 @@ import pytest
 import xmlschema
 import yaml
 
-from tests.emit.cells import DISTROS, artifacts_of, emitted, spec_text
+from tests.cells import DISTROS, spec_text
+from tests.emit.cells import artifacts_of, emitted
 from tests.oracles import UPSTREAM, needs_upstream
 
 CONTROL_CARD = "192.168.56.10"

@@ -7,7 +7,8 @@ import json
 import pytest
 
 from cellc.mock import control
-from tests.emit.cells import CELLS, DISTROS, artifacts_of
+from tests.cells import DISTROS
+from tests.emit.cells import CELLS, artifacts_of
 
 
 @pytest.mark.parametrize("distro", DISTROS)

@@ -10,7 +10,8 @@ import pytest
 import yaml
 
 from cellc.deploy.files import PARAMETER_FILES
-from tests.emit.cells import DISTROS, artifacts_of
+from tests.cells import DISTROS
+from tests.emit.cells import artifacts_of
 
 
 def _parameters(distro: str = "jazzy") -> dict[str, Any]:

@@ -13,7 +13,8 @@ import pytest
 
 from cellc.contract.contract import Contract
 from cellc.contract.rehearsals import Rehearsals
-from tests.emit.cells import CELLS, ROOT, artifacts_of, emitted, spec_text
+from tests.cells import ROOT, spec_text
+from tests.emit.cells import CELLS, artifacts_of, emitted
 
 
 @pytest.mark.parametrize("cell", CELLS)

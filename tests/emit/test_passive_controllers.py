@@ -14,9 +14,9 @@ import yaml
 
 from cellc.catalog.load import load_device
 from cellc.mock.control import ControllerManager, DeclaredInterfaces
-from tests.emit.cells import emitted, spec_text
+from tests.cells import diagnose, spec_text
+from tests.emit.cells import emitted
 from tests.oracles import UPSTREAM, needs_upstream
-from tests.rules.examples import diagnose
 
 SCALING = "      scaling: {type: speed_scaling_state_broadcaster, device: arm}\n"
 ACTIVATION = "      activation: {type: gripper_activation, device: gripper, client: task}\n"

@@ -7,7 +7,8 @@ from xml.etree import ElementTree
 import pytest
 import xmlschema
 
-from tests.emit.cells import CELLS, DISTROS, artifacts_of
+from tests.cells import DISTROS
+from tests.emit.cells import CELLS, artifacts_of
 from tests.oracles import UPSTREAM, needs_upstream
 
 

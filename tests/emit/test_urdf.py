@@ -10,7 +10,8 @@ from xml.etree import ElementTree
 import pytest
 import yourdfpy
 
-from tests.emit.cells import CELLS, artifacts_of, emitted, spec_text
+from tests.cells import spec_text
+from tests.emit.cells import CELLS, artifacts_of, emitted
 
 ARM = ("shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3")
 

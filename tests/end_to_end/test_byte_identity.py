@@ -11,9 +11,9 @@ from pathlib import Path
 
 import pytest
 
+from tests.cells import ROOT
 from tests.end_to_end.interpreters import Interpreter, interpreters
 
-ROOT = Path(__file__).resolve().parents[2]
 CELLS = sorted(path.parent.name for path in (ROOT / "cells").glob("*/cell.yaml"))
 SURROUNDINGS = (
     {"PYTHONHASHSEED": "1", "TZ": "UTC", "LC_ALL": "C"},

@@ -9,7 +9,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from tests.cli.run import ROOT
+from tests.cells import ROOT
 
 # The mock, the format between it and the compiler, the reader of URDF and the mathematics that both use.
 NEEDED = ("mock", "contract", "planning", "description", "diagnostics", "adapter")

@@ -7,8 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from tests.cells import ROOT
 from tests.cli.refused import process
-from tests.cli.run import PICK, ROOT, Ran, run
+from tests.cli.run import PICK, Ran, run
 
 INIT = ("init", "bench", "arm=ur5e", "gripper=robotiq_2f_85")
 

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
-from tests.cli.run import ROOT
+from tests.cells import ROOT
 
 Matrix = npt.NDArray[np.float64]
 

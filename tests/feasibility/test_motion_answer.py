@@ -9,12 +9,10 @@ import pytest
 import yaml
 
 from cellc.feasibility import MotionAnswer, disabled_links, motion_answer
-from cellc.graph.cell_graph import CellGraph, build_graph
-from cellc.link.link import link
-from cellc.source.read import read
-from cellc.spec.parse import parse
+from cellc.graph.cell_graph import CellGraph
+from tests.cells import CORPUS, graph_of, written
 
-DEVICES = Path(__file__).resolve().parents[1] / "corpus" / "invalid" / "base"
+DEVICES = CORPUS / "invalid" / "base"
 _BAR = '<collision><origin xyz="0.2 0 0"/><geometry><box size="0.38 0.04 0.04"/></geometry></collision>'
 _LIMIT = '<limit lower="-3" upper="3" velocity="1" effort="1"/>'
 ARM = f"""<robot name="bars">
@@ -41,15 +39,7 @@ def _graph(folder: Path, **sections: object) -> CellGraph:
         "motion": {"groups": {"bars": {"base": "arm/base", "tip": "arm/hand"}}},
         **sections,
     }
-    file = folder / "cell.yaml"
-    file.write_text(yaml.safe_dump(spec, sort_keys=False))
-    document = read(file).value
-    assert document is not None
-    parsed = parse(document)
-    assert parsed.value is not None, parsed.diagnostics
-    cell = link(parsed.value, document)
-    assert cell.value is not None, cell.diagnostics
-    return build_graph(cell.value)
+    return graph_of(written(folder, yaml.safe_dump(spec, sort_keys=False)))
 
 
 def _motion(**parts: object) -> dict[str, object]:

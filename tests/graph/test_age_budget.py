@@ -3,29 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
 from cellc.cell.cell import Cell
 from cellc.cell.interface import Endpoint, Interface
 from cellc.graph.age_budget import age_chains
-from cellc.link.link import link
-from cellc.source.read import read
-from cellc.spec.parse import parse
-
-CASE = Path(__file__).resolve().parents[1] / "corpus" / "valid" / "complete.yaml"
+from tests.cells import COMPLETE, linked
 
 
 @pytest.fixture(scope="module")
 def cell() -> Cell:
-    document = read(CASE).value
-    assert document is not None
-    spec = parse(document).value
-    assert spec is not None
-    linked = link(spec, document).value
-    assert linked is not None
-    return linked
+    return linked(COMPLETE)
 
 
 def topic(cell: Cell, name: str, source: str, sink: str, rate_hz: float) -> Interface:

@@ -4,29 +4,16 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
-from cellc.graph.cell_graph import CellGraph, build_graph
-from cellc.link.link import link
-from cellc.source.read import read
-from cellc.spec.parse import parse
-from tests.rules.examples import diagnose
-
-REPOSITORY = Path(__file__).resolve().parents[2]
-COMPLETE = REPOSITORY / "tests" / "corpus" / "valid" / "complete.yaml"
+from cellc.graph.cell_graph import CellGraph
+from tests.cells import COMPLETE, ROOT, diagnose, graph_of
 
 
 @pytest.fixture(scope="module")
 def graph() -> CellGraph:
-    document = read(COMPLETE).value
-    assert document is not None
-    spec = parse(document).value
-    assert spec is not None
-    cell = link(spec, document).value
-    assert cell is not None
-    return build_graph(cell)
+    return graph_of(COMPLETE)
 
 
 def test_world_is_the_one_root(graph: CellGraph) -> None:
@@ -78,9 +65,9 @@ def test_a_clean_cell_is_checked_again_without_heavy_imports() -> None:
     assert diagnose(COMPLETE) == ()  # what shapes and joints allow is kept from here on
     script = (
         "import sys; from pathlib import Path\n"
-        "from tests.rules.examples import diagnose\n"
+        "from tests.cells import diagnose\n"
         f"assert diagnose(Path({str(COMPLETE)!r})) == ()\n"
         "print([name for name in ('networkx', 'pinocchio', 'yourdfpy', 'numpy') if name in sys.modules])\n"
     )
-    run = subprocess.run([sys.executable, "-c", script], cwd=REPOSITORY, capture_output=True, text=True, check=False)
+    run = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=False)
     assert run.stdout.strip() == "[]", run.stderr

@@ -5,11 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from cellc.cell.cell import Cell
-from cellc.link.link import link
-from cellc.source import read
-from cellc.spec.parse import parse
+from tests.cells import ROOT, linking, written
 
-TWO_ARMS = Path(__file__).resolve().parents[1] / "consumers" / "two_arms.yaml"
+TWO_ARMS = ROOT / "tests" / "consumers" / "two_arms.yaml"
 HEARD = """
 interfaces:
   /left/arm_trajectory/controller_state:
@@ -20,13 +18,7 @@ interfaces:
 
 
 def _linked(folder: Path, text: str) -> tuple[Cell | None, list[str]]:
-    file = folder / "cell.yaml"
-    file.write_text(text, encoding="utf-8")
-    document = read(file).value
-    assert document is not None
-    spec = parse(document).value
-    assert spec is not None
-    outcome = link(spec, document)
+    outcome = linking(written(folder, text))
     return outcome.value, [f"{one.code}: {one.help}" for one in outcome.diagnostics]
 
 

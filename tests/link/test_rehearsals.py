@@ -8,20 +8,13 @@ import pytest
 
 from cellc.cell.rehearsal import Fault, Rehearsal, StepEvent
 from cellc.diagnostics import Diagnostic
-from cellc.link.link import link
-from cellc.source.read import read
-from cellc.spec.parse import parse
-from tests.link.cells import ROOT, linked
-
-CELL = ROOT / "cells" / "ur5e_pick" / "cell.yaml"
+from tests.cells import linked, linking, spec_text, written
 
 
 def _written(folder: Path, rehearsal: str) -> Path:
-    head, rest = CELL.read_text(encoding="utf-8").split("\nrehearsals:", 1)
+    head, rest = spec_text("ur5e_pick").split("\nrehearsals:", 1)
     comment, others = rest.split("\n", 1)
-    path = folder / "cell.yaml"
-    path.write_text(f"{head}\nrehearsals:{comment}\n  {rehearsal}\n{others}", encoding="utf-8")
-    return path
+    return written(folder, f"{head}\nrehearsals:{comment}\n  {rehearsal}\n{others}")
 
 
 def bound(folder: Path, rehearsal: str) -> Rehearsal:
@@ -38,11 +31,7 @@ def fault(folder: Path, inject: str) -> Fault:
 def refused(folder: Path, inject: str) -> Diagnostic:
     """Return the one thing that is wrong with a fault."""
     rehearsals = f"odd: {{use: pick_and_place, inject: {inject}, expect: timeout}}"
-    document = read(_written(folder, rehearsals)).value
-    assert document is not None
-    spec = parse(document)
-    problems = spec.diagnostics if spec.value is None else link(spec.value, document).diagnostics
-    (problem,) = problems
+    (problem,) = linking(_written(folder, rehearsals)).diagnostics
     return problem
 
 

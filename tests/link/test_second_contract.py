@@ -10,9 +10,9 @@ from cellc.cell.cell import Cell
 from cellc.cell.control import Controller
 from cellc.formats.urdf.robot import robot_description
 from cellc.pipeline import check
-from tests.link.cells import ROOT, linked, linked_text
+from tests.cells import linked, spec_of, spec_text, written
 
-SPEC = ROOT / "cells" / "fr3_hand" / "cell.yaml"
+SPEC = spec_of("fr3_hand")
 JOINTS = tuple(f"fr3_joint{number}" for number in range(1, 8))
 TRAJECTORY = "joint_trajectory_controller/JointTrajectoryController"
 
@@ -29,7 +29,7 @@ def _controller(cell: Cell, name: str) -> Controller:
 def _changed(old: str, new: str, folder: Path) -> Cell:
     text = SPEC.read_text(encoding="utf-8")
     assert old in text
-    return linked_text(text.replace(old, new), folder)
+    return linked(written(folder, text.replace(old, new)))
 
 
 def test_spec_is_a_page_of_120_lines_at_most() -> None:
@@ -139,8 +139,8 @@ def test_cell_links_on_every_distribution(distro: str, tmp_path: Path) -> None:
 def test_controller_that_is_told_of_speed_scaling_follows_it(
     distro: str, behaviour: str, parameter: str, tmp_path: Path
 ) -> None:
-    text = (ROOT / "cells" / "ur5e_pick" / "cell.yaml").read_text(encoding="utf-8")
-    changed = linked_text(text.replace("ros: jazzy", f"ros: {distro}"), tmp_path)
+    text = spec_text("ur5e_pick")
+    changed = linked(written(tmp_path, text.replace("ros: jazzy", f"ros: {distro}")))
     controller = _controller(changed, "arm_trajectory")
     assert controller.behaviour == behaviour
     assert controller.parameters[parameter] == "arm_speed_scaling/speed_scaling_factor"

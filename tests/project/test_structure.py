@@ -12,8 +12,8 @@ from pathlib import Path
 import pytest
 
 from cellc.catalog.load import device_names, load_device
+from tests.cells import ROOT
 
-ROOT = Path(__file__).resolve().parents[2]
 SOURCES = sorted((ROOT / "cellc").rglob("*.py"))
 
 

@@ -12,8 +12,8 @@ import pytest
 from cellc.diagnostics import Diagnostic, Related, Severity, Span
 from cellc.report.pages import all_pages
 from cellc.report.sarif_report import render_sarif
+from tests.cells import diagnose
 from tests.report.findings import FILE, finding
-from tests.rules.examples import diagnose
 
 SCHEMA = json.loads((Path(__file__).parent / "sarif_subset.schema.json").read_text(encoding="utf-8"))
 HOME = PurePosixPath("/home/someone/project")

@@ -18,14 +18,10 @@ from typing import Any
 import yaml
 
 from cellc.diagnostics import Diagnostic
-from cellc.graph.cell_graph import build_graph
-from cellc.link.link import link
 from cellc.rules.kit import Rule
-from cellc.rules.run import run_rules
-from cellc.source.read import read
-from cellc.spec.parse import parse
+from tests.cells import CORPUS, diagnose
 
-BASE = Path(__file__).resolve().parents[1] / "corpus" / "invalid" / "base"
+BASE = CORPUS / "invalid" / "base"
 """The parts of a complete cell of made-up devices; nothing in it is to be reported."""
 HEAD = {"format": "1", "cell": "demo"}
 # Hundreds of cells are written and read here: libyaml does it in a tenth of the time, where PyYAML has it.
@@ -110,20 +106,6 @@ def _lines(text: str) -> dict[tuple[str, ...], int]:
     assert root is not None
     walk(root, ())
     return found
-
-
-def diagnose(path: Path) -> tuple[Diagnostic, ...]:
-    """Return what every stage up to the rules says of a spec."""
-    document = read(path)
-    if document.value is None or not document.ok:
-        return document.diagnostics
-    spec = parse(document.value)
-    if spec.value is None or not spec.ok:
-        return spec.diagnostics
-    cell = link(spec.value, document.value)
-    if cell.value is None or not cell.ok:
-        return cell.diagnostics
-    return (*document.diagnostics, *spec.diagnostics, *cell.diagnostics, *run_rules(build_graph(cell.value)))
 
 
 @cache

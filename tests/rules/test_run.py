@@ -3,27 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 
 from cellc.diagnostics import Severity, Span
-from cellc.graph.cell_graph import CellGraph, build_graph
-from cellc.link.link import link
+from cellc.graph.cell_graph import CellGraph
 from cellc.rules.kit import Finding, Rule
 from cellc.rules.run import ALL_RULES, run_rules
-from cellc.source.read import read
-from cellc.spec.parse import parse
-
-CORPUS = Path(__file__).resolve().parents[1] / "corpus"
-
-
-def graph_of(path: Path) -> CellGraph:
-    document = read(path).value
-    assert document is not None
-    spec = parse(document).value
-    assert spec is not None
-    cell = link(spec, document).value
-    assert cell is not None
-    return build_graph(cell)
+from tests.cells import CORPUS, graph_of
 
 
 def rule(code: str, line: int | None, assumes: tuple[str, ...] = ()) -> Rule:

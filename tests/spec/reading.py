@@ -10,8 +10,8 @@ from cellc.source import Plain, read
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
 from cellc.spec.parse import parse
+from tests.cells import ROOT
 
-ROOT = Path(__file__).resolve().parents[2]
 CELLS = sorted(ROOT.glob("cells/*/cell.yaml"))
 
 HEAD = """\

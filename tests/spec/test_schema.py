@@ -16,8 +16,9 @@ from hypothesis import strategies as st
 
 from cellc.source import Plain
 from cellc.spec.schema import Json, cell_schema, schema_files
+from tests.cells import ROOT
 from tests.spec.mutations import data_of, mutated
-from tests.spec.reading import ARM, CELLS, HEAD, ROOT, as_yaml, document_of, parsed
+from tests.spec.reading import ARM, CELLS, HEAD, as_yaml, document_of, parsed
 from tests.spec.test_parse import CASES
 
 SCHEMA = cell_schema()

@@ -8,52 +8,37 @@ import re
 import subprocess
 import sys
 from dataclasses import replace
-from functools import cache
-from pathlib import Path
 
 import pytest
 
-from cellc.artifact import Artifact
-from cellc.graph.cell_graph import CellGraph
-from cellc.pipeline import check, compile_cell
 from cellc.transforms import from_xyz_rpy, identity
 from cellc.verify.codes import CODES
 from cellc.verify.description import cell_poses, distance
 from cellc.verify.parsers import read_by_pinocchio, read_by_yourdfpy
 from cellc.verify.verify import verify
+from tests.cells import ROOT, built
 
-ROOT = Path(__file__).resolve().parents[2]
 CELLS = sorted(path.parent.name for path in ROOT.glob("cells/*/cell.yaml"))
-
-
-@cache
-def built(cell: str) -> tuple[tuple[Artifact, ...], CellGraph]:
-    """Return the artifacts of a cell with its graph."""
-    checked = check(ROOT / "cells" / cell / "cell.yaml")
-    artifacts = compile_cell(checked).value
-    assert artifacts is not None
-    assert checked.graph is not None
-    return artifacts, checked.graph
 
 
 def found_in(edits: dict[str, tuple[str, str]], cell: str = "ur5e_pick") -> set[tuple[str, str]]:
     """Return code and artifact of what is found once a pattern was replaced in artifacts whose name ends so."""
-    artifacts, graph = built(cell)
+    build = built(cell)
     edited = []
-    for artifact in artifacts:
+    for artifact in build.artifacts:
         pattern, new = next((edits[end] for end in edits if artifact.path.endswith(end)), ("", ""))
         text = re.sub(pattern, new, artifact.text, count=1) if pattern else artifact.text
         assert not pattern or text != artifact.text
         edited.append(replace(artifact, text=text))
-    diagnostics = verify(edited, graph)
-    assert all(d.span == graph.cell.locate("cell") for d in diagnostics)
+    diagnostics = verify(edited, build.graph)
+    assert all(d.span == build.graph.cell.locate("cell") for d in diagnostics)
     assert all("bug of cellc" in d.message and "\n" not in d.message for d in diagnostics)
     return {(d.code, d.message.split("`")[1]) for d in diagnostics}
 
 
 @pytest.mark.parametrize("cell", CELLS)
 def test_cells_of_the_repository_have_nothing_to_report(cell: str) -> None:
-    assert verify(*built(cell)) == ()
+    assert verify(built(cell).artifacts, built(cell).graph) == ()
 
 
 MOCK = "urdf/ur5e_pick.mock.urdf"
@@ -85,7 +70,7 @@ def test_fault_in_an_artifact_is_found(edits: dict[str, tuple[str, str]], code: 
 
 def test_turned_axis_is_found_though_poses_at_zero_agree() -> None:
     # At zero an axis does not show; both parsers must be asked away from it, and the cell's joints say nothing of axes.
-    artifacts, _ = built("ur5e_pick")
+    artifacts = built("ur5e_pick").artifacts
     urdf = next(artifact.text for artifact in artifacts if artifact.path == MOCK)
     ours, positions = read_by_yourdfpy(urdf)
     turned = re.sub(r'(<joint name="arm_elbow_joint".*?<axis xyz=")0 0 1"', r'\g<1>0 0 -1"', urdf, flags=re.DOTALL)
@@ -99,13 +84,13 @@ def test_pose_of_the_cell_is_the_one_calculated_by_hand() -> None:
     # UR5e at zero, DH parameters of its maker in m: a2 -0.425, a3 -0.3922, d1 0.1625, d4 0.1333, d5 0.0997, d6 0.0996.
     # The base_link of the description is turned half round z against the base of the table, hence the signs; the arm
     # stands 0.8 m high.
-    _, graph = built("ur5e_pick")
+    graph = built("ur5e_pick").graph
     x, y, z = cell_poses(graph.frames)["arm_tool0"].position
     assert (x, y, z) == pytest.approx((0.425 + 0.3922, 0.1333 + 0.0996, 0.8 + 0.1625 - 0.0997), abs=1e-9)
 
 
 def test_frame_below_a_dynamic_edge_has_no_pose() -> None:
-    _, graph = built("ur5e_pick")
+    graph = built("ur5e_pick").graph
     assert "object" not in cell_poses(graph.frames)
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
 
 import pytest
 
@@ -18,10 +17,8 @@ from cellc.mock.control import GripperGoal, TrajectoryGoal, TrajectoryPoint
 from cellc.mock.control.journal import CommandJournal
 from cellc.mock.faults.possible import possible_faults
 from cellc.mock.plant import Plant
-from cellc.output.write import write
-from cellc.pipeline import check, compile_cell
+from tests.cells import CORPUS, build_into
 
-CELL = Path(__file__).resolve().parents[2] / "corpus" / "valid" / "direct_sdk_arm.yaml"
 SECOND = 1_000_000_000
 REACH = tuple(StepEntry(kind="move", target=pose) for pose in ("home", "aside", "home"))
 
@@ -29,11 +26,7 @@ REACH = tuple(StepEntry(kind="move", target=pose) for pose in ("home", "aside", 
 @pytest.fixture(scope="module")
 def cell(tmp_path_factory: pytest.TempPathFactory) -> MockCell:
     """The cell, compiled and loaded."""
-    artifacts = compile_cell(check(CELL)).value
-    assert artifacts is not None
-    folder = tmp_path_factory.mktemp("generated") / "demo"
-    assert write(artifacts, folder).ok
-    return load(folder)
+    return load(build_into(tmp_path_factory.mktemp("generated") / "demo", CORPUS / "valid" / "direct_sdk_arm.yaml"))
 
 
 def run(

@@ -13,23 +13,13 @@ from cellc.mock.campaign.plan import CampaignPlan
 from cellc.mock.command import campaign as command  # FIXME rename
 from cellc.mock.faults.case import FaultCase
 from cellc.mock.faults.possible import possible_faults
-from cellc.output.write import write
-from cellc.pipeline import check, compile_cell
-
-ROOT = Path(__file__).resolve().parents[3]
+from tests.cells import CELLS, generated
 
 
 @pytest.fixture(scope="session")
-def folders(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+def folders() -> dict[str, Path]:
     """Generated folders of all example cells by name; never changed."""
-    output = tmp_path_factory.mktemp("campaign")
-    built: dict[str, Path] = {}
-    for source in sorted((ROOT / "cells").glob("*/cell.yaml")):
-        artifacts = compile_cell(check(source)).value
-        assert artifacts is not None
-        built[source.parent.name] = output / source.parent.name
-        assert write(artifacts, built[source.parent.name]).ok
-    return built
+    return {name: generated(name) for name in CELLS}
 
 
 @pytest.fixture(scope="session")

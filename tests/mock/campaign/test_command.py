@@ -16,8 +16,9 @@ from urllib.parse import quote
 import pytest
 
 from cellc.mock.task.context import TaskContext
+from tests.cells import ROOT
 from tests.cli.refused import assert_refused, process
-from tests.cli.run import ROOT, run
+from tests.cli.run import run
 
 
 @pytest.mark.usefixtures("few_faults")

@@ -3,25 +3,20 @@
 from __future__ import annotations
 
 import json
-from pathlib import Path
 
 import pytest
 
 from cellc.contract.clock import ContractClock
 from cellc.contract.contract import Contract
 from cellc.contract.network import ContractNetwork
-from cellc.pipeline import check, compile_cell
-
-CORPUS = Path(__file__).resolve().parents[2] / "corpus" / "valid"
+from tests.cells import CORPUS, compiled
 
 
 @pytest.fixture(scope="module")
 def contract() -> Contract:
     """The contract of a cell with figures for its clocks and its network."""
-    artifacts = compile_cell(check(CORPUS / "simulated_network_and_clocks.yaml")).value
-    assert artifacts is not None
-    text = next(artifact.text for artifact in artifacts if artifact.path == "contract.json")
-    return Contract.model_validate(json.loads(text))
+    spec = CORPUS / "valid" / "simulated_network_and_clocks.yaml"
+    return Contract.model_validate(json.loads(compiled(spec).texts["contract.json"]))
 
 
 def test_every_host_and_every_device_with_its_own_clock_has_one(contract: Contract) -> None:

@@ -12,10 +12,7 @@ import pytest
 import yaml
 
 from cellc.mock import MockCell, load
-from cellc.output.write import write
-from cellc.pipeline import check, compile_cell
-
-ROOT = Path(__file__).resolve().parents[3]
+from tests.cells import generated
 
 Fault = dict[str, Any]
 LoadWith = Callable[..., MockCell]
@@ -27,13 +24,9 @@ def fault(kind: str, target: str, at_s: float, **more: float) -> Fault:
 
 
 @pytest.fixture(scope="session")
-def built_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def built_folder() -> Path:
     """The folder of cells/ur5e_pick; never changed."""
-    artifacts = compile_cell(check(ROOT / "cells" / "ur5e_pick" / "cell.yaml")).value
-    assert artifacts is not None
-    folder = tmp_path_factory.mktemp("generated") / "ur5e_pick"
-    assert write(artifacts, folder).ok
-    return folder
+    return generated("ur5e_pick")
 
 
 @pytest.fixture

@@ -14,7 +14,8 @@ from typing import Any
 import pytest
 
 from cellc.mock import MockCell, MockError, load
-from tests.mock.engine.conftest import ROOT, LoadWith, fault
+from tests.cells import ROOT
+from tests.mock.engine.conftest import LoadWith, fault
 
 Edit = Callable[[Callable[[Any], None]], MockCell]
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from cellc.mock import MockCell, to_json_lines
 from cellc.mock.result import PacketStep
-from tests.mock.engine.conftest import ROOT
+from tests.cells import ROOT
 
 # Chapter 4, "Manufacturing Cell Checkpoint": what every attempt logs.
 CHECKPOINT = [

@@ -6,17 +6,11 @@ from pathlib import Path
 
 from cellc.mock import load
 from cellc.mock.plant import Plant
-from cellc.output.write import write
-from cellc.pipeline import check, compile_cell
-
-SPEC = Path(__file__).resolve().parents[2] / "corpus" / "valid" / "simulated_joints.yaml"
+from tests.cells import CORPUS, build_into
 
 
 def test_figures_of_a_joint_count_before_those_of_all(tmp_path: Path) -> None:
-    artifacts = compile_cell(check(SPEC)).value
-    assert artifacts is not None
-    assert write(artifacts, tmp_path / "demo").ok
-    cell = load(tmp_path / "demo")
+    cell = load(build_into(tmp_path / "demo", CORPUS / "valid" / "simulated_joints.yaml"))
     assert {name: (j.lag_s, j.max_velocity) for name, j in cell.contract.simulated_joints.items()} == {
         "stage_turn": (0.01, None),
         "stage_slide": (0.005, 0.2),

@@ -12,10 +12,7 @@ import pytest
 from cellc.mock import MockCell, load
 from cellc.mock.command.rehearsals import begin_evidence
 from cellc.mock.result import RehearsalResult
-from cellc.output.write import write
-from cellc.pipeline import check, compile_cell
-
-ROOT = Path(__file__).resolve().parents[3]
+from tests import cells
 
 
 @dataclass(frozen=True)
@@ -38,13 +35,9 @@ class Received:
 
 
 @pytest.fixture(scope="session")
-def generated(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def generated() -> Path:
     """The folder of cells/ur5e_pick; never changed."""
-    artifacts = compile_cell(check(ROOT / "cells" / "ur5e_pick" / "cell.yaml")).value
-    assert artifacts is not None
-    folder = tmp_path_factory.mktemp("generated") / "ur5e_pick"
-    assert write(artifacts, folder).ok
-    return folder
+    return cells.generated("ur5e_pick")
 
 
 @pytest.fixture(scope="session")

@@ -9,17 +9,13 @@ import pytest
 from cellc.contract.rehearsals import RehearsalEntry, StepEntry
 from cellc.mock import load
 from cellc.mock.cell import cell_of
-from cellc.output.write import write
-from cellc.pipeline import check, compile_cell
-from tests.mock.evidence.conftest import ROOT, Written, received, write_evidence
+from tests.cells import CORPUS, build_into
+from tests.mock.evidence.conftest import Written, received, write_evidence
 
 
 @pytest.fixture(scope="module")
 def adapted(tmp_path_factory: pytest.TempPathFactory) -> Written:
-    artifacts = compile_cell(check(ROOT / "tests" / "corpus" / "valid" / "direct_sdk_arm.yaml")).value
-    assert artifacts is not None
-    folder = tmp_path_factory.mktemp("generated") / "demo"
-    assert write(artifacts, folder).ok
+    folder = build_into(tmp_path_factory.mktemp("generated") / "demo", CORPUS / "valid" / "direct_sdk_arm.yaml")
     steps = tuple(StepEntry(kind="move", target=pose) for pose in ("home", "aside"))
     entry = RehearsalEntry(name="reach", steps=steps, faults=(), expect="succeeded", within_s=None, timeout_s=60.0)
     cell = cell_of(replace(load(folder).folder, rehearsals=(entry,)))

@@ -12,7 +12,8 @@ from pathlib import Path
 import pytest
 
 from cellc.mock import MockCell
-from tests.mock.evidence.conftest import ROOT, Written, write_evidence
+from tests.cells import ROOT
+from tests.mock.evidence.conftest import Written, write_evidence
 
 NEEDED = "click, mcap, numpy, pinocchio, pydantic, ruckig, yaml"
 VERSIONS = ("3.10", "3.11", "3.12", "3.13")

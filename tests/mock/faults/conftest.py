@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
@@ -15,10 +14,7 @@ from cellc.contract.rehearsals import FaultEntry, FaultEvent, RehearsalEntry, St
 from cellc.mock import MockCell, load
 from cellc.mock.plant import Plant
 from cellc.mock.result import AttemptRecord, RehearsalResult
-from cellc.output.write import write
-from cellc.pipeline import check, compile_cell
-
-ROOT = Path(__file__).resolve().parents[3]
+from tests.cells import generated
 
 HOME = StepEntry(kind="move", target="home")
 DETECT = StepEntry(kind="detect", target="object")
@@ -76,13 +72,9 @@ Rehearse = Callable[..., Run]
 
 
 @pytest.fixture(scope="session")
-def cell(tmp_path_factory: pytest.TempPathFactory) -> MockCell:
+def cell() -> MockCell:
     """The loaded cell `ur5e_pick`."""
-    artifacts = compile_cell(check(ROOT / "cells" / "ur5e_pick" / "cell.yaml")).value
-    assert artifacts is not None
-    folder = tmp_path_factory.mktemp("generated") / "ur5e_pick"
-    assert write(artifacts, folder).ok
-    return load(folder)
+    return load(generated("ur5e_pick"))
 
 
 @pytest.fixture(scope="session")

@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 from cellc.mock import MockCell, load
-from cellc.output.write import write
-from cellc.pipeline import check, compile_cell
-from tests.mock.faults.conftest import ROOT
+from cellc.pipeline import check
+from tests import cells
+from tests.cells import build_into, spec_of, spec_text
 
 REHEARSALS = """
   late_state: {use: pick_and_place, inject: {delay: arm, by: 300 ms, at: 1 s}, expect: stale_state, within: 600 ms}
@@ -63,13 +63,8 @@ REHEARSALS = """
 def written(tmp_path_factory: pytest.TempPathFactory) -> MockCell:
     """The chapter's cell with more rehearsals, built and loaded."""
     folder = tmp_path_factory.mktemp("written")
-    text = (ROOT / "cells" / "ur5e_pick" / "cell.yaml").read_text(encoding="utf-8")
-    cell = folder / "cell.yaml"
-    cell.write_text(text.replace("\nkpis:", f"{REHEARSALS}\nkpis:"), encoding="utf-8")
-    artifacts = compile_cell(check(cell)).value
-    assert artifacts is not None
-    assert write(artifacts, folder / "ur5e_pick").ok
-    return load(folder / "ur5e_pick")
+    spec = cells.written(folder, spec_text("ur5e_pick").replace("\nkpis:", f"{REHEARSALS}\nkpis:"))
+    return load(build_into(folder / "ur5e_pick", spec))
 
 
 def test_rehearsals_of_all_kinds_of_faults_end_as_written(written: MockCell) -> None:
@@ -80,8 +75,8 @@ def test_rehearsals_of_all_kinds_of_faults_end_as_written(written: MockCell) -> 
 
 
 def test_cell_with_such_rehearsals_is_checked_without_a_new_finding(tmp_path: Path) -> None:
-    text = (ROOT / "cells" / "ur5e_pick" / "cell.yaml").read_text(encoding="utf-8")
+    text = spec_text("ur5e_pick")
     cell = tmp_path / "cell.yaml"
-    plain = {diagnostic.code for diagnostic in check(ROOT / "cells" / "ur5e_pick" / "cell.yaml").diagnostics}
+    plain = {diagnostic.code for diagnostic in check(spec_of("ur5e_pick")).diagnostics}
     cell.write_text(text.replace("\nkpis:", f"{REHEARSALS}\nkpis:"), encoding="utf-8")
     assert {diagnostic.code for diagnostic in check(cell).diagnostics} == plain

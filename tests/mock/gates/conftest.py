@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
@@ -12,20 +11,13 @@ from cellc.mock import MockCell, load
 from cellc.mock.folder import GeneratedFolder
 from cellc.mock.gates import GateCheck, GateResult, Witness, rehearsal_witnesses, sign_gates
 from cellc.mock.result import AttemptRecord
-from cellc.output.write import write
-from cellc.pipeline import check, compile_cell
-
-ROOT = Path(__file__).resolve().parents[3]
+from tests.cells import generated
 
 
 @pytest.fixture(scope="session")
-def pick(tmp_path_factory: pytest.TempPathFactory) -> MockCell:
+def pick() -> MockCell:
     """The loaded cell."""
-    artifacts = compile_cell(check(ROOT / "cells" / "ur5e_pick" / "cell.yaml")).value
-    assert artifacts is not None
-    folder = tmp_path_factory.mktemp("gates") / "ur5e_pick"
-    assert write(artifacts, folder).ok
-    return load(folder)
+    return load(generated("ur5e_pick"))
 
 
 @pytest.fixture(scope="session")

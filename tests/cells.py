@@ -1,0 +1,136 @@
+"""The one way in which tests take a cell through the stages: document, cell, graph, findings, artifacts, folder.
+
+A spec is a file of the repository or one that a test writes into a folder of its own. What is built of the cells of the
+repository is built once per process and never changed.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+from cellc.artifact import Artifact
+from cellc.cell.cell import Cell
+from cellc.diagnostics import Diagnostic, Outcome
+from cellc.graph.cell_graph import CellGraph, build_graph
+from cellc.link.link import link
+from cellc.output.write import write
+from cellc.pipeline import check, compile_cell
+from cellc.rules.run import run_rules
+from cellc.source import SourceDocument, read
+from cellc.spec.parse import parse
+
+ROOT = Path(__file__).resolve().parents[1]
+CORPUS = ROOT / "tests" / "corpus"
+COMPLETE = CORPUS / "valid" / "complete.yaml"
+CELLS = tuple(sorted(path.parent.name for path in ROOT.glob("cells/*/cell.yaml")))
+DISTROS = ("humble", "jazzy", "kilted", "lyrical")
+
+
+@dataclass(frozen=True, slots=True)
+class Compiled:
+    """The artifacts of a cell, with the graph that they were written from."""
+
+    graph: CellGraph
+    artifacts: tuple[Artifact, ...]
+
+    @property
+    def texts(self) -> dict[str, str]:
+        """The text of every file by its path in the package."""
+        return {artifact.path: artifact.text for artifact in self.artifacts}
+
+
+def spec_of(cell: str) -> Path:
+    """Return the spec of a cell of the repository."""
+    return ROOT / "cells" / cell / "cell.yaml"
+
+
+def spec_text(cell: str) -> str:
+    """Return the text of a spec of the repository."""
+    return spec_of(cell).read_text(encoding="utf-8")
+
+
+def written(folder: Path, text: str) -> Path:
+    """Write a spec into a folder."""
+    path = folder / "cell.yaml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def document_of(path: Path) -> SourceDocument:
+    """Return what a legal YAML file says."""
+    outcome = read(path)
+    assert outcome.value is not None, outcome.diagnostics
+    assert outcome.ok, outcome.diagnostics
+    return outcome.value
+
+
+def linking(path: Path) -> Outcome[Cell]:
+    """Return the cell of a spec, with what the stages up to linking say of it."""
+    source = read(path)
+    if source.value is None or not source.ok:
+        return Outcome(None, source.diagnostics)
+    spec = parse(source.value)
+    found = (*source.diagnostics, *spec.diagnostics)
+    if spec.value is None or not spec.ok:
+        return Outcome(None, found)
+    cell = link(spec.value, source.value)
+    return Outcome(cell.value, (*found, *cell.diagnostics))
+
+
+def linked(path: Path) -> Cell:
+    """Return the cell of a spec that reads, parses and links without a finding."""
+    outcome = linking(path)
+    assert outcome.diagnostics == ()
+    assert outcome.value is not None
+    return outcome.value
+
+
+def graph_of(path: Path) -> CellGraph:
+    """Return the graph of a spec that links without a finding."""
+    return build_graph(linked(path))
+
+
+def diagnose(path: Path) -> tuple[Diagnostic, ...]:
+    """Return what every stage up to the rules says of a spec, and nothing taken out."""
+    outcome = linking(path)
+    if outcome.value is None or not outcome.ok:
+        return outcome.diagnostics
+    return (*outcome.diagnostics, *run_rules(build_graph(outcome.value)))
+
+
+def compiled(path: Path) -> Compiled:
+    """Return what is built of a spec without errors; a finding of a foreign parser fails the test."""
+    checked = check(path)
+    assert checked.graph is not None, [found.message for found in checked.diagnostics]
+    outcome = compile_cell(checked)
+    assert outcome.value is not None, [found.message for found in checked.diagnostics]
+    assert outcome.diagnostics == (), [found.message for found in outcome.diagnostics]
+    return Compiled(checked.graph, outcome.value)
+
+
+def build_into(folder: Path, path: Path) -> Path:
+    """Build a spec into a folder, and return the folder."""
+    assert write(compiled(path).artifacts, folder).ok
+    return folder
+
+
+@cache
+def built(cell: str) -> Compiled:
+    """Return what is built of a cell of the repository."""
+    return compiled(spec_of(cell))
+
+
+@cache
+def generated(cell: str) -> Path:
+    """Return the folder that a cell of the repository is built into; a test that changes it takes a copy."""
+    folder = Path(_generated_folders().name) / cell
+    assert write(built(cell).artifacts, folder).ok
+    return folder
+
+
+@cache
+def _generated_folders() -> tempfile.TemporaryDirectory[str]:
+    return tempfile.TemporaryDirectory()
