@@ -19,4 +19,4 @@ ParameterFact = Union[bool, int, float, str, tuple[Union[bool, int, float, str],
 class CatalogModel(BaseModel):
     """A part of the catalogue: facts with their sources, in the units of the text."""
 
-    model_config = ConfigDict(strict=True, frozen=True, extra="forbid", regex_engine="python-re")
+    model_config = ConfigDict(strict=True, frozen=True, extra="forbid", regex_engine="python-re", defer_build=True)

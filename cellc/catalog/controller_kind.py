@@ -1,6 +1,5 @@
 """A neutral controller kind: its plugin in each distribution, what it claims and serves, and its parameters."""
 
-from __future__ import annotations
 
 from typing import Literal
 

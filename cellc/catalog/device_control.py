@@ -1,6 +1,5 @@
 """What ros2_control sees of a device: hardware plugins and interfaces, and the driver where there is no plugin."""
 
-from __future__ import annotations
 
 from pydantic import Field
 

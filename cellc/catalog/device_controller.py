@@ -1,6 +1,5 @@
 """Controllers that only one device has: variants of a neutral kind, and passive ones that command no joint."""
 
-from __future__ import annotations
 
 from pydantic import Field
 

@@ -1,6 +1,5 @@
 """Nodes of a device's driver and what they publish, serve and execute."""
 
-from __future__ import annotations
 
 from typing import Literal, Union
 

@@ -7,7 +7,6 @@ device on which this one is mounted, ``{share:PACKAGE}`` the share folder of an 
 sensors and gpios are named without prefix.
 """
 
-from __future__ import annotations
 
 from typing import Literal
 

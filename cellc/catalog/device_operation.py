@@ -1,6 +1,5 @@
 """How a device is reached, stopped and kept at versions that work together."""
 
-from __future__ import annotations
 
 from typing import Literal
 

@@ -1,6 +1,5 @@
 """ROS 2 distributions: platforms, end of life, released package versions, middleware."""
 
-from __future__ import annotations
 
 from typing import Literal
 

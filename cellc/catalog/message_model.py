@@ -1,6 +1,5 @@
 """Interface types that a cell may name, with the payload's unit and frame conventions."""
 
-from __future__ import annotations
 
 from typing import Literal
 

@@ -1,6 +1,5 @@
 """Named QoS profiles of rmw, what is left open in them, and the profiles of endpoints that every cell has."""
 
-from __future__ import annotations
 
 from typing import Literal
 

@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict, Discriminator, StringConstraints, Ta
 class SpecModel(BaseModel):
     """A part of the spec as written: shape only, the user's own names and units."""
 
-    model_config = ConfigDict(strict=True, frozen=True, extra="forbid")
+    model_config = ConfigDict(strict=True, frozen=True, extra="forbid", defer_build=True)
 
 
 NAME_PATTERN = r"^[A-Za-z][A-Za-z0-9_]*$"

@@ -1,6 +1,5 @@
 """The whole spec of one physical cell."""
 
-from __future__ import annotations
 
 from typing import Annotated, Literal
 

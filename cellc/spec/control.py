@@ -1,6 +1,5 @@
 """Controller managers, controllers, planning groups, named poses and Cartesian goals."""
 
-from __future__ import annotations
 
 from typing import Literal
 

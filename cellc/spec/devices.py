@@ -1,6 +1,5 @@
 """Robots, grippers and sensors of the cell."""
 
-from __future__ import annotations
 
 from typing import Literal
 

@@ -1,6 +1,5 @@
 """Frames, their calibrations, and the solid things of the cell."""
 
-from __future__ import annotations
 
 import datetime
 from typing import Literal

@@ -1,6 +1,5 @@
 """The pinned version tuple, the computers and the network."""
 
-from __future__ import annotations
 
 from typing import Literal
 

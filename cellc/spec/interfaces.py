@@ -1,6 +1,5 @@
 """Nodes, and the topics, services and actions between them."""
 
-from __future__ import annotations
 
 from typing import Annotated, Literal, Union
 

@@ -1,6 +1,5 @@
 """What the mock executes, what it must end in, what is measured and what is recorded."""
 
-from __future__ import annotations
 
 from typing import Annotated, Literal, Union
 

@@ -1,6 +1,5 @@
 """Who answers for what, and the boundary that software does not cross: stop, recovery, and the gates of bring-up."""
 
-from __future__ import annotations
 
 from typing import Literal
 
