@@ -1,13 +1,11 @@
 """A neutral controller kind: its plugin in each distribution, what it claims and serves, and its parameters."""
 
-
 from typing import Literal
 
 from pydantic import Field
 
 from cellc.catalog.catalog_model import CatalogModel, Date, Distro, ParameterFact, Text, Token
-from cellc.catalog.device_control import InterfaceName, PluginUse
-from cellc.catalog.device_interfaces import QosUse
+from cellc.catalog.device_interfaces import InterfaceName, PluginUse, QosUse
 
 ParameterType = Literal[
     "bool", "int", "double", "string", "bool_array", "int_array", "double_array", "string_array", "none"

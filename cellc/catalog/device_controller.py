@@ -1,11 +1,10 @@
 """Controllers that only one device has: variants of a neutral kind, and passive ones that command no joint."""
 
-
 from pydantic import Field
 
 from cellc.catalog.catalog_model import CatalogModel, Distro, Text, Token
 from cellc.catalog.controller_kind import ControllerKind, ControllerService, ControllerTopic, ParameterFacts
-from cellc.catalog.device_control import InterfaceName, PluginUse
+from cellc.catalog.device_interfaces import InterfaceName, PluginUse
 
 BROADCASTER = "broadcaster"
 """Publishes what the hardware reports."""

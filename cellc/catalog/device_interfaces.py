@@ -1,5 +1,4 @@
-"""Nodes of a device's driver and what they publish, serve and execute."""
-
+"""What a device offers: joints and their interfaces, plugins, drivers, topics, services, actions and cameras."""
 
 from typing import Literal, Union
 
@@ -7,6 +6,87 @@ from pydantic import Field
 
 from cellc.catalog.catalog_model import CatalogModel, ParameterFact, Text, Token
 from cellc.spec.quantity import Duration, Frequency
+
+InterfaceName = Text
+"""The part after the slash: ``position``, ``force.x``, ``speed_scaling_factor``."""
+
+
+class HardwareFacts(CatalogModel):
+    """A hardware plugin and the ``<param>`` values that it is given."""
+
+    plugin: Text
+    parameters: dict[Text, Text] = Field(default_factory=dict)
+    source: Text
+
+
+class HardwareByTarget(CatalogModel):
+    """The plugin that moves metal, and the one that pretends; no ``real`` where the driver's own nodes move it."""
+
+    real: HardwareFacts | None = None
+    mock: HardwareFacts
+
+
+class JointInterfaces(CatalogModel):
+    """Command and state interfaces of a joint."""
+
+    command: tuple[InterfaceName, ...] = ()
+    state: tuple[InterfaceName, ...] = ()
+
+
+class GroupInterfaces(CatalogModel):
+    """Interfaces of a ``<sensor>`` or ``<gpio>``; ``initial`` values are what a mock starts from.
+
+    ``fixed_name`` where the hardware exports them under this very name, whatever prefix the device has.
+    """
+
+    command: tuple[InterfaceName, ...] = ()
+    state: tuple[InterfaceName, ...] = ()
+    initial: dict[InterfaceName, float] = Field(default_factory=dict)
+    real_only: bool = False
+    fixed_name: bool = False
+
+
+class ControlFacts(CatalogModel):
+    """One ``<ros2_control>`` tag.
+
+    ``component`` is the tag's name, which is a node name too from Jazzy on; ``update_rates`` are those that the device
+    accepts, none for any; ``joints`` are named without prefix, ``*`` stands for every joint that moves on its own.
+    """
+
+    component: Text
+    update_rates: tuple[Frequency, ...] = ()
+    hardware: HardwareByTarget
+    joints: dict[Text, JointInterfaces]
+    sensors: dict[Token, GroupInterfaces] = Field(default_factory=dict)
+    gpios: dict[Token, GroupInterfaces] = Field(default_factory=dict)
+
+
+class PluginUse(CatalogModel):
+    """A controller plugin in one distribution."""
+
+    type: Text
+    package: Token
+    parameters: dict[Text, ParameterFact] = Field(default_factory=dict)
+
+
+class DriverFacts(CatalogModel):
+    """What moves the device on the real target where ``hardware`` names no plugin for it.
+
+    ``node`` is one of the device's nodes, ``joint_states`` one of its topics, and ``actions`` tell which of its actions
+    takes the goals of a kind of controller that is not spawned there.
+    """
+
+    node: Text
+    joint_states: Text | None = None
+    actions: dict[Token, Text] = Field(default_factory=dict)
+    source: Text
+
+
+class SpeedScalingFacts(CatalogModel):
+    """Full name of the state interface in which the device reports how far it slows trajectories down."""
+
+    state_interface: Text
+    source: Text
 
 
 class QosFacts(CatalogModel):

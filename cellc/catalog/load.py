@@ -10,10 +10,8 @@ from pathlib import Path
 from cellc.catalog.controller_kind import ControllerKind
 from cellc.catalog.device_controller import PASSIVE
 from cellc.catalog.device_model import DeviceModel
-from cellc.catalog.distro_model import ControllerManagerFacts, DistroTable
-from cellc.catalog.message_model import InterfaceTypeTable
-from cellc.catalog.qos_model import QosTable
 from cellc.catalog.read_model import ModelT, read_model
+from cellc.catalog.tables import ControllerManagerFacts, DistroTable, InterfaceTypeTable, QosTable
 from cellc.description.model import Description
 from cellc.description.read_description import read_catalogue_description, read_description
 from cellc.diagnostics import Diagnostic, Outcome, Severity, YamlPath, did_you_mean
@@ -190,3 +188,21 @@ def load_qos_profiles() -> Outcome[QosTable]:
 def _table(file: str, model: type[ModelT]) -> Outcome[ModelT]:
     read = read_model(CATALOGUE / file, f"{_SHOWN}/{file}", model)
     return Outcome(None if read.value is None else read.value[0], read.diagnostics)
+
+
+def kind_behind(type_: str, device: DeviceModel | None) -> ControllerKind | None:
+    """Return what the catalogue says of a type of controller, or None where it has no such type.
+
+    Args:
+        type_: the type as the spec writes it.
+        device: the device that the controller is of, if it is of any.
+
+    Returns:
+        The neutral kind, that which a device's variant acts as, or a passive kind of the device itself.
+    """
+    own = None if device is None else device.controllers.get(type_)
+    if own is None:
+        return load_controller_kind(type_).value if type_ in controller_kinds() else None
+    assert device is not None  # it has the controller
+    passive = own.passive_kind(device.as_of)
+    return passive if passive is not None else load_controller_kind(own.behaviour).value

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from cellc.catalog.device_operation import VersionRow
+from cellc.catalog.device_model import VersionRow
 from cellc.cell.entity import Entity
 from cellc.cell.interface import InterfaceKind
 from cellc.cell.site import UNKNOWN, Clock, JointFigure

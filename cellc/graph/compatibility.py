@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import Enum
 
-from cellc.catalog.device_operation import VersionRow
-from cellc.catalog.distro_model import DistroFacts
+from cellc.catalog.device_model import VersionRow
 from cellc.catalog.load import load_distros
+from cellc.catalog.tables import DistroFacts
 from cellc.cell.cell import Cell
 from cellc.graph.distribution import distribution
 from cellc.graph.pins import Pin, cell_pins, device_pins, version_number, version_numbers

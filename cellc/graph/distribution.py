@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from cellc.catalog.distro_model import DistroFacts
 from cellc.catalog.load import load_distros
+from cellc.catalog.tables import DistroFacts
 from cellc.cell.cell import Cell
 
 

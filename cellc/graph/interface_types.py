@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from cellc.catalog.load import load_message_types
-from cellc.catalog.message_model import InterfaceTypeFacts
+from cellc.catalog.tables import InterfaceTypeFacts
 
 
 def interface_types() -> Mapping[str, InterfaceTypeFacts]:

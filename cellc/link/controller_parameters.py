@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from cellc.catalog.catalog_model import Distro
 from cellc.catalog.controller_kind import ControllerKind
-from cellc.catalog.device_control import PluginUse
+from cellc.catalog.device_interfaces import PluginUse
 from cellc.cell.device import Device
 from cellc.cell.interface import ParameterValue
 from cellc.spec.control import ControllerSpec

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cellc.catalog.kind_of import kind_behind
+from cellc.catalog.load import kind_behind
 from cellc.cell.control import Controller, ControllerManager
 from cellc.cell.interface import Endpoint, Interface, InterfaceKind
 from cellc.diagnostics import YamlPath

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from cellc.catalog.device_control import GroupInterfaces, JointInterfaces
+from cellc.catalog.device_interfaces import GroupInterfaces, JointInterfaces
 from cellc.catalog.device_model import AccelerationLimit, DeviceModel, JerkLimit
 from cellc.catalog.load import CatalogDevice, device_names, load_device
 from cellc.cell.device import EVERY_JOINT, Device, DeviceDriver, DeviceJoint, HardwareComponent, InterfaceGroup

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from cellc.catalog.catalog_model import DISTROS, Distro
 from cellc.catalog.load import load_qos_profiles
-from cellc.catalog.qos_model import RMWS, Rmw
+from cellc.catalog.tables import RMWS, Rmw
 from cellc.cell.cell import Cell
 from cellc.diagnostics import Diagnostic, Outcome, Severity, did_you_mean
 from cellc.link.control import link_managers

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from cellc.catalog.device_interfaces import QosFacts, QosUse
-from cellc.catalog.qos_model import QosTable, Rmw, SystemDefault
+from cellc.catalog.tables import QosTable, Rmw, SystemDefault
 from cellc.cell.interface import Qos
 from cellc.spec.interfaces import QosSpec
 from cellc.spec.quantity import Quantity

@@ -1,6 +1,5 @@
 """The whole spec of one physical cell."""
 
-
 from typing import Annotated, Literal
 
 from pydantic import Field, StringConstraints

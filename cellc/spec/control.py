@@ -1,6 +1,5 @@
 """Controller managers, controllers, planning groups, named poses and Cartesian goals."""
 
-
 from typing import Literal
 
 from pydantic import Field

@@ -1,6 +1,5 @@
 """Robots, grippers and sensors of the cell."""
 
-
 from typing import Literal
 
 from pydantic import Field

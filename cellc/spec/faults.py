@@ -1,6 +1,5 @@
 """What goes wrong in a rehearsal: the kind of a fault is its first key, with what it hits."""
 
-
 from typing import Annotated, Literal, Union, get_args
 
 from pydantic import Discriminator, Field, Tag

@@ -1,6 +1,5 @@
 """Frames, their calibrations, and the solid things of the cell."""
 
-
 import datetime
 from typing import Literal
 

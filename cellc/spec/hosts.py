@@ -1,6 +1,5 @@
 """The pinned version tuple, the computers and the network."""
 
-
 from typing import Literal
 
 from pydantic import Field

@@ -1,6 +1,5 @@
 """Nodes, and the topics, services and actions between them."""
 
-
 from typing import Annotated, Literal, Union
 
 from pydantic import Discriminator, Field, Tag

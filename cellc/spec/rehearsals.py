@@ -1,6 +1,5 @@
 """What the mock executes, what it must end in, what is measured and what is recorded."""
 
-
 from typing import Annotated, Literal, Union
 
 from pydantic import Discriminator, Field, Tag

@@ -1,0 +1,134 @@
+"""What holds for every cell: ROS 2 distributions, interface types, QoS profiles, endpoints that every cell has."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from cellc.catalog.catalog_model import CatalogModel, Date, Distro, ParameterFact, Text, Token
+from cellc.catalog.controller_kind import ParameterFacts
+from cellc.spec.quantity import Duration
+
+
+class DistroFacts(CatalogModel):
+    """One distribution."""
+
+    title: Text
+    released: Text
+    end_of_life: Date
+    end_of_life_note: Text | None = None
+    lts: bool
+    os: tuple[Text, ...] = Field(min_length=1)
+    os_tier3: tuple[Text, ...] = ()
+    python: Text
+    default_rmw: Token
+    rmw: tuple[Token, ...] = Field(min_length=1)
+    rmw_unverified: tuple[Token, ...] = ()
+    packages: dict[Token, Text]
+    action_remap_by_one_rule: bool
+    description_by: Literal["parameter", "topic"]
+    mock_plugin: Text
+    mock_parameters: dict[Token, ParameterFact]
+
+
+class DistroTable(CatalogModel):
+    """``catalog/distros.yaml``: every figure holds as of ``as_of`` and grows old."""
+
+    format: Literal[1]
+    as_of: Date
+    sources: tuple[Text, ...] = Field(min_length=1)
+    distros: dict[Distro, DistroFacts]
+    dead_mock_parameters: dict[Text, Text]
+
+
+class ControllerManagerFacts(CatalogModel):
+    """``catalog/controller_manager.yaml``: parameters of the manager's node and of every controller's node."""
+
+    format: Literal[1]
+    as_of: Date
+    sources: tuple[Text, ...] = Field(min_length=1)
+    package: Token
+    executable: Token
+    parameters: dict[Text, ParameterFacts]
+    controller_parameters: dict[Text, ParameterFacts]
+
+
+class InterfaceTypeFacts(CatalogModel):
+    """One type; ``unit`` where the definition fixes it, ``stamped`` where it carries a std_msgs/Header."""
+
+    unit: Text | None = None
+    stamped: bool = False
+    feeds_motion: bool = False
+    only: tuple[Distro, ...] = ()
+
+
+class InterfaceTypeTable(CatalogModel):
+    """``catalog/message_types.yaml``: keys are full names such as ``sensor_msgs/msg/Image``."""
+
+    format: Literal[1]
+    as_of: Date
+    sources: tuple[Text, ...] = Field(min_length=1)
+    types: dict[Text, InterfaceTypeFacts]
+
+    def kind_of(self, name: str) -> Literal["topic", "service", "action"] | None:
+        """Tell what a known type is for, or None where it is not known."""
+        if name not in self.types:
+            return None
+        kinds: dict[str, Literal["topic", "service", "action"]] = {
+            "msg": "topic",
+            "srv": "service",
+            "action": "action",
+        }
+        return kinds[name.split("/")[1]]
+
+
+Rmw = Literal["rmw_fastrtps_cpp", "rmw_cyclonedds_cpp", "rmw_zenoh_cpp"]
+RMWS: tuple[Rmw, ...] = ("rmw_fastrtps_cpp", "rmw_cyclonedds_cpp", "rmw_zenoh_cpp")
+
+
+class QosProfile(CatalogModel):
+    """One profile; ``system_default`` and ``best_available`` settings are decided by the middleware."""
+
+    history: Literal["keep_last", "keep_all", "system_default"]
+    depth: int = Field(ge=0)
+    reliability: Literal["reliable", "best_effort", "system_default", "best_available"]
+    durability: Literal["volatile", "transient_local", "system_default", "best_available"]
+    lifespan: Duration | None = None
+
+
+class SystemDefault(CatalogModel):
+    """What an RMW makes of ``system_default`` at one kind of endpoint."""
+
+    reliability: Literal["reliable", "best_effort"]
+    durability: Literal["volatile", "transient_local"]
+    depth: int = Field(ge=1)
+
+
+class SystemDefaults(CatalogModel):
+    """Both ends; they differ with Fast DDS."""
+
+    writer: SystemDefault
+    reader: SystemDefault
+
+
+class KnownEndpoint(CatalogModel):
+    """An endpoint whose profile its author fixed; ``overridable`` where a parameter may change it."""
+
+    topic: Text
+    type: Text
+    node: Text
+    direction: Literal["publish", "subscribe"]
+    qos: Token
+    overridable: bool = False
+    source: Text
+
+
+class QosTable(CatalogModel):
+    """``catalog/qos_profiles.yaml``."""
+
+    format: Literal[1]
+    as_of: Date
+    sources: tuple[Text, ...] = Field(min_length=1)
+    profiles: dict[Token, QosProfile]
+    system_default: dict[Rmw, SystemDefaults]
+    endpoints: tuple[KnownEndpoint, ...]
+    action: dict[Literal["send_goal", "cancel_goal", "get_result", "feedback", "status"], Token]
