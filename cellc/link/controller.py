@@ -7,10 +7,9 @@ from dataclasses import dataclass
 
 from cellc.catalog.catalog_model import Distro
 from cellc.catalog.controller_kind import ControllerKind
-from cellc.catalog.device_interfaces import PluginUse
 from cellc.catalog.device_controller import PASSIVE, DeviceController
-from cellc.catalog.load import kind_behind
-from cellc.catalog.load import controller_kinds
+from cellc.catalog.device_interfaces import PluginUse
+from cellc.catalog.load import controller_kinds, kind_behind
 from cellc.cell.control import Controller, StandIn
 from cellc.cell.device import Device
 from cellc.cell.interface import TARGETS, ParameterValue
