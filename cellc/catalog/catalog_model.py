@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, Union
+from typing import Annotated, Union
 
-from pydantic import BaseModel, ConfigDict, StringConstraints
+from pydantic import BaseModel, ConfigDict, Strict, StringConstraints
 
-Distro = Literal["humble", "jazzy", "kilted", "lyrical"]
-DISTROS: tuple[Distro, ...] = ("humble", "jazzy", "kilted", "lyrical")
+from cellc.vocabulary import Behaviour, Distro
 
 Text = Annotated[str, StringConstraints(min_length=1, max_length=1000)]
 Token = Annotated[str, StringConstraints(pattern=r"^[A-Za-z_][A-Za-z0-9_]*$", max_length=100)]
 Date = Annotated[str, StringConstraints(pattern=r"^\d{4}-\d{2}-\d{2}$")]
+DistroName = Annotated[Distro, Strict(False)]
+BehaviourName = Annotated[Behaviour, Strict(False)]
 ParameterFact = Union[bool, int, float, str, tuple[Union[bool, int, float, str], ...]]
 """A ROS parameter's value; an int where a double is declared is a mistake."""
 

@@ -4,8 +4,9 @@ from typing import Literal
 
 from pydantic import Field
 
-from cellc.catalog.catalog_model import CatalogModel, Date, Distro, ParameterFact, Text, Token
+from cellc.catalog.catalog_model import BehaviourName, CatalogModel, Date, DistroName, ParameterFact, Text, Token
 from cellc.catalog.device_interfaces import InterfaceName, PluginUse, QosUse
+from cellc.vocabulary import Distro
 
 ParameterType = Literal[
     "bool", "int", "double", "string", "bool_array", "int_array", "double_array", "string_array", "none"
@@ -39,8 +40,8 @@ class ParameterFacts(CatalogModel):
     subset_of: tuple[Text, ...] = ()
     not_empty: bool = False
     unique: bool = False
-    only: tuple[Distro, ...] = ()
-    differs: dict[Distro, ParameterVariant] = Field(default_factory=dict)
+    only: tuple[DistroName, ...] = ()
+    differs: dict[DistroName, ParameterVariant] = Field(default_factory=dict)
 
     def declared_in(self, distro: Distro) -> bool:
         """Tell whether the distribution knows the parameter; an unknown one is ignored without a word."""
@@ -51,7 +52,7 @@ class ControllerAction(CatalogModel):
     """The action that a controller serves below its own name."""
 
     suffix: Token
-    types: dict[Distro, Text]
+    types: dict[DistroName, Text]
 
 
 class ControllerTopic(CatalogModel):
@@ -61,7 +62,7 @@ class ControllerTopic(CatalogModel):
     type: Text
     direction: Literal["publish", "subscribe"]
     qos: QosUse
-    only: tuple[Distro, ...] = ()
+    only: tuple[DistroName, ...] = ()
 
 
 class ControllerService(CatalogModel):
@@ -79,12 +80,12 @@ class ControllerKind(CatalogModel):
     """
 
     format: Literal[1]
-    kind: Token
+    kind: BehaviourName
     summary: Text
     as_of: Date
     sources: tuple[Text, ...] = Field(min_length=1)
     scope: Literal["device", "manager", "sensor"]
-    plugins: dict[Distro, PluginUse]
+    plugins: dict[DistroName, PluginUse]
     joints_parameter: Token | None = None
     single_joint: bool = False
     interfaces_parameter: Token | None = None

@@ -2,17 +2,10 @@
 
 from pydantic import Field
 
-from cellc.catalog.catalog_model import CatalogModel, Distro, Text, Token
+from cellc.catalog.catalog_model import BehaviourName, CatalogModel, DistroName, Text
 from cellc.catalog.controller_kind import ControllerKind, ControllerService, ControllerTopic, ParameterFacts
 from cellc.catalog.device_interfaces import InterfaceName, PluginUse
-
-BROADCASTER = "broadcaster"
-"""Publishes what the hardware reports."""
-
-SERVICE = "service"
-"""Answers services, for which it may claim interfaces of the device that are no joint's."""
-
-PASSIVE = (BROADCASTER, SERVICE)
+from cellc.vocabulary import PASSIVE
 
 
 class DeviceController(CatalogModel):
@@ -24,14 +17,14 @@ class DeviceController(CatalogModel):
     and serves. ``real_only`` where the mock lacks what it needs.
     """
 
-    behaviour: Token
+    behaviour: BehaviourName
     command_interfaces: tuple[InterfaceName, ...] = ()
     claims: tuple[Text, ...] = ()
     reads: tuple[Text, ...] = ()
     topics: tuple[ControllerTopic, ...] = ()
     services: tuple[ControllerService, ...] = ()
     parameters: dict[Text, ParameterFacts] = Field(default_factory=dict)
-    plugins: dict[Distro, PluginUse]
+    plugins: dict[DistroName, PluginUse]
     real_only: bool = False
     source: Text
 

@@ -4,7 +4,7 @@ from typing import Literal, Union
 
 from pydantic import Field
 
-from cellc.catalog.catalog_model import CatalogModel, ParameterFact, Text, Token
+from cellc.catalog.catalog_model import BehaviourName, CatalogModel, ParameterFact, Text, Token
 from cellc.spec.quantity import Duration, Frequency
 
 InterfaceName = Text
@@ -62,10 +62,11 @@ class ControlFacts(CatalogModel):
 
 
 class PluginUse(CatalogModel):
-    """A controller plugin in one distribution."""
+    """A controller plugin in one distribution; ``behaviour`` where it does otherwise than the kind is called."""
 
     type: Text
     package: Token
+    behaviour: BehaviourName | None = None
     parameters: dict[Text, ParameterFact] = Field(default_factory=dict)
 
 

@@ -11,7 +11,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from cellc.catalog.catalog_model import CatalogModel, Date, Distro, Text, Token
+from cellc.catalog.catalog_model import CatalogModel, Date, DistroName, Text, Token
 from cellc.catalog.device_controller import DeviceController
 from cellc.catalog.device_interfaces import (
     ActionFacts,
@@ -75,7 +75,7 @@ class VersionRow(CatalogModel):
     """Versions that go together on one distribution; ``known`` are those that the source names."""
 
     part: Literal["driver", "sdk", "description", "firmware"]
-    distro: Distro | None = None
+    distro: DistroName | None = None
     product: Text | None = None
     known: tuple[Text, ...] = ()
     minimum: Text | None = None

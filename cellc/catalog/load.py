@@ -8,7 +8,6 @@ from functools import lru_cache
 from pathlib import Path
 
 from cellc.catalog.controller_kind import ControllerKind
-from cellc.catalog.device_controller import PASSIVE
 from cellc.catalog.device_model import DeviceModel
 from cellc.catalog.read_model import ModelT, read_model
 from cellc.catalog.tables import ControllerManagerFacts, DistroTable, InterfaceTypeTable, QosTable
@@ -16,6 +15,7 @@ from cellc.description.model import Description
 from cellc.description.read_description import read_catalogue_description, read_description
 from cellc.diagnostics import Diagnostic, Outcome, Severity, YamlPath, did_you_mean
 from cellc.source.document import SourceDocument
+from cellc.vocabulary import PASSIVE
 
 CATALOGUE = Path(__file__).parent
 _SHOWN = "cellc/catalog"  # where the package lies on the machine is of no interest to a reader

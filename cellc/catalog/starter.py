@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 
-from cellc.catalog.catalog_model import Distro
 from cellc.catalog.load import CatalogDevice
+from cellc.vocabulary import Behaviour, Distro
 
 _UPDATE_RATE = "100 Hz"  # the controller manager's own default, for devices that accept any rate
 
@@ -80,7 +80,7 @@ def _trajectory_kind(entry: CatalogDevice, distro: Distro) -> str:
     One that claims interfaces of its own is left to a person: a mock moves on position commands.
     """
     for kind, own in entry.model.controllers.items():
-        if own.behaviour == "joint_trajectory" and not own.command_interfaces and distro in own.plugins:
+        if own.behaviour is Behaviour.JOINT_TRAJECTORY and not own.command_interfaces and distro in own.plugins:
             return kind
     return "joint_trajectory"
 

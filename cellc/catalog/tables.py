@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from cellc.catalog.catalog_model import CatalogModel, Date, Distro, ParameterFact, Text, Token
+from cellc.catalog.catalog_model import CatalogModel, Date, DistroName, ParameterFact, Text, Token
 from cellc.catalog.controller_kind import ParameterFacts
 from cellc.spec.quantity import Duration
 
@@ -36,7 +36,7 @@ class DistroTable(CatalogModel):
     format: Literal[1]
     as_of: Date
     sources: tuple[Text, ...] = Field(min_length=1)
-    distros: dict[Distro, DistroFacts]
+    distros: dict[DistroName, DistroFacts]
     dead_mock_parameters: dict[Text, Text]
 
 
@@ -58,7 +58,7 @@ class InterfaceTypeFacts(CatalogModel):
     unit: Text | None = None
     stamped: bool = False
     feeds_motion: bool = False
-    only: tuple[Distro, ...] = ()
+    only: tuple[DistroName, ...] = ()
 
 
 class InterfaceTypeTable(CatalogModel):

@@ -25,6 +25,7 @@ from cellc.cell.site import (
     Versions,
 )
 from cellc.diagnostics import Span
+from cellc.vocabulary import Behaviour, Distro
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -33,13 +34,13 @@ class Cell:
 
     Args:
         places: where the user wrote what.
-        distro: the pinned distribution, or UNKNOWN.
-        behaviours: controller plugin type string → neutral behaviour, for the plugins in use.
+        distro: the pinned distribution.
+        behaviours: controller plugin type string → what it does, for the plugins in use.
     """
 
     name: str
     places: Places
-    distro: str
+    distro: Distro
     summary: str
     versions: Versions
     hosts: Mapping[str, Host]
@@ -61,7 +62,7 @@ class Cell:
     poses: tuple[NamedPose, ...]
     goals: tuple[CartesianGoal, ...]
     rehearsals: tuple[Rehearsal, ...]
-    behaviours: Mapping[str, str]
+    behaviours: Mapping[str, Behaviour]
 
     def locate(self, *path: str | int) -> Span:
         """Return the place of a YAML path, or of its nearest ancestor that the user wrote.

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from cellc.catalog.controller_kind import ControllerKind
 from cellc.cell.entity import Entity
 from cellc.cell.interface import ParameterValue
+from cellc.vocabulary import Behaviour
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -29,7 +30,7 @@ class Controller(Entity):
         targets: targets on which it is spawned; the others lack its hardware, or parts of it.
         stand_in: what takes its goals on the real target where it is not spawned there.
         kind: kind in the catalogue, such as ``joint_trajectory``.
-        behaviour: neutral kind whose behaviour it has; a vendor's scaled variant is ``scaled_joint_trajectory``.
+        behaviour: what it does; a vendor's scaled variant is ``scaled_joint_trajectory``.
         plugin: type string for the controller manager.
         command_interfaces: full names that it claims, such as ``arm_elbow_joint/position``.
         state_interfaces: full names that it reads.
@@ -48,7 +49,7 @@ class Controller(Entity):
     targets: tuple[str, ...]
     stand_in: StandIn | None
     kind: str
-    behaviour: str
+    behaviour: Behaviour
     plugin: str
     package: str = ""
     declared: ControllerKind | None = None

@@ -9,17 +9,23 @@ from pathlib import Path
 
 import click
 
-from cellc.catalog.catalog_model import DISTROS, Distro
 from cellc.catalog.load import CatalogDevice, device_names, load_device
 from cellc.catalog.starter import starter_spec
 from cellc.diagnostics import did_you_mean
 from cellc.store.swap import write_whole
+from cellc.vocabulary import Distro
 
 
 @click.command()
 @click.argument("name")
 @click.argument("devices", nargs=-1, metavar="[DEVICE=]MODEL...")
-@click.option("--ros", type=click.Choice(DISTROS), default="jazzy", show_default=True, help="ROS 2 distribution.")
+@click.option(
+    "--ros",
+    type=click.Choice([distro.value for distro in Distro]),
+    default="jazzy",
+    show_default=True,
+    help="ROS 2 distribution.",
+)
 @click.option(
     "-o",
     "--output",
@@ -27,7 +33,7 @@ from cellc.store.swap import write_whole
     help="File to write; cells/NAME/cell.yaml if absent.",
 )
 @click.option("--force", is_flag=True, help="Replace a file that exists.")
-def init(name: str, devices: tuple[str, ...], ros: Distro, output: Path | None, force: bool) -> None:
+def init(name: str, devices: tuple[str, ...], ros: str, output: Path | None, force: bool) -> None:
     """Write a cell NAME with the given devices, such as `cellc init bench MODEL MODEL`; without models they are listed.
 
     A device is called after its kind (arm, gripper, camera) unless DEVICE= names it.
@@ -41,7 +47,7 @@ def init(name: str, devices: tuple[str, ...], ros: Distro, output: Path | None, 
         raise click.UsageError(f"{file.as_posix()} exists; give --force to replace it, or -o for another file")
     entries = _named(devices)
     schema = Path(os.path.relpath("schemas/cell.schema.json", file.parent)).as_posix()
-    write_whole(file, starter_spec(name, ros, entries, schema))
+    write_whole(file, starter_spec(name, Distro(ros), entries, schema))
     click.echo(f"wrote {file.as_posix()}")
     click.echo(f"next: cellc build {shlex.quote(file.as_posix())} && cellc mock generated/{name}")
     if not Path("schemas/cell.schema.json").exists():

@@ -15,6 +15,7 @@ from cellc.contract.base import ContractModel, ContractPose
 from cellc.contract.clock import ContractClock
 from cellc.contract.network import ContractNetwork
 from cellc.contract.simulated_joint import ContractSimulatedJoint
+from cellc.vocabulary import Behaviour, Distro
 
 
 class ContractFiles(ContractModel):
@@ -98,7 +99,7 @@ class ContractController(ContractModel):
     """A controller, what it claims, and who may command it."""
 
     plugin: str = Field(description="Type as the controller manager loads it.")
-    behaviour: str = Field(description="What the type does, in the mock's terms.")
+    behaviour: Behaviour = Field(description="What it does.")
     full_name: str = Field(description="Fully qualified name of its node.")
     targets: tuple[Literal["mock", "real"], ...] = Field(description="Targets on which it is loaded.")
     device: str | None = Field(description="Device whose joints it drives.")
@@ -252,7 +253,7 @@ class Contract(ContractModel):
     cell: str = Field(description="Name of the cell and its package.")
     summary: str = Field(description="What the cell does.")
     configuration_id: str = Field(description="Id over calibrations, TF publishers and URDF.")
-    distro: str = Field(description="ROS 2 distribution.")
+    distro: Distro = Field(description="ROS 2 distribution.")
     version_tuple: dict[str, str] = Field(description="Pinned versions by part.")
     files: ContractFiles = Field(description="Files beside this one.")
     root_frame: str = Field(description="Root of the frame tree.")
@@ -264,7 +265,7 @@ class Contract(ContractModel):
     clock_of: dict[str, str] = Field(
         default_factory=dict, description="Clock of each node, controller and device that makes or ages stamps."
     )
-    plugin_behaviours: dict[str, str] = Field(description="Behaviour of each controller plugin.")
+    plugin_behaviours: dict[str, Behaviour] = Field(description="Behaviour of each controller plugin.")
     devices: dict[str, ContractDevice] = Field(description="Devices by name.")
     simulated_joints: dict[str, ContractSimulatedJoint] = Field(
         default_factory=dict, description="What the mock adds to joints, by joint."

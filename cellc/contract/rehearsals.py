@@ -7,7 +7,7 @@ from typing import Literal
 from pydantic import Field
 
 from cellc.contract.base import ContractModel
-from cellc.contract.closed_lists import FaultKind, OutcomeName
+from cellc.vocabulary import AttemptOutcome, FaultKind
 
 
 class StepEntry(ContractModel):
@@ -56,7 +56,7 @@ class RehearsalEntry(ContractModel):
     name: str = Field(description="Name in the spec.")
     steps: tuple[StepEntry, ...] = Field(description="Steps in order.")
     faults: tuple[FaultEntry, ...] = Field(description="Faults that are injected.")
-    expect: OutcomeName = Field(description="Outcome that it must end in.")
+    expect: AttemptOutcome = Field(description="Outcome that it must end in.")
     within_s: float | None = Field(description="Bound from the fault's effect to the outcome.")
     timeout_s: float = Field(description="Bound of the whole run in simulated time.")
 

@@ -8,6 +8,7 @@ from cellc.cell.interface import InterfaceKind, Node, NodeSource
 from cellc.deploy.files import is_planner
 from cellc.link.frames import ROBOT_STATE_PUBLISHER
 from cellc.link.nodes import DESCRIPTION_PUBLISHER, description_home
+from cellc.vocabulary import Feature, features
 
 
 def launch_hosts(cell: Cell) -> tuple[str, ...]:
@@ -41,7 +42,7 @@ def described_by(cell: Cell) -> tuple[str, ...]:
 
 
 def _node(cell: Cell, manager: ControllerManager) -> str:
-    if cell.distro == "humble":  # its manager takes the description as a parameter, later ones from its publisher
+    if Feature.DESCRIPTION_TOPIC not in features(cell.distro):  # the manager has it as a parameter
         return manager.node
     if len(cell.managers) > 1:
         return f"{description_home(manager)}/{DESCRIPTION_PUBLISHER}"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from cellc.cell.cell import Cell
 from cellc.cell.interface import Interface, InterfaceKind, Qos
 from cellc.deploy.files import RECORDING
+from cellc.vocabulary import Feature, features
 
 
 def record_command(cell: Cell, bag: str) -> tuple[str, ...]:
@@ -17,7 +18,7 @@ def record_command(cell: Cell, bag: str) -> tuple[str, ...]:
         "ros2 bag record --storage mcap --include-hidden-topics",
         f"--qos-profile-overrides-path generated/{cell.name}/{RECORDING}",
         f'--output "$E/{bag}"',
-        *(() if cell.distro == "humble" else ("--topics",)),
+        *(("--topics",) if Feature.RECORD_TOPICS_OPTION in features(cell.distro) else ()),
         *recorded_topics(cell),
     )
 

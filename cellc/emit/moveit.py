@@ -22,6 +22,7 @@ from cellc.formats.header import Header
 from cellc.formats.parameter_file import ANY_NODE, NodeParameters, parameter_file
 from cellc.formats.yaml_text import Tree, render
 from cellc.graph.cell_graph import CellGraph
+from cellc.vocabulary import Feature, features
 
 Parameters = Mapping[str, ParameterValue]
 
@@ -49,9 +50,9 @@ _RESPONSE_ADAPTERS = {
     _SAMPLING: ("AddTimeOptimalParameterization", "ValidateSolution", "DisplayMotionPath"),
     _INDUSTRIAL: ("ValidateSolution", "DisplayMotionPath"),
 }
-# Humble: one text of adapters before and after planning, the outermost first.
-_HUMBLE = "default_planner_request_adapters"
-_HUMBLE_ADAPTERS = {
+# Before there were lists: one text of adapters before and after planning, the outermost first.
+_TEXT_PREFIX = "default_planner_request_adapters"
+_TEXT_ADAPTERS = {
     _SAMPLING: (
         "AddTimeOptimalParameterization",
         "ResolveConstraintFrames",
@@ -158,8 +159,8 @@ def _planning_pipelines(cell: Cell) -> Parameters:
 
 
 def _pipeline(cell: Cell, name: str) -> Parameters:
-    if cell.distro == "humble":
-        adapters = " ".join(f"{_HUMBLE}/{adapter}" for adapter in _HUMBLE_ADAPTERS[name])
+    if Feature.PLUGIN_LISTS not in features(cell.distro):
+        adapters = " ".join(f"{_TEXT_PREFIX}/{adapter}" for adapter in _TEXT_ADAPTERS[name])
         # Zero: a start state outside its bounds is refused, never moved inside them.
         bounds: Parameters = {f"{name}.request_adapters": adapters, f"{name}.start_state_max_bounds_error": 0.0}
         return {f"{name}.planning_plugin": _PLUGINS[name], **(bounds if adapters else {f"{name}.request_adapters": ""})}

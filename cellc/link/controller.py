@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from cellc.catalog.catalog_model import Distro
 from cellc.catalog.controller_kind import ControllerKind
-from cellc.catalog.device_controller import PASSIVE, DeviceController
+from cellc.catalog.device_controller import DeviceController
 from cellc.catalog.device_interfaces import PluginUse
 from cellc.catalog.load import controller_kinds, kind_behind
 from cellc.cell.control import Controller, StandIn
@@ -20,6 +19,7 @@ from cellc.link.unknown import unknown_name
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
 from cellc.spec.control import ControllerSpec
+from cellc.vocabulary import PASSIVE, Behaviour, Distro
 
 
 @dataclass(frozen=True, slots=True)
@@ -162,14 +162,20 @@ def _controller(
     )
 
 
-def _behaviour(chosen: _Chosen, distro: Distro) -> str:
-    """Return the neutral kind; a trajectory controller that is told of the device's speed scaling follows it."""
+def _behaviour(chosen: _Chosen, distro: Distro) -> Behaviour:
+    """Return what a plugin does: what its kind does, unless the distribution's plugin does otherwise.
+
+    A trajectory controller that is told of the device's speed scaling follows it.
+    """
+    usual = chosen.plugin.behaviour or chosen.kind.kind
     neutral = chosen.kind.plugins.get(distro)
     scaling = None if chosen.bound is None else chosen.bound.facts.speed_scaling
-    if scaling is None or (neutral is not None and neutral.type == chosen.plugin.type):
-        return chosen.kind.kind  # where the upstream plugin is used it takes the factor by parameters of its own
+    if usual is not Behaviour.JOINT_TRAJECTORY or scaling is None:
+        return usual
+    if neutral is not None and neutral.type == chosen.plugin.type:
+        return usual  # where the upstream plugin is used it takes the factor by parameters of its own
     follows = scaling.state_interface in chosen.plugin.parameters.values()
-    return f"scaled_{chosen.kind.kind}" if follows else chosen.kind.kind
+    return Behaviour.SCALED_JOINT_TRAJECTORY if follows else usual
 
 
 def _plugin_parameters(own: DeviceController | None) -> frozenset[str]:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cellc.catalog.catalog_model import Distro
 from cellc.catalog.controller_kind import ControllerKind
 from cellc.catalog.device_interfaces import PluginUse
 from cellc.cell.device import Device
 from cellc.cell.interface import ParameterValue
 from cellc.spec.control import ControllerSpec
+from cellc.vocabulary import Distro
 
 # Parameters that the cell's safety rests on: written out even where they equal the default, which differs by
 # distribution (Humble allows a nonzero velocity at the end of a trajectory) or hides a choice (partial goals).

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from cellc.catalog.catalog_model import Distro
 from cellc.cell.control import ControllerManager
 from cellc.cell.device import Device
 from cellc.cell.frame import Frame
@@ -14,6 +13,7 @@ from cellc.link.endpoints import EndName, EndpointNames
 from cellc.link.qos import QosResolver
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
+from cellc.vocabulary import Distro
 
 
 @dataclass(frozen=True, slots=True)

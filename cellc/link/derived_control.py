@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cellc.catalog.controller_kind import ControllerService, ControllerTopic
-from cellc.catalog.device_controller import PASSIVE
 from cellc.cell.control import Controller
 from cellc.cell.interface import Endpoint, Interface, InterfaceKind
 from cellc.link.derivation import Derivation
+from cellc.vocabulary import PASSIVE
 
 
 def control_interfaces(source: Derivation) -> Iterator[Interface]:

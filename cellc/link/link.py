@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from cellc.catalog.catalog_model import DISTROS, Distro
 from cellc.catalog.load import load_qos_profiles
 from cellc.catalog.tables import RMWS, Rmw
 from cellc.cell.cell import Cell
@@ -35,6 +34,7 @@ from cellc.link.site import (
 )
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
+from cellc.vocabulary import Distro
 
 
 def link(spec: CellSpec, document: SourceDocument) -> Outcome[Cell]:
@@ -113,7 +113,7 @@ def _qos_resolver(spec: CellSpec) -> QosResolver:
 
 
 def _distro(spec: CellSpec, document: SourceDocument) -> Outcome[Distro]:
-    for distro in DISTROS:
+    for distro in Distro:
         if spec.versions.ros == distro:
             return Outcome(distro)
     path = ("versions", "ros")
@@ -123,7 +123,7 @@ def _distro(spec: CellSpec, document: SourceDocument) -> Outcome[Distro]:
         message=f"cellc knows no ROS 2 distribution `{spec.versions.ros}`",
         span=document.locate(path),
         yaml_path=path,
-        help=did_you_mean(spec.versions.ros, DISTROS, "distributions"),
+        help=did_you_mean(spec.versions.ros, tuple(Distro), "distributions"),
     )
     return Outcome(None, (problem,))
 

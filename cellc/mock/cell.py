@@ -19,8 +19,9 @@ from cellc.mock.nodes.motion_model import build_motion_model
 from cellc.mock.nodes.motion_planner import PlanMemory
 from cellc.mock.plant import Plant
 from cellc.mock.result import BRINGUP_FAILURE, AttemptRecord, RehearsalResult, StageEvidence
-from cellc.mock.task.context import Outcome, TaskContext
+from cellc.mock.task.context import TaskContext
 from cellc.mock.task.task import Task
+from cellc.vocabulary import AttemptOutcome
 
 SUCCEEDED = "succeeded"
 
@@ -72,7 +73,7 @@ def rehearse(
         attempts=tuple(task.records),
         bringup=tuple(bringup.evidence),
         findings=(*_findings(plant), *absent),
-        vacuous=bool(absent) and (len(absent) == len(injections) or task.outcome is Outcome.SUCCEEDED),
+        vacuous=bool(absent) and (len(absent) == len(injections) or task.outcome is AttemptOutcome.SUCCEEDED),
     )
 
 

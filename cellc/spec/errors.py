@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from enum import Enum
 from typing import Annotated, Literal, TypeAlias, get_args, get_origin
 
 from pydantic.fields import FieldInfo
@@ -109,9 +110,11 @@ def dict_keys(model: type, key: str) -> object:
 
 
 def literals(annotation: object) -> tuple[object, ...]:
-    """Return the values of a literal annotation."""
+    """Return the values of a literal annotation or of an enumeration."""
     if get_origin(annotation) is Annotated:
         annotation = get_args(annotation)[0]
+    if isinstance(annotation, type) and issubclass(annotation, Enum):
+        return tuple(member.value for member in annotation)
     return get_args(annotation) if get_origin(annotation) is Literal else ()
 
 
@@ -204,6 +207,7 @@ _WRITERS: Mapping[str, _Writer] = {
     "missing": _missing,
     "extra_forbidden": _unknown_key,
     "literal_error": _not_a_choice,
+    "enum": _not_a_choice,
     "string_pattern_mismatch": _bad_name,
     "greater_than_equal": _number_out_of_range,
     "less_than_equal": _number_out_of_range,

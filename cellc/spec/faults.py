@@ -1,12 +1,12 @@
 """What goes wrong in a rehearsal: the kind of a fault is its first key, with what it hits."""
 
-from typing import Annotated, Literal, Union, get_args
+from typing import Annotated, Literal, Union
 
 from pydantic import Discriminator, Field, Tag
 
-from cellc.contract.closed_lists import FaultKind
 from cellc.spec.base import FrameReference, Name, SpecModel, Text, shape_of
 from cellc.spec.quantity import Duration, JointPosition, JointVelocity, Ratio
+from cellc.vocabulary import FaultKind
 
 
 class EventSpec(SpecModel):
@@ -180,7 +180,7 @@ class CutNetworkFault(FaultFields):
     cut_network: Name = Field(..., description="Device.", examples=["arm"])
 
 
-FAULT_KEYS: tuple[str, ...] = get_args(FaultKind)
+FAULT_KEYS: tuple[str, ...] = tuple(kind.value for kind in FaultKind)
 
 
 def first_key(value: object, keys: tuple[str, ...]) -> str | None:

@@ -4,10 +4,10 @@ from typing import Annotated, Literal, Union
 
 from pydantic import Discriminator, Field, Tag
 
-from cellc.contract.closed_lists import OutcomeName
 from cellc.spec.base import Name, SpecModel, StandardOr, Text
 from cellc.spec.faults import FaultsSpec, first_key
 from cellc.spec.quantity import Duration, Ratio
+from cellc.vocabulary import AttemptOutcome
 
 
 class MoveStep(SpecModel):
@@ -70,7 +70,9 @@ class RehearsalSpec(SpecModel):
     steps: tuple[StepSpec, ...] = Field((), description="Steps in order.", examples=[[{"move": "home"}]])
     use: Name | None = Field(None, description="Rehearsal whose steps are used.", examples=["pick_and_place"])
     inject: FaultsSpec = Field((), description="One fault or several.", examples=[{"freeze": "camera", "at": "2 s"}])
-    expect: OutcomeName = Field("succeeded", description="Outcome that it must end in.", examples=["stale_state"])
+    expect: AttemptOutcome = Field(
+        AttemptOutcome.SUCCEEDED, strict=False, description="Outcome that it must end in.", examples=["stale_state"]
+    )
     within: Duration | None = Field(
         None, description="Bound from the fault (or its effect's start) to the outcome.", examples=["200 ms"]
     )

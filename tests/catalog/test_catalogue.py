@@ -10,7 +10,6 @@ from typing import Any
 import pytest
 import yaml
 
-from cellc.catalog.catalog_model import DISTROS, Distro
 from cellc.catalog.controller_kind import ControllerKind, ParameterFacts
 from cellc.catalog.load import (
     CatalogDevice,
@@ -24,6 +23,7 @@ from cellc.catalog.load import (
     load_message_types,
     load_qos_profiles,
 )
+from cellc.vocabulary import PASSIVE, Distro
 from tests.oracles import UPSTREAM
 
 PARAMETERS = UPSTREAM / "parameters"
@@ -83,9 +83,9 @@ def test_device_speaks_of_known_types_profiles_and_kinds(name: str) -> None:
         assert types.kind_of(action.type) == "action"
     released = {row.distro for row in model.versions if row.part == "driver"}
     for controller in model.controllers.values():
-        assert controller.behaviour in (*controller_kinds(), "broadcaster", "service")
+        assert controller.behaviour in (*controller_kinds(), *PASSIVE)
         # A controller of the vendor exists where its driver is released, one of ros2_controllers everywhere.
-        assert set(controller.plugins) in (set(DISTROS), released)
+        assert set(controller.plugins) in (set(Distro), released)
 
 
 @pytest.mark.parametrize("name", ARMS)
@@ -157,7 +157,7 @@ def test_reader_of_system_default_is_best_effort_on_fast_dds_alone() -> None:
     }
 
 
-@pytest.mark.parametrize("distro", DISTROS)
+@pytest.mark.parametrize("distro", Distro)
 @pytest.mark.parametrize("kind", controller_kinds())
 def test_parameters_are_those_that_upstream_declares(kind: str, distro: Distro) -> None:
     upstream = _upstream(kind, distro)

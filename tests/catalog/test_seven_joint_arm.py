@@ -10,6 +10,7 @@ import pytest
 from cellc.catalog.load import CatalogDevice, load_device
 from cellc.catalog.starter import starter_spec
 from cellc.description.model import Box
+from cellc.vocabulary import Distro
 from tests.catalog.chains import Matrix, transform
 
 PI = math.pi
@@ -151,7 +152,7 @@ def test_real_hand_is_moved_by_a_node_and_by_no_component() -> None:
 
 
 def test_first_spec_of_the_arm_commands_what_a_mock_can_follow() -> None:
-    text = starter_spec("first", "jazzy", {"arm": _device("franka_fr3")}, "cell.schema.json")
+    text = starter_spec("first", Distro.JAZZY, {"arm": _device("franka_fr3")}, "cell.schema.json")
     assert "type: joint_trajectory\n" in text
     assert "update_rate: 1000 Hz\n" in text
     assert "arm_group: 0 -45 0 -135 0 90 45 deg\n" in text

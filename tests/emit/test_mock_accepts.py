@@ -7,6 +7,7 @@ import json
 import pytest
 
 from cellc.mock import control
+from cellc.vocabulary import Distro
 from tests.cells import DISTROS
 from tests.emit.cells import CELLS, artifacts_of
 
@@ -20,7 +21,7 @@ def test_every_controller_becomes_active(cell: str, distro: str) -> None:
     machine = control.ControllerManager(
         artifacts[contract["files"]["urdf_mock"]],
         artifacts["config/controllers.yaml"],
-        distro=distro,
+        distro=Distro(distro),
         plugin_behaviours=contract["plugin_behaviours"],
     )
     spawned = machine.spawn(list(manager["controllers"]))

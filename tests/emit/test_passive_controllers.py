@@ -14,6 +14,7 @@ import yaml
 
 from cellc.catalog.load import load_device
 from cellc.mock.control import ControllerManager, DeclaredInterfaces
+from cellc.vocabulary import Distro
 from tests.cells import diagnose, spec_text
 from tests.emit.cells import emitted
 from tests.oracles import UPSTREAM, needs_upstream
@@ -139,7 +140,7 @@ def test_mock_runs_a_broadcaster_on_what_it_reads_and_refuses_what_it_has_not() 
     manager = ControllerManager(
         artifacts["urdf/ur5e_pick.mock.urdf"],
         artifacts["config/controllers.yaml"],
-        distro="jazzy",
+        distro=Distro.JAZZY,
         plugin_behaviours=json.loads(artifacts["contract.json"])["plugin_behaviours"],
         declared={
             name: DeclaredInterfaces(tuple(one["command_interfaces"]), tuple(one["state_interfaces"]))

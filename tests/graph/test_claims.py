@@ -5,6 +5,7 @@ from __future__ import annotations
 from cellc.cell.control import Controller, ControllerManager, ControllerSwitch
 from cellc.diagnostics import Span
 from cellc.graph.claims import ClaimGraph, can_switch, explore
+from cellc.vocabulary import Behaviour
 
 SPAN = Span("cell.yaml", 1, 1, 1, 2)
 
@@ -20,7 +21,7 @@ def controller(name: str, *claims: str, active: bool = False) -> Controller:
         targets=("mock", "real"),
         stand_in=None,
         kind="forward_command",
-        behaviour="forward_command",
+        behaviour=Behaviour.FORWARD_COMMAND,
         plugin="any/Plugin",
         device=None,
         joints=(),

@@ -30,6 +30,7 @@ from cellc.formats.numbers import decimal
 from cellc.formats.parameter_file import qos_parameters
 from cellc.formats.xml_text import element
 from cellc.link.nodes import DESCRIPTION_PUBLISHER, description_home
+from cellc.vocabulary import Feature, features
 
 TARGET = "$(var target)"
 
@@ -160,7 +161,7 @@ def _manager(cell: Cell, manager: ControllerManager) -> Element:
     # Without a name: it would apply to the nodes of the hardware as well.
     place = {"namespace": manager.namespace} if manager.namespace else {}
     parameters = [element("param", {"from": share(cell, controllers_file(cell, manager))})]
-    if cell.distro == "humble":  # later ones take the description from its topic
+    if Feature.DESCRIPTION_TOPIC not in features(cell.distro):
         parameters.append(description_parameter(share(cell, manager_description_file(cell, manager, TARGET))))
     topic = f"{description_home(manager) if len(cell.managers) > 1 else ''}/{_TOPIC}"
     (node,) = (node for node in cell.nodes if node.full_name == manager.node)

@@ -23,6 +23,7 @@ from cellc.emit.middleware.profiles import (
 from cellc.formats.header import Header
 from cellc.formats.xml_text import render
 from cellc.graph.cell_graph import CellGraph
+from cellc.vocabulary import Feature, features
 
 
 def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
@@ -81,7 +82,7 @@ def _variables(cell: Cell, binding: Binding, profiles: tuple[str, ...]) -> Itera
 
 def _discovery(cell: Cell, binding: Binding) -> Iterator[tuple[str, str]]:
     discovery = cell.network.discovery
-    if cell.distro == "humble":  # its only switch; peers stand in the profile
+    if Feature.STATIC_PEERS not in features(cell.distro):  # one switch; peers stand in the profile
         yield "ROS_LOCALHOST_ONLY", "1" if discovery in ("localhost", "off") else "0"
         return
     # Without multicast a host finds others by their addresses alone: a static peer reaches out of LOCALHOST too.

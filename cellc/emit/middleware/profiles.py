@@ -18,6 +18,7 @@ from xml.etree.ElementTree import Element
 from cellc.cell.cell import Cell
 from cellc.formats.xml_text import element
 from cellc.graph.cell_graph import CellGraph
+from cellc.vocabulary import Feature, features
 
 LOOPBACK = "127.0.0.1"
 
@@ -84,8 +85,8 @@ def _general(cell: Cell, binding: Binding) -> Iterator[Element]:
 def _discovery(cell: Cell, binding: Binding) -> Iterator[Element]:
     if cell.network.discovery == "multicast":
         return
-    # Later distributions add the peers of ROS_STATIC_PEERS themselves.
-    peers = binding.peers if cell.distro == "humble" else ()
+    # Where there is ROS_STATIC_PEERS, the middleware adds its peers itself.
+    peers = () if Feature.STATIC_PEERS in features(cell.distro) else binding.peers
     listed = [element("Peer", {"Address": address}) for address in (*binding.addresses[:1], *peers)]
     yield element(
         "Discovery",
@@ -98,15 +99,14 @@ def _discovery(cell: Cell, binding: Binding) -> Iterator[Element]:
 
 
 _UDP, _SHARED = "cell_udp", "cell_shared_memory"
-# Fast DDS 2.x, of Humble and Jazzy, and 3.x name the same elements under different namespaces.
-_OLD = ("humble", "jazzy")
+# Fast DDS 2 and 3 name the same elements under different namespaces.
 _OLD_NAMESPACE = "http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles"
 _NAMESPACE = "http://www.eprosima.com"
 
 
 def fast_profile(cell: Cell, binding: Binding) -> Element:
     """Return the default profile of every participant on a host."""
-    namespace = _OLD_NAMESPACE if cell.distro in _OLD else _NAMESPACE
+    namespace = _NAMESPACE if Feature.FAST_DDS_3 in features(cell.distro) else _OLD_NAMESPACE
     return element(
         "dds", {"xmlns": namespace}, [element("profiles", children=[_transports(binding), _all(cell, binding)])]
     )
@@ -138,7 +138,7 @@ def _all(cell: Cell, binding: Binding) -> Element:
 
 
 def _peers(cell: Cell, binding: Binding) -> Iterator[Element]:
-    if cell.distro != "humble" or not binding.peers:  # later ones take ROS_STATIC_PEERS
+    if Feature.STATIC_PEERS in features(cell.distro) or not binding.peers:
         return
     locators = [
         element("locator", children=[element("udpv4", children=[element("address", text=address)])])

@@ -16,6 +16,7 @@ from cellc.deploy.processes import described_by
 from cellc.formats.xml_text import element
 from cellc.link.derived_joint_states import JOINT_STATE_TYPE
 from cellc.link.nodes import JOINT_STATES
+from cellc.vocabulary import Feature, features
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,8 +62,8 @@ _PARAMETERS = (
     "~/set_parameters",
     "~/set_parameters_atomically",
 )
-_TYPE_DESCRIPTION = "~/get_type_description"  # Iron and later
-_LOGGERS = ("~/get_logger_levels", "~/set_logger_levels")  # controllers of Jazzy and later
+_TYPE_DESCRIPTION = "~/get_type_description"
+_LOGGERS = ("~/get_logger_levels", "~/set_logger_levels")
 _LIFECYCLE = (
     "~/change_state",
     "~/get_available_states",
@@ -83,7 +84,7 @@ _MANAGER = (
     "unload_controller",
 )
 _OF_SPAWNER = ("configure_controller", "list_controllers", "load_controller")  # what `spawner --inactive` calls
-_CLEANUP = "cleanup_controller"  # Jazzy and later
+_CLEANUP = "cleanup_controller"
 _CONTROLLER_STATE = "~/controller_state"
 
 
@@ -122,12 +123,12 @@ def common_profile(cell: Cell) -> Profile:
 
 
 def manager_process(cell: Cell, manager: ControllerManager) -> Iterator[Profile]:
-    """Yield the rights of the manager, its controllers and, from Jazzy on, the nodes of its hardware."""
-    services = (*_MANAGER, *(() if cell.distro == "humble" else (_CLEANUP,)))
+    """Yield the rights of the manager, its controllers and the nodes of its hardware."""
+    services = (*_MANAGER, *((_CLEANUP,) if Feature.CLEANUP_CONTROLLER in features(cell.distro) else ()))
     yield _granted(cell, manager.node, tuple(f"{manager.node}/{one}" for one in services))
     for controller in manager.controllers:
         yield _controller(cell, controller)
-    if cell.distro != "humble":
+    if Feature.HARDWARE_NODES in features(cell.distro):
         for device in (cell.device(name) for name in manager.devices):
             if device.hardware is not None:
                 yield _granted(cell, f"{manager.namespace}/{device.hardware.name.lower()}", ())
@@ -138,7 +139,8 @@ def _controller(cell: Cell, controller: Controller) -> Profile:
 
     Nobody is granted to publish what it subscribes to unless an interface of the cell says so.
     """
-    granted = _granted(cell, controller.full_name, () if cell.distro == "humble" else _LOGGERS)
+    loggers = _LOGGERS if Feature.LOGGER_SERVICES in features(cell.distro) else ()
+    granted = _granted(cell, controller.full_name, loggers)
     kind = controller.declared
     topics = () if kind is None else tuple(one for one in kind.topics if not one.only or cell.distro in one.only)
     said = tuple(_own(controller, one.name) for one in topics if one.direction == "publish")
@@ -176,7 +178,7 @@ def _granted(cell: Cell, full_name: str, services: tuple[str, ...]) -> Profile:
         subscribe=(*_SUBSCRIBE, *names(InterfaceKind.TOPIC, "sinks")),
         reply=(
             *_PARAMETERS,
-            *(() if cell.distro == "humble" else (_TYPE_DESCRIPTION,)),
+            *((_TYPE_DESCRIPTION,) if Feature.TYPE_DESCRIPTION in features(cell.distro) else ()),
             *services,
             *names(InterfaceKind.SERVICE, "sources"),
         ),
@@ -201,9 +203,7 @@ def _names(cell: Cell, full_name: str, kind: InterfaceKind, side: str) -> Iterat
 # What `ros2 lifecycle get|set`, `ros2 control list_controllers|switch_controllers` and `ros2 param get` call.
 _OF_MANAGED = ("change_state", "get_available_transitions", "get_state")
 _OF_MANAGER = ("list_controllers", "switch_controller")
-_TOOLS_DESCRIPTION = (
-    "/_ros2cli_*/get_type_description"  # of each tool's own node, named after its process; Iron and later
-)
+_TOOLS_DESCRIPTION = "/_ros2cli_*/get_type_description"  # of each tool's own node, named after its process
 
 
 def bring_up_profiles(cell: Cell) -> tuple[Profile, Profile]:
@@ -218,7 +218,7 @@ def bring_up_profiles(cell: Cell) -> tuple[Profile, Profile]:
         node="bring_up",
         publish=common.publish,
         subscribe=(*common.subscribe, *seen),
-        reply=() if cell.distro == "humble" else (_TOOLS_DESCRIPTION,),
+        reply=(_TOOLS_DESCRIPTION,) if Feature.TYPE_DESCRIPTION in features(cell.distro) else (),
         request=(*managed, *managers, *described),
     )
     listener = Profile(

@@ -27,6 +27,7 @@ from numpy.typing import NDArray
 
 from cellc.contract.contract import Contract, ContractJointLimits
 from cellc.mock.control.journal import Cause, CommandSamples, Interruption
+from cellc.vocabulary import TRAJECTORIES
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,7 +107,6 @@ def merge(reports: Iterable[LimitsReport]) -> LimitsReport:
 
 
 QUANTITIES = ("position", "velocity", "acceleration", "jerk")
-_TRAJECTORIES = ("joint_trajectory", "scaled_joint_trajectory")
 _ROUNDING = 16 * 2.0**-53
 _RELATIVE = 1e-9
 """Of the limit itself, which the planner compares in floating point too."""
@@ -153,7 +153,7 @@ def _sends_trajectories(contract: Contract, controller: str) -> bool:
     if controller in contract.adapters:
         return True
     entries = (manager.controllers.get(controller) for manager in contract.managers.values())
-    return any(entry is not None and entry.behaviour in _TRAJECTORIES for entry in entries)
+    return any(entry is not None and entry.behaviour in TRAJECTORIES for entry in entries)
 
 
 @dataclass(frozen=True, slots=True)

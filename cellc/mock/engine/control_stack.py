@@ -20,6 +20,7 @@ from cellc.mock.engine.dangers import dangers
 from cellc.mock.engine.process import Signal
 from cellc.mock.engine.watcher import ControlWatcher, GoalSent
 from cellc.mock.world.joint_states import JointStateHistory
+from cellc.vocabulary import Behaviour
 
 GoalServer = ControllerManager | AdapterServer
 """What takes goals, runs in simulated time and tells of events."""
@@ -61,7 +62,7 @@ class ControlStack:
         adapted = {joint for server in self.adapters.values() for joint in server.adapter.model.joint_names}
         for name, manager in contracts.items():
             for controller, facts in manager.controllers.items():
-                if facts.behaviour == "joint_state_broadcaster":
+                if facts.behaviour is Behaviour.JOINT_STATE_BROADCASTER:
                     foreign = _joints(entry for other, entry in contracts.items() if other != name) | adapted
                     history = JointStateHistory(horizon_s, managers[name].period_ns, foreign, controller)
                     self.histories[(name, controller)] = history

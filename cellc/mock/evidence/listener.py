@@ -9,9 +9,9 @@ from cellc.mock.control.controllers.joint_trajectory.recorder import Recorder
 from cellc.mock.engine.watcher import GoalSent
 from cellc.mock.evidence.run_bag import RunBag, TransformStream
 from cellc.mock.evidence.run_trace import RunTrace
-from cellc.mock.evidence.topics import TRAJECTORY_BEHAVIOURS
 from cellc.mock.plant import Plant
 from cellc.mock.result import AttemptRecord
+from cellc.vocabulary import TRAJECTORIES
 
 _PIECE_NS = 250_000_000
 """States of controllers are taken four times a second, so that memory stays flat."""
@@ -42,7 +42,7 @@ class Onlooker:
         """Record every trajectory controller, update by update."""
         for name, manager in self._plant.contract.managers.items():
             for controller, facts in manager.controllers.items():
-                if facts.behaviour in TRAJECTORY_BEHAVIOURS:
+                if facts.behaviour in TRAJECTORIES:
                     rate_hz = manager.update_rate_hz
                     self._recorders[controller] = self._plant.control.managers[name].record(controller, rate_hz)
 

@@ -23,7 +23,6 @@ from cellc.mock.evidence.bag.messages import (
 from cellc.mock.evidence.topics import (
     ATTEMPTS,
     DIAGNOSTICS,
-    TRAJECTORY_BEHAVIOURS,
     BagTopic,
     controller_state_topic,
     description_topic,
@@ -38,6 +37,7 @@ from cellc.mock.nodes.robot_state_publisher import PUBLISH_FREQUENCY_HZ
 from cellc.mock.plant import Plant
 from cellc.mock.result import AttemptRecord, to_json_line
 from cellc.mock.world.joint_states import JointStateHistory
+from cellc.vocabulary import TRAJECTORIES
 
 _OK, _WARN, _ERROR = 0, 1, 2
 
@@ -154,10 +154,10 @@ class RunBag:
         self._goals: dict[str, int] = {}
         for name, manager in contract.managers.items():
             for controller, facts in manager.controllers.items():
-                if facts.behaviour in TRAJECTORY_BEHAVIOURS:
+                if facts.behaviour in TRAJECTORIES:
                     self._states[controller] = self._declare(controller_state_topic(contract, name, controller))
                 if facts.action is not None:
-                    topic = goal_topic(controller, gripper=facts.behaviour not in TRAJECTORY_BEHAVIOURS)
+                    topic = goal_topic(controller, gripper=facts.behaviour not in TRAJECTORIES)
                     self._goals[controller] = self._declare(topic)
         for device in contract.adapters:
             self._goals[device] = self._declare(goal_topic(device, gripper=False))

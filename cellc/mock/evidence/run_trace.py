@@ -12,10 +12,10 @@ from cellc.mock.bus.stream import NEVER_NS
 from cellc.mock.control import ControllerChanged, HardwareChanged, JointStateBlock, Recording
 from cellc.mock.evidence.envelope import AgeBuilder, AgeTrace, Array, Envelope, EnvelopeBuilder
 from cellc.mock.evidence.run_bag import TransformMessage
-from cellc.mock.evidence.topics import TRAJECTORY_BEHAVIOURS
 from cellc.mock.nodes.perception import ObjectPose
 from cellc.mock.plant import Plant
 from cellc.mock.task.bounds import joint_state_age_s
+from cellc.vocabulary import TRAJECTORIES
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,9 +144,7 @@ class RunTrace:
         self._ended_ns = 0
         self._missed = 0
         controllers = [each for manager in plant.contract.managers.values() for each in manager.controllers.values()]
-        self._followed = {
-            joint for each in controllers if each.behaviour in TRAJECTORY_BEHAVIOURS for joint in each.joints
-        }
+        self._followed = {joint for each in controllers if each.behaviour in TRAJECTORIES for joint in each.joints}
         self._commanded = {interface for each in controllers for interface in each.command_interfaces}
 
     def joint_states(self, manager: str, broadcaster: str, block: JointStateBlock) -> None:

@@ -21,9 +21,6 @@ from cellc.mock.evidence.bag.messages import (
 )
 from cellc.mock.nodes.robot_state_publisher import NODE
 
-TRAJECTORY_BEHAVIOURS = ("joint_trajectory", "scaled_joint_trajectory")
-"""Controllers that publish a JointTrajectoryControllerState."""
-
 
 @dataclass(frozen=True, slots=True)
 class BagTopic:

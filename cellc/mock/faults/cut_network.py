@@ -18,6 +18,7 @@ from cellc.mock.faults.observed import cameras, ending_unobserved
 from cellc.mock.faults.stopping import stopping_case
 from cellc.mock.plant import Plant
 from cellc.mock.stops import FAULT
+from cellc.vocabulary import FaultKind
 
 KEEP_ALIVE_S = 0.02
 """Silence after which a robot and its driver give each other up: ten cycles at 500 Hz."""
@@ -73,7 +74,7 @@ class CutNetwork:
 def cases(contract: Contract) -> Iterator[FaultCase]:
     """Yield every device that is connected to a host."""
     for device in components(contract):
-        yield stopping_case("cut_network", device, "hardware_fault", contract, after_s=KEEP_ALIVE_S)
+        yield stopping_case(FaultKind.CUT_NETWORK, device, "hardware_fault", contract, after_s=KEEP_ALIVE_S)
     for device, frames in cameras(contract).items():
         entry = FaultEntry(kind="cut_network", target=device)
         yield fault_case(entry, contract, ending_unobserved(Bounds(contract), frames))

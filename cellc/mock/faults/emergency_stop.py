@@ -12,6 +12,7 @@ from cellc.mock.faults.contents import stoppable
 from cellc.mock.faults.stopping import stopping_case
 from cellc.mock.plant import Plant
 from cellc.mock.stops import EMERGENCY_STOP
+from cellc.vocabulary import FaultKind
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,4 +41,4 @@ class EmergencyStop:
 def cases(contract: Contract) -> Iterator[FaultCase]:
     """Yield every device with hardware or an adapter."""
     for device in stoppable(contract):
-        yield stopping_case("emergency_stop", device, "emergency_stop", contract)
+        yield stopping_case(FaultKind.EMERGENCY_STOP, device, "emergency_stop", contract)

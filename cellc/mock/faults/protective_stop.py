@@ -12,6 +12,7 @@ from cellc.mock.faults.contents import stoppable
 from cellc.mock.faults.stopping import stopping_case
 from cellc.mock.plant import Plant
 from cellc.mock.stops import PROTECTIVE_STOP
+from cellc.vocabulary import FaultKind
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,4 +41,4 @@ class ProtectiveStop:
 def cases(contract: Contract) -> Iterator[FaultCase]:
     """Yield every device with hardware or an adapter."""
     for device in stoppable(contract):
-        yield stopping_case("protective_stop", device, "protective_stop", contract)
+        yield stopping_case(FaultKind.PROTECTIVE_STOP, device, "protective_stop", contract)

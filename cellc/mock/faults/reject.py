@@ -14,6 +14,7 @@ from cellc.mock.faults.case import BORNE, Ending, FaultCase, ends_in, fault_case
 from cellc.mock.faults.cell_steps import CellStep
 from cellc.mock.faults.contents import controllers
 from cellc.mock.plant import Plant
+from cellc.vocabulary import Behaviour
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +53,7 @@ class Reject:
 def cases(contract: Contract) -> Iterator[FaultCase]:
     """Yield every controller that takes goals, and every one that publishes joint states."""
     for name, facts in controllers(contract).items():
-        if facts.active and (facts.action is not None or facts.behaviour == "joint_state_broadcaster"):
+        if facts.active and (facts.action is not None or facts.behaviour is Behaviour.JOINT_STATE_BROADCASTER):
             entry = FaultEntry(kind="reject", target=name)
             yield fault_case(entry, contract, partial(_ending, Bounds(contract), name, facts))
 

@@ -17,6 +17,7 @@ from cellc.mock.faults.contents import components
 from cellc.mock.faults.stopping import stopping_case
 from cellc.mock.plant import Plant
 from cellc.mock.stops import FAULT
+from cellc.vocabulary import FaultKind
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,4 +46,4 @@ class RestartDriver:
 def cases(contract: Contract) -> Iterator[FaultCase]:
     """Yield every device with hardware."""
     for device in components(contract):
-        yield stopping_case("restart_driver", device, "hardware_fault", contract)
+        yield stopping_case(FaultKind.RESTART_DRIVER, device, "hardware_fault", contract)

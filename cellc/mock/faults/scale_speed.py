@@ -17,8 +17,7 @@ from cellc.mock.faults.case import BORNE, SUCCEEDED, Ending, FaultCase, ends_in,
 from cellc.mock.faults.cell_steps import CellStep
 from cellc.mock.faults.contents import controllers
 from cellc.mock.plant import Plant
-
-SCALED = "scaled_joint_trajectory"
+from cellc.vocabulary import Behaviour
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,6 +60,6 @@ def cases(contract: Contract) -> Iterator[FaultCase]:
 
 def _ending(bounds: Bounds, device: str, step: CellStep) -> Ending:
     used = [facts for name, facts in controllers(bounds.contract).items() if name in step.controllers]
-    if not any(facts.device == device and facts.behaviour == SCALED for facts in used):
+    if not any(facts.device == device and facts.behaviour is Behaviour.SCALED_JOINT_TRAJECTORY for facts in used):
         return BORNE
     return ends_in("timeout", SUCCEEDED, within_s=bounds.execution_s(step))  # borne where the arm stands there already

@@ -16,6 +16,7 @@ from cellc.mock.faults.bounds import Bounds
 from cellc.mock.faults.case import FaultCase, ends_in, fault_case
 from cellc.mock.faults.contents import controllers
 from cellc.mock.plant import Plant
+from cellc.vocabulary import TRAJECTORIES
 
 CLIENT = "second_commander"
 DURATION_NS = 1_000_000_000
@@ -47,7 +48,7 @@ class SecondCommander:
 
     def _goal(self, positions: dict[str, float]) -> TrajectoryGoal | GripperGoal:
         here = tuple(positions[joint] for joint in self.facts.joints)
-        if self.facts.behaviour.endswith("joint_trajectory"):
+        if self.facts.behaviour in TRAJECTORIES:
             point = TrajectoryPoint(positions=here, time_from_start_ns=DURATION_NS)
             return TrajectoryGoal(joint_names=self.facts.joints, points=(point,))
         return GripperGoal(position=here, joint_names=self.facts.joints)

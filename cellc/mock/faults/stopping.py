@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from cellc.contract.closed_lists import FaultKind
 from cellc.contract.contract import Contract
 from cellc.contract.rehearsals import FaultEntry
 from cellc.mock.faults.bounds import Bounds
 from cellc.mock.faults.case import FaultCase, ends_in, fault_case
+from cellc.vocabulary import FaultKind
 
 
 def stopping_case(kind: FaultKind, device: str, outcome: str, contract: Contract, after_s: float = 0.0) -> FaultCase:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from cellc.mock.result import AttemptRecord, CancelRecord, PacketStep, ResultRecord, TracePoint
-from cellc.mock.task.context import Outcome
+from cellc.vocabulary import AttemptOutcome
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +50,7 @@ class Attempt:
         self.trace.append(TracePoint(step, stamp_ns))
 
     def close(
-        self, outcome: Outcome, fault_code: str, safety_state: str, intervention_due: str, now_ns: int
+        self, outcome: AttemptOutcome, fault_code: str, safety_state: str, intervention_due: str, now_ns: int
     ) -> AttemptRecord:
         """Return the record of the attempt; what a person did in it stands for what a person would have to do."""
         return AttemptRecord(

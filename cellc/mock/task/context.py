@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from enum import Enum
 
 from cellc.mock.control import ControlEvent, ControllerChanged, GripperEnded, TrajectoryEnded
 from cellc.mock.engine.process import Signal, Wait, Waiting
@@ -12,24 +11,7 @@ from cellc.mock.plant import Plant
 from cellc.mock.stops import EMERGENCY_STOP, FAULT, PROTECTIVE_STOP
 from cellc.mock.task.bounds import joint_state_age_s
 from cellc.transforms import Pose
-
-
-class Outcome(str, Enum):
-    """The outcomes of an attempt; each failure is told apart from every other (chapter 4, section 10)."""
-
-    SUCCEEDED = "succeeded"
-    CANCELLED = "cancelled"
-    STALE_STATE = "stale_state"
-    TF_FAILURE = "tf_failure"
-    PLANNING_FAILURE = "planning_failure"
-    GOAL_REJECTION = "goal_rejection"
-    TOLERANCE_VIOLATION = "tolerance_violation"
-    MISSED_CYCLE = "missed_cycle"
-    PROTECTIVE_STOP = "protective_stop"
-    EMERGENCY_STOP = "emergency_stop"
-    HARDWARE_FAULT = "hardware_fault"
-    WRONG_OWNER = "wrong_owner"
-    TIMEOUT = "timeout"
+from cellc.vocabulary import AttemptOutcome
 
 
 class AttemptError(Exception):
@@ -40,7 +22,7 @@ class AttemptError(Exception):
         fault_code: the reason, in the words of whoever failed.
     """
 
-    def __init__(self, outcome: Outcome, fault_code: str) -> None:
+    def __init__(self, outcome: AttemptOutcome, fault_code: str) -> None:
         super().__init__(f"{outcome.value}: {fault_code}")
         self.outcome = outcome
         self.fault_code = fault_code
@@ -74,19 +56,19 @@ def current_state(plant: Plant) -> CurrentState:
     for feed in plant.feeds:
         history, newest = feed.history, feed.newest(plant.now_ns)
         if newest is None:
-            raise AttemptError(Outcome.STALE_STATE, "no joint state has arrived")
+            raise AttemptError(AttemptOutcome.STALE_STATE, "no joint state has arrived")
         taken_ns = int(history.stamps[newest])
         stamps.append((plant.clocks.of(history.broadcaster).read(taken_ns), taken_ns))
         positions |= dict(zip(history.names, history.positions[newest].tolist(), strict=True))
     if not stamps:
-        raise AttemptError(Outcome.STALE_STATE, "no joint states reach the task")
+        raise AttemptError(AttemptOutcome.STALE_STATE, "no joint states reach the task")
     stamp_ns, taken_ns = min(stamps)
     age_s = plant.clocks.age_ns(plant.task, stamp_ns) / 1e9
     allowed_s = joint_state_age_s(plant.contract)
     if age_s > allowed_s:
-        raise AttemptError(Outcome.STALE_STATE, f"joint state is {age_s:.3f} s old, {allowed_s:g} s allowed")
+        raise AttemptError(AttemptOutcome.STALE_STATE, f"joint state is {age_s:.3f} s old, {allowed_s:g} s allowed")
     if age_s < -allowed_s:
-        raise AttemptError(Outcome.STALE_STATE, f"joint state is stamped {-age_s:.3f} s in the future")
+        raise AttemptError(AttemptOutcome.STALE_STATE, f"joint state is stamped {-age_s:.3f} s in the future")
     return CurrentState(stamp_ns, taken_ns, age_s, positions)
 
 
@@ -94,9 +76,9 @@ WATCH_S = 0.2
 """The task looks at the state of the cell at least five times a second, whatever it waits for."""
 
 OUTCOME_OF_STOP = {
-    PROTECTIVE_STOP: Outcome.PROTECTIVE_STOP,
-    EMERGENCY_STOP: Outcome.EMERGENCY_STOP,
-    FAULT: Outcome.HARDWARE_FAULT,
+    PROTECTIVE_STOP: AttemptOutcome.PROTECTIVE_STOP,
+    EMERGENCY_STOP: AttemptOutcome.EMERGENCY_STOP,
+    FAULT: AttemptOutcome.HARDWARE_FAULT,
 }
 
 GoalEnded = TrajectoryEnded | GripperEnded
@@ -184,13 +166,13 @@ class TaskContext:
     def _check_owner(self) -> None:
         """Raise AttemptError where another client commands: the status of an action names every goal that it has."""
         for (controller, _), client in self.plant.requests.foreign_goals.items():
-            raise AttemptError(Outcome.WRONG_OWNER, f"{client} sent a goal to {controller}")
+            raise AttemptError(AttemptOutcome.WRONG_OWNER, f"{client} sent a goal to {controller}")
 
     def _check_cycles(self) -> None:
         missed = sum(history.missed_until(self.now_ns) for history in self.plant.control.histories.values())
         allowed = self.plant.contract.kpis.missed_cycles
         if allowed is not None and missed > allowed:
-            raise AttemptError(Outcome.MISSED_CYCLE, f"{missed} update cycles missed, {allowed} allowed")
+            raise AttemptError(AttemptOutcome.MISSED_CYCLE, f"{missed} update cycles missed, {allowed} allowed")
 
     def _check_states(self) -> None:
         """Raise AttemptError where a goal executes and nobody would see where the arm goes."""
@@ -199,7 +181,7 @@ class TaskContext:
 
     def _check_time(self) -> None:
         if self.now_ns >= self.deadline_ns:
-            raise AttemptError(Outcome.TIMEOUT, "the rehearsal's own timeout passed")
+            raise AttemptError(AttemptOutcome.TIMEOUT, "the rehearsal's own timeout passed")
 
     def _observed_until_ns(self) -> int:
         """Return when the observation that is acted on turns stale; the deadline where none is."""
@@ -214,11 +196,11 @@ class TaskContext:
         inbox = None if self.acting_on is None else self.plant.inboxes.get(self.acting_on)
         if inbox is None or (inbox.newest is not None and not inbox.is_stale(inbox.newest.stamp_ns)):
             return
-        raise AttemptError(Outcome.STALE_STATE, inbox.describe(self.acting_on or ""))
+        raise AttemptError(AttemptOutcome.STALE_STATE, inbox.describe(self.acting_on or ""))
 
     def check_authorities(self, frames: Iterable[str]) -> None:
         """Raise AttemptError where two nodes publish one of the frames: lookups would jump from one to the other."""
         for frame in frames:
             if (authorities := self.plant.buffer.authorities(frame))[1:]:
                 names = " and ".join(authorities)
-                raise AttemptError(Outcome.TF_FAILURE, f"frame {frame} is published by {names}")
+                raise AttemptError(AttemptOutcome.TF_FAILURE, f"frame {frame} is published by {names}")

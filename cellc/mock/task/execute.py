@@ -14,8 +14,9 @@ from cellc.mock.plant import Plant
 from cellc.mock.result import CancelRecord, PacketStep, ResultRecord
 from cellc.mock.task.attempt import Attempt
 from cellc.mock.task.bounds import cancel_bound_s
-from cellc.mock.task.context import AttemptError, GoalEnded, Outcome, TaskContext
+from cellc.mock.task.context import AttemptError, GoalEnded, TaskContext
 from cellc.mock.world.joint_states import JointStateHistory
+from cellc.vocabulary import AttemptOutcome
 
 RESPONSE_S = 1.0
 """How long a goal request may stay unanswered; a server answers within milliseconds or not at all."""
@@ -26,7 +27,7 @@ def await_response(context: TaskContext, server: str) -> Waiting[None]:
     if server not in context.plant.requests.unresponsive:
         return
     yield from context.rest(RESPONSE_S)
-    raise AttemptError(Outcome.TIMEOUT, f"no answer of {server} within {RESPONSE_S:g} s")
+    raise AttemptError(AttemptOutcome.TIMEOUT, f"no answer of {server} within {RESPONSE_S:g} s")
 
 
 STANDSTILL = 1e-3
@@ -141,8 +142,10 @@ def execute(
         yield from _result(context, kind, sent, timeout_s)
     except AttemptError as failure:
         held = yield from cancel_and_hold(context, attempt, controller, goal_id, sent.joints)
-        if failure.outcome is Outcome.CANCELLED and not held:
-            raise AttemptError(Outcome.TIMEOUT, "cancelled, and the joints did not stand still in time") from None
+        if failure.outcome is AttemptOutcome.CANCELLED and not held:
+            raise AttemptError(
+                AttemptOutcome.TIMEOUT, "cancelled, and the joints did not stand still in time"
+            ) from None
         raise
     finally:
         _note_result(context, attempt, sent)
@@ -157,13 +160,13 @@ def require_success(ended: GoalEnded, context: TaskContext) -> None:
         return
     context.check_cell()
     if ended.status is GoalStatus.CANCELED:
-        raise AttemptError(Outcome.CANCELLED, "cancelled by another client")
+        raise AttemptError(AttemptOutcome.CANCELLED, "cancelled by another client")
     if isinstance(ended, TrajectoryEnded):
         text = f"{ended.error_code}: {ended.error_string}"
         violated = ended.error_code in (-4, -5)  # PATH_ and GOAL_TOLERANCE_VIOLATED of FollowJointTrajectory
         # -1, INVALID_GOAL, is what a goal ends in that was replaced, or whose controller was deactivated.
-        raise AttemptError(Outcome.TOLERANCE_VIOLATION if violated else Outcome.WRONG_OWNER, text)
-    raise AttemptError(Outcome.TOLERANCE_VIOLATION, "gripper goal aborted before it was reached")
+        raise AttemptError(AttemptOutcome.TOLERANCE_VIOLATION if violated else AttemptOutcome.WRONG_OWNER, text)
+    raise AttemptError(AttemptOutcome.TOLERANCE_VIOLATION, "gripper goal aborted before it was reached")
 
 
 def _send(context: TaskContext, attempt: Attempt, controller: str, goal: TrajectoryGoal | GripperGoal) -> Waiting[int]:
@@ -175,7 +178,7 @@ def _send(context: TaskContext, attempt: Attempt, controller: str, goal: Traject
     yield from await_response(context, controller)
     response = context.plant.control.send_goal(controller, goal)
     if not response.accepted:
-        raise AttemptError(Outcome.GOAL_REJECTION, response.log_reason)
+        raise AttemptError(AttemptOutcome.GOAL_REJECTION, response.log_reason)
     attempt.mark(PacketStep.ACCEPTED, context.now_ns)
     next_cycle_ns = (context.now_ns // manager.period_ns + 1) * manager.period_ns
     attempt.mark(PacketStep.WRITTEN, next_cycle_ns)
@@ -187,13 +190,13 @@ def _result(context: TaskContext, kind: str, goal: SentGoal, timeout_s: float) -
     until_ns = context.now_ns + round(timeout_s * 1e9)
     while (goal.controller, goal.goal_id) not in context.ended:
         if kind in context.plant.requests.cancel:
-            raise AttemptError(Outcome.CANCELLED, "")
+            raise AttemptError(AttemptOutcome.CANCELLED, "")
         if context.now_ns >= until_ns:
-            raise AttemptError(Outcome.TIMEOUT, f"no result of {goal.controller} within {timeout_s:g} s")
+            raise AttemptError(AttemptOutcome.TIMEOUT, f"no result of {goal.controller} within {timeout_s:g} s")
         lost_ns = context.deactivated_ns.get(goal.controller)
         given_up_ns = until_ns if lost_ns is None else lost_ns + RESULT_GRACE_NS
         if context.now_ns >= given_up_ns:
-            raise AttemptError(Outcome.WRONG_OWNER, f"{goal.controller} was deactivated while its goal executed")
+            raise AttemptError(AttemptOutcome.WRONG_OWNER, f"{goal.controller} was deactivated while its goal executed")
         look_ns = _look_for_motion(context, goal)
         yield from context.pause(min(until_ns, given_up_ns, look_ns), context.plant.requests.changed)
 
@@ -243,7 +246,7 @@ def _joints(plant: Plant, controller: str) -> tuple[str, ...]:
     for manager in plant.contract.managers.values():
         if controller in manager.controllers:
             return manager.controllers[controller].joints
-    raise AttemptError(Outcome.GOAL_REJECTION, f"no action server of a controller {controller}")
+    raise AttemptError(AttemptOutcome.GOAL_REJECTION, f"no action server of a controller {controller}")
 
 
 def _speed_scaling(plant: Plant, controller: str) -> float | None:

@@ -8,9 +8,10 @@ from cellc.contract.contract import ContractGripper
 from cellc.mock.control import GripperGoal
 from cellc.mock.engine.process import Waiting
 from cellc.mock.task.attempt import Attempt
-from cellc.mock.task.context import AttemptError, CurrentState, Outcome, TaskContext
+from cellc.mock.task.context import AttemptError, CurrentState, TaskContext
 from cellc.mock.task.execute import execute, require_success
 from cellc.mock.task.move import state_since
+from cellc.vocabulary import AttemptOutcome, Behaviour
 
 GRIP_TIMEOUT_S = 10.0
 """Bound of one opening or closing."""
@@ -24,7 +25,7 @@ def grip(context: TaskContext, attempt: Attempt, device: str, command: str) -> W
     """Open or close a gripper; raise AttemptError where it does not get there."""
     facts = context.plant.contract.devices[device].gripper
     if facts is None or facts.controller is None:
-        raise AttemptError(Outcome.GOAL_REJECTION, f"no controller drives gripper {device}")
+        raise AttemptError(AttemptOutcome.GOAL_REJECTION, f"no controller drives gripper {device}")
     between = _object_between(context, device) if command == "close" else None
     target = facts.closed if command == "close" else facts.open
     goal = _goal(context, facts, target)
@@ -44,14 +45,14 @@ def _require_arrival(state: CurrentState, facts: ContractGripper, expected: floa
     position = state.positions.get(facts.joint, math.nan)
     if not abs(position - expected) <= allowed:  # a position that nobody reports is no arrival either
         text = f"joint {facts.joint} stands at {position:.4g}, {expected:.4g} expected within {allowed:.2g}"
-        raise AttemptError(Outcome.TOLERANCE_VIOLATION, text)
+        raise AttemptError(AttemptOutcome.TOLERANCE_VIOLATION, text)
 
 
 def _goal(context: TaskContext, facts: ContractGripper, position: float) -> GripperGoal:
     """Return the goal; GripperCommand has a field for effort, ParallelGripperCommand needs an interface for it."""
     for manager in context.plant.contract.managers.values():
         controller = manager.controllers.get(facts.controller or "")
-        if controller is not None and controller.behaviour == "gripper":
+        if controller is not None and controller.behaviour is Behaviour.POSITION_GRIPPER:
             return GripperGoal(position=(position,), effort=(facts.max_effort,))
     return GripperGoal(position=(position,), joint_names=(facts.joint,))
 

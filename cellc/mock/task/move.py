@@ -11,11 +11,12 @@ from cellc.mock.nodes.motion_planner import PLANNING_LATENCY_S, GoalPose, Planne
 from cellc.mock.result import PacketStep
 from cellc.mock.task.attempt import Attempt
 from cellc.mock.task.bounds import action_timeout_s, planning_server
-from cellc.mock.task.context import AttemptError, CurrentState, Outcome, TaskContext, current_state
+from cellc.mock.task.context import AttemptError, CurrentState, TaskContext, current_state
 from cellc.mock.task.execute import await_response, execute, require_success
 from cellc.mock.tf.buffer import Transform
 from cellc.planning import PlanFailure, TimedTrajectory
 from cellc.transforms import Pose
+from cellc.vocabulary import AttemptOutcome
 
 TF_TIMEOUT_S = 0.2
 """How long a lookup waits for transforms that are on their way: four intervals of robot_state_publisher."""
@@ -77,7 +78,7 @@ def _stamp(
         latest = context.plant.buffer.latest_ns(base, entry.frame)
         return state_stamp_ns if latest is None else min(latest, state_stamp_ns)
     if observed_frame not in context.observed:
-        raise AttemptError(Outcome.STALE_STATE, f"frame {observed_frame} was never observed")
+        raise AttemptError(AttemptOutcome.STALE_STATE, f"frame {observed_frame} was never observed")
     stamp_ns = context.observed[observed_frame]
     check_observation(context, observed_frame, stamp_ns)
     return stamp_ns
@@ -92,7 +93,7 @@ def check_observation(context: TaskContext, frame: str, stamp_ns: int, allowance
     inbox = context.plant.inboxes.get(frame)
     if inbox is not None and inbox.is_stale(stamp_ns, allowance_s):
         text = f"observation of {frame} is {inbox.age_s(stamp_ns):.3f} s old, {inbox.max_age_s:g} s allowed"
-        raise AttemptError(Outcome.STALE_STATE, text)
+        raise AttemptError(AttemptOutcome.STALE_STATE, text)
 
 
 def _lookup(context: TaskContext, target: str, source: str, stamp_ns: int) -> Waiting[Transform]:
@@ -106,7 +107,7 @@ def _lookup(context: TaskContext, target: str, source: str, stamp_ns: int) -> Wa
             return answer
         if not answer.kind.may_pass or context.now_ns >= until_ns:
             current_state(context.plant)  # joint states that stay away are the cause, transforms only follow them
-            raise AttemptError(Outcome.TF_FAILURE, answer.text)
+            raise AttemptError(AttemptOutcome.TF_FAILURE, answer.text)
         yield from context.pause(min(until_ns, context.now_ns + 5_000_000))
 
 
@@ -150,7 +151,7 @@ def move(context: TaskContext, attempt: Attempt, target: str) -> Waiting[None]:
     elif target in contract.goals:
         yield from _move_to_goal(context, attempt, target)
     else:
-        raise AttemptError(Outcome.PLANNING_FAILURE, f"neither a pose nor a goal is named {target}")
+        raise AttemptError(AttemptOutcome.PLANNING_FAILURE, f"neither a pose nor a goal is named {target}")
 
 
 def _move_to_pose(context: TaskContext, attempt: Attempt, pose: ContractPoseTarget) -> Waiting[None]:
@@ -188,7 +189,7 @@ def _planning_time(
     attempt.mark(PacketStep.PLANNED, context.now_ns)
     if isinstance(planned, PlanFailure):
         attempt.plan_result = f"{planned.reason.value}: {planned.detail}"
-        raise AttemptError(Outcome.PLANNING_FAILURE, attempt.plan_result)
+        raise AttemptError(AttemptOutcome.PLANNING_FAILURE, attempt.plan_result)
     attempt.plan_result = "success"
     return planned
 
@@ -200,7 +201,7 @@ def _drive(
     current_state(context.plant)
     controller = context.plant.contract.groups[group].controller
     if controller is None:
-        raise AttemptError(Outcome.GOAL_REJECTION, f"no controller moves group {group}")
+        raise AttemptError(AttemptOutcome.GOAL_REJECTION, f"no controller moves group {group}")
     context.retreats.pop(group, None)
     context.acting_on = observed_frame
     goal = _trajectory_goal(motion.trajectory)
@@ -219,7 +220,7 @@ def _require_arrival(state: CurrentState, trajectory: TimedTrajectory) -> None:
     for joint, goal in zip(trajectory.joints, trajectory.points[-1].positions, strict=True):
         if abs(actual[joint] - goal) > ARRIVAL_TOLERANCE:
             text = f"joint {joint} stands at {actual[joint]:.4g} after a reported success, its goal is {goal:.4g}"
-            raise AttemptError(Outcome.TOLERANCE_VIOLATION, text)
+            raise AttemptError(AttemptOutcome.TOLERANCE_VIOLATION, text)
 
 
 def _trajectory_goal(trajectory: TimedTrajectory) -> TrajectoryGoal:

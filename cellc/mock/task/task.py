@@ -9,9 +9,10 @@ from cellc.mock.plant import Plant
 from cellc.mock.result import AttemptRecord, PacketStep
 from cellc.mock.stops import NORMAL
 from cellc.mock.task.attempt import Attempt, Identity
-from cellc.mock.task.context import OUTCOME_OF_STOP, AttemptError, Outcome, TaskContext, current_state
+from cellc.mock.task.context import OUTCOME_OF_STOP, AttemptError, TaskContext, current_state
 from cellc.mock.task.grip import grip
 from cellc.mock.task.move import move
+from cellc.vocabulary import AttemptOutcome
 
 PATIENCE_PERIODS = 10
 """An observation that stays away for ten of its periods does not come."""
@@ -28,13 +29,13 @@ def detect(context: TaskContext, attempt: Attempt, frame: str) -> Waiting[None]:
     inbox = context.plant.inboxes.get(frame)
     entry = context.plant.contract.frames.get(frame)
     if inbox is None or entry is None:
-        raise AttemptError(Outcome.TF_FAILURE, f"nobody observes frame {frame}")
+        raise AttemptError(AttemptOutcome.TF_FAILURE, f"nobody observes frame {frame}")
     attempt.goal_frame = frame
     period_ns = round(1e9 / (entry.rate_hz or DEFAULT_RATE_HZ))
     until_ns = context.now_ns + PATIENCE_PERIODS * period_ns
     while inbox.newest is None or inbox.is_stale(inbox.newest.stamp_ns):
         if context.now_ns >= until_ns:
-            raise AttemptError(Outcome.STALE_STATE, inbox.describe(frame))
+            raise AttemptError(AttemptOutcome.STALE_STATE, inbox.describe(frame))
         yield from context.pause(min(until_ns, context.now_ns + period_ns), inbox.arrived)
     context.observed[frame] = inbox.newest.stamp_ns
     attempt.goal_stamp = inbox.newest.stamp_ns
@@ -64,7 +65,7 @@ def acknowledge(context: TaskContext, attempt: Attempt, role: str) -> Waiting[No
     yield from context.let_take_effect()
     problems = yield from _activate(plant)
     if problems:
-        raise AttemptError(Outcome.HARDWARE_FAULT, "; ".join(problems))
+        raise AttemptError(AttemptOutcome.HARDWARE_FAULT, "; ".join(problems))
     yield from context.rest(_FRESH_NS / 1e9)
     current_state(plant)
 
@@ -112,7 +113,7 @@ class Task:
         """Bind the task; ``context.deadline_ns`` is the bound of the whole rehearsal."""
         contract = context.plant.contract
         self.records: list[AttemptRecord] = []
-        self.outcome = Outcome.SUCCEEDED
+        self.outcome = AttemptOutcome.SUCCEEDED
         self._rehearsal = rehearsal
         self._context = context
         self._identity = Identity(rehearsal.name, contract.configuration_id, contract.version_tuple)
@@ -164,11 +165,11 @@ class Task:
         later = self._rehearsal.steps[number:]
         return self._context.plant.stops.state() != NORMAL and any(step.kind == "acknowledge" for step in later)
 
-    def _close(self, attempt: Attempt, failure: AttemptError | None) -> Outcome:
+    def _close(self, attempt: Attempt, failure: AttemptError | None) -> AttemptOutcome:
         safety_state = self._context.plant.stops.state()
         role = self._context.plant.contract.safety.acknowledge
         due = "none" if safety_state == NORMAL else f"required: acknowledge by {role}"
-        outcome = Outcome.SUCCEEDED if failure is None else failure.outcome
+        outcome = AttemptOutcome.SUCCEEDED if failure is None else failure.outcome
         fault_code = "" if failure is None else failure.fault_code
         self.records.append(attempt.close(outcome, fault_code, safety_state, due, self._context.now_ns))
         return outcome

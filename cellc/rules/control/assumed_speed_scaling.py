@@ -33,6 +33,7 @@ Source: chapter 4, section 7: such scaling semantics cannot be assumed on anothe
 from __future__ import annotations
 
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
+from cellc.vocabulary import Behaviour
 
 
 @rule(Severity.ERROR)
@@ -40,7 +41,7 @@ def check(graph: CellGraph) -> Findings:
     """Yield controllers that read a scaling factor though their device has none."""
     scaling = {device.name for device in graph.cell.devices if device.speed_scaling is not None}
     for controller in graph.cell.controllers:
-        reads = controller.behaviour == "scaled_joint_trajectory" or bool(
+        reads = controller.behaviour is Behaviour.SCALED_JOINT_TRAJECTORY or bool(
             controller.parameters.get("speed_scaling.state_interface")
         )
         if reads and controller.device is not None and controller.device not in scaling:

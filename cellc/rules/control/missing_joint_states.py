@@ -26,13 +26,14 @@ Source: chapter 4, section 10: move_group consumes joint states and TF.
 from __future__ import annotations
 
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
+from cellc.vocabulary import Behaviour
 
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield managers that drive joints without an active joint state broadcaster."""
     for manager in graph.cell.managers:
-        publishing = any(c.behaviour == "joint_state_broadcaster" and c.active for c in manager.controllers)
+        publishing = any(c.behaviour is Behaviour.JOINT_STATE_BROADCASTER and c.active for c in manager.controllers)
         if not publishing and any(c.command_interfaces for c in manager.controllers):
             path = (*manager.path, "controllers")
             message = f"no controller of `{manager.name}` publishes joint states"

@@ -26,13 +26,14 @@ Source: joint_trajectory_controller, parameter constraints.<joint>.trajectory: 0
 from __future__ import annotations
 
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
+from cellc.vocabulary import TRAJECTORIES
 
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield trajectory controllers without the value, and with zero, which switches the check off."""
     for controller in graph.cell.controllers:
-        if controller.behaviour not in ("joint_trajectory", "scaled_joint_trajectory"):
+        if controller.behaviour not in TRAJECTORIES:
             continue
         if not controller.path_tolerance:
             stated = "does not state" if controller.path_tolerance is None else "switches off, with zero, its"

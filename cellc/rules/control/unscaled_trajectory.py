@@ -27,6 +27,7 @@ Source: chapter 4, section 7: platform speed scaling can alter execution progres
 from __future__ import annotations
 
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
+from cellc.vocabulary import Behaviour
 
 
 @rule(Severity.WARNING)
@@ -34,7 +35,7 @@ def check(graph: CellGraph) -> Findings:
     """Yield trajectory controllers on a scaling device that do not read its factor."""
     scaling = {device.name: device for device in graph.cell.devices if device.speed_scaling is not None}
     for controller in graph.cell.controllers:
-        if controller.behaviour != "joint_trajectory" or controller.device not in scaling:
+        if controller.behaviour is not Behaviour.JOINT_TRAJECTORY or controller.device not in scaling:
             continue
         if not controller.parameters.get("speed_scaling.state_interface"):
             message = f"`{controller.device}` scales its speed, `{controller.name}` does not follow"

@@ -7,7 +7,6 @@ from collections.abc import Callable
 import pytest
 
 from cellc.adapter import Phase
-from cellc.contract.closed_lists import FaultKind
 from cellc.contract.rehearsals import FaultEntry, RehearsalEntry, StepEntry
 from cellc.mock import MockCell, RehearsalResult, load
 from cellc.mock.campaign.execute import execute
@@ -17,6 +16,7 @@ from cellc.mock.control import GripperGoal, TrajectoryGoal, TrajectoryPoint
 from cellc.mock.control.journal import CommandJournal
 from cellc.mock.faults.possible import possible_faults
 from cellc.mock.plant import Plant
+from cellc.vocabulary import FaultKind
 from tests.cells import CORPUS, build_into
 
 SECOND = 1_000_000_000
@@ -127,9 +127,9 @@ def test_displaced_joint_moves_at_once_and_back_when_that_is_over(cell: MockCell
 
 
 STOPS: tuple[tuple[FaultKind, str], ...] = (
-    ("protective_stop", "protective_stop"),
-    ("emergency_stop", "emergency_stop"),
-    ("wrong_payload", "protective_stop"),
+    (FaultKind.PROTECTIVE_STOP, "protective_stop"),
+    (FaultKind.EMERGENCY_STOP, "emergency_stop"),
+    (FaultKind.WRONG_PAYLOAD, "protective_stop"),
 )
 
 

@@ -17,6 +17,7 @@ from cellc.mock import MockCell
 from cellc.mock.campaign.limits import check_limits
 from cellc.mock.control import ControllerManager, TrajectoryGoal, TrajectoryPoint
 from cellc.mock.control.journal import CommandSamples, Interruption
+from cellc.vocabulary import Distro
 from tests.mock.control.arm_of_two import MS, run
 from tests.mock.control.bench import Value, bench
 
@@ -58,7 +59,9 @@ def goal(distance: float = DISTANCE, duration_ns: int = 1000 * MS) -> Trajectory
 
 
 def journal_of(
-    happens: Callable[[ControllerManager, int], None], arm: dict[str, Value] | None = None, distro: str = "kilted"
+    happens: Callable[[ControllerManager, int], None],
+    arm: dict[str, Value] | None = None,
+    distro: Distro = Distro.KILTED,
 ) -> Journal:
     """Send the goal, let something happen 400 ms later, and read the journal."""
     manager = bench(arm, distro=distro)
@@ -112,7 +115,7 @@ def test_goal_that_nothing_interrupts_is_within_limits_and_notes_nothing(contrac
 
 
 def test_missed_cycles_are_no_excess_and_no_interruption(contract: Contract) -> None:
-    journal = journal_of(miss, distro="jazzy")  # which does not limit commands: no catching up
+    journal = journal_of(miss, distro=Distro.JAZZY)  # which does not limit commands: no catching up
     assert journal.causes == []
     assert check_limits(contract, journal.samples, ()).held
 
@@ -142,7 +145,7 @@ def test_interruption_is_noted_and_explains_every_excess(
     arm: dict[str, Value] | None,
     causes: list[str],
 ) -> None:
-    journal = journal_of(happens, arm, distro="jazzy")
+    journal = journal_of(happens, arm, distro=Distro.JAZZY)
     assert journal.causes == causes
     assert not check_limits(contract, journal.samples, ()).held
     assert check_limits(contract, journal.samples, journal.interruptions).held

@@ -15,6 +15,7 @@ from cellc.mock.control import (
     TrajectoryGoal,
     TrajectoryPoint,
 )
+from cellc.vocabulary import Behaviour, Distro
 
 from .arm_of_two import S, run, urdf
 
@@ -63,10 +64,10 @@ def bench(
     hand: dict[str, Value] | None = None,
     *,
     types: dict[str, str] | None = None,
-    distro: str = "kilted",
+    distro: Distro = Distro.KILTED,
     description: str = "",
     start_ns: int = 0,
-    behaviours: dict[str, str] | None = None,
+    behaviours: dict[str, Behaviour] | None = None,
     up: tuple[str, ...] = ("joints", "arm", "hand"),
 ) -> ControllerManager:
     """Start the cell with parameters that differ from the usual ones, and let half a second pass."""

@@ -16,6 +16,7 @@ from cellc.mock.control import (
     TrajectoryGoal,
     TrajectoryPoint,
 )
+from cellc.vocabulary import Behaviour, Distro
 
 from .arm_of_two import MS, S, parameters, run, started, urdf
 
@@ -127,15 +128,15 @@ def test_fallback_controller_takes_over_when_an_update_fails() -> None:
 
 def test_older_gripper_controller_exists_only_where_its_package_does() -> None:
     text = parameters("position_controllers/GripperActionController")
-    old = ControllerManager(urdf(), text, distro="jazzy")
+    old = ControllerManager(urdf(), text, distro=Distro.JAZZY)
     assert old.spawn(["hand"]).ok
-    assert ControllerManager(urdf(), text, distro="kilted").spawn(["hand"]).reason.endswith("not found.")
+    assert ControllerManager(urdf(), text, distro=Distro.KILTED).spawn(["hand"]).reason.endswith("not found.")
 
 
 def test_type_that_the_caller_names_behaves_as_told() -> None:
     text = parameters().replace("joint_trajectory_controller/JointTrajectoryController", "vendor/Scaled")
     assert not ControllerManager(urdf(), text).spawn(["arm"]).ok
-    named = {"vendor/Scaled": "scaled_joint_trajectory"}
+    named = {"vendor/Scaled": Behaviour.SCALED_JOINT_TRAJECTORY}
     manager = ControllerManager(urdf(), text, plugin_behaviours=named)
     answer = manager.spawn(["arm"])
     # The interface that the scaled controller wants does not exist in this cell.
@@ -143,7 +144,7 @@ def test_type_that_the_caller_names_behaves_as_told() -> None:
 
 
 def test_limits_are_not_enforced_by_default_before_kilted() -> None:
-    manager = started(ControllerManager(urdf(), parameters(), distro="jazzy"))
+    manager = started(ControllerManager(urdf(), parameters(), distro=Distro.JAZZY))
     manager.spawn(["forward"], inactive=True)
     manager.switch_controllers(["forward"], ["arm"])
     run(manager, 10 * MS)

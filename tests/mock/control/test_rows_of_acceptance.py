@@ -14,6 +14,7 @@ from cellc.mock.control import (
     TrajectoryGoal,
     TrajectoryPoint,
 )
+from cellc.vocabulary import Distro
 
 from .bench import S, bench, commands, ending, only, point, positions, run, send, wait
 from .fact_rows import row
@@ -66,7 +67,7 @@ def test_velocity_at_the_end_is_refused_above_the_float_epsilon(velocity: float,
 
 @row("2", 6)
 def test_humble_allows_a_velocity_at_the_end_by_default() -> None:
-    assert send(bench(distro="humble", up=("joints", "arm")), point(0.1, 0.1, v=(0.1, 0.0))).accepted
+    assert send(bench(distro=Distro.HUMBLE, up=("joints", "arm")), point(0.1, 0.1, v=(0.1, 0.0))).accepted
 
 
 @row("2", 7)

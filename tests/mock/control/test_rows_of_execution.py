@@ -7,6 +7,7 @@ import math
 import pytest
 
 from cellc.mock.control import ControllerManager, GoalStatus, TrajectoryEnded
+from cellc.vocabulary import Behaviour
 
 from .bench import S, Value, bench, commands, ending, only, point, positions, send, urdf, wait
 from .fact_rows import row
@@ -175,7 +176,7 @@ def test_scaled_controller_reads_the_factor_of_the_hardware() -> None:
         '<param name="initial_value">0.5</param></state_interface></gpio><sensor name="wrist">',
     )
     vendor = {"arm": "vendor_controllers/ScaledTrajectory"}
-    behaviours = {"vendor_controllers/ScaledTrajectory": "scaled_joint_trajectory"}
+    behaviours = {"vendor_controllers/ScaledTrajectory": Behaviour.SCALED_JOINT_TRAJECTORY}
     named: dict[str, Value] = {"speed_scaling_interface_name": "speed_scaling/speed_scaling_factor"}
     manager = bench(named, types=vendor, description=described, behaviours=behaviours)
     sent_ns = manager.now_ns

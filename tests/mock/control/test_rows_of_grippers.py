@@ -7,16 +7,19 @@ import math
 import pytest
 
 from cellc.mock.control import ControllerManager, GoalStatus, GripperEnded, GripperGoal
+from cellc.vocabulary import Distro
 
 from .bench import S, Value, bench, only, urdf, wait
 from .fact_rows import row
 
 PARALLEL = "parallel_gripper_action_controller/GripperActionController"
 POSITION = "position_controllers/GripperActionController"
-_BOTH = [("kilted", PARALLEL), ("humble", POSITION)]
+_BOTH = [(Distro.KILTED, PARALLEL), (Distro.HUMBLE, POSITION)]
 
 
-def _cell(distro: str, plugin: str, hand: dict[str, Value] | None = None, description: str = "") -> ControllerManager:
+def _cell(
+    distro: Distro, plugin: str, hand: dict[str, Value] | None = None, description: str = ""
+) -> ControllerManager:
     manager = bench(hand=hand, types={"hand": plugin}, distro=distro, description=description)
     manager.disturbances.slow("f", 0.2)  # Humble's manager limits no command
     return manager
@@ -31,14 +34,14 @@ def _grip(manager: ControllerManager, *position: float) -> int:
 @row("6", 1)
 @pytest.mark.parametrize("position", [(), (0.01, 0.02)])
 def test_parallel_gripper_wants_exactly_one_position(position: tuple[float, ...]) -> None:
-    response = _cell("kilted", PARALLEL).send_goal("hand", GripperGoal(position))
+    response = _cell(Distro.KILTED, PARALLEL).send_goal("hand", GripperGoal(position))
     assert not response.accepted
 
 
 @row("6", 1)
 @pytest.mark.parametrize(("distro", "plugin"), _BOTH)
 @pytest.mark.parametrize("position", [99.0, -1.0, math.nan])
-def test_no_value_of_a_position_is_refused(distro: str, plugin: str, position: float) -> None:
+def test_no_value_of_a_position_is_refused(distro: Distro, plugin: str, position: float) -> None:
     assert _cell(distro, plugin).send_goal("hand", GripperGoal((position,))).accepted
 
 
@@ -53,7 +56,7 @@ def test_effort_and_velocity_of_the_goal_count_where_interfaces_are_configured()
         "max_velocity_interface": "f/set_gripper_max_velocity",
         "max_effort": 7.0,
     }
-    manager = _cell("kilted", PARALLEL, named, described)
+    manager = _cell(Distro.KILTED, PARALLEL, named, described)
     manager.send_goal("hand", GripperGoal((0.01,), velocity=(0.05,)))
     wait(manager, 0.1)
     assert manager.command("f/set_gripper_max_effort") == 7.0  # not given: the parameter
@@ -62,7 +65,7 @@ def test_effort_and_velocity_of_the_goal_count_where_interfaces_are_configured()
 
 @row("6", 3)
 @pytest.mark.parametrize(("distro", "plugin"), _BOTH)
-def test_position_inside_the_tolerance_is_reached(distro: str, plugin: str) -> None:
+def test_position_inside_the_tolerance_is_reached(distro: Distro, plugin: str) -> None:
     manager = _cell(distro, plugin)
     _grip(manager, 0.02)
     ended = only(wait(manager, 2.0), GripperEnded)
@@ -72,7 +75,7 @@ def test_position_inside_the_tolerance_is_reached(distro: str, plugin: str) -> N
 @row("6", 4)
 @pytest.mark.parametrize(("distro", "plugin"), _BOTH)
 @pytest.mark.parametrize(("allowed", "status"), [(False, GoalStatus.ABORTED), (True, GoalStatus.SUCCEEDED)])
-def test_stall_ends_as_the_parameter_says(distro: str, plugin: str, allowed: bool, status: GoalStatus) -> None:
+def test_stall_ends_as_the_parameter_says(distro: Distro, plugin: str, allowed: bool, status: GoalStatus) -> None:
     manager = _cell(distro, plugin, {"allow_stalling": allowed})
     manager.disturbances.block("f", 0.0, 0.01)
     sent_ns = manager.now_ns
@@ -85,7 +88,7 @@ def test_stall_ends_as_the_parameter_says(distro: str, plugin: str, allowed: boo
 
 @row("6", 5)
 @pytest.mark.parametrize(("distro", "plugin"), _BOTH)
-def test_cancel_holds_and_the_result_is_empty(distro: str, plugin: str) -> None:
+def test_cancel_holds_and_the_result_is_empty(distro: Distro, plugin: str) -> None:
     manager = _cell(distro, plugin)
     goal = _grip(manager, 0.04)
     wait(manager, 0.1)
@@ -98,7 +101,7 @@ def test_cancel_holds_and_the_result_is_empty(distro: str, plugin: str) -> None:
 
 @row("6", 6)
 @pytest.mark.parametrize(("distro", "plugin"), _BOTH)
-def test_goal_that_is_replaced_ends_as_canceled(distro: str, plugin: str) -> None:
+def test_goal_that_is_replaced_ends_as_canceled(distro: Distro, plugin: str) -> None:
     manager = _cell(distro, plugin)
     first = _grip(manager, 0.04)
     wait(manager, 0.05)
@@ -110,7 +113,7 @@ def test_goal_that_is_replaced_ends_as_canceled(distro: str, plugin: str) -> Non
 
 @row("6", 7)
 def test_success_is_seen_before_the_new_command_is_written() -> None:
-    manager = _cell("kilted", PARALLEL)
+    manager = _cell(Distro.KILTED, PARALLEL)
     sent_ns = manager.now_ns
     _grip(manager, 0.0005)  # inside the tolerance where it stands
     ended = only(wait(manager, 1.0), GripperEnded)
@@ -121,7 +124,7 @@ def test_success_is_seen_before_the_new_command_is_written() -> None:
 
 @row("6", 8)
 def test_result_has_one_position_and_one_effort() -> None:
-    manager = _cell("kilted", PARALLEL)
+    manager = _cell(Distro.KILTED, PARALLEL)
     _grip(manager, 0.02)
     ended = only(wait(manager, 2.0), GripperEnded)
     assert len(ended.position) == len(ended.effort) == 1
@@ -130,7 +133,7 @@ def test_result_has_one_position_and_one_effort() -> None:
 
 @row("6", 9)
 def test_without_dynamics_stall_time_begins_with_acceptance() -> None:
-    manager = _cell("kilted", PARALLEL, description=urdf(dynamics=False))
+    manager = _cell(Distro.KILTED, PARALLEL, description=urdf(dynamics=False))
     manager.disturbances.stick("f")
     sent_ns = manager.now_ns
     _grip(manager, 0.03)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from cellc.mock.control import ControllerManager, GoalStatus, Trajectory, TrajectoryEnded, TrajectoryPoint
+from cellc.vocabulary import Distro
 
 from .bench import S, Value, bench, commands, ending, only, point, positions, send, wait
 from .fact_rows import row
@@ -13,7 +14,7 @@ _FREE: dict[str, Value] = {"constraints.a.trajectory": 0.0, "constraints.b.traje
 _LOOSE: dict[str, Value] = _FREE | {"constraints.a.goal": 0.0, "constraints.b.goal": 0.0}
 
 
-def _moving(arm: dict[str, Value] | None = None, distro: str = "kilted") -> tuple[ControllerManager, int]:
+def _moving(arm: dict[str, Value] | None = None, distro: Distro = Distro.KILTED) -> tuple[ControllerManager, int]:
     """A cell in the middle of a goal, and the number of the goal."""
     manager = bench(arm, distro=distro, up=("joints", "arm"))
     goal = send(manager, point(0.8, 0.0, at=2.0))
@@ -102,13 +103,13 @@ def test_without_goal_time_a_goal_may_never_end() -> None:
 @pytest.mark.parametrize(
     ("distro", "text"),
     [
-        ("humble", "Current goal cancelled due to new incoming action."),
-        ("jazzy", "Current goal preempted by new incoming action."),
-        ("kilted", "Current goal preempted by new incoming action."),
-        ("lyrical", "Current goal preempted by new incoming action."),
+        (Distro.HUMBLE, "Current goal cancelled due to new incoming action."),
+        (Distro.JAZZY, "Current goal preempted by new incoming action."),
+        (Distro.KILTED, "Current goal preempted by new incoming action."),
+        (Distro.LYRICAL, "Current goal preempted by new incoming action."),
     ],
 )
-def test_new_goal_aborts_the_running_one(distro: str, text: str) -> None:
+def test_new_goal_aborts_the_running_one(distro: Distro, text: str) -> None:
     manager, first = _moving(distro=distro)
     assert send(manager, point(0.0, 0.0, at=1.0)).accepted
     ended = [event for event in wait(manager, 3.0) if isinstance(event, TrajectoryEnded)]

@@ -13,6 +13,7 @@ from cellc.mock.evidence.bag import messages
 from cellc.mock.evidence.bag.bag_file import schema
 from cellc.mock.evidence.bag.messages import CONTROLLER_STATE, Point, controller_state_rows, joint_state_shape
 from cellc.transforms import Pose
+from cellc.vocabulary import Distro
 from tests.oracles import UPSTREAM, needs_upstream
 
 STANDARD = (
@@ -24,13 +25,13 @@ STANDARD = (
     messages.STRING,
 )
 POSE = Pose((0.1, -0.2, 0.3), (0.0, 0.0, 0.6, 0.8))
-STORES = {"humble": Stores.ROS2_HUMBLE, "jazzy": Stores.ROS2_JAZZY, "kilted": Stores.ROS2_KILTED}
+STORES = {Distro.HUMBLE: Stores.ROS2_HUMBLE, Distro.JAZZY: Stores.ROS2_JAZZY, Distro.KILTED: Stores.ROS2_KILTED}
 
 
 class Peer:
     """Encodes and decodes with rosbags."""
 
-    def __init__(self, distro: str = "jazzy") -> None:
+    def __init__(self, distro: Distro = Distro.JAZZY) -> None:
         self.store = get_typestore(STORES[distro])
         types = get_types_from_msg(schema(CONTROLLER_STATE, distro), CONTROLLER_STATE)
         self.store.register({name: fields for name, fields in types.items() if name not in self.store.fielddefs})
@@ -61,7 +62,7 @@ def peer() -> Peer:
 
 @pytest.mark.parametrize("distro", sorted(STORES))
 @pytest.mark.parametrize("name", STANDARD)
-def test_definition_has_the_type_hash_of_the_distribution(name: str, distro: str) -> None:
+def test_definition_has_the_type_hash_of_the_distribution(name: str, distro: Distro) -> None:
     """RIHS01 is taken over every field of a type and of the types in it."""
     reference = get_typestore(STORES[distro])
     ours = get_typestore(Stores.EMPTY)
@@ -149,8 +150,8 @@ def test_rows_of_joint_states_are_encoded_as_by_the_peer(peer: Peer) -> None:
         assert row == peer.encode(theirs, messages.JOINT_STATE)
 
 
-@pytest.mark.parametrize("distro", ["humble", "jazzy"])
-def test_rows_of_controller_states_are_encoded_as_by_the_peer(distro: str) -> None:
+@pytest.mark.parametrize("distro", [Distro.HUMBLE, Distro.JAZZY])
+def test_rows_of_controller_states_are_encoded_as_by_the_peer(distro: Distro) -> None:
     peer = Peer(distro)
     value = np.array([[1.0, 2.0, 3.0]])
     points: tuple[Point, ...] = (
@@ -162,9 +163,9 @@ def test_rows_of_controller_states_are_encoded_as_by_the_peer(distro: str) -> No
     shape, numbers = controller_state_rows(("a", "bb", "c"), points, np.array([0.5]), distro)
     (row,) = shape.encode(np.array([11]), numbers)
     theirs = [peer.point(**{name: array[0].tolist() for name, array in point.items()}) for point in points]
-    repeated = theirs[:2] if distro == "humble" else []
+    repeated = theirs[:2] if distro is Distro.HUMBLE else []
     empty = peer.make("trajectory_msgs/MultiDOFJointTrajectoryPoint", [], [], [], peer.duration(0))
     values = [peer.header(11), ["a", "bb", "c"], *theirs, *repeated, [], *[empty] * (4 + len(repeated))]
-    values += [] if distro == "humble" else [0.5]
+    values += [] if distro is Distro.HUMBLE else [0.5]
     message = peer.make("control_msgs/JointTrajectoryControllerState", *values)
     assert row == peer.encode(message, CONTROLLER_STATE)

@@ -7,12 +7,12 @@ from typing import Any
 
 import pytest
 
-from cellc.contract.closed_lists import FaultKind
 from cellc.contract.rehearsals import FaultEntry, FaultEvent, RehearsalEntry, StepEntry
 from cellc.mock import MockCell
 from cellc.mock.errors import MockError
 from cellc.mock.faults.case import BORNE, FaultCase, ends_in
 from cellc.mock.faults.possible import possible_faults
+from cellc.vocabulary import FaultKind
 from tests.mock.faults.conftest import Rehearse
 
 

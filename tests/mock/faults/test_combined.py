@@ -6,15 +6,14 @@ from itertools import pairwise
 
 import pytest
 
-from cellc.contract.closed_lists import FaultKind
 from cellc.contract.rehearsals import FaultEntry, RehearsalEntry
 from cellc.mock import MockCell
 from cellc.mock.faults.possible import possible_faults
 from cellc.mock.result import to_json_lines
-from cellc.mock.task.context import Outcome
+from cellc.vocabulary import AttemptOutcome, FaultKind
 from tests.mock.faults.conftest import ACKNOWLEDGE, DETECT, HOME, PICK, Rehearse, during, wait
 
-NAMED = {outcome.value for outcome in Outcome}
+NAMED = {outcome.value for outcome in AttemptOutcome}
 
 
 def test_neighbours_of_the_list_of_faults_end_together_in_a_named_outcome_of_either(
@@ -32,11 +31,20 @@ def test_neighbours_of_the_list_of_faults_end_together_in_a_named_outcome_of_eit
 @pytest.mark.parametrize(
     ("faults", "outcome"),
     [
-        ((during(3, "freeze", "camera"), during(3, "protective_stop", "arm", after_s=0.35)), "protective_stop"),
-        ((during(3, "freeze", "arm"), during(3, "cancel", "move")), "cancelled"),
-        ((during(3, "skip_cycles", cycles=5), during(3, "emergency_stop", "arm")), "emergency_stop"),
-        ((during(3, "unresponsive", "arm_trajectory"), during(3, "restart_driver", "arm")), "hardware_fault"),
-        ((during(3, "second_commander", "arm_trajectory"), during(3, "freeze", "camera")), "wrong_owner"),
+        (
+            (during(3, FaultKind.FREEZE, "camera"), during(3, FaultKind.PROTECTIVE_STOP, "arm", after_s=0.35)),
+            "protective_stop",
+        ),
+        ((during(3, FaultKind.FREEZE, "arm"), during(3, FaultKind.CANCEL, "move")), "cancelled"),
+        ((during(3, FaultKind.SKIP_CYCLES, cycles=5), during(3, FaultKind.EMERGENCY_STOP, "arm")), "emergency_stop"),
+        (
+            (during(3, FaultKind.UNRESPONSIVE, "arm_trajectory"), during(3, FaultKind.RESTART_DRIVER, "arm")),
+            "hardware_fault",
+        ),
+        (
+            (during(3, FaultKind.SECOND_COMMANDER, "arm_trajectory"), during(3, FaultKind.FREEZE, "camera")),
+            "wrong_owner",
+        ),
     ],
 )
 def test_the_graver_or_the_earlier_of_two_faults_names_the_outcome(
@@ -48,8 +56,8 @@ def test_the_graver_or_the_earlier_of_two_faults_names_the_outcome(
 def test_faults_at_a_time_and_with_an_event_go_together(run: Rehearse) -> None:
     # Steps 1 and 2 take 0.1 s; the plan of step 3 is executed from 0.15 s on.
     at_time = FaultEntry(kind="freeze", target="camera", at_s=0.3)
-    assert run(at_time, during(3, "cancel", "move", after_s=0.05)).failed.outcome == "cancelled"
-    assert run(at_time, during(3, "cancel", "move", after_s=1.0)).failed.outcome == "stale_state"
+    assert run(at_time, during(3, FaultKind.CANCEL, "move", after_s=0.05)).failed.outcome == "cancelled"
+    assert run(at_time, during(3, FaultKind.CANCEL, "move", after_s=1.0)).failed.outcome == "stale_state"
 
 
 @pytest.mark.parametrize(
@@ -66,9 +74,9 @@ def test_two_stops_of_one_device_are_acknowledged_when_both_are_over(
 
 
 def test_second_stop_while_one_is_acknowledged_keeps_the_cell_stopped(run: Rehearse) -> None:
-    second = during(5, "emergency_stop", "arm", when="started", after_s=0.05)
+    second = during(5, FaultKind.EMERGENCY_STOP, "arm", when="started", after_s=0.05)
     steps = (HOME, DETECT, PICK, wait(2.0), ACKNOWLEDGE, HOME)
-    done = run(during(3, "protective_stop", "arm", lasting_s=1.0), second, steps=steps)
+    done = run(during(3, FaultKind.PROTECTIVE_STOP, "arm", lasting_s=1.0), second, steps=steps)
     assert (done.attempt(5).outcome, done.result.outcome) == ("emergency_stop", "emergency_stop")
 
 

@@ -6,25 +6,25 @@ from typing import Any
 
 import pytest
 
-from cellc.contract.closed_lists import FaultKind
+from cellc.vocabulary import FaultKind
 from tests.mock.faults.conftest import DETECT, HOME, PICK, Rehearse, during, wait
 
 
 def test_server_that_answers_no_goal_request_is_given_up_after_a_second(run: Rehearse) -> None:
-    done = run(during(3, "unresponsive", "arm_trajectory", when="started", after_s=0.0))
+    done = run(during(3, FaultKind.UNRESPONSIVE, "arm_trajectory", when="started", after_s=0.0))
     assert (done.failed.outcome, done.failed.fault_code) == ("timeout", "no answer of arm_trajectory within 1 s")
     assert done.failed.action_goal_id is not None
     assert "ACCEPTED" not in {point.step.name for point in done.failed.trace}
 
 
 def test_planner_that_answers_nothing_is_given_up_after_a_second(run: Rehearse) -> None:
-    failed = run(during(3, "unresponsive", "move_group", when="started", after_s=0.0)).failed
+    failed = run(during(3, FaultKind.UNRESPONSIVE, "move_group", when="started", after_s=0.0)).failed
     assert (failed.outcome, failed.fault_code) == ("timeout", "no answer of move_group within 1 s")
 
 
 def test_result_that_never_comes_is_given_up_when_the_action_times_out(run: Rehearse) -> None:
     # /move_action has a timeout of 20 s; the hold after it is bounded by 200 ms.
-    done = run(during(3, "unresponsive", "arm_trajectory"))
+    done = run(during(3, FaultKind.UNRESPONSIVE, "arm_trajectory"))
     assert (done.failed.outcome, done.failed.fault_code) == ("timeout", "no result of arm_trajectory within 20 s")
     assert done.failed.cancel is not None
     assert done.failed.cancel.return_code is None
@@ -32,19 +32,19 @@ def test_result_that_never_comes_is_given_up_when_the_action_times_out(run: Rehe
 
 
 def test_server_that_answers_again_is_asked_again(run: Rehearse) -> None:
-    fault = during(2, "unresponsive", "arm_trajectory", when="started", after_s=0.0, lasting_s=0.5)
+    fault = during(2, FaultKind.UNRESPONSIVE, "arm_trajectory", when="started", after_s=0.0, lasting_s=0.5)
     assert run(fault, steps=(HOME, wait(1.0), DETECT, PICK)).result.outcome == "succeeded"
 
 
 STALE: tuple[tuple[FaultKind, str, dict[str, Any], str], ...] = (
-    ("delay", "arm", {"delay_s": 0.3}, "joint state is"),
-    ("freeze", "arm", {}, "joint state is"),
-    ("mismatch_qos", "/joint_states", {}, "joint state is"),
-    ("delay", "camera", {"delay_s": 0.3}, "newest observation of object is"),
-    ("freeze", "camera", {}, "newest observation of object is"),
-    ("cut_network", "camera", {}, "newest observation of object is"),
-    ("mismatch_qos", "/object_pose", {}, "newest observation of object is"),
-    ("mismatch_qos", "/camera/color/image_raw", {}, "newest observation of object is"),
+    (FaultKind.DELAY, "arm", {"delay_s": 0.3}, "joint state is"),
+    (FaultKind.FREEZE, "arm", {}, "joint state is"),
+    (FaultKind.MISMATCH_QOS, "/joint_states", {}, "joint state is"),
+    (FaultKind.DELAY, "camera", {"delay_s": 0.3}, "newest observation of object is"),
+    (FaultKind.FREEZE, "camera", {}, "newest observation of object is"),
+    (FaultKind.CUT_NETWORK, "camera", {}, "newest observation of object is"),
+    (FaultKind.MISMATCH_QOS, "/object_pose", {}, "newest observation of object is"),
+    (FaultKind.MISMATCH_QOS, "/camera/color/image_raw", {}, "newest observation of object is"),
 )
 
 
@@ -69,15 +69,15 @@ def test_stream_that_comes_back_in_time_is_borne(
 
 
 def test_endpoint_that_no_longer_matches_is_told_by_the_middleware(run: Rehearse) -> None:
-    findings = run(during(3, "mismatch_qos", "/object_pose")).result.findings
+    findings = run(during(3, FaultKind.MISMATCH_QOS, "/object_pose")).result.findings
     assert "`/object_pose` is no longer connected: incompatible QoS, policy reliability" in findings
 
 
 def test_action_whose_endpoints_do_not_match_is_answered_by_nobody(run: Rehearse) -> None:
-    fault = during(4, "mismatch_qos", "/gripper_action/gripper_cmd", when="started", after_s=0.0)
+    fault = during(4, FaultKind.MISMATCH_QOS, "/gripper_action/gripper_cmd", when="started", after_s=0.0)
     assert run(fault).failed.fault_code == "no answer of gripper_action within 1 s"
 
 
 def test_transforms_that_are_no_longer_received_end_in_tf_failure(run: Rehearse) -> None:
-    failed = run(during(1, "mismatch_qos", "/tf", when="started", after_s=0.0)).failed
+    failed = run(during(1, FaultKind.MISMATCH_QOS, "/tf", when="started", after_s=0.0)).failed
     assert (failed.outcome, "extrapolation into the future" in failed.fault_code) == ("tf_failure", True)

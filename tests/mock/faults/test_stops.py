@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import pytest
 
-from cellc.contract.closed_lists import FaultKind
 from cellc.mock import MockCell
 from cellc.mock.control import ControllerManager
+from cellc.vocabulary import FaultKind
 from tests.mock.faults.conftest import ACKNOWLEDGE, DETECT, HOME, PICK, Rehearse, during, wait
 
 STOPS: tuple[tuple[FaultKind, str, str], ...] = (
-    ("protective_stop", "protective_stop", "protective_stop"),
-    ("emergency_stop", "emergency_stop", "emergency_stop"),
-    ("restart_driver", "hardware_fault", "fault"),
-    ("cut_network", "hardware_fault", "fault"),
-    ("wrong_payload", "protective_stop", "protective_stop"),
+    (FaultKind.PROTECTIVE_STOP, "protective_stop", "protective_stop"),
+    (FaultKind.EMERGENCY_STOP, "emergency_stop", "emergency_stop"),
+    (FaultKind.RESTART_DRIVER, "hardware_fault", "fault"),
+    (FaultKind.CUT_NETWORK, "hardware_fault", "fault"),
+    (FaultKind.WRONG_PAYLOAD, "protective_stop", "protective_stop"),
 )
 RECOVERY = (HOME, DETECT, PICK, wait(2.0), ACKNOWLEDGE, wait(0.5), HOME)
 
@@ -54,18 +54,18 @@ def test_nothing_moves_after_the_reconnect_before_a_new_goal_is_sent(
 
 
 def test_cut_that_is_over_before_the_driver_gives_up_is_borne(run: Rehearse) -> None:
-    done = run(during(3, "cut_network", "arm", lasting_s=0.01))
+    done = run(during(3, FaultKind.CUT_NETWORK, "arm", lasting_s=0.01))
     assert done.result.outcome == "succeeded"
 
 
 def test_reconnect_alone_leaves_the_arm_stopped(run: Rehearse) -> None:
-    done = run(during(3, "restart_driver", "arm", lasting_s=0.2), steps=(HOME, DETECT, PICK, wait(5.0), HOME))
+    done = run(during(3, FaultKind.RESTART_DRIVER, "arm", lasting_s=0.2), steps=(HOME, DETECT, PICK, wait(5.0), HOME))
     assert done.result.outcome == "hardware_fault"
     assert done.plant.stops.state() == "fault"
 
 
 def test_driver_that_comes_back_has_its_controllers_inactive(run: Rehearse) -> None:
-    done = run(during(3, "restart_driver", "arm", lasting_s=0.2))
+    done = run(during(3, FaultKind.RESTART_DRIVER, "arm", lasting_s=0.2))
     manager: ControllerManager = done.plant.control.managers["control"]
     states = {controller.name: controller.state for controller in manager.list_controllers()}
     assert (states["arm_trajectory"], states["gripper_action"]) == ("inactive", "active")
@@ -76,7 +76,7 @@ def test_driver_that_comes_back_has_its_controllers_inactive(run: Rehearse) -> N
 
 
 def test_stop_that_goes_on_cannot_be_acknowledged_and_that_is_bounded(run: Rehearse, cell: MockCell) -> None:
-    done = run(during(3, "emergency_stop", "arm"), steps=RECOVERY)
+    done = run(during(3, FaultKind.EMERGENCY_STOP, "arm"), steps=RECOVERY)
     refused = done.attempt(5)
     assert (refused.outcome, done.result.outcome) == ("emergency_stop", "emergency_stop")
     assert (refused.ended_ns - refused.started_ns) / 1e9 == cell.contract.kpis.recovery_time_s
@@ -84,7 +84,7 @@ def test_stop_that_goes_on_cannot_be_acknowledged_and_that_is_bounded(run: Rehea
 
 
 def test_wrong_payload_stops_the_arm_again_after_every_acknowledgment(run: Rehearse) -> None:
-    done = run(during(3, "wrong_payload", "arm"), steps=(*RECOVERY, ACKNOWLEDGE, HOME))
+    done = run(during(3, FaultKind.WRONG_PAYLOAD, "arm"), steps=(*RECOVERY, ACKNOWLEDGE, HOME))
     assert [record.outcome for record in done.result.attempts if record.step.startswith("move")] == [
         "succeeded",
         "protective_stop",
@@ -95,14 +95,14 @@ def test_wrong_payload_stops_the_arm_again_after_every_acknowledgment(run: Rehea
 
 def test_payload_is_noticed_by_moving_and_not_before(run: Rehearse) -> None:
     # Home is where the arm stands already: the first step that moves it is the third.
-    failed = run(during(1, "wrong_payload", "arm", when="started", after_s=0.0)).failed
+    failed = run(during(1, FaultKind.WRONG_PAYLOAD, "arm", when="started", after_s=0.0)).failed
     assert failed.step == "move pick"
     assert "DRIVEN" in {point.step.name for point in failed.trace}
 
 
 def test_state_of_a_stopped_arm_stays_visible(run: Rehearse) -> None:
     steps = (HOME, DETECT, PICK, wait(2.0), ACKNOWLEDGE)
-    done = run(during(3, "emergency_stop", "arm", lasting_s=1.0), steps=steps)
+    done = run(during(3, FaultKind.EMERGENCY_STOP, "arm", lasting_s=1.0), steps=steps)
     (history,) = done.plant.control.histories.values()
     during_stop = (history.stamps > done.attempt(4).started_ns) & (history.stamps < done.attempt(4).ended_ns)
     assert during_stop.sum() == 999  # 500 Hz over 2 s, both ends left out
@@ -117,7 +117,8 @@ def test_acknowledgment_without_a_stop_does_nothing(run: Rehearse) -> None:
 def test_other_role_than_the_declared_one_cannot_acknowledge(run: Rehearse) -> None:
     stranger = ACKNOWLEDGE.model_copy(update={"target": "task"})
     done = run(
-        during(3, "protective_stop", "arm", lasting_s=0.1), steps=(HOME, DETECT, PICK, wait(1.0), stranger, HOME)
+        during(3, FaultKind.PROTECTIVE_STOP, "arm", lasting_s=0.1),
+        steps=(HOME, DETECT, PICK, wait(1.0), stranger, HOME),
     )
     assert done.result.outcome == "protective_stop"
     assert done.attempt(5).fault_code == "task may not acknowledge, operator has to"
@@ -126,13 +127,14 @@ def test_other_role_than_the_declared_one_cannot_acknowledge(run: Rehearse) -> N
 
 @pytest.mark.parametrize("second", ["protective_stop", "cut_network"])
 def test_emergency_stop_outranks_every_other(run: Rehearse, second: FaultKind) -> None:
-    failed = run(during(3, second, "gripper"), during(3, "emergency_stop", "arm")).failed
+    failed = run(during(3, second, "gripper"), during(3, FaultKind.EMERGENCY_STOP, "arm")).failed
     assert (failed.outcome, failed.safety_state) == ("emergency_stop", "emergency_stop")
 
 
 def test_recovered_cell_finishes_what_is_asked_anew(run: Rehearse, cell: MockCell) -> None:
     again = (HOME, DETECT, PICK, *cell.entries[0].steps[3:])
     done = run(
-        during(3, "cut_network", "arm", lasting_s=1.0), steps=(HOME, DETECT, PICK, wait(2.0), ACKNOWLEDGE, *again)
+        during(3, FaultKind.CUT_NETWORK, "arm", lasting_s=1.0),
+        steps=(HOME, DETECT, PICK, wait(2.0), ACKNOWLEDGE, *again),
     )
     assert done.result.outcome == "succeeded"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from cellc.vocabulary import FaultKind
 from tests.mock.faults.conftest import DETECT, HOME, PICK, Rehearse, during, wait
 
 
@@ -11,33 +12,33 @@ from tests.mock.faults.conftest import DETECT, HOME, PICK, Rehearse, during, wai
 @pytest.mark.parametrize("clock", ["control_pc", "camera"])
 def test_clock_that_jumps_away_from_the_others_ends_in_stale_state(run: Rehearse, clock: str, jump_s: float) -> None:
     # The camera stamps on its own clock, the task reads ages on that of the host: one of the two has jumped.
-    failed = run(during(3, "jump_clock", clock, jump_s=jump_s)).failed
+    failed = run(during(3, FaultKind.JUMP_CLOCK, clock, jump_s=jump_s)).failed
     assert (failed.step, failed.outcome) == ("move pick", "stale_state")
 
 
 @pytest.mark.parametrize(("jump_s", "age"), [(1.0, "newest observation of object is 1."), (-1.0, "object is -")])
 def test_reason_tells_an_age_beyond_the_bound_or_one_that_is_negative(run: Rehearse, jump_s: float, age: str) -> None:
-    assert age in run(during(3, "jump_clock", "control_pc", jump_s=jump_s)).failed.fault_code
+    assert age in run(during(3, FaultKind.JUMP_CLOCK, "control_pc", jump_s=jump_s)).failed.fault_code
 
 
 def test_jump_within_the_bound_of_an_observation_is_borne(run: Rehearse) -> None:
-    assert run(during(3, "jump_clock", "control_pc", jump_s=0.001)).result.outcome == "succeeded"
+    assert run(during(3, FaultKind.JUMP_CLOCK, "control_pc", jump_s=0.001)).result.outcome == "succeeded"
 
 
 def test_clock_that_jumps_back_again_lets_the_cell_go_on(run: Rehearse) -> None:
-    fault = during(3, "jump_clock", "control_pc", jump_s=1.0, when="started", lasting_s=0.5)
+    fault = during(3, FaultKind.JUMP_CLOCK, "control_pc", jump_s=1.0, when="started", lasting_s=0.5)
     assert run(fault, steps=(HOME, DETECT, wait(2.0), DETECT, PICK)).result.outcome == "succeeded"
 
 
 def test_frame_with_two_authorities_is_not_looked_up(run: Rehearse) -> None:
-    done = run(during(3, "double_frame", "object", when="started", after_s=0.0))
+    done = run(during(3, FaultKind.DOUBLE_FRAME, "object", when="started", after_s=0.0))
     assert done.failed.outcome == "tf_failure"
     assert done.failed.fault_code == "frame object is published by perception and second_authority"
     assert "frame `object` has two authorities: `perception` and `second_authority`" in done.result.findings
 
 
 def test_second_authority_that_comes_up_in_motion_stops_the_arm(run: Rehearse) -> None:
-    failed = run(during(3, "double_frame", "object")).failed
+    failed = run(during(3, FaultKind.DOUBLE_FRAME, "object")).failed
     assert (failed.step, failed.outcome) == ("move pick", "tf_failure")
     assert failed.cancel is not None
 
@@ -45,5 +46,5 @@ def test_second_authority_that_comes_up_in_motion_stops_the_arm(run: Rehearse) -
 def test_link_with_two_authorities_concerns_goals_that_are_looked_up_through_it(run: Rehearse) -> None:
     # The camera hangs on the arm, the fixture does not.
     doubled = "arm_forearm_link"
-    assert run(during(1, "double_frame", doubled, when="started", after_s=0.0)).failed.step == "move pick"
-    assert run(during(4, "double_frame", doubled, when="started", after_s=0.0)).result.outcome == "succeeded"
+    assert run(during(1, FaultKind.DOUBLE_FRAME, doubled, when="started", after_s=0.0)).failed.step == "move pick"
+    assert run(during(4, FaultKind.DOUBLE_FRAME, doubled, when="started", after_s=0.0)).result.outcome == "succeeded"

@@ -2,29 +2,22 @@
 
 from __future__ import annotations
 
-from typing import get_args
-
-from cellc.contract.closed_lists import FaultKind, OutcomeName
 from cellc.mock import MockCell
 from cellc.mock.faults.build import _BUILDERS
 from cellc.mock.faults.possible import possible_faults
-from cellc.mock.task.context import Outcome
 from cellc.rules.evidence.merged_failure_layers import _LAYERS
 from cellc.spec import faults
 from cellc.spec.faults import FAULT_KEYS, FaultFields
+from cellc.vocabulary import AttemptOutcome, FaultKind
 
 
 def test_every_kind_of_fault_has_its_shape_in_the_spec_its_builder_and_its_layer() -> None:
-    kinds = set(get_args(FaultKind))
+    kinds = set(FaultKind)
     shapes = [shape for shape in vars(faults).values() if isinstance(shape, type) and issubclass(shape, FaultFields)]
     own = {next(iter(shape.__annotations__)) for shape in shapes if shape is not FaultFields}
     assert own == kinds
     assert set(_BUILDERS) == kinds
     assert set(_LAYERS) == kinds
-
-
-def test_outcomes_of_the_mock_are_those_of_the_contract() -> None:
-    assert get_args(OutcomeName) == tuple(outcome.value for outcome in Outcome)
 
 
 def test_cell_of_the_chapter_can_meet_every_kind_of_fault(cell: MockCell) -> None:
@@ -35,7 +28,7 @@ def test_every_outcome_that_a_case_names_exists(cell: MockCell) -> None:
     named = {
         outcome for case in possible_faults(cell.contract) for end in case.endings.values() for outcome in end.outcomes
     }
-    assert named <= {outcome.value for outcome in Outcome}
+    assert named <= {outcome.value for outcome in AttemptOutcome}
 
 
 def test_rule_expects_of_a_fault_what_the_mock_makes_of_it(cell: MockCell) -> None:

@@ -14,6 +14,7 @@ from cellc.mock.plant import Plant
 from cellc.mock.stops import Stops
 from cellc.mock.task import context, execute, grip, move
 from cellc.mock.task.context import TaskContext
+from cellc.vocabulary import FaultKind
 from tests.mock.faults.conftest import ACKNOWLEDGE, DETECT, HOME, PICK, Rehearse, during, wait
 
 Remove = Callable[[pytest.MonkeyPatch], None]
@@ -45,42 +46,42 @@ def _look_at_nothing(patch: pytest.MonkeyPatch) -> None:
 
 
 WATCHDOGS: list[tuple[str, FaultEntry, str, Remove]] = [
-    ("stops", during(3, "protective_stop", "arm"), "protective_stop", _method("_check_stops")),
-    ("owner", during(3, "second_commander", "gripper_action"), "wrong_owner", _method("_check_owner")),
-    ("cycles", during(3, "skip_cycles", cycles=5), "missed_cycle", _method("_check_cycles")),
+    ("stops", during(3, FaultKind.PROTECTIVE_STOP, "arm"), "protective_stop", _method("_check_stops")),
+    ("owner", during(3, FaultKind.SECOND_COMMANDER, "gripper_action"), "wrong_owner", _method("_check_owner")),
+    ("cycles", during(3, FaultKind.SKIP_CYCLES, cycles=5), "missed_cycle", _method("_check_cycles")),
     (
         "joint states",
-        during(3, "freeze", "arm"),
+        during(3, FaultKind.FREEZE, "arm"),
         "stale_state",
         _everywhere("joint_state_age_s", lambda _: 1e9, context),
     ),
     (
         "observation",
-        during(3, "freeze", "camera"),
+        during(3, FaultKind.FREEZE, "camera"),
         "stale_state",
         _look_at_nothing,
     ),
     (
         "authorities",
-        during(3, "double_frame", "object", when="started", after_s=0.0),
+        during(3, FaultKind.DOUBLE_FRAME, "object", when="started", after_s=0.0),
         "tf_failure",
         _method("check_authorities"),
     ),
     (
         "response",
-        during(3, "unresponsive", "arm_trajectory", when="started", after_s=0.0),
+        during(3, FaultKind.UNRESPONSIVE, "arm_trajectory", when="started", after_s=0.0),
         "timeout",
         _everywhere("await_response", _unanswered, execute, move),
     ),
     (
         "arrival of the fingers",
-        during(4, "stick", "gripper_robotiq_85_left_knuckle_joint", when="started", after_s=0.0),
+        during(4, FaultKind.STICK, "gripper_robotiq_85_left_knuckle_joint", when="started", after_s=0.0),
         "tolerance_violation",
         _everywhere("_require_arrival", _nothing, grip),
     ),
     (
         "result of a controller that is gone",
-        during(4, "switch", "gripper_action", after_s=0.0),
+        during(4, FaultKind.SWITCH, "gripper_action", after_s=0.0),
         "wrong_owner",
         _everywhere("RESULT_GRACE_NS", 10**15, execute),
     ),
@@ -106,13 +107,13 @@ def test_run_fails_without_its_watchdog(
 
 def test_goal_of_a_paused_robot_is_bounded_by_the_action_alone(run: Rehearse, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(move, "action_timeout_s", lambda _: 1e6)
-    done = run(during(3, "scale_speed", "arm", factor=0.0), timeout_s=60.0)
+    done = run(during(3, FaultKind.SCALE_SPEED, "arm", factor=0.0), timeout_s=60.0)
     assert done.failed.fault_code == "the rehearsal's own timeout passed"
 
 
 def test_stop_without_a_latch_is_over_without_an_acknowledgment(run: Rehearse, monkeypatch: pytest.MonkeyPatch) -> None:
     steps = (HOME, DETECT, PICK, wait(2.0), ACKNOWLEDGE)
-    entry = during(3, "protective_stop", "arm", lasting_s=1.0)
+    entry = during(3, FaultKind.PROTECTIVE_STOP, "arm", lasting_s=1.0)
     assert run(entry, steps=steps).attempt(4).safety_state == "protective_stop"
 
     def release(stops: Stops, component: str) -> None:
@@ -144,5 +145,5 @@ def test_goal_that_is_sent_again_after_the_reconnect_would_be_seen(
 
     monkeypatch.setattr(execute, "_send", remember)
     monkeypatch.setattr(RestartDriver, "end", replay)
-    done = run(during(3, "restart_driver", "arm", lasting_s=1.0), steps=steps)
+    done = run(during(3, FaultKind.RESTART_DRIVER, "arm", lasting_s=1.0), steps=steps)
     assert done.travel(done.attempt(4).started_ns, done.attempt(4).ended_ns) > 0.01

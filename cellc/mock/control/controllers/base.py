@@ -13,6 +13,7 @@ from cellc.mock.control.interfaces import InterfaceTable
 from cellc.mock.control.log import Log
 from cellc.mock.control.parameters import ParameterSet, ParameterValue
 from cellc.mock.control.robot_description import RobotDescription
+from cellc.vocabulary import Distro
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +52,7 @@ class Context:
 
     name: str
     parameters: ParameterSet
-    distro: str
+    distro: Distro
     period_ns: int
     update_rate: int
     description: RobotDescription

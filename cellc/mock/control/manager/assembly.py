@@ -20,6 +20,7 @@ from cellc.mock.control.manager.switch_checks import SwitchChecker
 from cellc.mock.control.manager.switching import Switcher
 from cellc.mock.control.parameters import ParameterSet
 from cellc.mock.control.robot_description import RobotDescription, take_description
+from cellc.vocabulary import Behaviour, Distro
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,8 +36,8 @@ class NodeOptions:
     """
 
     namespace: str
-    distro: str
-    behaviours: Mapping[str, str]
+    distro: Distro
+    behaviours: Mapping[str, Behaviour]
     start_ns: int
     declared: Mapping[str, DeclaredInterfaces]
 

@@ -33,6 +33,7 @@ from cellc.mock.control.messages import (
     TrajectoryStateResponse,
 )
 from cellc.mock.control.parameters import ParameterError, ParameterFile, ParameterValue
+from cellc.vocabulary import Behaviour, Distro
 
 
 class ControllerManager:
@@ -57,8 +58,8 @@ class ControllerManager:
         parameters: str,
         *,
         namespace: str = "",
-        distro: str = "kilted",
-        plugin_behaviours: Mapping[str, str] | None = None,
+        distro: Distro = Distro.KILTED,
+        plugin_behaviours: Mapping[str, Behaviour] | None = None,
         start_ns: int = 0,
         declared: Mapping[str, DeclaredInterfaces] | None = None,
     ) -> None:

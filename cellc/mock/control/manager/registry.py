@@ -16,6 +16,7 @@ from cellc.mock.control.manager.settings import NODE_NAME
 from cellc.mock.control.messages import ServiceResponse
 from cellc.mock.control.parameters import Parameter, ParameterError, ParameterFile, ParameterSet
 from cellc.mock.control.robot_description import RobotDescription
+from cellc.vocabulary import Behaviour, Distro
 
 
 class ControllerRegistry:
@@ -35,8 +36,8 @@ class ControllerRegistry:
         self,
         file: ParameterFile,
         namespace: str,
-        distro: str,
-        behaviours: Mapping[str, str],
+        distro: Distro,
+        behaviours: Mapping[str, Behaviour],
         log: Log,
         events: list[ControlEvent],
         declared: Mapping[str, DeclaredInterfaces],

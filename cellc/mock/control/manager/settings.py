@@ -7,6 +7,7 @@ from functools import lru_cache
 
 from cellc.mock.control.errors import ManagerAbortedError
 from cellc.mock.control.parameters import Parameter, ParameterError, ParameterFile, ParameterFileError, ParameterSet
+from cellc.vocabulary import Distro, Feature, features
 
 NODE_NAME = "controller_manager"
 _KEPT = 8
@@ -38,14 +39,13 @@ def read_file(text: str) -> ParameterFile:
         ) from None
 
 
-def read_settings(parameters: ParameterSet, distro: str) -> ManagerSettings:
+def read_settings(parameters: ParameterSet, distro: Distro) -> ManagerSettings:
     """Declare and read the parameters of the manager.
 
     Raises:
         ManagerAbortedError: where its process would end.
     """
-    # Command limits are enforced by default since Kilted (facts/ros2_control.md §3.1).
-    enforced = distro in ("kilted", "lyrical")
+    enforced = Feature.LIMITED_BY_DEFAULT in features(distro)
     initial = "hardware_components_initial_state."
     given = parameters.given("update_rate")
     if isinstance(given, float):
@@ -70,7 +70,7 @@ def read_settings(parameters: ParameterSet, distro: str) -> ManagerSettings:
         raise ManagerAbortedError("cannot store a negative time point in rclcpp::Time")
     return ManagerSettings(
         rate,
-        parameters.flag("enforce_command_limits") and distro != "humble",
+        parameters.flag("enforce_command_limits") and Feature.LIMITED_COMMANDS in features(distro),
         parameters.texts(f"{initial}unconfigured"),
         parameters.texts(f"{initial}inactive"),
     )

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from cellc.mock.control import GripperGoal, Trajectory
 from cellc.mock.evidence.bag.cdr import CdrWriter, MessageRows
 from cellc.transforms import Pose
+from cellc.vocabulary import Distro, Feature, features
 
 JOINT_STATE = "sensor_msgs/msg/JointState"
 TF_MESSAGE = "tf2_msgs/msg/TFMessage"
@@ -131,17 +132,17 @@ def joint_state_shape(names: Sequence[str]) -> MessageRows:
 
 
 def controller_state_rows(
-    joints: Sequence[str], points: Sequence[Point], scaling: Array, distro: str
+    joints: Sequence[str], points: Sequence[Point], scaling: Array, distro: Distro
 ) -> tuple[MessageRows, list[Array]]:
     """Return the shape of a control_msgs/JointTrajectoryControllerState, and the numbers of its rows.
 
-    Humble repeats reference and feedback as desired and actual; later ones have the speed scaling factor instead.
+    Older distributions repeat reference and feedback as desired and actual; later ones have the speed scaling factor.
 
     Args:
         points: reference, feedback, error and output.
         scaling: speed scaling factor, shape (messages,).
     """
-    has_desired = distro == "humble"
+    has_desired = Feature.SCALED_STATE not in features(distro)
     points = (*points, *points[:2]) if has_desired else tuple(points)
     writer = CdrWriter()
     stamp_at = _empty_header(writer)

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from cellc.mock.control.parameters import Parameter, ParameterSet, ParameterValue
 from cellc.mock.control.parameters.requirements import at_least, longer_than_zero, one_of, subset_of, unique
+from cellc.vocabulary import Distro, Feature, features
 
 _COMMANDS = (
     ("position",),
@@ -44,10 +45,9 @@ def _state_combination(_name: str, value: ParameterValue) -> str:
     return ""
 
 
-def parameters(distro: str, scaled: bool) -> tuple[Parameter, ...]:
+def parameters(distro: Distro, scaled: bool) -> tuple[Parameter, ...]:
     """The parameters that do not depend on joints, in the order in which upstream checks them."""
-    # Humble lets a trajectory end with a velocity by default.
-    nonzero_end = distro == "humble"
+    nonzero_end = Feature.TRAJECTORIES_END_AT_REST not in features(distro)
     declared = (
         Parameter("joints", "string_array", [], (unique, longer_than_zero), True),
         Parameter("command_joints", "string_array", [], (unique,), True),
@@ -100,7 +100,7 @@ def joint_parameters(joints: Sequence[str]) -> tuple[Parameter, ...]:
     return tuple(found)
 
 
-def declare(parameter_set: ParameterSet, distro: str, scaled: bool) -> None:
+def declare(parameter_set: ParameterSet, distro: Distro, scaled: bool) -> None:
     """Declare all parameters. Raises ParameterError."""
     parameter_set.declare(parameters(distro, scaled))
     parameter_set.declare(joint_parameters(parameter_set.texts("joints")))

@@ -11,6 +11,7 @@ from cellc.mock.control.controllers.joint_trajectory.tolerances import Tolerance
 from cellc.mock.control.controllers.monitor import GoalMonitor
 from cellc.mock.control.events import ControlEvent, GoalStatus, TrajectoryEnded, TrajectoryFeedback
 from cellc.mock.control.messages import TrajectoryGoal
+from cellc.vocabulary import Feature, features
 
 
 class GoalBook:
@@ -45,8 +46,8 @@ class GoalBook:
     def accept(self, goal_id: int, goal: TrajectoryGoal, now_ns: int, listened: bool) -> None:
         """Make a goal the running one; a goal that runs is aborted at once."""
         if self._active is not None:
-            humble = self._context.distro == "humble"
-            verb = "cancelled due to" if humble else "preempted by"
+            known = features(self._context.distro)
+            verb = "preempted by" if Feature.PREEMPTED_GOALS in known else "cancelled due to"
             preempted = self._active
             self._active = None
             text = f"Current goal {verb} new incoming action."

@@ -1,0 +1,169 @@
+"""The closed lists of words that catalogue, contract, compiler and mock share, each declared here and nowhere else.
+
+Members are strings with the text that stands in YAML, JSON and messages. What differs between distributions is a
+feature in one table: code asks `Feature.X in features(distro)` and compares with no distribution's name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from enum import Enum
+
+
+class Term(str, Enum):
+    """A word of a closed list; it prints as the text that it stands for."""
+
+    __str__ = str.__str__
+
+
+class Distro(Term):
+    """A ROS 2 distribution, in the order of release."""
+
+    HUMBLE = "humble"
+    JAZZY = "jazzy"
+    KILTED = "kilted"
+    LYRICAL = "lyrical"
+
+
+class Feature(Enum):
+    """What some distributions have and others have not."""
+
+    STATIC_PEERS = "discovery is set by ROS_AUTOMATIC_DISCOVERY_RANGE and ROS_STATIC_PEERS"
+    FAST_DDS_3 = "Fast DDS 3, whose profiles have a namespace of their own"
+    TYPE_DESCRIPTION = "every node serves get_type_description"
+    LOGGER_SERVICES = "controllers serve get_logger_levels and set_logger_levels"
+    CLEANUP_CONTROLLER = "the controller manager serves cleanup_controller"
+    HARDWARE_NODES = "every hardware component has a node"
+    DESCRIPTION_TOPIC = "the controller manager takes the robot description from a topic, not from a parameter"
+    LIMITED_COMMANDS = "the controller manager can enforce the joint limits of the description"
+    LIMITED_BY_DEFAULT = "it does so unless it is told otherwise"
+    PREEMPTED_GOALS = "a trajectory controller calls a replaced goal preempted, not cancelled"
+    TRAJECTORIES_END_AT_REST = "a trajectory must end with zero velocity unless the controller is told otherwise"
+    SCALED_STATE = "JointTrajectoryControllerState has the speed scaling factor in place of desired and actual"
+    PLUGIN_LISTS = "MoveIt takes planning plugins and their adapters as lists"
+    RECORD_TOPICS_OPTION = "`ros2 bag record` takes the topics after --topics"
+
+
+_SINCE: Mapping[Feature, Distro] = {
+    Feature.STATIC_PEERS: Distro.JAZZY,
+    Feature.FAST_DDS_3: Distro.KILTED,
+    Feature.TYPE_DESCRIPTION: Distro.JAZZY,
+    Feature.LOGGER_SERVICES: Distro.JAZZY,
+    Feature.CLEANUP_CONTROLLER: Distro.JAZZY,
+    Feature.HARDWARE_NODES: Distro.JAZZY,
+    Feature.DESCRIPTION_TOPIC: Distro.JAZZY,
+    Feature.LIMITED_COMMANDS: Distro.JAZZY,
+    Feature.LIMITED_BY_DEFAULT: Distro.KILTED,
+    Feature.PREEMPTED_GOALS: Distro.JAZZY,
+    Feature.TRAJECTORIES_END_AT_REST: Distro.JAZZY,
+    Feature.SCALED_STATE: Distro.JAZZY,
+    Feature.PLUGIN_LISTS: Distro.JAZZY,
+    Feature.RECORD_TOPICS_OPTION: Distro.JAZZY,
+}
+"""The first distribution with each feature; all later ones have it too."""
+
+_ORDER = tuple(Distro)
+_FEATURES: Mapping[Distro, frozenset[Feature]] = {
+    distro: frozenset(one for one, first in _SINCE.items() if _ORDER.index(first) <= _ORDER.index(distro))
+    for distro in Distro
+}
+
+
+def features(distro: Distro) -> frozenset[Feature]:
+    """Return what a distribution has."""
+    return _FEATURES[distro]
+
+
+class Behaviour(Term):
+    """What a controller does: the kinds of the catalogue, and the variants that one plugin or one device has."""
+
+    JOINT_TRAJECTORY = "joint_trajectory"
+    SCALED_JOINT_TRAJECTORY = "scaled_joint_trajectory"
+    PARALLEL_GRIPPER = "parallel_gripper"
+    POSITION_GRIPPER = "position_gripper"
+    EFFORT_GRIPPER = "effort_gripper"
+    FORWARD_COMMAND = "forward_command"
+    MULTI_INTERFACE_FORWARD_COMMAND = "multi_interface_forward_command"
+    FORWARD_POSITION = "forward_position"
+    FORWARD_VELOCITY = "forward_velocity"
+    FORWARD_EFFORT = "forward_effort"
+    GPIO_COMMAND = "gpio_command"
+    PID = "pid"
+    JOINT_STATE_BROADCASTER = "joint_state_broadcaster"
+    FORCE_TORQUE_SENSOR_BROADCASTER = "force_torque_sensor_broadcaster"
+    PASSIVE_BROADCASTER = "passive_broadcaster"
+    BROADCASTER = "broadcaster"
+    SERVICE = "service"
+
+
+TRAJECTORIES = frozenset({Behaviour.JOINT_TRAJECTORY, Behaviour.SCALED_JOINT_TRAJECTORY})
+"""They take FollowJointTrajectory goals."""
+
+PASSIVE = frozenset({Behaviour.BROADCASTER, Behaviour.SERVICE})
+"""They command no joint: such a kind of a device publishes what the hardware reports, or answers services."""
+
+
+class AttemptOutcome(Term):
+    """How an attempt ends; each failure is told apart from every other."""
+
+    SUCCEEDED = "succeeded"
+    CANCELLED = "cancelled"
+    STALE_STATE = "stale_state"
+    TF_FAILURE = "tf_failure"
+    PLANNING_FAILURE = "planning_failure"
+    GOAL_REJECTION = "goal_rejection"
+    TOLERANCE_VIOLATION = "tolerance_violation"
+    MISSED_CYCLE = "missed_cycle"
+    PROTECTIVE_STOP = "protective_stop"
+    EMERGENCY_STOP = "emergency_stop"
+    HARDWARE_FAULT = "hardware_fault"
+    WRONG_OWNER = "wrong_owner"
+    TIMEOUT = "timeout"
+
+
+class FaultKind(Term):
+    """What can be made to fail in a rehearsal."""
+
+    FREEZE = "freeze"
+    DELAY = "delay"
+    DROP_FRAME = "drop_frame"
+    DOUBLE_FRAME = "double_frame"
+    JUMP_CLOCK = "jump_clock"
+    MISMATCH_QOS = "mismatch_qos"
+    UNRESPONSIVE = "unresponsive"
+    UNREACHABLE = "unreachable"
+    REJECT = "reject"
+    CANCEL = "cancel"
+    SECOND_COMMANDER = "second_commander"
+    SWITCH = "switch"
+    STICK = "stick"
+    SLOW = "slow"
+    DISPLACE = "displace"
+    SCALE_SPEED = "scale_speed"
+    SKIP_CYCLES = "skip_cycles"
+    WRONG_PAYLOAD = "wrong_payload"
+    PROTECTIVE_STOP = "protective_stop"
+    EMERGENCY_STOP = "emergency_stop"
+    RESTART_DRIVER = "restart_driver"
+    CUT_NETWORK = "cut_network"
+
+
+class GateCode(Term):
+    """A gate of bring-up: G from the powered-off manifest to motion, L from the cable to the command path."""
+
+    G0 = "G0"
+    G1 = "G1"
+    G2 = "G2"
+    G3 = "G3"
+    G4 = "G4"
+    G5 = "G5"
+    G6 = "G6"
+    G7 = "G7"
+    L1 = "L1"
+    L2 = "L2"
+    L3 = "L3"
+    L4 = "L4"
+    L5 = "L5"
+    L6 = "L6"
+    S2 = "S2"
+    """The checklist of every interface: a late sample, a missing responder, a cancelled goal."""
