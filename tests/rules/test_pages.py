@@ -12,6 +12,8 @@ from cellc.rules.run import ALL_RULES
 from tests.rules.examples import Example, diagnose_example, examples, marks, matches, places
 
 RULES = [pytest.param(rule, id=rule.code) for rule in ALL_RULES]
+_PUBLIC = re.compile(r"https://\S+ \((?:[^()]*\d[^()]*|Jazzy)\)(?:: .+)?")
+_OWN = re.compile(r"docs/principles\.md#([\w-]+)")
 FOLDER = Path(__file__).resolve().parents[2] / "cellc" / "rules"
 
 
@@ -48,9 +50,23 @@ def test_page_has_title_reason_examples_fix_and_source(rule: Rule) -> None:
     assert not rule.title.endswith(".")
     shape = (
         r".+\.\n\n(?s:.+)\n\nExample that is reported:\n\n```(yaml|xml)\n(?s:.+?)```"
-        r"\n\nExample that is accepted:\n\n```\1\n(?s:.+?)```\n\nFix: (?s:.+?)\n\nSource: (?s:.+?)\n"
+        r"\n\nExample that is accepted:\n\n```\1\n(?s:.+?)```\n\nFix: (?s:.+?)\n\nSource:(?s:.+?)\n"
     )
     assert re.fullmatch(shape, rule.page)
+
+
+@pytest.mark.parametrize("rule", RULES)
+def test_source_is_a_public_page_with_version_or_date_or_a_section_of_the_principles(rule: Rule) -> None:
+    text = rule.page.partition("\nSource:")[2]
+    sources = [" ".join(source.split()) for source in re.split(r"^- ", text, flags=re.MULTILINE)]
+    for source in filter(None, sources):
+        assert _PUBLIC.fullmatch(source) or _OWN.fullmatch(source), source
+
+
+def test_every_section_of_the_principles_is_the_source_of_a_rule() -> None:
+    text = (FOLDER.parents[1] / "docs" / "principles.md").read_text(encoding="utf-8")
+    sections = {title.lower().replace(" ", "-") for title in re.findall(r"^## ([\w -]+)$", text, re.MULTILINE)}
+    assert sections == {section for rule in ALL_RULES for section in _OWN.findall(rule.page)}
 
 
 @pytest.mark.parametrize("rule", RULES)

@@ -19,8 +19,11 @@ nodes:
 
 Fix: take it out, change it, and give the node the name of a file or of an environment variable that holds the new one.
 
-Source: chapter 4, section 6: parameter files separate secrets and environment-specific values; RFC 3986, section 3.2.1:
-a password in the user information of an address is deprecated.
+Source:
+
+- docs/principles.md#secrets
+- https://www.rfc-editor.org/rfc/rfc3986#section-3.2.1
+  (2005-01): a password in the user information of an address is deprecated
 """
 
 from __future__ import annotations

@@ -30,7 +30,7 @@ bringup:
 
 Fix: name a driven joint as `device/joint`.
 
-Source: chapter 4, section 11, gate G6.
+Source: docs/principles.md#the-first-motion
 """
 
 from __future__ import annotations

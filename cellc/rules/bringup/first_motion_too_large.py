@@ -30,7 +30,7 @@ bringup:
 
 Fix: stay below 15 deg (or 50 mm) and 15 deg/s (or 50 mm/s).
 
-Source: chapter 4, section 11, gate G6: reduced speed and range; 250 mm/s of reduced mode at 1 m reach is 14 deg/s.
+Source: docs/principles.md#the-first-motion
 """
 
 from __future__ import annotations

@@ -19,7 +19,7 @@ bringup:
 
 Fix: write `bringup.first_motion` with joint, direction, delta, velocity, timeout and stop reasons.
 
-Source: chapter 4, section 11: state the joint, sign, maximum delta, speed, timeout, and stop reason aloud.
+Source: docs/principles.md#the-first-motion
 """
 
 from __future__ import annotations

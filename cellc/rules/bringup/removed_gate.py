@@ -17,7 +17,7 @@ bringup: {gates: [L1, L2, L3, L4, L5, L6, G0, G1, G2, G3, G4, G5, G6, G7]}
 
 Fix: write `gates: standard`, or all of them in order with your own between.
 
-Source: chapter 4, sections 5 and 11: gates L1 to L6 and G0 to G7.
+Source: docs/principles.md#promotion-gates
 """
 
 from __future__ import annotations

@@ -19,7 +19,7 @@ nodes:
 
 Fix: remove `respawn`, and let an operator start it again.
 
-Source: chapter 4, section 6: automatic process restart deserves caution.
+Source: docs/principles.md#restarts-and-reconnects
 """
 
 from __future__ import annotations

@@ -18,7 +18,7 @@ nodes:
 
 Fix: give the node the name of a file or of an environment variable that holds it.
 
-Source: chapter 4, section 6: parameter files separate secrets and environment-specific values.
+Source: docs/principles.md#secrets
 """
 
 from __future__ import annotations

@@ -30,7 +30,7 @@ interfaces:
 
 Fix: turn one of the calls into a topic, or let a third node ask both.
 
-Source: chapter 4, section 6: each component must prove required state, interfaces, and transforms.
+Source: docs/principles.md#start-up
 """
 
 from __future__ import annotations

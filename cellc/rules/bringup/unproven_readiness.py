@@ -19,8 +19,7 @@ nodes:
 
 Fix: make it a managed node, or declare the interface or frame by which it can be seen.
 
-Source: chapter 4, section 6: ordered spawning is not readiness; each component must prove required state, interfaces,
-and transforms.
+Source: docs/principles.md#start-up
 """
 
 from __future__ import annotations

@@ -19,7 +19,7 @@ interfaces:
 
 Fix: raise the limit above the sum of the shares, or raise a rate of the chain.
 
-Source: chapter 4, section 3: exposure delay, buffering and transport latency; measure both offset and observation age.
+Source: docs/principles.md#clocks-and-age
 """
 
 from __future__ import annotations

@@ -19,7 +19,7 @@ devices:
 
 Fix: tighten the synchronisation; the offset should be a small part of the age.
 
-Source: chapter 4, section 3: measure both offset and observation age.
+Source: docs/principles.md#clocks-and-age
 """
 
 from __future__ import annotations

@@ -21,7 +21,7 @@ interfaces:
 
 Fix: reject the goal, hold, or ignore the sample.
 
-Source: chapter 4, section 3, acceptance gate 5: controller timeouts must fail closed.
+Source: docs/principles.md#failing-closed
 """
 
 from __future__ import annotations

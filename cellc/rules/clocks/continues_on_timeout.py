@@ -22,7 +22,7 @@ interfaces:
 
 Fix: write `cancel_and_hold` or `error`.
 
-Source: chapter 4, section 2: rather than an indefinitely blocked caller; section 3, acceptance gate 5.
+Source: docs/principles.md#failing-closed
 """
 
 from __future__ import annotations

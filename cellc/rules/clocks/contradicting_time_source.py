@@ -22,7 +22,7 @@ interfaces:
 
 Fix: write the clock that the publisher really stamps with.
 
-Source: chapter 4, section 3: ROS time can mix wall, steady and simulation clocks; document each clock domain.
+Source: docs/principles.md#clocks-and-age
 """
 
 from __future__ import annotations

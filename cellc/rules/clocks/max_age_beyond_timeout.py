@@ -21,7 +21,7 @@ interfaces:
 
 Fix: lower `max_age` below the timeout of the action that rests on it.
 
-Source: chapter 4, section 3: timeouts; list of checks, family TIM.
+Source: docs/principles.md#clocks-and-age
 """
 
 from __future__ import annotations

@@ -22,7 +22,7 @@ interfaces:
 
 Fix: raise `max_age` above period + transport + exposure, or the rate.
 
-Source: chapter 4, section 3: clock agreement still leaves exposure delay, buffering and transport latency.
+Source: docs/principles.md#clocks-and-age
 """
 
 from __future__ import annotations

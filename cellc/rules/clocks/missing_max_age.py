@@ -22,7 +22,7 @@ interfaces:
 
 Fix: state `max_age` and `on_stale`.
 
-Source: chapter 4, sections 2 and 5: acceptable sample age; stale state presented as fresh is a stop condition.
+Source: docs/principles.md#failing-closed
 """
 
 from __future__ import annotations

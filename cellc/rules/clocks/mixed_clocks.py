@@ -19,7 +19,7 @@ nodes:
 
 Fix: remove `clock:` from the node, so that it follows its target, or set the clock of the target.
 
-Source: chapter 4, section 3: simulation nodes that consume /clock while another uses wall time.
+Source: docs/principles.md#clocks-and-age
 """
 
 from __future__ import annotations

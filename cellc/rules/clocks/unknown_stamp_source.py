@@ -19,7 +19,7 @@ devices:
 
 Fix: read the driver's documentation, or measure with a moving target, and write `hardware`, `driver` or `arrival`.
 
-Source: chapter 4, section 3: in a real cell, document each camera's hardware-clock domain.
+Source: docs/principles.md#clocks-and-age
 """
 
 from __future__ import annotations

@@ -21,7 +21,7 @@ interfaces:
 
 Fix: write `on_stale: reject_goal`, `stop_and_hold` or `ignore_sample`.
 
-Source: chapter 4, section 2: each case produces a visible, bounded state.
+Source: docs/principles.md#failing-closed
 """
 
 from __future__ import annotations

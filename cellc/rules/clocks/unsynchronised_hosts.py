@@ -22,7 +22,7 @@ safety: {stop: {independent_of: [control_pc, vision_pc]}}
 
 Fix: synchronise the hosts, by PTP or chrony, and write the bound that is monitored.
 
-Source: chapter 4, sections 3 and 5: synchronize hosts; record the offset.
+Source: docs/principles.md#clocks-and-age
 """
 
 from __future__ import annotations

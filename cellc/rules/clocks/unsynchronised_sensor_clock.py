@@ -19,7 +19,7 @@ devices:
 
 Fix: say what ties the clock to the host's and how far they may be apart.
 
-Source: chapter 4, section 3: document each camera's hardware-clock domain and synchronize hosts.
+Source: docs/principles.md#clocks-and-age
 """
 
 from __future__ import annotations

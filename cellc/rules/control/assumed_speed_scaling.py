@@ -27,7 +27,7 @@ control:
 
 Fix: use the plain trajectory controller.
 
-Source: chapter 4, section 7: such scaling semantics cannot be assumed on another arm.
+Source: docs/principles.md#speed-scaling
 """
 
 from __future__ import annotations

@@ -20,7 +20,8 @@ control:
 
 Fix: lower the rate of the controller, or raise that of the manager.
 
-Source: controller_manager, parameter update_rate of a controller.
+Source: https://control.ros.org/jazzy/doc/ros2_control/controller_manager/doc/userdoc.html
+(Jazzy): update_rate of a controller
 """
 
 from __future__ import annotations

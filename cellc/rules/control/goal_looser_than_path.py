@@ -21,7 +21,8 @@ control:
 
 Fix: swap the two, or tighten the goal tolerance.
 
-Source: joint_trajectory_controller, constraints.
+Source: https://control.ros.org/jazzy/doc/ros2_controllers/joint_trajectory_controller/doc/parameters.html
+(Jazzy): constraints.<joint>.goal and constraints.<joint>.trajectory
 """
 
 from __future__ import annotations

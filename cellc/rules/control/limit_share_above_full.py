@@ -17,7 +17,7 @@ devices: {arm: {limits: {velocity: 50 %}}}
 
 Fix: write 100 % or less.
 
-Source: chapter 4, section 7: a plugin with wrong limits remains wrong.
+Source: docs/principles.md#claims-and-switches
 """
 
 from __future__ import annotations

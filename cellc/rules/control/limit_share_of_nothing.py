@@ -16,7 +16,7 @@ devices: {arm: {limits: {velocity: 10 %}}}
 
 Fix: write a share above zero.
 
-Source: time parameterisation divides by the limit.
+Source: docs/principles.md#command-contracts
 """
 
 from __future__ import annotations

@@ -21,7 +21,8 @@ control:
 
 Fix: state `goal_time:`.
 
-Source: joint_trajectory_controller, parameter constraints.goal_time: 0 means no limit.
+Source: https://control.ros.org/jazzy/doc/ros2_controllers/joint_trajectory_controller/doc/parameters.html
+(Jazzy): constraints.goal_time, where 0 means no limit
 """
 
 from __future__ import annotations

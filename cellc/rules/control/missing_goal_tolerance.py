@@ -20,7 +20,8 @@ control:
 
 Fix: state `goal_tolerance:`.
 
-Source: joint_trajectory_controller, parameter constraints.<joint>.goal: 0 means not checked.
+Source: https://control.ros.org/jazzy/doc/ros2_controllers/joint_trajectory_controller/doc/parameters.html
+(Jazzy): constraints.<joint>.goal, where 0 means not checked
 """
 
 from __future__ import annotations

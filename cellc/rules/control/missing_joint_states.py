@@ -20,7 +20,7 @@ control:
 
 Fix: add a joint state broadcaster.
 
-Source: chapter 4, section 10: move_group consumes joint states and TF.
+Source: docs/principles.md#planning-and-execution
 """
 
 from __future__ import annotations

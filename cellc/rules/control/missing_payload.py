@@ -17,7 +17,7 @@ devices: {arm: {payload: {mass: 1.0 kg, center_of_mass: 0 0 58 mm}}}
 
 Fix: weigh the tool, and write `payload:` with its mass and centre of mass.
 
-Source: chapter 4, section 11: repeated protective stop, wrong load; gate G5: tool load.
+Source: docs/principles.md#payload
 """
 
 from __future__ import annotations

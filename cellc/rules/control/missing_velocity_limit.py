@@ -19,7 +19,7 @@ devices:
 
 Fix: write `velocity` in the `<limit>` of the joint.
 
-Source: URDF specification, element limit: velocity is required.
+Source: https://wiki.ros.org/urdf/XML/joint (as of 2026-11-22): velocity is a required attribute of limit
 """
 
 from __future__ import annotations

@@ -20,7 +20,7 @@ control:
 
 Fix: use a value inside the range.
 
-Source: parameter declarations of the controller, in the catalogue with their source.
+Source: docs/principles.md#facts-of-the-catalog
 """
 
 from __future__ import annotations

@@ -16,7 +16,7 @@ devices: {arm: {payload: {mass: 1.0 kg, center_of_mass: 0 0 58 mm}}}
 
 Fix: choose a lighter tool or another arm.
 
-Source: payload of the device in the catalogue, with its source.
+Source: docs/principles.md#facts-of-the-catalog
 """
 
 from __future__ import annotations

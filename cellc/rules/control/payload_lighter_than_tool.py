@@ -16,7 +16,7 @@ devices: {arm: {payload: {mass: 1.0 kg, center_of_mass: 0 0 58 mm}}}
 
 Fix: weigh the tool with everything that is screwed to it, cables included.
 
-Source: chapter 4, section 11: repeated protective stop, wrong load.
+Source: docs/principles.md#payload
 """
 
 from __future__ import annotations

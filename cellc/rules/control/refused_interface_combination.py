@@ -20,7 +20,7 @@ control:
 
 Fix: use a combination of the controller, in its order.
 
-Source: kind of controller in the catalogue, with its source.
+Source: docs/principles.md#facts-of-the-catalog
 """
 
 from __future__ import annotations

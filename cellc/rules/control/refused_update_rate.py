@@ -17,7 +17,7 @@ control: {update_rate: 500 Hz}
 
 Fix: use a rate of the device.
 
-Source: control facts of the device in the catalogue, with their source.
+Source: docs/principles.md#facts-of-the-catalog
 """
 
 from __future__ import annotations

@@ -23,7 +23,8 @@ managers:
 
 Fix: give each manager a namespace of its own.
 
-Source: controller_manager: the node is named controller_manager in its namespace.
+Source: https://control.ros.org/jazzy/doc/ros2_control/controller_manager/doc/userdoc.html
+(Jazzy): the node is named controller_manager in its namespace
 """
 
 from __future__ import annotations

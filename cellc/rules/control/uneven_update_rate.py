@@ -21,7 +21,8 @@ control:
 
 Fix: use the rate of the manager divided by a whole number.
 
-Source: controller_manager, parameter update_rate of a controller.
+Source: https://control.ros.org/jazzy/doc/ros2_control/controller_manager/doc/userdoc.html
+(Jazzy): update_rate of a controller
 """
 
 from __future__ import annotations

@@ -20,7 +20,7 @@ control:
 
 Fix: use a parameter that the controller declares in this distribution.
 
-Source: parameter declarations of the controller, in the catalogue with their source.
+Source: docs/principles.md#facts-of-the-catalog
 """
 
 from __future__ import annotations

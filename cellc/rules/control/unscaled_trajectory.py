@@ -21,7 +21,7 @@ control:
 
 Fix: use the scaled trajectory controller of the device.
 
-Source: chapter 4, section 7: platform speed scaling can alter execution progress.
+Source: docs/principles.md#speed-scaling
 """
 
 from __future__ import annotations

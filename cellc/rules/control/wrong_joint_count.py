@@ -21,8 +21,11 @@ control:
 
 Fix: name the device whose joints it drives, or the joints themselves.
 
-Source: parameter declarations of the controllers, in the catalogue with their source: `joints` may not be empty, and
-`joint` of a gripper controller is one name.
+Source:
+
+- https://control.ros.org/jazzy/doc/ros2_controllers/joint_trajectory_controller/doc/parameters.html
+  (Jazzy): joints must not be empty
+- docs/principles.md#facts-of-the-catalog
 """
 
 from __future__ import annotations

@@ -20,7 +20,7 @@ control:
 
 Fix: write a decimal point for a double, and none for an integer.
 
-Source: parameter declarations of the controller, in the catalogue with their source.
+Source: docs/principles.md#facts-of-the-catalog
 """
 
 from __future__ import annotations

@@ -18,7 +18,7 @@ interfaces:
 
 Fix: tighten the contract, or loosen the target.
 
-Source: chapter 4, manufacturing cell checkpoint: cancel latency.
+Source: docs/principles.md#key-figures
 """
 
 from __future__ import annotations

@@ -16,7 +16,7 @@ kpis: {recovery_time: 120 s}
 
 Fix: write the target.
 
-Source: chapter 4, manufacturing cell checkpoint: KPIs.
+Source: docs/principles.md#key-figures
 """
 
 from __future__ import annotations

@@ -19,8 +19,7 @@ rehearsals:
 
 Fix: expect the outcome of the layer that the injected fault hits, or `succeeded` where the cell should bear it.
 
-Source: chapter 4, section 10: TF failure, stale state, planning failure, goal rejection, tolerance violation, missed
-cycle and protective stop are different failures.
+Source: docs/principles.md#layers-of-failure
 """
 
 from __future__ import annotations

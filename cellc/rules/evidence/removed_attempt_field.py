@@ -17,7 +17,7 @@ recording: {attempt_fields: standard}
 
 Fix: write `attempt_fields: standard`, or list all of them with your own.
 
-Source: chapter 4, manufacturing cell checkpoint, list of what to log.
+Source: docs/principles.md#records-of-attempts
 """
 
 from __future__ import annotations

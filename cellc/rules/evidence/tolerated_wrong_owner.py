@@ -16,7 +16,7 @@ kpis: {wrong_owner_events: 0}
 
 Fix: write 0 for wrong owners, and 100 % for the rejection of stale state.
 
-Source: chapter 4, manufacturing cell checkpoint: wrong-owner events, stale-state rejection.
+Source: docs/principles.md#key-figures
 """
 
 from __future__ import annotations

@@ -16,7 +16,7 @@ recording: {topics: [/object_pose]}
 
 Fix: name a topic of the cell.
 
-Source: chapter 4, checkpoint: episode, logs, configuration hash.
+Source: docs/principles.md#records-of-attempts
 """
 
 from __future__ import annotations

@@ -18,7 +18,7 @@ rehearsals:
 
 Fix: add rehearsals that inject the fault and expect its outcome.
 
-Source: chapter 4, section 2: then inject a late sample, a missing responder, and a cancelled goal in simulation.
+Source: docs/principles.md#rehearsals
 """
 
 from __future__ import annotations

@@ -20,7 +20,8 @@ devices:
 
 Fix: give `tool0` the origin of `flange`, turned by rpy 90 0 90 deg; a tool's length belongs into a frame of its own.
 
-Source: draft of REP-199, coordinate frames of serial arms: X+ of flange and Z+ of tool0 point away from the last link.
+Source: https://gavanderhoorn.github.io/rep/rep-0199.html
+(draft of 2019-01-11): X+ of flange and Z+ of tool0 point away from the last link
 """
 
 from __future__ import annotations

@@ -20,8 +20,7 @@ frames:
 
 Fix: keep the frame for longer than the age of the observation and the time to execution together.
 
-Source: chapter 4, section 3: both transforms must be valid for the observation time; checkpoint: plan-to-execute
-latency.
+Source: docs/principles.md#transforms-at-the-time-of-observation
 """
 
 from __future__ import annotations

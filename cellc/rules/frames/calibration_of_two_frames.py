@@ -25,7 +25,7 @@ frames:
 
 Fix: give each measurement its own id, or hang the second frame on the first with a designed transform.
 
-Source: chapter 4, section 3: do not silently overwrite different calibrations under the same authority.
+Source: docs/principles.md#calibration
 """
 
 from __future__ import annotations

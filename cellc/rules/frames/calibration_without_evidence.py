@@ -22,7 +22,7 @@ frames:
 
 Fix: write `samples` and `residual` of the fit.
 
-Source: chapter 4, section 3, acceptance gates 3 and 6.
+Source: docs/principles.md#calibration
 """
 
 from __future__ import annotations

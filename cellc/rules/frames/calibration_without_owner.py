@@ -19,7 +19,7 @@ calibrations:
 
 Fix: name the role or the team that answers for it.
 
-Source: chapter 4, manufacturing cell checkpoint: the perception owner answers which calibration produced the goal.
+Source: docs/principles.md#calibration
 """
 
 from __future__ import annotations

@@ -22,7 +22,10 @@ interfaces:
 
 Fix: name the optical frame of the stream.
 
-Source: REP-103, suffix frames; REP-104: the frame of camera_info is the optical frame.
+Source:
+
+- https://www.ros.org/reps/rep-0103.html (as of 2025-10-24): suffix frames
+- https://www.ros.org/reps/rep-0104.html (as of 2025-10-24): the frame of camera_info is the optical frame
 """
 
 from __future__ import annotations

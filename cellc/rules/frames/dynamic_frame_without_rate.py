@@ -19,7 +19,7 @@ frames:
 
 Fix: write the rate at which it is published.
 
-Source: chapter 4, section 3, acceptance gate 4.
+Source: docs/principles.md#one-authority-for-each-frame
 """
 
 from __future__ import annotations

@@ -20,7 +20,7 @@ frames:
 
 Fix: let one frame of the circle hang on the world or on a link.
 
-Source: REP-105: the frames of a robot form a tree.
+Source: https://www.ros.org/reps/rep-0105.html (as of 2025-10-24): the frames of a robot form a tree
 """
 
 from __future__ import annotations

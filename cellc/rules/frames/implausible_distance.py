@@ -23,8 +23,10 @@ frames:
 
 Fix: write the unit that the drawing uses; most drawings of cells are in mm.
 
-Source: chapter 4, section 3, acceptance gate 3: validate direction and scale; the bound of 20 m is larger than any
-robot cell.
+Source:
+
+- docs/principles.md#direction-and-scale
+- docs/principles.md#how-geometry-is-checked
 """
 
 from __future__ import annotations

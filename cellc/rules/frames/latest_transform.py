@@ -21,7 +21,7 @@ motion:
 
 Fix: look the transform up at the stamp of the observation, which is the default.
 
-Source: chapter 4, section 3: asking for the latest transform may conceal synchronization error.
+Source: docs/principles.md#transforms-at-the-time-of-observation
 """
 
 from __future__ import annotations

@@ -18,7 +18,7 @@ frames:
 
 Fix: remove `xyz` and `rpy`; where the mock should put it stands under `simulated_pose`.
 
-Source: chapter 4, section 3: a frame has one authority.
+Source: docs/principles.md#one-authority-for-each-frame
 """
 
 from __future__ import annotations

@@ -19,7 +19,7 @@ frames:
 
 Fix: write `dynamic: true` if it moves, or remove `published_by` and `rate`.
 
-Source: chapter 4, section 3: one canonical publisher for deployed frames.
+Source: docs/principles.md#one-authority-for-each-frame
 """
 
 from __future__ import annotations

@@ -20,7 +20,11 @@ frames:
 Fix: make the buffer longer than the longest `max_age` of what the publisher of the frame sends, or leave it out for
 10 s.
 
-Source: chapter 4, section 3, acceptance gate 4; tf2 keeps 10 s by default.
+Source:
+
+- docs/principles.md#transforms-at-the-time-of-observation
+- https://github.com/ros2/geometry2/blob/f390ccee31de4cdd9e1f54a160970d9fca813055/tf2/include/tf2/buffer_core.hpp
+  (f390cce): a buffer keeps 10 s by default
 """
 
 from __future__ import annotations

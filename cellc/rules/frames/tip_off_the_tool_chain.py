@@ -21,7 +21,7 @@ motion:
 
 Fix: use the tool frame of the arm or a frame that hangs on it.
 
-Source: draft REP-199: tools mount at tool0, child of flange.
+Source: https://gavanderhoorn.github.io/rep/rep-0199.html (draft of 2019-01-11): tools mount at tool0, child of flange
 """
 
 from __future__ import annotations

@@ -23,7 +23,7 @@ frames:
 
 Fix: mark three points on the fixture, measure them, and write `reference_points: 3`.
 
-Source: chapter 4, section 3, acceptance gate 3: at least three known fixture points.
+Source: docs/principles.md#direction-and-scale
 """
 
 from __future__ import annotations

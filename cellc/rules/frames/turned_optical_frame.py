@@ -35,7 +35,10 @@ calibrations:
 
 Fix: turn the joint of the optical frame by rpy -90 0 -90 deg against the camera's frame.
 
-Source: REP-103, suffix frames: z forward, x right, y down; chapter 4, section 3, acceptance gate 2.
+Source:
+
+- https://www.ros.org/reps/rep-0103.html (as of 2025-10-24): suffix frames have z forward, x right, y down
+- docs/principles.md#direction-and-scale
 """
 
 from __future__ import annotations

@@ -19,7 +19,10 @@ frames:
 
 Fix: rename the frame, or delete the one that repeats what another publishes.
 
-Source: chapter 4, section 3: require one publisher for every dynamic child frame; REP-105: each frame has one parent.
+Source:
+
+- docs/principles.md#one-authority-for-each-frame
+- https://www.ros.org/reps/rep-0105.html (as of 2025-10-24): each frame has one parent
 """
 
 from __future__ import annotations

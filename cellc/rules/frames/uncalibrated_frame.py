@@ -21,7 +21,7 @@ frames:
 
 Fix: name the calibration that measured it, or write `designed: true` where the value comes from a drawing.
 
-Source: chapter 4, section 3: a bumped camera or changed tool requires a new calibration revision.
+Source: docs/principles.md#calibration
 """
 
 from __future__ import annotations

@@ -19,7 +19,10 @@ calibrations:
 
 Fix: write the day of the measurement as YYYY-MM-DD.
 
-Source: chapter 4, section 3: store the calibration with every goal; ISO 8601 for the date.
+Source:
+
+- docs/principles.md#calibration
+- https://www.iso.org/standard/70907.html (ISO 8601-1:2019): dates
 """
 
 from __future__ import annotations

@@ -18,7 +18,7 @@ frames:
 
 Fix: name the one node or device that publishes it.
 
-Source: chapter 4, section 3, acceptance gate 1.
+Source: docs/principles.md#one-authority-for-each-frame
 """
 
 from __future__ import annotations

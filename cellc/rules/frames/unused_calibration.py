@@ -21,7 +21,7 @@ frames:
 
 Fix: name it at the frame or mount that it measured, or delete it.
 
-Source: chapter 4, section 3.
+Source: docs/principles.md#calibration
 """
 
 from __future__ import annotations

@@ -25,7 +25,7 @@ nodes:
 
 Fix: write `cancel_within:` with the bound from cancel to hold.
 
-Source: chapter 4, section 2: verify when cancellation takes effect; section 11, gate G7.
+Source: docs/principles.md#interaction-types
 """
 
 from __future__ import annotations

@@ -21,7 +21,7 @@ interfaces:
 
 Fix: name the client, or delete the interface.
 
-Source: chapter 4, section 7: command ownership.
+Source: docs/principles.md#one-commander
 """
 
 from __future__ import annotations

@@ -20,7 +20,7 @@ interfaces:
 
 Fix: write `on_timeout: cancel_and_hold` for motion and `error` for a query.
 
-Source: chapter 4, section 2: inject a missing responder; each case produces a visible, bounded state.
+Source: docs/principles.md#failing-closed
 """
 
 from __future__ import annotations

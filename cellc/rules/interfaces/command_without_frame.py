@@ -24,7 +24,7 @@ nodes:
 
 Fix: write `frame:` with the frame in which goals are given.
 
-Source: chapter 4, section 12: for every command path state frame, unit, rate, time source.
+Source: docs/principles.md#command-contracts
 """
 
 from __future__ import annotations

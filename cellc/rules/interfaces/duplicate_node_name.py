@@ -20,7 +20,7 @@ nodes:
 
 Fix: rename one of the two, or give it a namespace.
 
-Source: ROS 2 design article on unique node names.
+Source: https://github.com/ros2/design/issues/187 (as of 2026-11-22): features of ROS assume unique node names
 """
 
 from __future__ import annotations

@@ -22,7 +22,7 @@ interfaces:
 
 Fix: declare the action itself, and use it as an action.
 
-Source: ROS 2 design article on actions.
+Source: https://design.ros2.org/articles/actions.html (as of 2026-11-22): topics and services of an action
 """
 
 from __future__ import annotations

@@ -21,7 +21,8 @@ interfaces:
 
 Fix: begin with `/` and use letters, digits and `_` between slashes, no part beginning with a digit.
 
-Source: ROS 2 design article on topic and service names; at most 247 characters with what is added for actions.
+Source: https://design.ros2.org/articles/topic_and_service_names.html
+(as of 2026-11-22): allowed characters and lengths
 """
 
 from __future__ import annotations

@@ -19,7 +19,10 @@ hosts:
 Fix: latency and jitter from 0 s on, loss and reordering from 0 % to 100 %, drift within 10000 ppm either way; a
 watchdog and a stop take longer than 0 s; a joint lags and errs by 0 or more, in the unit in which it moves.
 
-Source: chapter 4, section 3: measure both offset and observation age; section 9: bounded commands and a watchdog.
+Source:
+
+- docs/principles.md#clocks-and-age
+- docs/principles.md#direct-sdk
 """
 
 from __future__ import annotations

@@ -22,7 +22,10 @@ interfaces:
 
 Fix: use `msg` types for topics, `srv` types for services, `action` types for actions.
 
-Source: chapter 4, section 2: topics serve streams, services bounded requests, actions long-running goals.
+Source:
+
+- docs/principles.md#interaction-types
+- https://docs.ros.org/en/jazzy/Concepts/Basic/About-Interfaces.html (Jazzy)
 """
 
 from __future__ import annotations

@@ -21,7 +21,8 @@ interfaces:
 
 Fix: write three parts, such as `sensor_msgs/msg/Image`.
 
-Source: ROS 2 interface naming: package in lower case, `msg`, `srv` or `action`, a name in CamelCase.
+Source: https://docs.ros.org/en/jazzy/Concepts/Basic/About-Interfaces.html
+(Jazzy): names of messages, services and actions
 """
 
 from __future__ import annotations

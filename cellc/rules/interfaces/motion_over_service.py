@@ -22,7 +22,7 @@ interfaces:
 
 Fix: declare it as an action, with feedback, cancel and result; a service that only plans or reads is fine.
 
-Source: chapter 4, section 2: a blocking service for motion leaves timeout and partial execution semantics unclear.
+Source: docs/principles.md#interaction-types
 """
 
 from __future__ import annotations

@@ -23,7 +23,7 @@ interfaces:
 
 Fix: send goals to the action of the controller.
 
-Source: chapter 4, section 2: a topic command lacks action results and is less inspectable for first bring-up.
+Source: docs/principles.md#interaction-types
 """
 
 from __future__ import annotations

@@ -20,7 +20,7 @@ interfaces:
 
 Fix: write `on_error:` with the field of the response that tells it.
 
-Source: chapter 4, section 2, table: a one-shot query has a bounded response and an explicit error.
+Source: docs/principles.md#interaction-types
 """
 
 from __future__ import annotations

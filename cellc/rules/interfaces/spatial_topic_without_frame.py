@@ -21,7 +21,10 @@ interfaces:
 
 Fix: write `frame:`, for camera data the optical frame.
 
-Source: chapter 4, section 12: for every command path state frame, unit, rate, time source; REP-103.
+Source:
+
+- docs/principles.md#command-contracts
+- https://www.ros.org/reps/rep-0103.html (as of 2025-10-24)
 """
 
 from __future__ import annotations

@@ -21,7 +21,7 @@ interfaces:
 
 Fix: write `rate:`.
 
-Source: chapter 4, section 12: for every command path state frame, unit, rate, time source.
+Source: docs/principles.md#command-contracts
 """
 
 from __future__ import annotations

@@ -22,7 +22,7 @@ interfaces:
 
 Fix: use the type that the device or the controller publishes.
 
-Source: chapter 4, section 5, gate L4: type, QoS, age, loss.
+Source: docs/principles.md#network-in-layers
 """
 
 from __future__ import annotations

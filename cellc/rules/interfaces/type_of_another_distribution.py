@@ -28,7 +28,7 @@ nodes: {squeezer: {run: cell_tasks/squeezer, host: control_pc, owner: integratio
 
 Fix: use the type of the distribution that the cell pins.
 
-Source: catalogue of interface types, with its sources and date.
+Source: docs/principles.md#facts-of-the-catalog
 """
 
 from __future__ import annotations

@@ -24,7 +24,7 @@ nodes:
 
 Fix: write `timeout:` with the longest time that a goal may take.
 
-Source: chapter 4, section 2: an unambiguous terminal result.
+Source: docs/principles.md#interaction-types
 """
 
 from __future__ import annotations

@@ -20,7 +20,7 @@ interfaces:
 
 Fix: write `timeout:` with the longest time that an answer may take.
 
-Source: chapter 4, section 2: services serve bounded request-response interactions.
+Source: docs/principles.md#interaction-types
 """
 
 from __future__ import annotations

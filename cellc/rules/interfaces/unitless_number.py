@@ -22,7 +22,10 @@ interfaces:
 
 Fix: write `unit:`, in SI where you can choose, or use a type that fixes it.
 
-Source: REP-103; chapter 4, section 12: for every command path state frame, unit.
+Source:
+
+- https://www.ros.org/reps/rep-0103.html (as of 2025-10-24): units
+- docs/principles.md#command-contracts
 """
 
 from __future__ import annotations

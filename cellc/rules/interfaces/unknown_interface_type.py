@@ -22,7 +22,7 @@ interfaces:
 
 Fix: use the nearest type that exists.
 
-Source: catalogue of interface types, with its sources and date.
+Source: docs/principles.md#facts-of-the-catalog
 """
 
 from __future__ import annotations

@@ -20,7 +20,7 @@ interfaces:
 
 Fix: name the publisher.
 
-Source: chapter 4, section 5: endpoint match.
+Source: docs/principles.md#delivery-contracts
 """
 
 from __future__ import annotations

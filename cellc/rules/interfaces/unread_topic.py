@@ -20,7 +20,7 @@ interfaces:
 
 Fix: name the subscribers, or delete the topic; what is only recorded belongs under `recording.topics`.
 
-Source: chapter 4, section 5: endpoint match.
+Source: docs/principles.md#delivery-contracts
 """
 
 from __future__ import annotations

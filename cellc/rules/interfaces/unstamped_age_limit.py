@@ -21,7 +21,7 @@ interfaces:
 
 Fix: use the stamped variant of the type.
 
-Source: chapter 4, section 3: store the image stamp, robot-state stamp and transform stamp used to form every goal.
+Source: docs/principles.md#transforms-at-the-time-of-observation
 """
 
 from __future__ import annotations

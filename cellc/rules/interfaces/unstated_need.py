@@ -22,7 +22,7 @@ interfaces:
 
 Fix: write `wants: newest` for state and images, `wants: every_sample` for events.
 
-Source: chapter 4, section 2: write whether the consumer needs every sample or only the newest one.
+Source: docs/principles.md#delivery-contracts
 """
 
 from __future__ import annotations

@@ -25,7 +25,10 @@ Example that is accepted:
 
 Fix: let every follower name the one joint that is driven.
 
-Source: URDF specification, element mimic.
+Source:
+
+- https://wiki.ros.org/urdf/XML/joint (as of 2026-11-22): element mimic
+- docs/principles.md#robot-descriptions
 """
 
 from __future__ import annotations

@@ -23,7 +23,10 @@ Example that is accepted:
 
 Fix: convert the limits to radians; a joint without ends is `continuous`.
 
-Source: REP-103: angles in rad; arms of this kind turn at most a few times.
+Source:
+
+- https://www.ros.org/reps/rep-0103.html (as of 2025-10-24): angles are in rad
+- docs/principles.md#robot-descriptions
 """
 
 from __future__ import annotations

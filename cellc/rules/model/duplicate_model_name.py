@@ -20,7 +20,7 @@ Example that is accepted:
 
 Fix: rename one of the two.
 
-Source: URDF specification: names of links and of joints are unique.
+Source: https://wiki.ros.org/urdf/XML/robot (as of 2026-11-22): names of links and of joints are unique
 """
 
 from __future__ import annotations

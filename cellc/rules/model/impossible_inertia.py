@@ -22,8 +22,7 @@ Example that is accepted:
 
 Fix: compute the tensor about the centre of mass from the CAD model, in kg m^2; mm and g are the usual slip.
 
-Source: triangle inequality of principal moments: the tensor of second moments, half the trace times one minus the
-inertia, has no negative eigenvalue.
+Source: docs/principles.md#robot-descriptions
 """
 
 from __future__ import annotations

@@ -16,7 +16,7 @@ Example that is accepted:
 
 Fix: name links of the same description.
 
-Source: URDF specification, element joint.
+Source: https://wiki.ros.org/urdf/XML/joint (as of 2026-11-22): elements parent and child
 """
 
 from __future__ import annotations

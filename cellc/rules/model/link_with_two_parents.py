@@ -18,7 +18,7 @@ Example that is accepted:
 
 Fix: delete one joint; a closed chain is modelled by a mimic joint.
 
-Source: URDF specification: a robot is a tree of links.
+Source: https://wiki.ros.org/urdf/XML/robot (as of 2026-11-22): a robot is a tree of links
 """
 
 from __future__ import annotations

@@ -26,7 +26,10 @@ Example that is accepted:
 
 Fix: name the joint that is driven, or make the follower fixed.
 
-Source: URDF specification, element mimic.
+Source:
+
+- https://wiki.ros.org/urdf/XML/joint (as of 2026-11-22): element mimic
+- docs/principles.md#robot-descriptions
 """
 
 from __future__ import annotations

@@ -25,7 +25,7 @@ Example that is accepted:
 
 Fix: name a joint of the same description.
 
-Source: URDF specification, element mimic.
+Source: https://wiki.ros.org/urdf/XML/joint (as of 2026-11-22): element mimic
 """
 
 from __future__ import annotations

@@ -22,7 +22,7 @@ Example that is accepted:
 
 Fix: write `lower`, `upper`, `velocity` and `effort`, in rad or m, or declare the joint continuous.
 
-Source: URDF specification, element limit: required for revolute and prismatic joints.
+Source: https://wiki.ros.org/urdf/XML/joint (as of 2026-11-22): limit is required for revolute and prismatic joints
 """
 
 from __future__ import annotations

@@ -21,7 +21,10 @@ Example that is accepted:
 
 Fix: write the mass in kg, or leave `<inertial>` out for a bare frame.
 
-Source: URDF specification, element inertial; REP-103 for the unit.
+Source:
+
+- https://wiki.ros.org/urdf/XML/link (as of 2026-11-22): element inertial
+- https://www.ros.org/reps/rep-0103.html (as of 2025-10-24): mass is in kg
 """
 
 from __future__ import annotations

@@ -23,7 +23,7 @@ Example that is accepted:
 
 Fix: divide the vector by its length.
 
-Source: URDF specification, element axis: the vector should be normalised.
+Source: https://wiki.ros.org/urdf/XML/joint (as of 2026-11-22): the vector of an axis is normalized
 """
 
 from __future__ import annotations

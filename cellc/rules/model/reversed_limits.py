@@ -23,7 +23,10 @@ Example that is accepted:
 
 Fix: swap the two values, after checking on the real joint which way is positive.
 
-Source: URDF specification, element limit; the loaders of two public libraries were seen to accept it.
+Source:
+
+- https://wiki.ros.org/urdf/XML/joint (as of 2026-11-22): element limit
+- docs/principles.md#robot-descriptions
 """
 
 from __future__ import annotations

@@ -18,7 +18,7 @@ Example that is accepted:
 
 Fix: connect the link with a joint, or delete it.
 
-Source: URDF specification: a robot is a tree of links with one root.
+Source: https://wiki.ros.org/urdf/XML/robot (as of 2026-11-22): a robot is a tree of links with one root
 """
 
 from __future__ import annotations

@@ -23,7 +23,7 @@ Example that is accepted:
 
 Fix: write the unit vector along which, or about which, the joint moves, in the joint frame.
 
-Source: URDF specification, element axis: the vector should be normalised.
+Source: https://wiki.ros.org/urdf/XML/joint (as of 2026-11-22): the vector of an axis is normalized
 """
 
 from __future__ import annotations

@@ -18,7 +18,7 @@ rehearsals:
 
 Fix: remove the step, or detect the dynamic frame that is meant.
 
-Source: chapter 4, section 3: a static transform does not move during operation.
+Source: docs/principles.md#rehearsals
 """
 
 from __future__ import annotations

@@ -18,7 +18,7 @@ rehearsals:
 
 Fix: write `steps:`, or `use:` those of another rehearsal.
 
-Source: chapter 4, section 11, gate G2.
+Source: docs/principles.md#rehearsals
 """
 
 from __future__ import annotations

@@ -20,8 +20,7 @@ scene:
 
 Fix: correct place and size of the box, or raise the goal above it.
 
-Source: inverse kinematics from 24 configurations, with the gripper where the cell begins; a part in the gripper is
-not counted.
+Source: docs/principles.md#how-geometry-is-checked
 """
 
 from __future__ import annotations

@@ -22,7 +22,7 @@ motion:
 
 Fix: give the goal in a frame that does not hang on the arm.
 
-Source: chapter 4, section 3: parent direction.
+Source: docs/principles.md#direction-and-scale
 """
 
 from __future__ import annotations

@@ -20,8 +20,7 @@ motion:
 
 Fix: begin nearer to the middle of the joint's range, or move the goal.
 
-Source: position limits of the cell, in the configuration nearest to where the cell begins; 2 % of the range are asked
-for.
+Source: docs/principles.md#how-geometry-is-checked
 """
 
 from __future__ import annotations

@@ -23,7 +23,7 @@ motion:
 
 Fix: check parent, sign and unit of the frame.
 
-Source: triangle inequality along the chain; an exact check of reach needs inverse kinematics.
+Source: docs/principles.md#how-geometry-is-checked
 """
 
 from __future__ import annotations

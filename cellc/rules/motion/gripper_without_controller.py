@@ -19,7 +19,7 @@ control:
 
 Fix: add a gripper controller.
 
-Source: chapter 4, section 10: a missing action server prevents execution.
+Source: docs/principles.md#planning-and-execution
 """
 
 from __future__ import annotations

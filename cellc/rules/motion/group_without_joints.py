@@ -18,7 +18,7 @@ motion:
 
 Fix: choose base and tip at the two ends of the joints.
 
-Source: chapter 4, section 10.
+Source: docs/principles.md#planning-and-execution
 """
 
 from __future__ import annotations

@@ -18,7 +18,7 @@ motion:
 
 Fix: check the unit, or leave the approach out.
 
-Source: chapter 4, section 3, acceptance gate 3: validate direction and scale.
+Source: docs/principles.md#how-geometry-is-checked
 """
 
 from __future__ import annotations

@@ -19,8 +19,7 @@ motion:
 
 Fix: shorten or turn the approach; it is given in the tip's own axes.
 
-Source: four configurations before the goal, from each the line in steps of 5 mm with inverse kinematics and collision
-check: what the mock tries.
+Source: docs/principles.md#how-geometry-is-checked
 """
 
 from __future__ import annotations

@@ -23,8 +23,7 @@ motion:
 
 Fix: change the pose, or correct place and size of the box.
 
-Source: shapes of the descriptions and boxes of `scene`, checked with all groups of the pose in place and every other
-joint where the cell begins.
+Source: docs/principles.md#how-geometry-is-checked
 """
 
 from __future__ import annotations

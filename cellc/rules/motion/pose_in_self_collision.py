@@ -19,8 +19,7 @@ motion:
 
 Fix: change the pose until the named links are apart.
 
-Source: shapes of the descriptions, checked with all groups of the pose in place and every other joint where the cell
-begins; pairs that MoveIt does not check are not checked here either.
+Source: docs/principles.md#how-geometry-is-checked
 """
 
 from __future__ import annotations

@@ -19,7 +19,7 @@ motion:
 
 Fix: correct the value, and check its unit.
 
-Source: limits of the description, tightened by the cell.
+Source: docs/principles.md#how-geometry-is-checked
 """
 
 from __future__ import annotations

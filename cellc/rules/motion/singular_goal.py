@@ -23,8 +23,7 @@ motion:
 
 Fix: move the frame or the robot, or turn the goal.
 
-Source: least singular value of the tip's Jacobian, rows in m and rad, below 0.005: the planner of the mock refuses
-the same.
+Source: docs/principles.md#how-geometry-is-checked
 """
 
 from __future__ import annotations

@@ -25,7 +25,7 @@ motion:
 
 Fix: declare a pose `home` of all groups that is free of collision.
 
-Source: where a mock begins: the pose `home`, else the home of the catalogue, else zero.
+Source: docs/principles.md#how-geometry-is-checked
 """
 
 from __future__ import annotations

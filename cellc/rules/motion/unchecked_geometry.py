@@ -22,7 +22,7 @@ Example that is accepted:
 
 Fix: give collision shapes as boxes, cylinders and spheres.
 
-Source: what pinocchio reads of the generated description.
+Source: docs/principles.md#how-geometry-is-checked
 """
 
 from __future__ import annotations

@@ -19,7 +19,10 @@ rehearsals:
 
 Fix: detect the frame before the move.
 
-Source: chapter 4, section 3: store the image stamp used to form every goal.
+Source:
+
+- docs/principles.md#rehearsals
+- docs/principles.md#transforms-at-the-time-of-observation
 """
 
 from __future__ import annotations

@@ -18,7 +18,7 @@ rehearsals:
 
 Fix: inject the fault that leads to the expected outcome.
 
-Source: chapter 4, section 2: then inject a late sample, a missing responder, and a cancelled goal.
+Source: docs/principles.md#rehearsals
 """
 
 from __future__ import annotations

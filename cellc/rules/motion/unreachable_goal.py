@@ -23,8 +23,7 @@ motion:
 
 Fix: move the frame or the robot, or turn the goal: the tip's z points into the part.
 
-Source: inverse kinematics from 24 configurations, the first of which is where the cell begins. A search proves that a
-goal can be reached, and makes it likely that one cannot.
+Source: docs/principles.md#how-geometry-is-checked
 """
 
 from __future__ import annotations

@@ -24,7 +24,7 @@ rehearsals:
 
 Fix: write `simulated_pose:` at the frame.
 
-Source: chapter 4, section 12, prompt B: tests on fake hardware.
+Source: docs/principles.md#mock-and-real
 """
 
 from __future__ import annotations

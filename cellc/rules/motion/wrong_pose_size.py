@@ -19,7 +19,7 @@ motion:
 
 Fix: write one value for each joint of the group, base first.
 
-Source: order of the chain from the group's base to its tip.
+Source: docs/principles.md#planning-and-execution
 """
 
 from __future__ import annotations

@@ -19,7 +19,7 @@ nodes:
 
 Fix: leave the address to `connection:` of the device, which only the real target reads.
 
-Source: chapter 4, section 12, prompt B: never use a real IP or real hardware plugin in a fake bring-up.
+Source: docs/principles.md#mock-and-real
 """
 
 from __future__ import annotations

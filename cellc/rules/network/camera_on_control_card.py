@@ -16,7 +16,7 @@ devices: {camera: {connection: {nic: bulk}}}
 
 Fix: connect it to another card.
 
-Source: chapter 4, section 5: do not mix camera streams onto the robot-control NIC.
+Source: docs/principles.md#the-control-link
 """
 
 from __future__ import annotations

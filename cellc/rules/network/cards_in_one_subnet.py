@@ -18,7 +18,7 @@ hosts:
 
 Fix: give each card a subnet of its own.
 
-Source: chapter 4, section 5: with two NICs, verify routes and source addresses.
+Source: docs/principles.md#network-in-layers
 """
 
 from __future__ import annotations

@@ -16,7 +16,7 @@ devices: {arm: {connection: {address: 192.168.56.101}}}
 
 Fix: use an address of the card's subnet, or name the card that it is plugged into.
 
-Source: chapter 4, section 5, gate L1: expected NIC and subnet.
+Source: docs/principles.md#network-in-layers
 """
 
 from __future__ import annotations

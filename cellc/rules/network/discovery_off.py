@@ -16,7 +16,8 @@ network: {discovery: localhost}
 
 Fix: use `localhost` for a cell on one host.
 
-Source: ROS_AUTOMATIC_DISCOVERY_RANGE, table of reachability: OFF with any peer is never discovered.
+Source: https://docs.ros.org/en/jazzy/Tutorials/Advanced/Improved-Dynamic-Discovery.html
+(Jazzy): OFF is never discovered
 """
 
 from __future__ import annotations

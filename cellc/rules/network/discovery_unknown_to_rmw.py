@@ -18,7 +18,8 @@ network: {discovery: multicast}
 
 Fix: configure the router instead, and leave `discovery` at its default.
 
-Source: rmw_zenoh: ROS_AUTOMATIC_DISCOVERY_RANGE and ROS_STATIC_PEERS are not used.
+Source: https://docs.ros.org/en/jazzy/Tutorials/Advanced/Improved-Dynamic-Discovery.html
+(Jazzy): rmw_zenoh does not support the variables
 """
 
 from __future__ import annotations

@@ -16,7 +16,7 @@ network: {domain_id: 42}
 
 Fix: use 0 to 101.
 
-Source: RTPS port mapping, 7400 + 250 d; ROS_DOMAIN_ID 0 to 232.
+Source: https://docs.ros.org/en/jazzy/Concepts/Intermediate/About-Domain-ID.html (Jazzy)
 """
 
 from __future__ import annotations

@@ -16,7 +16,8 @@ network: {domain_id: 42}
 
 Fix: use 0 to 101.
 
-Source: Linux ephemeral ports 32768 to 60999 collide with domains 102 to 214.
+Source: https://docs.ros.org/en/jazzy/Concepts/Intermediate/About-Domain-ID.html
+(Jazzy): the ports of Linux that begin at 32768 are those of domains from 102 on
 """
 
 from __future__ import annotations

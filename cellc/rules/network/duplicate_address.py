@@ -16,7 +16,7 @@ devices: {arm: {connection: {address: 192.168.56.101}}}
 
 Fix: give each card and each device an address of its own.
 
-Source: chapter 4, section 5, gate L1: duplicate IP is a stop condition.
+Source: docs/principles.md#network-in-layers
 """
 
 from __future__ import annotations

@@ -22,7 +22,8 @@ safety: {stop: {independent_of: [control_pc, vision_pc]}}
 
 Fix: use `multicast`, or `unicast` with peers.
 
-Source: ROS_AUTOMATIC_DISCOVERY_RANGE, table of reachability.
+Source: https://docs.ros.org/en/jazzy/Tutorials/Advanced/Improved-Dynamic-Discovery.html
+(Jazzy): LOCALHOST stays on one machine
 """
 
 from __future__ import annotations

@@ -19,7 +19,10 @@ hosts:
 
 Fix: write four numbers from 0 to 255, for a card with the prefix length, such as `192.168.56.10/24`.
 
-Source: chapter 4, section 5, gate L1: fixed IP; RFC 4632 for the prefix length.
+Source:
+
+- https://www.rfc-editor.org/rfc/rfc4632 (2006-08): prefix lengths
+- docs/principles.md#network-in-layers
 """
 
 from __future__ import annotations

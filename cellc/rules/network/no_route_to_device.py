@@ -16,7 +16,7 @@ devices: {arm: {connection: {nic: null, address: 192.168.56.101}}}
 
 Fix: add a card in the subnet of the device, or correct one of the addresses.
 
-Source: chapter 4, section 5: verify routes and source addresses.
+Source: docs/principles.md#network-in-layers
 """
 
 from __future__ import annotations

@@ -17,7 +17,10 @@ devices: {arm: {connection: {nic: null, address: 192.168.56.101}}}
 
 Fix: use an address of a private network.
 
-Source: RFC 1918, private address space; chapter 4, section 5: dedicated wired link.
+Source:
+
+- https://www.rfc-editor.org/rfc/rfc1918 (1996-02): private addresses
+- docs/principles.md#the-control-link
 """
 
 from __future__ import annotations

@@ -16,7 +16,7 @@ targets: {mock: {hardware: mock}}
 
 Fix: use the hardware of the target's name.
 
-Source: chapter 4, section 5, gate L6: routing to the real interface is a stop condition; section 12, prompt B.
+Source: docs/principles.md#mock-and-real
 """
 
 from __future__ import annotations

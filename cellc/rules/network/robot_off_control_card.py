@@ -19,7 +19,7 @@ hosts:
 
 Fix: write `carries: [control]` at the card, or connect the robot to the one that has it.
 
-Source: chapter 4, section 5: use a dedicated wired link when the vendor recommends one.
+Source: docs/principles.md#the-control-link
 """
 
 from __future__ import annotations

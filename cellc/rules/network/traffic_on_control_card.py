@@ -18,8 +18,7 @@ hosts:
 
 Fix: put cameras, bags and the internet on another card.
 
-Source: chapter 4, section 5: do not mix camera streams, bag uploads, and internet downloads onto the robot-control
-NIC.
+Source: docs/principles.md#the-control-link
 """
 
 from __future__ import annotations

@@ -16,7 +16,7 @@ network: {discovery: unicast, peers: [10.10.0.11]}
 
 Fix: list the peers, or use `localhost` where there is one host.
 
-Source: ROS_STATIC_PEERS; chapter 4, section 5: multicast or configured unicast discovery.
+Source: https://docs.ros.org/en/jazzy/Tutorials/Advanced/Improved-Dynamic-Discovery.html (Jazzy): ROS_STATIC_PEERS
 """
 
 from __future__ import annotations

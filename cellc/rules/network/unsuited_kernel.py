@@ -16,7 +16,10 @@ hosts: {control_pc: {scheduling: preempt_rt}}
 
 Fix: install a PREEMPT_RT or low-latency kernel, and measure the missed cycles.
 
-Source: network facts of the device in the catalogue; chapter 4, section 5: guidance, not a guarantee.
+Source:
+
+- docs/principles.md#the-control-link
+- docs/principles.md#facts-of-the-catalog
 """
 
 from __future__ import annotations

@@ -18,7 +18,10 @@ hosts:
 
 Fix: use an address between the two.
 
-Source: RFC 919 and RFC 922, broadcast addresses.
+Source:
+
+- https://www.rfc-editor.org/rfc/rfc919 (1984-10): broadcast addresses
+- https://www.rfc-editor.org/rfc/rfc3021 (2000-12): prefixes of 31 bits
 """
 
 from __future__ import annotations

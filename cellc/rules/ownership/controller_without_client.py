@@ -21,7 +21,7 @@ control:
 
 Fix: write `client:` with the one node that may command it.
 
-Source: chapter 4, sections 5 and 7: restrict command publishers; one command owner.
+Source: docs/principles.md#one-commander
 """
 
 from __future__ import annotations

@@ -19,7 +19,7 @@ devices:
 
 Fix: declare the topic on which the adapter publishes stamped state: `from` the device, with rate, unit and age.
 
-Source: chapter 4, section 9: wrap timestamped state, explicit units, and bounded commands.
+Source: docs/principles.md#direct-sdk
 """
 
 from __future__ import annotations

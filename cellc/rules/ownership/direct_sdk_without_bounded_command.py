@@ -31,7 +31,7 @@ rehearsals: {pick_and_place: {steps: [{move: home}, {detect: object}, {move: pic
 
 Fix: declare the action that the adapter serves, `server:` the device, with a timeout.
 
-Source: chapter 4, section 9: wrap timestamped state, explicit units, and bounded commands.
+Source: docs/principles.md#direct-sdk
 """
 
 from __future__ import annotations

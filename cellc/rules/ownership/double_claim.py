@@ -25,7 +25,11 @@ control:
 
 Fix: let one of them start inactive, and declare the switch between them.
 
-Source: controller_manager: a command interface has one owner; chapter 4, section 7.
+Source:
+
+- https://control.ros.org/jazzy/doc/ros2_control/controller_manager/doc/userdoc.html
+  (Jazzy): a command interface is claimed by one controller
+- docs/principles.md#claims-and-switches
 """
 
 from __future__ import annotations

@@ -27,7 +27,10 @@ control:
 
 Fix: deactivate in the same switch what holds the interface.
 
-Source: controller_manager, switch_controller: refused with either strictness where an interface is claimed twice.
+Source:
+
+- https://docs.ros.org/en/jazzy/p/controller_manager_msgs/srv/SwitchController.html (Jazzy)
+- docs/principles.md#claims-and-switches
 """
 
 from __future__ import annotations

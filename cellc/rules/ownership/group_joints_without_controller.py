@@ -21,7 +21,7 @@ motion:
 
 Fix: give the controller all joints of the group, or shorten the group.
 
-Source: chapter 4, section 7: a listed controller name does not prove the correct joints are claimed.
+Source: docs/principles.md#claims-and-switches
 """
 
 from __future__ import annotations

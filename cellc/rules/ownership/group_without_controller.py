@@ -22,7 +22,7 @@ motion:
 
 Fix: add a trajectory controller for the joints of the group, or the FollowJointTrajectory action of its adapter.
 
-Source: chapter 4, section 10: a missing action server prevents execution even if planning succeeds.
+Source: docs/principles.md#planning-and-execution
 """
 
 from __future__ import annotations

@@ -24,7 +24,7 @@ control:
 
 Fix: declare the switch that activates it, or delete it.
 
-Source: chapter 4, section 7: a listed controller name does not prove that it controls anything.
+Source: docs/principles.md#claims-and-switches
 """
 
 from __future__ import annotations

@@ -28,7 +28,7 @@ control:
 
 Fix: declare the switch that leads to the state in which this one starts, or correct the lists.
 
-Source: controller_manager, switch_controller with strictness STRICT.
+Source: https://docs.ros.org/en/jazzy/p/controller_manager_msgs/srv/SwitchController.html (Jazzy): strictness STRICT
 """
 
 from __future__ import annotations

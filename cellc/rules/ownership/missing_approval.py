@@ -18,7 +18,7 @@ owners:
 
 Fix: name the role or the person who signs.
 
-Source: chapter 4, manufacturing cell checkpoint, table of approval areas.
+Source: docs/principles.md#owners-and-approvals
 """
 
 from __future__ import annotations

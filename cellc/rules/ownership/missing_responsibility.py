@@ -19,7 +19,7 @@ owners:
 
 Fix: name the role or the team that answers for it.
 
-Source: chapter 4, sections 1 and 9.
+Source: docs/principles.md#responsibilities
 """
 
 from __future__ import annotations

@@ -18,7 +18,7 @@ nodes:
 
 Fix: write `owner:`.
 
-Source: chapter 4, closing exercise: label every arrow with its owner.
+Source: docs/principles.md#owners-and-approvals
 """
 
 from __future__ import annotations

@@ -32,7 +32,7 @@ nodes:
 
 Fix: leave the loop to a controller or to the vendor's servo, and send goals or trajectories.
 
-Source: chapter 4, section 2, table: treating Python publish rate as servo guarantee.
+Source: docs/principles.md#servo-loops
 """
 
 from __future__ import annotations

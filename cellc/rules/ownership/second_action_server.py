@@ -32,7 +32,7 @@ interfaces:
 
 Fix: let the controller serve its own action, and give the other server another name.
 
-Source: chapter 4, section 5, gate L3: unknown command publisher; checkpoint: one action server.
+Source: docs/principles.md#one-commander
 """
 
 from __future__ import annotations

@@ -23,7 +23,7 @@ interfaces:
 
 Fix: let one node publish commands.
 
-Source: chapter 4, section 5: unknown command publisher is a stop condition.
+Source: docs/principles.md#one-commander
 """
 
 from __future__ import annotations

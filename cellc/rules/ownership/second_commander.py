@@ -33,7 +33,7 @@ interfaces:
 
 Fix: send all goals through one node.
 
-Source: chapter 4, checkpoint: is there one command publisher or action server?
+Source: docs/principles.md#one-commander
 """
 
 from __future__ import annotations

@@ -20,7 +20,8 @@ control:
 
 Fix: claim an interface that the joint has.
 
-Source: controller_manager: a required interface does not exist, ok is false.
+Source: https://control.ros.org/jazzy/doc/ros2_control/controller_manager/doc/userdoc.html
+(Jazzy): a controller needs all its interfaces to be activated
 """
 
 from __future__ import annotations

@@ -35,7 +35,7 @@ interfaces:
 
 Fix: use `depth: 1`; for high-rate sensor data also `reliability: best_effort`.
 
-Source: chapter 4, section 2, table: reliable backlog processes stale images.
+Source: docs/principles.md#delivery-contracts
 """
 
 from __future__ import annotations

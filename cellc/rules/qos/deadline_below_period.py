@@ -34,7 +34,7 @@ interfaces:
 
 Fix: make the deadline longer than one period, with room for jitter.
 
-Source: chapter 4, section 2: a QoS deadline can report a missed contract.
+Source: docs/principles.md#delivery-contracts
 """
 
 from __future__ import annotations

@@ -34,7 +34,8 @@ interfaces:
 
 Fix: ask for volatile, or publish transient local
 
-Source: rmw_dds_common, qos_profile_check_compatible: the offer has to be at least as strong as the request.
+Source: https://github.com/ros2/rmw_dds_common/blob/5a2951c89fa620ec1a37378c4f7178d9c4aadd63/rmw_dds_common/src/qos.cpp
+(5a2951c): the offer must be at least as strong as the request
 """
 
 from __future__ import annotations

@@ -34,7 +34,7 @@ interfaces:
 
 Fix: make `lifespan` longer than `max_age`, or leave it out.
 
-Source: chapter 4, section 2: acceptable sample age.
+Source: docs/principles.md#delivery-contracts
 """
 
 from __future__ import annotations

@@ -34,7 +34,7 @@ interfaces:
 
 Fix: publish and subscribe reliably, with a depth that covers the longest pause of the reader.
 
-Source: chapter 4, section 2: sparse configuration data may need reliable delivery.
+Source: docs/principles.md#delivery-contracts
 """
 
 from __future__ import annotations

@@ -39,7 +39,8 @@ network: {discovery: multicast}
 
 Fix: watch `max_age` in the reader instead, or choose a DDS middleware.
 
-Source: rmw_zenoh: incompatible-QoS, deadline and liveliness-lost events are not produced.
+Source: https://github.com/ros2/rmw_zenoh/blob/99a6a2bd10b949052f4f12c5854825dc005e95a5/docs/design.md
+(99a6a2b): events that are not produced
 """
 
 from __future__ import annotations

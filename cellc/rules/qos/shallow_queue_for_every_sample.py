@@ -34,7 +34,7 @@ interfaces:
 
 Fix: raise `depth` to what arrives during the longest pause of the reader.
 
-Source: chapter 4, section 2: write whether the consumer needs every sample or only the newest one.
+Source: docs/principles.md#delivery-contracts
 """
 
 from __future__ import annotations

@@ -16,7 +16,7 @@ safety: {recovery: {acknowledge: operator}}
 
 Fix: let an operator acknowledge.
 
-Source: chapter 4, section 6: whether operator acknowledgment is required; recovery needs named states.
+Source: docs/principles.md#restarts-and-reconnects
 """
 
 from __future__ import annotations

@@ -16,7 +16,7 @@ safety: {stop: {independent_of: [control_pc]}}
 
 Fix: verify that the stop works with the host switched off, and list the host.
 
-Source: chapter 4, section 1: software goal path and cell stop remain separate.
+Source: docs/principles.md#stop
 """
 
 from __future__ import annotations

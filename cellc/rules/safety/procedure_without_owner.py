@@ -16,7 +16,7 @@ safety: {recovery: {observer: operator}}
 
 Fix: name who owns the procedure and who stands at the stop.
 
-Source: chapter 4, checkpoint: are stop, recovery, and observer independent?
+Source: docs/principles.md#recovery
 """
 
 from __future__ import annotations

@@ -16,7 +16,7 @@ safety: {recovery: {on_reconnect: discard_goal}}
 
 Fix: discard it, and plan again from fresh state.
 
-Source: chapter 4, section 11, troubleshooting: motion after reconnect, stale goal replay.
+Source: docs/principles.md#restarts-and-reconnects
 """
 
 from __future__ import annotations

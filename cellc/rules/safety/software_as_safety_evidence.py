@@ -17,8 +17,7 @@ safety: {stop: {evidence: [injected-stop result]}}
 
 Fix: name the result of a test at the machine.
 
-Source: chapter 4, section 6: an active node does not mean a protective stop is cleared; section 5: domain ids are no
-safety boundary.
+Source: docs/principles.md#stop
 """
 
 from __future__ import annotations

@@ -16,7 +16,7 @@ safety: {stop: {path: hardwired}}
 
 Fix: wire it, or use a safety bus.
 
-Source: chapter 4, sections 1 and 2: QoS and lifecycle are not functional safety; physical stop path is independent.
+Source: docs/principles.md#stop
 """
 
 from __future__ import annotations

@@ -16,7 +16,7 @@ safety: {stop: {authority: safety_plc}}
 
 Fix: name the safety controller or relay.
 
-Source: chapter 4, section 11: the workstation does not own E-stop authority.
+Source: docs/principles.md#stop
 """
 
 from __future__ import annotations

@@ -16,7 +16,7 @@ safety: {stop: {independent_of: [control_pc]}}
 
 Fix: name hosts of the cell.
 
-Source: chapter 4, section 1.
+Source: docs/principles.md#stop
 """
 
 from __future__ import annotations

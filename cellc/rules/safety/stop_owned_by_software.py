@@ -17,8 +17,10 @@ owners: {responsibilities: {physical_stop: safety}}
 
 Fix: name the role that signs for it.
 
-Source: chapter 4, section 5: domain ids and namespaces are no safety boundaries; section 6: lifecycle nodes do not
-replace the safety state machine; section 11: the workstation does not own E-stop authority.
+Source:
+
+- docs/principles.md#stop
+- docs/principles.md#owners-and-approvals
 """
 
 from __future__ import annotations

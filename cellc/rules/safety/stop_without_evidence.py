@@ -16,7 +16,7 @@ safety: {stop: {evidence: [injected-stop result]}}
 
 Fix: inject a stop, keep the result, and name it under `evidence`.
 
-Source: chapter 4, checkpoint: signed SOP and injected-stop result; gate G5: untested stop path.
+Source: docs/principles.md#stop
 """
 
 from __future__ import annotations

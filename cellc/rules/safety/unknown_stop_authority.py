@@ -16,7 +16,10 @@ safety: {stop: {authority: safety_plc}}
 
 Fix: name the safety controller or relay, and the path to the drives.
 
-Source: chapter 4, section 11: the workstation does not own E-stop authority; ISO 10218-2 for the cell.
+Source:
+
+- docs/principles.md#stop
+- https://www.iso.org/standard/73934.html (ISO 10218-2:2025): robot cells
 """
 
 from __future__ import annotations

@@ -16,7 +16,7 @@ safety: {recovery: {states: [protective_stop, emergency_stop, fault]}}
 
 Fix: name the states, and write down what is done in each.
 
-Source: chapter 4, section 6: safety-relevant recovery needs named states, not unconditional restart.
+Source: docs/principles.md#recovery
 """
 
 from __future__ import annotations

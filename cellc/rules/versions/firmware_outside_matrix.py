@@ -17,7 +17,7 @@ devices: {arm: {firmware: controller 5.21.0}}
 
 Fix: update the firmware, or pin the driver and SDK that support it.
 
-Source: version rows of the device in the catalogue, each with its source and date.
+Source: docs/principles.md#facts-of-the-catalog
 """
 
 from __future__ import annotations

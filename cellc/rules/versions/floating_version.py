@@ -16,7 +16,7 @@ versions: {moveit: 2.12.4}
 
 Fix: write the exact version or digest.
 
-Source: chapter 4, section 4: weak evidence is "latest" dependencies.
+Source: docs/principles.md#pinned-versions
 """
 
 from __future__ import annotations

@@ -16,7 +16,7 @@ versions: {rollback: {image: "sha256:9f2c1a77"}}
 
 Fix: archive the last image that ran, and write its digest and configuration id.
 
-Source: chapter 4, section 4: each physical cell needs a golden image and rollback path.
+Source: docs/principles.md#rollback
 """
 
 from __future__ import annotations

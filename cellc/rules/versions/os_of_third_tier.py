@@ -17,7 +17,7 @@ versions: {os: ubuntu 24.04}
 
 Fix: install the release that packages are made for, or keep the evidence of your own build and test.
 
-Source: REP-2000, support tiers; table of distributions in the catalogue, with its date.
+Source: https://www.ros.org/reps/rep-2000.html (as of 2025-10-24): support tiers
 """
 
 from __future__ import annotations

@@ -17,7 +17,7 @@ versions: {os: ubuntu 24.04}
 
 Fix: install the release that the distribution is built for, or choose another distribution.
 
-Source: REP-2000, target platforms; table of distributions in the catalogue, with its date.
+Source: https://www.ros.org/reps/rep-2000.html (as of 2025-10-24): target platforms
 """
 
 from __future__ import annotations

@@ -17,7 +17,10 @@ versions: {ros2_control: 4.47.0}
 
 Fix: pin the line that the distribution releases.
 
-Source: rosdistro, distribution files; table of distributions in the catalogue, with its date.
+Source:
+
+- https://github.com/ros/rosdistro (as of 2026-08-22): distribution files
+- docs/principles.md#facts-of-the-catalog
 """
 
 from __future__ import annotations

@@ -16,7 +16,7 @@ versions: {rollback: {image: "sha256:9f2c1a77"}}
 
 Fix: write the digest, `sha256:…`.
 
-Source: chapter 4, section 4, table: lock or container digest.
+Source: docs/principles.md#rollback
 """
 
 from __future__ import annotations

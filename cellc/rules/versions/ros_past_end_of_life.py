@@ -22,7 +22,11 @@ calibrations:
 
 Fix: plan the move to a supported distribution, away from the operating cell.
 
-Source: REP-2000 and endoflife.date; table of distributions in the catalogue, with its date.
+Source:
+
+- https://www.ros.org/reps/rep-2000.html (as of 2025-10-24)
+- https://endoflife.date/ros-2 (as of 2026-08-22)
+- docs/principles.md#facts-of-the-catalog
 """
 
 from __future__ import annotations

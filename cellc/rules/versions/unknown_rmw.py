@@ -17,7 +17,10 @@ versions: {rmw: rmw_fastrtps_cpp 8.4.4}
 
 Fix: write the name of the package, as in RMW_IMPLEMENTATION, and its version.
 
-Source: table of distributions in the catalogue, with its date.
+Source:
+
+- https://www.ros.org/reps/rep-2000.html (as of 2025-10-24): middleware
+- docs/principles.md#facts-of-the-catalog
 """
 
 from __future__ import annotations

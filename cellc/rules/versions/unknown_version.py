@@ -17,7 +17,7 @@ versions: {kernel: 6.8.0-45-generic}
 
 Fix: read the version on the machine, the teach pendant or the nameplate, and write it.
 
-Source: chapter 4, section 4: replace "supports ROS 2" with a pinned tuple.
+Source: docs/principles.md#pinned-versions
 """
 
 from __future__ import annotations

@@ -16,7 +16,7 @@ devices: {arm: {driver: demo_arm_driver 3.8.0}}
 
 Fix: pin a version of the matrix, or test the tuple on the mock and with drives disabled, and keep the evidence.
 
-Source: chapter 4, section 12: mark unsupported compatibility UNKNOWN.
+Source: docs/principles.md#pinned-versions
 """
 
 from __future__ import annotations

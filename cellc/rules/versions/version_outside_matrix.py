@@ -17,7 +17,7 @@ devices: {arm: {driver: demo_arm_driver 3.8.0}}
 
 Fix: pin the line of the cell's distribution.
 
-Source: version rows of the device in the catalogue, each with its source and date.
+Source: docs/principles.md#facts-of-the-catalog
 """
 
 from __future__ import annotations

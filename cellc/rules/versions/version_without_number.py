@@ -17,7 +17,7 @@ versions: {rmw: rmw_fastrtps_cpp 8.4.4}
 
 Fix: write the package and its version, such as `package 1.2.3`.
 
-Source: chapter 4, section 4: driver tag, SDK, and description package are parts of the tuple.
+Source: docs/principles.md#pinned-versions
 """
 
 from __future__ import annotations
