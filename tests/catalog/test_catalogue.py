@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-import yaml
 
 from cellc.catalog.controller_kind import ControllerKind, ParameterFacts
 from cellc.catalog.load import (
@@ -24,6 +23,7 @@ from cellc.catalog.load import (
     load_qos_profiles,
 )
 from cellc.vocabulary import PASSIVE, Distro
+from tests.foreign_yaml import safe_load
 from tests.oracles import UPSTREAM
 
 PARAMETERS = UPSTREAM / "parameters"
@@ -185,7 +185,7 @@ def _upstream(kind: str, distro: Distro) -> dict[str, dict[str, Any]]:
     file = DECLARATIONS[kind]
     if kind == "parallel_gripper" and distro == "humble":
         file = "gripper_controllers__gripper_action_controller_parameters"
-    document = yaml.safe_load((PARAMETERS / distro / f"{file}.yaml").read_text(encoding="utf-8"))
+    document = safe_load((PARAMETERS / distro / f"{file}.yaml").read_text(encoding="utf-8"))
     return _flat(next(iter(document.values())), ())
 
 

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-import yaml
-
+from tests.foreign_yaml import safe_load
 from tests.oracles import UPSTREAM
 
 _FILES = {
@@ -79,7 +78,7 @@ def declared(distro: str, plugin: str) -> dict[str, Parameter]:
     if (distro, plugin) == ("humble", "controller_manager"):  # declared in code there: controller_manager.cpp
         return {"update_rate": Parameter("int", True, {"gt": 0})}
     file = UPSTREAM / "parameters" / distro / f"{_FILES[plugin]}_parameters.yaml"
-    (tree,) = yaml.safe_load(file.read_text(encoding="utf-8")).values()
+    (tree,) = safe_load(file.read_text(encoding="utf-8")).values()
     return dict(_walk({**tree, **_IN_CODE.get(plugin, {})}, ""))
 
 

@@ -11,9 +11,9 @@ from functools import lru_cache
 from pathlib import Path
 
 import pytest
-import yaml
 
 from tests.cells import CELLS, DISTROS, Compiled, compiled, spec_of, written
+from tests.foreign_yaml import safe_load
 
 HERE = Path(__file__).resolve().parent
 SPECS = {cell: spec_of(cell) for cell in CELLS} | {"two_arms": HERE / "two_arms.yaml"}
@@ -67,7 +67,7 @@ def _compiled(cell: str, distro: str) -> Build:
 def spec_for(cell: str, distro: str) -> str:
     """Return the spec of a cell with the version tuple of a distribution in place of its own."""
     text = SPECS[cell].read_text(encoding="utf-8")
-    tuple_ = yaml.safe_load((HERE / "version_tuples.yaml").read_text(encoding="utf-8"))[distro]
+    tuple_ = safe_load((HERE / "version_tuples.yaml").read_text(encoding="utf-8"))[distro]
     text = re.sub(r"\bros: \w+", f"ros: {distro}", text, count=1)
     for name, version in tuple_.items():
         own = r"[^,}\s#][^,}\n#]*?(?=\s*(?:[,}#]|$))"

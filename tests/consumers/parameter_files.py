@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-import yaml
+from tests.foreign_yaml import safe_load
 
 
 def flat(tree: Mapping[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
@@ -20,7 +20,7 @@ def flat(tree: Mapping[str, Any], before: str = "") -> Iterator[tuple[str, Any]]
 
 def sections(text: str) -> dict[str, dict[str, Any]]:
     """Return the flat parameters of each node key, which gets its leading slash."""
-    loaded = yaml.safe_load(text)
+    loaded = safe_load(text)
     return {
         key if key.startswith("/") else f"/{key}": dict(flat(section["ros__parameters"]))
         for key, section in loaded.items()

@@ -10,6 +10,7 @@ import yaml
 
 from tests.consumers.declared import complaints, known_plugins
 from tests.consumers.parameter_files import flat, matches
+from tests.foreign_yaml import safe_load
 
 
 def parameter_faults(
@@ -23,7 +24,7 @@ def parameter_faults(
         inactive: those that are loaded beside them.
     """
     try:
-        told = _sections(yaml.safe_load(text))
+        told = _sections(safe_load(text))
     except (yaml.YAMLError, ValueError, TypeError, AttributeError) as error:
         return [f"the node aborts: {error}"]
     manager = _of(told, f"{namespace}/controller_manager")

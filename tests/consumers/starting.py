@@ -7,10 +7,9 @@ from functools import lru_cache
 from typing import Any
 from xml.etree.ElementTree import fromstring
 
-import yaml
-
 from tests.consumers.launch_interpreter import Command, Launch, Process
 from tests.consumers.matrix import SPECS, Build, build
+from tests.foreign_yaml import safe_load
 
 CONFIRMED = {"target": "real", "confirm_real": "I_HAVE_PASSED_GATES_G0_TO_G2"}
 MOTION_CONFIRMED = {"target": "real", "confirm_motion": "I_HAVE_PASSED_GATES_G0_TO_G6"}
@@ -70,7 +69,7 @@ def spawners(cell: str, distro: str, target: str = "mock") -> list[Process]:
 
 def written(cell: str) -> Any:
     """Return the spec as plain data, read by a parser that is not cellc's."""
-    return yaml.safe_load(SPECS[cell].read_text(encoding="utf-8"))
+    return safe_load(SPECS[cell].read_text(encoding="utf-8"))
 
 
 def written_managers(cell: str) -> list[tuple[str, Any]]:

@@ -9,11 +9,11 @@ from typing import Any
 from xml.etree.ElementTree import fromstring
 
 import pytest
-import yaml
 
 from tests.consumers.matrix import PLANNING, build, every_build, every_planning_build, spec_for
 from tests.consumers.parameter_files import sections, told
 from tests.consumers.starting import node_name, processes, written, written_managers
+from tests.foreign_yaml import safe_load
 
 _RELIABILITY, _DURABILITY = {"reliable", "best_effort"}, {"volatile", "transient_local"}
 _LEGAL = {
@@ -43,7 +43,7 @@ def contract(cell: str, distro: str) -> Any:
 @every_build
 def test_frames_are_where_the_description_has_them(cell: str, distro: str) -> None:
     texts = build(cell, distro).texts
-    frames, promised = yaml.safe_load(texts["config/frames.yaml"])["frames"], contract(cell, distro)["frames"]
+    frames, promised = safe_load(texts["config/frames.yaml"])["frames"], contract(cell, distro)["frames"]
     robot = fromstring(build(cell, distro).urdf("real"))
     above = {tag.attrib["link"]: joint for joint in robot.findall("joint") for tag in joint.findall("child")}
     assert set(frames) == set(promised)
@@ -140,7 +140,7 @@ def test_qos_overrides_are_those_of_the_contract(cell: str, distro: str) -> None
 @every_build
 def test_recording_has_a_complete_profile_for_each_topic_that_it_records(cell: str, distro: str) -> None:
     text = build(cell, distro).texts["config/recording_qos.yaml"]
-    profiles = yaml.safe_load(text)
+    profiles = safe_load(text)
     commanded = [line.strip("# \\") for line in text.splitlines() if re.match(r"#   /", line)]
     assert commanded == list(profiles)
     for topic, profile in profiles.items():
@@ -209,7 +209,7 @@ def _driven(texts: dict[str, str]) -> bool:
 def test_package_has_every_part(cell: str, distro: str) -> None:
     texts = build(cell, distro).texts
     assert _PARTS | {f"urdf/{cell}.mock.urdf", f"urdf/{cell}.real.urdf"} <= set(texts)
-    spec = yaml.safe_load(spec_for(cell, distro))
+    spec = safe_load(spec_for(cell, distro))
     # One file of controllers, unless a driver's own node takes goals on real hardware.
     called = ("controllers.mock", "controllers.real") if _driven(texts) else ("controllers",)
     planning = _FOR_PLANNING | {f"config/moveit/{cell}.srdf"} | {f"config/moveit/{name}.yaml" for name in called}
@@ -237,7 +237,7 @@ def test_contract_has_limits_calibrations_and_pairs_of_the_other_files(cell: str
     for joint, limit in promised["joint_limits"].items() if limits else ():
         for name in ("acceleration", "jerk"):
             assert limits[f"robot_description_planning.joint_limits.{joint}.max_{name}"] == limit[name], joint
-    frames = yaml.safe_load(texts["config/frames.yaml"])["frames"]
+    frames = safe_load(texts["config/frames.yaml"])["frames"]
     assert {name: frame.get("calibration") for name, frame in frames.items()} == {
         name: frame["calibration"] for name, frame in promised["frames"].items()
     }

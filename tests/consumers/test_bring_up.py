@@ -10,11 +10,11 @@ from pathlib import Path
 from xml.etree.ElementTree import fromstring
 
 import pytest
-import yaml
 
 from tests.consumers.launch_interpreter import Command
 from tests.consumers.matrix import HERE, build, every_build
 from tests.consumers.starting import activated, bring_ups, commands, moves, written, written_managers
+from tests.foreign_yaml import safe_load
 
 _FILE = "launch/bring_up.bash"
 _CONDITION = re.compile(r"^    needs (.+)$", re.MULTILINE)
@@ -42,7 +42,7 @@ def test_script_is_bash_and_launching_starts_every_step(cell: str, distro: str) 
 def test_conditions_name_what_the_cell_has(cell: str, distro: str) -> None:
     texts = build(cell, distro).texts
     contract = json.loads(texts["contract.json"])
-    frames = set(yaml.safe_load(texts["config/frames.yaml"])["frames"])
+    frames = set(safe_load(texts["config/frames.yaml"])["frames"])
     controllers = {
         (f"{manager['namespace']}/controller_manager", one["full_name"].rpartition("/")[2])
         for manager in contract["managers"].values()

@@ -6,14 +6,13 @@ import re
 import subprocess
 from xml.etree.ElementTree import fromstring
 
-import yaml
-
 from tests.consumers.matrix import build, every_build, spec_for
+from tests.foreign_yaml import safe_load
 
 
 @every_build
 def test_environment_is_the_spec_and_leads_to_files_of_the_package(cell: str, distro: str) -> None:
-    texts, spec = build(cell, distro).texts, yaml.safe_load(spec_for(cell, distro))
+    texts, spec = build(cell, distro).texts, safe_load(spec_for(cell, distro))
     for path in (path for path in texts if path.endswith(".sh")):
         subprocess.run(["bash", "-n"], input=texts[path], text=True, check=True, capture_output=True)
         stated = dict(re.findall(r'^export (\w+)="(.*)"$', texts[path], re.MULTILINE))
@@ -66,7 +65,7 @@ def test_everything_that_is_read_at_run_time_is_installed(cell: str, distro: str
 
 @every_build
 def test_profiles_reach_the_cards_for_ros_and_no_other(cell: str, distro: str) -> None:
-    texts, spec = build(cell, distro).texts, yaml.safe_load(spec_for(cell, distro))
+    texts, spec = build(cell, distro).texts, safe_load(spec_for(cell, distro))
     remote = spec.get("network", {}).get("discovery") in ("unicast", "multicast")
     for host, one in spec.get("hosts", {}).items():
         cards = [card["address"].split("/")[0] for card in one["nics"].values() if "control" not in card["carries"]]

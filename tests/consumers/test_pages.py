@@ -6,11 +6,10 @@ import json
 import re
 from typing import Any
 
-import yaml
-
 from tests.cells import ROOT
 from tests.consumers.matrix import build, every_build, spec_for
 from tests.consumers.starting import node_name, processes, written
+from tests.foreign_yaml import safe_load
 
 _OF_CELL = ("os", "kernel", "ros", "rmw", "ros2_control", "moveit")
 _OF_DEVICE = ("revision", "serial", "firmware", "driver", "sdk", "description")
@@ -31,7 +30,7 @@ def _rows(text: str) -> list[str]:
 
 
 def _tuple(cell: str, distro: str) -> dict[str, str]:
-    spec: Any = yaml.safe_load(spec_for(cell, distro))
+    spec: Any = safe_load(spec_for(cell, distro))
     versions = spec["versions"]
     parts = {name: versions.get(name, "UNKNOWN") for name in _OF_CELL}
     rollback = versions.get("rollback", {})
@@ -107,7 +106,7 @@ def test_audit_has_the_way_back_that_the_catalogue_knows(cell: str, distro: str)
     wanted: list[str] = []
     limits: list[str] = []
     for device, one in written(cell)["devices"].items():
-        facts = yaml.safe_load((ROOT / f"cellc/catalog/devices/{one['model']}/device.yaml").read_text(encoding="utf-8"))
+        facts = safe_load((ROOT / f"cellc/catalog/devices/{one['model']}/device.yaml").read_text(encoding="utf-8"))
         for way in facts.get("safety", {}).get("recovery", ()):
             wanted += [f"{device}, {way['state']}:", *(f"{n}. {step}" for n, step in enumerate(way["steps"], 1))]
         limits += [f": {limit}" for limit in facts.get("mock_cannot_prove", ())]

@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-import yaml
 
 from tests.consumers.matrix import build, every_build
 from tests.consumers.refused_description import description_faults
 from tests.consumers.refused_parameters import parameter_faults
 from tests.consumers.starting import activated, processes
+from tests.foreign_yaml import safe_load
 from tests.oracles import RECORDED
 
 CASES = RECORDED / "controller_manager" / "cases"
@@ -30,7 +30,7 @@ _NOT_IN_THE_FILES = {"no_cm_params", "goal_out_of_limits", "goal_too_fast"}
 def _recorded(case: str) -> tuple[list[str], dict[str, Any]]:
     """Return what the checker says of a recorded case, and what was observed."""
     folder = CASES / case
-    observed = yaml.safe_load((folder / "observed.yaml").read_text(encoding="utf-8"))
+    observed = safe_load((folder / "observed.yaml").read_text(encoding="utf-8"))
     flags = observed["flags"]
     description = (folder / "cell.urdf").read_text(encoding="utf-8")
     faults = description_faults(description, _MOCK)

@@ -6,9 +6,8 @@ import json
 import re
 import subprocess
 
-import yaml
-
 from tests.consumers.matrix import build, every_build
+from tests.foreign_yaml import safe_load
 
 _ORDER = ["G0", "G1", "G2", "G3", *(f"L{number}" for number in range(1, 7)), "G4", "G5", "G6", "G7"]
 _BLOCK = re.compile(r"^```sh\n(.*?)^```$", re.DOTALL | re.MULTILINE)
@@ -105,7 +104,7 @@ def test_commands_name_what_the_cell_has(cell: str, distro: str) -> None:
     contract = json.loads(artifacts["contract.json"])
     kinds = {name: one["kind"] for name, one in contract["interfaces"].items()}
     managers = {f"{one['namespace']}/controller_manager" for one in contract["managers"].values()}
-    frames = set(yaml.safe_load(artifacts["config/frames.yaml"])["frames"])
+    frames = set(safe_load(artifacts["config/frames.yaml"])["frames"])
     seen = 0
     for command in (one for text in sections(cell, distro).values() for one in commands(text)):
         words = command.split()
@@ -124,7 +123,7 @@ def test_commands_name_what_the_cell_has(cell: str, distro: str) -> None:
             arguments = {word.split(":=")[0] for word in words[4:]}
             assert arguments <= set(re.findall(r'<arg name="(\w+)"', artifacts[f"launch/{words[3]}"])), command
         elif command.startswith("ros2 bag "):
-            recorded = set(yaml.safe_load(artifacts["config/recording_qos.yaml"]))
+            recorded = set(safe_load(artifacts["config/recording_qos.yaml"]))
             assert {word for word in words if word.startswith("/")} == recorded
         else:
             continue

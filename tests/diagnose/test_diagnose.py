@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-import yaml
 from pydantic import ValidationError
 
 from cellc.cell.cell import Cell
@@ -15,10 +14,9 @@ from cellc.diagnose.diagnose import Step, classify, diagnose
 from cellc.diagnose.symptoms import LAYERS, Observation, Symptom, knowledge
 from cellc.pipeline import check
 from tests.cells import ROOT
+from tests.foreign_yaml import safe_load
 from tests.oracles import RECORDED
 
-# The recordings are long: libyaml reads them in a tenth of the time, where PyYAML has it.
-_LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 EVERY_SYMPTOM = [symptom for layer in knowledge() for symptom in layer.symptoms]
 
 # The rows of the chapter's table "Symptom-driven troubleshooting", and where its "first layer" stands in prompt C.
@@ -204,4 +202,4 @@ def _lines(file: Path) -> Iterator[str]:
             for item in data:
                 yield from walk(item)
 
-    yield from walk(yaml.load(file.read_text(encoding="utf-8"), Loader=_LOADER))
+    yield from walk(safe_load(file.read_text(encoding="utf-8")))

@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-import yaml
 
 from tests.cells import DISTROS, spec_text
 from tests.emit.cells import CELLS, artifacts_of, emitted
+from tests.foreign_yaml import safe_load
 from tests.oracles import UPSTREAM, needs_upstream
 
 _TRAJECTORY = "joint_trajectory_controller__joint_trajectory_controller"
@@ -29,7 +29,7 @@ _TYPES = {"bool": bool, "int": int, "double": float, "string": str, "string_arra
 
 
 def _controllers(text: str) -> dict[str, Any]:
-    loaded = yaml.safe_load(text)
+    loaded = safe_load(text)
     assert isinstance(loaded, dict)
     return loaded
 
@@ -45,7 +45,7 @@ def _flat(tree: dict[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
 def _declared(distro: str, plugin: str, joints: list[str]) -> dict[str, str]:
     """Return the type of each parameter that the real controller declares, maps over joints filled in."""
     file = UPSTREAM / "parameters" / distro / f"{_DECLARED_IN[plugin]}_parameters.yaml"
-    (tree,) = yaml.safe_load(file.read_text()).values()
+    (tree,) = safe_load(file.read_text()).values()
     found = {name[: -len(".type")]: value for name, value in _flat(tree) if name.endswith(".type")}
     per_joint = {name.replace("__map_joints", joint): value for name, value in found.items() for joint in joints}
     return found | per_joint | _OWN.get(plugin, {})

@@ -8,16 +8,16 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
-import yaml
 import yourdfpy
 
 from tests.cells import graph_of, spec_text, written
 from tests.emit.cells import artifacts_of
+from tests.foreign_yaml import safe_load
 
 
 def test_joint_limits_are_those_of_the_cell() -> None:
     # facts: elbow pi, velocity pi rad/s, of which 50 %; 5 rad/s^2, of which 50 %.
-    (section,) = yaml.safe_load(artifacts_of("ur5e_pick")["config/joint_limits.yaml"]).values()
+    (section,) = safe_load(artifacts_of("ur5e_pick")["config/joint_limits.yaml"]).values()
     limits = section["ros__parameters"]["robot_description_planning"]["joint_limits"]
     assert limits["arm_elbow_joint"] == {
         "has_position_limits": True,
@@ -33,7 +33,7 @@ def test_joint_limits_are_those_of_the_cell() -> None:
 
 
 def test_frame_tree_tells_parents_and_calibrations() -> None:
-    frames = yaml.safe_load(artifacts_of("ur5e_pick")["config/frames.yaml"])["frames"]
+    frames = safe_load(artifacts_of("ur5e_pick")["config/frames.yaml"])["frames"]
     assert frames["tcp"]["parent"] == "gripper_base_link"
     assert frames["tcp"]["calibration"] == "tcp_2f"
     assert frames["tcp"]["xyz"] == [0.0, 0.0, 0.162]
@@ -80,7 +80,7 @@ def test_every_body_and_follower_is_that_of_the_devices(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("node", ["camera", "arm_dashboard_client", "arm_state_helper"])
 def test_parameters_of_a_node_stand_under_its_name(node: str) -> None:
-    assert list(yaml.safe_load(artifacts_of("ur5e_pick")[f"config/{node}.yaml"])) == [node]
+    assert list(safe_load(artifacts_of("ur5e_pick")[f"config/{node}.yaml"])) == [node]
 
 
 def test_package_depends_on_what_it_starts_and_loads() -> None:

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 import xmlschema
-import yaml
 
 from tests.cells import DISTROS, spec_text
 from tests.emit.cells import artifacts_of, emitted
+from tests.foreign_yaml import safe_load
 from tests.oracles import UPSTREAM, needs_upstream
 
 CONTROL_CARD = "192.168.56.10"
@@ -110,7 +110,7 @@ def test_zenoh_router_listens_and_sessions_connect_to_it_alone(tmp_path: Path) -
 
 
 def test_qos_overrides_are_those_that_rclcpp_reads() -> None:
-    sections = yaml.safe_load(artifacts_of("ur5e_pick")["config/qos_overrides.yaml"])
+    sections = safe_load(artifacts_of("ur5e_pick")["config/qos_overrides.yaml"])
     overrides = sections["perception"]["ros__parameters"]["qos_overrides"]
     assert overrides["/camera/color/image_raw"]["subscription"] == {
         "reliability": "best_effort",
@@ -127,7 +127,7 @@ def test_durations_of_qos_are_whole_nanoseconds(tmp_path: Path) -> None:
     text = spec_text("ur5e_pick")
     assert before in text
     text = text.replace(before, "from: {perception: {deadline: 150 ms, lifespan: 0.5 s, lease_duration: 1 s}}")
-    overrides = yaml.safe_load(emitted(tmp_path, text)["config/qos_overrides.yaml"])
+    overrides = safe_load(emitted(tmp_path, text)["config/qos_overrides.yaml"])
     policies = overrides["perception"]["ros__parameters"]["qos_overrides"]["/object_pose"]["publisher"]
     assert policies["deadline"] == 150_000_000
     assert policies["lifespan"] == 500_000_000

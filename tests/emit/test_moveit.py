@@ -7,18 +7,18 @@ from typing import Any
 from xml.etree import ElementTree
 
 import pytest
-import yaml
 
 from cellc.deploy.files import PARAMETER_FILES
 from tests.cells import DISTROS
 from tests.emit.cells import artifacts_of
+from tests.foreign_yaml import safe_load
 
 
 def _parameters(distro: str = "jazzy") -> dict[str, Any]:
     """Merge the files as one node that is started with all of them does."""
     merged: dict[str, Any] = {}
     for file in PARAMETER_FILES:
-        (section,) = yaml.safe_load(artifacts_of("ur5e_pick", distro)[file]).values()
+        (section,) = safe_load(artifacts_of("ur5e_pick", distro)[file]).values()
         for key, value in section["ros__parameters"].items():
             if isinstance(value, dict):
                 assert not set(merged.get(key, {})) & set(value)
@@ -35,7 +35,7 @@ def _srdf() -> ElementTree.Element:
 
 @pytest.mark.parametrize("distro", DISTROS)
 def test_every_called_controller_is_one_of_the_cell(distro: str) -> None:
-    sections = yaml.safe_load(artifacts_of("ur5e_pick", distro)["config/controllers.yaml"])
+    sections = safe_load(artifacts_of("ur5e_pick", distro)["config/controllers.yaml"])
     called = _parameters(distro)["moveit_simple_controller_manager"]
     for name in called.pop("controller_names"):
         entry = called.pop(name)

@@ -10,13 +10,13 @@ from typing import Any
 from xml.etree import ElementTree
 
 import pytest
-import yaml
 
 from cellc.catalog.load import load_device
 from cellc.mock.control import ControllerManager, DeclaredInterfaces
 from cellc.vocabulary import Distro
 from tests.cells import diagnose, spec_text
 from tests.emit.cells import emitted
+from tests.foreign_yaml import safe_load
 from tests.oracles import UPSTREAM, needs_upstream
 
 SCALING = "      scaling: {type: speed_scaling_state_broadcaster, device: arm}\n"
@@ -80,16 +80,16 @@ def test_each_target_spawns_what_it_has() -> None:
 
 
 def test_parameters_are_given_in_the_types_that_the_vendor_declares() -> None:
-    sections = yaml.safe_load(_artifacts("ur5e_pick")["config/controllers.yaml"])
+    sections = safe_load(_artifacts("ur5e_pick")["config/controllers.yaml"])
     assert sections["scaling"]["ros__parameters"] == {"state_publish_rate": 100.0, "tf_prefix": "arm_"}
-    state = yaml.safe_load(_artifacts("fr3_hand")["config/controllers.yaml"])["arm_state"]["ros__parameters"]
+    state = safe_load(_artifacts("fr3_hand")["config/controllers.yaml"])["arm_state"]["ros__parameters"]
     assert state == {"arm_prefix": "", "convenience_publish_rate": 1000, "robot_type": "fr3"}
 
 
 @needs_upstream
 def test_declared_parameters_are_those_of_the_vendor() -> None:
     text = (UPSTREAM / "parameters" / "ur" / "speed_scaling_state_broadcaster_parameters.yaml").read_text("utf-8")
-    (declared,) = yaml.safe_load(text).values()
+    (declared,) = safe_load(text).values()
     device = load_device("ur5e").value
     assert device is not None
     own = device.model.controllers["speed_scaling_state_broadcaster"].parameters

@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 
 import pytest
-import yaml
 
 from tests.emit.cells import CELLS, artifacts_of
+from tests.foreign_yaml import safe_load
 
 # What a checklist may tell people to type: reading commands, and starting what its gate releases.
 _ALLOWED = (
@@ -84,7 +84,7 @@ def test_every_unknown_of_the_spec_stands_in_audit_and_readme() -> None:
 
 
 def test_recording_holds_the_motion_path_with_profiles_that_match_every_publisher() -> None:
-    profiles = yaml.safe_load(artifacts_of("ur5e_pick")["config/recording_qos.yaml"])
+    profiles = safe_load(artifacts_of("ur5e_pick")["config/recording_qos.yaml"])
     assert {"/object_pose", "/tf", "/tf_static", "/joint_states", "/diagnostics"} <= set(profiles)
     assert "/arm_trajectory/follow_joint_trajectory/_action/status" in profiles
     assert not any("image" in name for name in profiles)

@@ -8,9 +8,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from xml.etree import ElementTree
 
-import yaml
-
 from tests.emit.cells import emitted
+from tests.foreign_yaml import safe_load
 
 SPEC = """
 format: 1
@@ -103,7 +102,7 @@ def test_namesakes_have_rights_on_their_own_interfaces_alone() -> None:
 
 
 def test_every_parameter_key_carries_its_namespace() -> None:
-    sections = yaml.safe_load(_artifacts()["config/left_loop.controllers.yaml"])
+    sections = safe_load(_artifacts()["config/left_loop.controllers.yaml"])
     assert all(key.startswith("/left/") for key in sections)
     joints = sections["/left/trajectory"]["ros__parameters"]["joints"]
     assert len(joints) == 6

@@ -7,9 +7,8 @@ import re
 import shutil
 from pathlib import Path
 
-import yaml
-
 from tests.cli.refused import process
+from tests.foreign_yaml import safe_load
 from tests.oracles import RECORDED
 
 OBSERVED = RECORDED / "controller_manager/cases/y_badjoint/observed.yaml"
@@ -32,7 +31,7 @@ def test_wrong_joint_name_fails_as_in_the_real_controller_manager(pick: Path, tm
 
 
 def _reason_of_the_real_one() -> str:
-    messages = yaml.safe_load(OBSERVED.read_text(encoding="utf-8"))["messages"]
+    messages = safe_load(OBSERVED.read_text(encoding="utf-8"))["messages"]
     warning = re.fullmatch(r"\[WARN\] \[controller_manager\]: (.+)", messages[0])
     assert warning is not None
     return warning[1]

@@ -20,12 +20,11 @@ import yaml
 from cellc.diagnostics import Diagnostic
 from cellc.rules.kit import Rule
 from tests.cells import CORPUS, diagnose
+from tests.foreign_yaml import LOADER, safe_load
 
 BASE = CORPUS / "invalid" / "base"
 """The parts of a complete cell of made-up devices; nothing in it is to be reported."""
 HEAD = {"format": "1", "cell": "demo"}
-# Hundreds of cells are written and read here: libyaml does it in a tenth of the time, where PyYAML has it.
-_LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _DUMPER = getattr(yaml, "CSafeDumper", yaml.SafeDumper)
 _FENCE = re.compile(r"```(yaml|xml)\n(.*?)```", re.DOTALL)
 _MARK = re.compile(r"(?:#|<!--) expect(?:: (?P<code>[a-z0-9-]+))?(?: at (?P<key>\S+))?")
@@ -102,7 +101,7 @@ def _lines(text: str) -> dict[tuple[str, ...], int]:
             found[inner] = start.start_mark.line + 1
             walk(value, inner)
 
-    root = yaml.compose(text, Loader=_LOADER)
+    root = yaml.compose(text, Loader=LOADER)
     assert root is not None
     walk(root, ())
     return found
@@ -151,7 +150,7 @@ def _typed(value: Any) -> Any:
         return {key: _typed(item) for key, item in value.items()}
     if isinstance(value, list):
         return [_typed(item) for item in value]
-    return yaml.safe_load(value) if re.fullmatch(r"-?\d+(\.\d+)?|true|false|\[\]", value) else value
+    return safe_load(value) if re.fullmatch(r"-?\d+(\.\d+)?|true|false|\[\]", value) else value
 
 
 def _merge_description(fragment: str, path: Path) -> None:

@@ -13,6 +13,7 @@ import yaml
 
 from cellc.mock import MockCell, load
 from tests.cells import generated
+from tests.foreign_yaml import safe_load
 
 Fault = dict[str, Any]
 LoadWith = Callable[..., MockCell]
@@ -79,7 +80,7 @@ def two_managers(folder: Path) -> MockCell:
     states = {"gripper_states": arm["controllers"]["joint_states"]}
     contract["managers"]["grip"] = arm | {"namespace": "/grip", "controllers": states | gripper}
     path = contract["files"]["parameters"]["control"]
-    parameters = yaml.safe_load((folder / path).read_text())
+    parameters = safe_load((folder / path).read_text())
     plugins = parameters["controller_manager"]["ros__parameters"]
     own = {
         "update_rate": 250,
