@@ -16,7 +16,7 @@ from pathlib import Path
 
 from cellc.mock import load
 from cellc.mock.campaign.campaign import make_plan
-from cellc.mock.faults.possible import possible_faults
+from cellc.mock.faults.registry import possible_faults
 
 ROOT = Path(__file__).resolve().parents[1]
 FOLDERS = ("generated/minimal", "generated/ur5e_pick", "generated/fr3_hand")

@@ -23,9 +23,9 @@ from cellc.mock.nodes.observations import ObservationInbox
 from cellc.mock.nodes.perception import TF, Camera, Image, ObjectPose, Perception, TfBroadcast
 from cellc.mock.nodes.robot_state_publisher import NODE as ROBOT_STATE_PUBLISHER
 from cellc.mock.nodes.robot_state_publisher import PUBLISH_FREQUENCY_HZ, JointStateFeed, RobotStatePublisher
-from cellc.mock.plant import Plant, Requests
-from cellc.mock.progress import Progress
+from cellc.mock.plant import Plant, TaskNode
 from cellc.mock.stops import Stops
+from cellc.mock.task_status import ActionStatus, Milestones, TaskRequests
 from cellc.mock.tf.buffer import DEFAULT_BUFFER_S, TransformBuffer
 from cellc.mock.tf.sources import SampledSource
 from cellc.mock.world.joint_states import JOINT_STATE_TYPE
@@ -109,21 +109,24 @@ def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int) -> Plant:
     plant = Plant(
         contract=contract,
         simulation=simulation,
-        control=control,
-        world=World(memory.model.links, control.histories.values()),
-        buffer=TransformBuffer(),
-        robot_state_publisher=published,
-        planner=MotionPlanner(memory, seed),
         clocks=clocks,
         network=network,
-        task=task,
-        feeds=joint_state_feeds(contract, control, network, task),
+        control=control,
+        stops=Stops(control),
+        world=World(memory.model.links, control.histories.values()),
         cameras={},
         perceptions={},
-        inboxes={},
-        requests=Requests(),
-        progress=Progress(),
-        stops=Stops(control),
+        robot_state_publisher=published,
+        planner=MotionPlanner(memory, seed),
+        task=TaskNode(
+            name=task,
+            buffer=TransformBuffer(),
+            feeds=joint_state_feeds(contract, control, network, task),
+            observations={},
+            requests=TaskRequests(),
+            actions=ActionStatus(),
+            milestones=Milestones(),
+        ),
     )
     clocks.listen(partial(_note_jump, plant))
     images = _add_cameras(plant)
@@ -136,10 +139,10 @@ def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int) -> Plant:
 
 def _note_jump(plant: Plant, jump: TimeJump) -> None:
     """Let the listener of the task hear of a clock that was set, and the task look at what it waits for."""
-    if jump.clock is plant.clocks.of(plant.task):
+    if jump.clock is plant.clocks.of(plant.task.name):
         plant.robot_state_publisher.catch_up(jump.at_ns)
-        plant.buffer.note_jump(jump)
-    plant.requests.changed.fire(jump.at_ns)
+        plant.task.buffer.note_jump(jump)
+    plant.task.requests.changed.fire(jump.at_ns)
 
 
 def _managers(folder: GeneratedFolder, seed: int) -> Mapping[str, ControllerManager]:
@@ -201,13 +204,13 @@ def _add_object(
     position = Pose((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)) if pose is None else Pose(pose.xyz, pose.quaternion)
     plant.world.place(name, frame.simulated_parent, position, 0)
     transform = SampledSource(
-        frame.parent, name, frame.authority, frame.buffer_s or DEFAULT_BUFFER_S, plant.buffer.warnings
+        frame.parent, name, frame.authority, frame.buffer_s or DEFAULT_BUFFER_S, plant.task.buffer.warnings
     )
-    if hears(plant.contract, TF, frame.authority, plant.task):
-        plant.buffer.add(name, transform)
+    if hears(plant.contract, TF, frame.authority, plant.task.name):
+        plant.task.buffer.add(name, transform)
     topic, interface = _pose_topic(plant, frame)
-    inbox = ObservationInbox(interface, plant.clocks.of(plant.task), plant.simulation)
-    plant.inboxes[name] = inbox
+    inbox = ObservationInbox(interface, plant.clocks.of(plant.task.name), plant.simulation)
+    plant.task.observations[name] = inbox
     if topic is not None and interface is not None and interface.sinks:
         inbox.subscribe(topic, interface.sinks[0].node)
 

@@ -119,12 +119,12 @@ def observe(plant: Plant) -> Waiting[StageEvidence]:
         yield Wait(watched_until_ns)
     task = task_node(plant.contract)
     plant.robot_state_publisher.announce(
-        plant.buffer,
+        plant.task.buffer,
         hears_static=hears(plant.contract, "/tf_static", NODE, task),
         hears_moving=hears(plant.contract, "/tf", NODE, task),
     )
     plant.robot_state_publisher.catch_up(plant.now_ns)
-    facts = [_freshness(plant), *plant.buffer.conflicts]
+    facts = [_freshness(plant), *plant.task.buffer.conflicts]
     return StageEvidence("observe", tuple(facts), tuple(_missing_frames(plant)))
 
 
@@ -148,8 +148,8 @@ def _missing_frames(plant: Plant) -> list[str]:
     for name, frame in plant.contract.frames.items():
         if frame.kind == "dynamic" or name == root:
             continue
-        latest_ns = plant.buffer.latest_ns(root, name)
-        answer = plant.buffer.lookup(root, name, 0 if latest_ns is None else latest_ns)
+        latest_ns = plant.task.buffer.latest_ns(root, name)
+        answer = plant.task.buffer.lookup(root, name, 0 if latest_ns is None else latest_ns)
         if not isinstance(answer, Transform):
             problems.append(f"frame `{name}`: {answer.text.strip()}")
     return problems

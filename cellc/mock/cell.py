@@ -12,8 +12,9 @@ from cellc.mock.bringup import Bringup
 from cellc.mock.bus.qos import unmatched_pairs
 from cellc.mock.control import ManagerAbortedError
 from cellc.mock.errors import MockError
-from cellc.mock.faults.build import build_fault
-from cellc.mock.faults.injection import Injection
+from cellc.mock.faults.fault import Injection
+from cellc.mock.faults.ports import fault_ports
+from cellc.mock.faults.registry import build_fault
 from cellc.mock.folder import GeneratedFolder, read_folder
 from cellc.mock.nodes.motion_model import build_motion_model
 from cellc.mock.nodes.motion_planner import PlanMemory
@@ -58,8 +59,9 @@ def rehearse(
     if not bringup.passed:
         return _not_up(rehearsal, tuple(bringup.evidence), _findings(plant))
     begun_ns = plant.now_ns
+    ports = fault_ports(plant)
     for injection in injections:
-        injection.schedule(plant, begun_ns)
+        injection.schedule(ports, begun_ns)
     task = Task(rehearsal, TaskContext(plant, begun_ns + round(rehearsal.timeout_s * 1e9), seed))
     plant.simulation.run_process(task.run())
     absent = tuple(injection.describe_absence() for injection in injections if injection.begun_ns is None)
@@ -115,9 +117,9 @@ def _findings(plant: Plant) -> tuple[str, ...]:
     return (
         *unmatched_pairs(contract),
         *plant.network.events.lines(),
-        *plant.buffer.conflicts,
-        *plant.buffer.warnings.lines(),
-        *plant.requests.findings,
+        *plant.task.buffer.conflicts,
+        *plant.task.buffer.warnings.lines(),
+        *plant.network.disconnections,
         *plant.control.dangers,
     )
 

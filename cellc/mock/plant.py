@@ -1,46 +1,48 @@
-"""Everything that runs in one rehearsal, by its name in the contract."""
+"""Everything that runs in one rehearsal, each part with its owner.
+
+Whoever is handed less does not take a plant: faults get `faults.ports.FaultPorts`, nodes get what they are built from.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from cellc.contract.contract import Contract
 from cellc.mock.bus.network import Network
 from cellc.mock.clocks import Clocks
 from cellc.mock.engine.control_stack import ControlStack
-from cellc.mock.engine.process import Signal
 from cellc.mock.engine.simulation import Simulation
 from cellc.mock.nodes.motion_planner import MotionPlanner
 from cellc.mock.nodes.observations import ObservationInbox
 from cellc.mock.nodes.perception import Camera, Perception
 from cellc.mock.nodes.robot_state_publisher import JointStateFeed, RobotStatePublisher
-from cellc.mock.progress import Progress
 from cellc.mock.stops import Stops
+from cellc.mock.task_status import ActionStatus, Milestones, TaskRequests
 from cellc.mock.tf.buffer import TransformBuffer
 from cellc.mock.world.objects import World
 
 
-@dataclass(slots=True)
-class Requests:
-    """What the outside asks of the task while it runs, and may know of it.
+@dataclass(frozen=True, slots=True)
+class TaskNode:
+    """The node that the task stands for: what reaches it, what it shows of itself, and what is asked of it.
 
     Attributes:
-        cancel: kinds of step whose next executing goal is to be cancelled.
-        executing: controllers that have a goal of the task.
-        displaced: goals that are not where they were, by goal: metres along the axes of their frame.
-        unresponsive: servers that answer nothing.
-        foreign_goals: goals that another client sent to a controller, by controller and goal, with the client.
-        findings: what the middleware told of connections that were lost.
-        changed: fires when something is asked.
+        name: of the node in the contract.
+        buffer: transforms that it has heard.
+        feeds: joint states that reach it.
+        observations: by the dynamic frame that is observed.
+        requests: what others ask of it.
+        actions: goals that execute.
+        milestones: how far the steps of the rehearsal have come.
     """
 
-    cancel: set[str] = field(default_factory=set)
-    executing: set[str] = field(default_factory=set)
-    displaced: dict[str, tuple[float, float, float]] = field(default_factory=dict)
-    unresponsive: set[str] = field(default_factory=set)
-    foreign_goals: dict[tuple[str, int], str] = field(default_factory=dict)
-    findings: list[str] = field(default_factory=list)
-    changed: Signal = field(default_factory=Signal)
+    name: str
+    buffer: TransformBuffer
+    feeds: tuple[JointStateFeed, ...]
+    observations: dict[str, ObservationInbox]
+    requests: TaskRequests
+    actions: ActionStatus
+    milestones: Milestones
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,32 +50,25 @@ class Plant:
     """The parts of a running cell.
 
     Attributes:
-        task: node that the task of a rehearsal stands for.
-        feeds: joint states that reach the task.
+        control: controller managers and adapters, with the joint states that they publish.
+        stops: of the hardware, until they are acknowledged.
+        world: where links and objects really are.
         cameras: by device.
         perceptions: by the dynamic frame that they publish.
-        inboxes: the task's observations, by dynamic frame.
-        progress: how far the steps of the rehearsal have come.
-        stops: of the hardware, until they are acknowledged.
     """
 
     contract: Contract
     simulation: Simulation
-    control: ControlStack
-    world: World
-    buffer: TransformBuffer
-    robot_state_publisher: RobotStatePublisher
-    planner: MotionPlanner
     clocks: Clocks
     network: Network
-    task: str
-    feeds: tuple[JointStateFeed, ...]
+    control: ControlStack
+    stops: Stops
+    world: World
     cameras: dict[str, Camera]
     perceptions: dict[str, Perception]
-    inboxes: dict[str, ObservationInbox]
-    requests: Requests
-    progress: Progress
-    stops: Stops
+    robot_state_publisher: RobotStatePublisher
+    planner: MotionPlanner
+    task: TaskNode
 
     @property
     def now_ns(self) -> int:

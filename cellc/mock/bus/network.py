@@ -136,6 +136,7 @@ class Network:
 
     Attributes:
         events: of the middleware, over all topics.
+        disconnections: interfaces that came back with a profile which their peers do not match, one line each.
         middleware: its rules.
         timers: the simulated clock.
     """
@@ -151,7 +152,10 @@ class Network:
         self.middleware = middleware
         self.events = QosEvents()
         self.timers = timers
+        self.disconnections: list[str] = []
         self._seed = seed
+        self._interfaces = interfaces
+        self._silent: set[str] = set()
         self._declared = {name: _declared(interface) for name, interface in interfaces.items()}
         self._edges: dict[EdgeName, list[Apply]] = {}
         self._disturbed: list[tuple[str, str | None, str | None, EdgeBehaviour]] = []
@@ -186,6 +190,40 @@ class Network:
         """Let the edges of a topic behave as declared again."""
         self._disturbed = [entry for entry in self._disturbed if entry[0] != topic]
         self._tell()
+
+    def disconnect(self, topic: str, policy: str) -> None:
+        """Let an interface come back with a profile that no peer matches, so that nothing passes any more.
+
+        The middleware of each end logs one line that names the policy; the server of an action or service is not heard.
+        """
+        interface, now_ns = self._interfaces[topic], self.timers.now_ns
+        self.disconnections.append(f"`{topic}` is no longer connected: incompatible QoS, policy {policy}")
+        for kind, ends in (
+            (QosEventKind.OFFERED_QOS_INCOMPATIBLE, interface.sources),
+            (QosEventKind.REQUESTED_QOS_INCOMPATIBLE, interface.sinks),
+        ):
+            for end in ends:
+                self.events.note(QosEvent(kind, topic, end.node, now_ns, detail=policy))
+        self.disturb(topic, SEVERED)
+        if interface.kind != "topic":
+            self.silence(*(source.node for source in interface.sources))
+
+    def reconnect(self, topic: str) -> None:
+        """Let an interface come back with its declared profile."""
+        self.calm(topic)
+        self.restore(*(source.node for source in self._interfaces[topic].sources))
+
+    def silence(self, *servers: str) -> None:
+        """Let servers answer nothing from now on."""
+        self._silent.update(servers)
+
+    def restore(self, *servers: str) -> None:
+        """Let servers answer again what is asked from now on."""
+        self._silent.difference_update(servers)
+
+    def answers(self, server: str) -> bool:
+        """Tell whether a server answers what it is asked."""
+        return server not in self._silent
 
     def cut(self, nodes: Collection[str], others: Collection[str] | None = None) -> None:
         """Let nothing pass between two groups of nodes, or between a group and everybody else, in either direction."""

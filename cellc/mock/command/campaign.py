@@ -19,7 +19,7 @@ from cellc.mock.cell import MockCell, cell_of, load
 from cellc.mock.command.options import write_text
 from cellc.mock.command.rehearsals import begin_evidence
 from cellc.mock.errors import MockError
-from cellc.mock.faults.possible import possible_faults
+from cellc.mock.faults.registry import possible_faults
 from cellc.mock.result import to_json_lines
 
 

@@ -35,7 +35,7 @@ class Onlooker:
         plant.control.listen(self._hear)
         for frame, perception in plant.perceptions.items():
             perception.listen(partial(bag.pose, frame))
-        for frame, inbox in plant.inboxes.items():
+        for frame, inbox in plant.task.observations.items():
             inbox.listen(partial(trace.observation, frame))
 
     def configured(self) -> None:

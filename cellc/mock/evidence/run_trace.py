@@ -150,7 +150,7 @@ class RunTrace:
     def joint_states(self, manager: str, broadcaster: str, block: JointStateBlock) -> None:
         """Take joint states as the task receives them."""
         history = self._plant.control.histories[(manager, broadcaster)]
-        feed = next((feed for feed in self._plant.feeds if feed.history is history), None)
+        feed = next((feed for feed in self._plant.task.feeds if feed.history is history), None)
         if feed is not None:
             self._age_states(broadcaster, block, feed.last_arrivals(len(block.stamps_ns)).tolist())
         for each in self._ages.values():
@@ -174,7 +174,7 @@ class RunTrace:
 
     def observation(self, frame: str, pose: ObjectPose) -> None:
         """Take an observation that has reached the task."""
-        max_age_s = self._plant.inboxes[frame].max_age_s
+        max_age_s = self._plant.task.observations[frame].max_age_s
         ages = self._age(f"observations of {frame}", max_age_s)
         ages.sent(self._plant.now_ns, pose.stamp_ns)
         ages.advance(self._plant.now_ns)
@@ -236,7 +236,7 @@ class RunTrace:
 
     def _age(self, source: str, max_age_s: float | None) -> AgeBuilder:
         if source not in self._ages:
-            task = self._plant.task
+            task = self._plant.task.name
             self._ages[source] = AgeBuilder(source, task, self._plant.clocks.of(task), max_age_s)
         return self._ages[source]
 

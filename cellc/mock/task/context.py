@@ -53,7 +53,7 @@ def current_state(plant: Plant) -> CurrentState:
     """
     stamps: list[tuple[int, int]] = []
     positions: dict[str, float] = {}
-    for feed in plant.feeds:
+    for feed in plant.task.feeds:
         history, newest = feed.history, feed.newest(plant.now_ns)
         if newest is None:
             raise AttemptError(AttemptOutcome.STALE_STATE, "no joint state has arrived")
@@ -63,7 +63,7 @@ def current_state(plant: Plant) -> CurrentState:
     if not stamps:
         raise AttemptError(AttemptOutcome.STALE_STATE, "no joint states reach the task")
     stamp_ns, taken_ns = min(stamps)
-    age_s = plant.clocks.age_ns(plant.task, stamp_ns) / 1e9
+    age_s = plant.clocks.age_ns(plant.task.name, stamp_ns) / 1e9
     allowed_s = joint_state_age_s(plant.contract)
     if age_s > allowed_s:
         raise AttemptError(AttemptOutcome.STALE_STATE, f"joint state is {age_s:.3f} s old, {allowed_s:g} s allowed")
@@ -119,7 +119,7 @@ class TaskContext:
         if isinstance(event, ControllerChanged):
             if event.state != "active":
                 self.deactivated_ns[event.controller] = event.stamp_ns
-        elif isinstance(event, GoalEnded) and event.controller not in self.plant.requests.unresponsive:
+        elif isinstance(event, GoalEnded) and self.plant.network.answers(event.controller):
             self.ended[(event.controller, event.goal_id)] = event
 
     def pause(self, until_ns: int, *signals: Signal) -> Waiting[None]:
@@ -165,8 +165,8 @@ class TaskContext:
 
     def _check_owner(self) -> None:
         """Raise AttemptError where another client commands: the status of an action names every goal that it has."""
-        for (controller, _), client in self.plant.requests.foreign_goals.items():
-            raise AttemptError(AttemptOutcome.WRONG_OWNER, f"{client} sent a goal to {controller}")
+        for goal in self.plant.task.actions.foreign:
+            raise AttemptError(AttemptOutcome.WRONG_OWNER, f"{goal.client} sent a goal to {goal.controller}")
 
     def _check_cycles(self) -> None:
         missed = sum(history.missed_until(self.now_ns) for history in self.plant.control.histories.values())
@@ -176,7 +176,7 @@ class TaskContext:
 
     def _check_states(self) -> None:
         """Raise AttemptError where a goal executes and nobody would see where the arm goes."""
-        if self.plant.requests.executing:
+        if self.plant.task.actions.is_executing():
             current_state(self.plant)
 
     def _check_time(self) -> None:
@@ -185,7 +185,7 @@ class TaskContext:
 
     def _observed_until_ns(self) -> int:
         """Return when the observation that is acted on turns stale; the deadline where none is."""
-        inbox = None if self.acting_on is None else self.plant.inboxes.get(self.acting_on)
+        inbox = None if self.acting_on is None else self.plant.task.observations.get(self.acting_on)
         if inbox is None or inbox.newest is None or inbox.on_stale == "continue":
             return self.deadline_ns
         return max(self.now_ns + 1, inbox.stale_from_ns(inbox.newest.stamp_ns))  # time goes on, however a clock rounds
@@ -193,7 +193,7 @@ class TaskContext:
     def _check_observation(self) -> None:
         """Raise AttemptError where the frame that is acted on is no longer observed: a frozen camera stops the arm."""
         self.check_authorities(() if self.acting_on is None else (self.acting_on,))
-        inbox = None if self.acting_on is None else self.plant.inboxes.get(self.acting_on)
+        inbox = None if self.acting_on is None else self.plant.task.observations.get(self.acting_on)
         if inbox is None or (inbox.newest is not None and not inbox.is_stale(inbox.newest.stamp_ns)):
             return
         raise AttemptError(AttemptOutcome.STALE_STATE, inbox.describe(self.acting_on or ""))
@@ -201,6 +201,6 @@ class TaskContext:
     def check_authorities(self, frames: Iterable[str]) -> None:
         """Raise AttemptError where two nodes publish one of the frames: lookups would jump from one to the other."""
         for frame in frames:
-            if (authorities := self.plant.buffer.authorities(frame))[1:]:
+            if (authorities := self.plant.task.buffer.authorities(frame))[1:]:
                 names = " and ".join(authorities)
                 raise AttemptError(AttemptOutcome.TF_FAILURE, f"frame {frame} is published by {names}")

@@ -24,7 +24,7 @@ RESPONSE_S = 1.0
 
 def await_response(context: TaskContext, server: str) -> Waiting[None]:
     """Return at once where a server answers; raise AttemptError, timeout, where it does not within the bound."""
-    if server not in context.plant.requests.unresponsive:
+    if context.plant.network.answers(server):
         return
     yield from context.rest(RESPONSE_S)
     raise AttemptError(AttemptOutcome.TIMEOUT, f"no answer of {server} within {RESPONSE_S:g} s")
@@ -62,10 +62,10 @@ def cancel_and_hold(
 
 def _cancel(plant: Plant, controller: str, goal_id: int) -> int | None:
     """Ask to cancel a goal, or every goal where another client has one too; return the answer, None for no answer."""
-    if controller in plant.requests.unresponsive:
+    if not plant.network.answers(controller):
         return None
     manager = plant.control.server_of(controller)
-    if any(name == controller for name, _ in plant.requests.foreign_goals):
+    if plant.task.actions.is_shared(controller):
         return manager.cancel_all(controller).return_code
     return manager.cancel_goal(goal_id).return_code
 
@@ -136,8 +136,8 @@ def execute(
     context.deactivated_ns.pop(controller, None)
     goal_id = yield from _send(context, attempt, controller, goal)
     sent = SentGoal(controller, goal_id, _joints(context.plant, controller), context.now_ns)
-    context.plant.requests.executing.add(controller)
-    context.plant.progress.announce("accepted")
+    context.plant.task.actions.note_started(controller)
+    context.plant.task.milestones.announce("accepted")
     try:
         yield from _result(context, kind, sent, timeout_s)
     except AttemptError as failure:
@@ -149,8 +149,8 @@ def execute(
         raise
     finally:
         _note_result(context, attempt, sent)
-        context.plant.requests.cancel.discard(kind)
-        context.plant.requests.executing.discard(controller)
+        context.plant.task.requests.withdraw_cancel(kind)
+        context.plant.task.actions.note_ended(controller)
     return context.ended[(controller, goal_id)]
 
 
@@ -189,7 +189,7 @@ def _result(context: TaskContext, kind: str, goal: SentGoal, timeout_s: float) -
     """Wait for the result of an accepted goal; raise AttemptError where it has to be cancelled instead."""
     until_ns = context.now_ns + round(timeout_s * 1e9)
     while (goal.controller, goal.goal_id) not in context.ended:
-        if kind in context.plant.requests.cancel:
+        if context.plant.task.requests.is_cancel_asked(kind):
             raise AttemptError(AttemptOutcome.CANCELLED, "")
         if context.now_ns >= until_ns:
             raise AttemptError(AttemptOutcome.TIMEOUT, f"no result of {goal.controller} within {timeout_s:g} s")
@@ -198,15 +198,16 @@ def _result(context: TaskContext, kind: str, goal: SentGoal, timeout_s: float) -
         if context.now_ns >= given_up_ns:
             raise AttemptError(AttemptOutcome.WRONG_OWNER, f"{goal.controller} was deactivated while its goal executed")
         look_ns = _look_for_motion(context, goal)
-        yield from context.pause(min(until_ns, given_up_ns, look_ns), context.plant.requests.changed)
+        signals = (context.plant.task.requests.changed, context.plant.task.actions.changed)
+        yield from context.pause(min(until_ns, given_up_ns, look_ns), *signals)
 
 
 def _look_for_motion(context: TaskContext, goal: SentGoal) -> int:
     """Announce the first motion of a goal where somebody waits for it; return when to look again."""
-    if not context.plant.progress.is_expected("moving"):
+    if not context.plant.task.milestones.is_expected("moving"):
         return context.deadline_ns
     if _driven_ns(context.plant, goal.joints, goal.sent_ns) is not None:
-        context.plant.progress.announce("moving")
+        context.plant.task.milestones.announce("moving")
     return context.now_ns + context.plant.control.server_of(goal.controller).period_ns
 
 

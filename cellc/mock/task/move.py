@@ -49,10 +49,11 @@ def locate_goal(context: TaskContext, attempt: Attempt, name: str, state_stamp_n
     if observed_frame is not None:
         attempt.mark(PacketStep.OBSERVED, stamp_ns)
     transform = yield from _lookup(context, base, entry.frame, stamp_ns)
-    attempt.tf_lookup_age = context.plant.clocks.age_ns(context.plant.task, stamp_ns) / 1e9
+    attempt.tf_lookup_age = context.plant.clocks.age_ns(context.plant.task.name, stamp_ns) / 1e9
     attempt.mark(PacketStep.TRANSFORMED, context.now_ns)
-    dx, dy, dz = context.plant.requests.displaced.get(name, (0.0, 0.0, 0.0))
-    displaced = Pose((dx, dy, dz), (0.0, 0.0, 0.0, 1.0)) @ Pose(entry.pose.xyz, entry.pose.quaternion)
+    displaced = Pose(context.plant.task.requests.displacement(name), (0.0, 0.0, 0.0, 1.0)) @ Pose(
+        entry.pose.xyz, entry.pose.quaternion
+    )
     return LocatedGoal(GoalPose(transform.pose @ displaced, entry.approach), observed_frame)
 
 
@@ -72,10 +73,10 @@ def _stamp(
     context: TaskContext, entry: ContractGoal, base: str, observed_frame: str | None, state_stamp_ns: int
 ) -> int:
     if entry.transform_at == "latest":
-        latest = context.plant.buffer.latest_ns(base, entry.frame)
+        latest = context.plant.task.buffer.latest_ns(base, entry.frame)
         return state_stamp_ns if latest is None else latest
     if observed_frame is None:
-        latest = context.plant.buffer.latest_ns(base, entry.frame)
+        latest = context.plant.task.buffer.latest_ns(base, entry.frame)
         return state_stamp_ns if latest is None else min(latest, state_stamp_ns)
     if observed_frame not in context.observed:
         raise AttemptError(AttemptOutcome.STALE_STATE, f"frame {observed_frame} was never observed")
@@ -90,7 +91,7 @@ def check_observation(context: TaskContext, frame: str, stamp_ns: int, allowance
     Args:
         allowance_s: time that planning has taken since the observation was checked first.
     """
-    inbox = context.plant.inboxes.get(frame)
+    inbox = context.plant.task.observations.get(frame)
     if inbox is not None and inbox.is_stale(stamp_ns, allowance_s):
         text = f"observation of {frame} is {inbox.age_s(stamp_ns):.3f} s old, {inbox.max_age_s:g} s allowed"
         raise AttemptError(AttemptOutcome.STALE_STATE, text)
@@ -101,8 +102,8 @@ def _lookup(context: TaskContext, target: str, source: str, stamp_ns: int) -> Wa
     until_ns = context.now_ns + round(TF_TIMEOUT_S * 1e9)
     while True:
         context.plant.robot_state_publisher.catch_up(context.now_ns)
-        context.check_authorities(context.plant.buffer.path(target, source))
-        answer = context.plant.buffer.lookup(target, source, stamp_ns)
+        context.check_authorities(context.plant.task.buffer.path(target, source))
+        answer = context.plant.task.buffer.lookup(target, source, stamp_ns)
         if isinstance(answer, Transform):
             return answer
         if not answer.kind.may_pass or context.now_ns >= until_ns:
@@ -115,8 +116,8 @@ def _calibrations(context: TaskContext, base: str, entry: ContractGoal) -> tuple
     """Return the calibrations, with revision, of every edge between base and goal, and between base and tip."""
     contract = context.plant.contract
     edges = {
-        *context.plant.buffer.path(base, entry.frame),
-        *context.plant.buffer.path(base, contract.groups[entry.group].tip_frame),
+        *context.plant.task.buffer.path(base, entry.frame),
+        *context.plant.task.buffer.path(base, contract.groups[entry.group].tip_frame),
     }
     ids = {contract.frames[edge].calibration for edge in edges if edge in contract.frames}
     return tuple(

@@ -26,7 +26,7 @@ def detect(context: TaskContext, attempt: Attempt, frame: str) -> Waiting[None]:
     Raises:
         AttemptError: stale_state, where none is after ten periods.
     """
-    inbox = context.plant.inboxes.get(frame)
+    inbox = context.plant.task.observations.get(frame)
     entry = context.plant.contract.frames.get(frame)
     if inbox is None or entry is None:
         raise AttemptError(AttemptOutcome.TF_FAILURE, f"nobody observes frame {frame}")
@@ -124,7 +124,7 @@ class Task:
         started_ns = self._context.now_ns
         failure: AttemptError | None = None
         for number, step in enumerate(self._rehearsal.steps, start=1):
-            self._context.plant.progress.step = number
+            self._context.plant.task.milestones.step = number
             attempt = Attempt(self._identity, number, _title(step), self._context.now_ns)
             failure = yield from self._attempt(attempt, step, failure)
             if failure is not None and not self._is_acknowledged_after(number):
@@ -143,7 +143,7 @@ class Task:
         return (failure or before) if step.kind != "acknowledge" else failure
 
     def _step(self, attempt: Attempt, step: StepEntry, *, stopped: bool) -> Waiting[None]:
-        if self._context.plant.progress.announce("started"):
+        if self._context.plant.task.milestones.announce("started"):
             yield from self._context.let_take_effect()
         if step.kind == "acknowledge":
             yield from acknowledge(self._context, attempt, step.target)

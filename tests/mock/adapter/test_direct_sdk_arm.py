@@ -14,7 +14,7 @@ from cellc.mock.campaign.limits import check_limits
 from cellc.mock.campaign.plan import CampaignRun
 from cellc.mock.control import GripperGoal, TrajectoryGoal, TrajectoryPoint
 from cellc.mock.control.journal import CommandJournal
-from cellc.mock.faults.possible import possible_faults
+from cellc.mock.faults.registry import possible_faults
 from cellc.mock.plant import Plant
 from cellc.vocabulary import FaultKind
 from tests.cells import CORPUS, build_into

@@ -93,7 +93,7 @@ def test_transforms_that_do_not_arrive_are_a_tf_failure(folder: Path) -> None:
 def test_transforms_are_as_late_as_the_network_makes_them(folder: Path) -> None:
     result, plant = run(cell_with(folder, carried("/tf", latency_s=0.05)))
     assert result.outcome == "succeeded"
-    newest_ns = plant.buffer.latest_ns("world", "object")
+    newest_ns = plant.task.buffer.latest_ns("world", "object")
     assert newest_ns is not None
     assert plant.now_ns - newest_ns >= 50_000_000
 

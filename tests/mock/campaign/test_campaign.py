@@ -10,7 +10,7 @@ import pytest
 from cellc.mock import MockCell, load
 from cellc.mock.campaign.campaign import Campaign, conduct, make_plan
 from cellc.mock.campaign.plan import CampaignPlan, CampaignRun
-from cellc.mock.faults.possible import possible_faults
+from cellc.mock.faults.registry import possible_faults
 from cellc.mock.task import context as task_context
 from tests.mock.campaign.conftest import plan_of
 

@@ -103,7 +103,7 @@ def test_jump_back_leaves_stamps_in_the_future_which_are_not_acted_on(cell: Mock
 def look_up(plant: Plant) -> Transform | TfFailure:
     """Look the tool up at the latest time."""
     plant.robot_state_publisher.catch_up(plant.now_ns)
-    return plant.buffer.lookup("world", "arm_tool0", 0)
+    return plant.task.buffer.lookup("world", "arm_tool0", 0)
 
 
 def test_step_back_of_the_system_clock_is_not_noticed_by_tf2(cell: MockCell) -> None:
@@ -119,7 +119,7 @@ def test_step_back_of_the_system_clock_is_not_noticed_by_tf2(cell: MockCell) -> 
     (latest,) = found
     assert isinstance(latest, Transform)
     assert latest.stamp_ns > plant.clocks.of("task").read(round((WATCHED_S + 0.2) * 1e9))
-    assert not any("Clearing" in line for line in plant.buffer.warnings.lines())
+    assert not any("Clearing" in line for line in plant.task.buffer.warnings.lines())
 
 
 def test_transforms_after_a_long_step_back_are_refused_as_old_data(cell: MockCell) -> None:

@@ -11,7 +11,7 @@ import pytest
 from cellc.contract.rehearsals import RehearsalEntry
 from cellc.mock import MockCell
 from cellc.mock.cell import cell_of
-from cellc.mock.faults.possible import possible_faults
+from cellc.mock.faults.registry import possible_faults
 from tests.mock.evidence.conftest import Written, received, write_evidence
 
 PICK = 3

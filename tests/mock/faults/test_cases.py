@@ -11,7 +11,7 @@ from cellc.contract.rehearsals import FaultEntry, FaultEvent, RehearsalEntry, St
 from cellc.mock import MockCell
 from cellc.mock.errors import MockError
 from cellc.mock.faults.case import BORNE, FaultCase, ends_in
-from cellc.mock.faults.possible import possible_faults
+from cellc.mock.faults.registry import possible_faults
 from cellc.vocabulary import FaultKind
 from tests.mock.faults.conftest import Rehearse
 

@@ -8,7 +8,7 @@ import pytest
 
 from cellc.contract.rehearsals import FaultEntry, RehearsalEntry
 from cellc.mock import MockCell
-from cellc.mock.faults.possible import possible_faults
+from cellc.mock.faults.registry import possible_faults
 from cellc.mock.result import to_json_lines
 from cellc.vocabulary import AttemptOutcome, FaultKind
 from tests.mock.faults.conftest import ACKNOWLEDGE, DETECT, HOME, PICK, Rehearse, during, wait

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from cellc.mock.faults.second_commander import CLIENT
+from cellc.mock.faults.goals import CLIENT
 from cellc.vocabulary import FaultKind
 from tests.mock.faults.conftest import DETECT, HOME, PICK, Rehearse, during, wait
 
@@ -29,7 +29,7 @@ def test_second_commander_is_noticed_while_nothing_of_the_task_executes(run: Reh
 
 def test_wrong_owner_events_are_counted(run: Rehearse) -> None:
     faults = [during(3, FaultKind.SECOND_COMMANDER, name) for name in ("arm_trajectory", "gripper_action")]
-    assert len(run(*faults).plant.requests.foreign_goals) == 2
+    assert len(run(*faults).plant.task.actions.foreign) == 2
 
 
 def test_goals_of_both_clients_are_cancelled_and_the_arm_is_held(run: Rehearse) -> None:
@@ -47,7 +47,7 @@ def test_goal_of_a_second_client_that_is_rejected_commands_nothing(run: Rehearse
     faults = [during(2, FaultKind.REJECT, "arm_trajectory", when="started", after_s=0.0)]
     faults.append(during(3, FaultKind.SECOND_COMMANDER, "arm_trajectory", when="started", after_s=0.0))
     done = run(*faults)
-    assert (done.failed.outcome, len(done.plant.requests.foreign_goals)) == ("goal_rejection", 0)
+    assert (done.failed.outcome, len(done.plant.task.actions.foreign)) == ("goal_rejection", 0)
 
 
 def test_controller_switched_in_motion_ends_as_wrong_owner_and_leaves_the_last_command(run: Rehearse) -> None:

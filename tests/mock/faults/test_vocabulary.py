@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from cellc.mock import MockCell
-from cellc.mock.faults.build import _BUILDERS
-from cellc.mock.faults.possible import possible_faults
+from cellc.mock.faults.registry import FAULTS, possible_faults
 from cellc.rules.evidence.merged_failure_layers import _LAYERS
 from cellc.spec import faults
 from cellc.spec.faults import FAULT_KEYS, FaultFields
@@ -16,8 +15,11 @@ def test_every_kind_of_fault_has_its_shape_in_the_spec_its_builder_and_its_layer
     shapes = [shape for shape in vars(faults).values() if isinstance(shape, type) and issubclass(shape, FaultFields)]
     own = {next(iter(shape.__annotations__)) for shape in shapes if shape is not FaultFields}
     assert own == kinds
-    assert set(_BUILDERS) == kinds
     assert set(_LAYERS) == kinds
+
+
+def test_every_kind_of_fault_is_registered_once() -> None:
+    assert sorted(fault.kind for fault in FAULTS) == sorted(FaultKind)
 
 
 def test_cell_of_the_chapter_can_meet_every_kind_of_fault(cell: MockCell) -> None:

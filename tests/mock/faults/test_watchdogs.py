@@ -8,9 +8,9 @@ from typing import Any
 import pytest
 
 from cellc.contract.rehearsals import FaultEntry
-from cellc.mock.faults.restart_driver import RestartDriver
+from cellc.mock.faults.ports import FaultPorts
+from cellc.mock.faults.stops import RestartDriver
 from cellc.mock.nodes.observations import ObservationInbox
-from cellc.mock.plant import Plant
 from cellc.mock.stops import Stops
 from cellc.mock.task import context, execute, grip, move
 from cellc.mock.task.context import TaskContext
@@ -130,10 +130,10 @@ def test_goal_that_is_sent_again_after_the_reconnect_would_be_seen(
     steps = (HOME, DETECT, PICK, wait(2.0), ACKNOWLEDGE, wait(0.5), HOME)
     sent: list[Any] = []
 
-    def replay(fault: RestartDriver, plant: Plant) -> None:
-        plant.stops.end_cause(fault.component)
-        plant.stops.recover()
-        manager = plant.control.managers["control"]
+    def replay(fault: RestartDriver, ports: FaultPorts) -> None:
+        ports.hardware.end_cause(fault.component)
+        ports.hardware.stops.recover()
+        manager = ports.hardware.control.managers["control"]
         manager.spawn(["arm_trajectory"])
         assert manager.send_goal("arm_trajectory", sent[-1]).accepted
 

@@ -1,10 +1,13 @@
-"""How soon the watchdogs of a cell end an attempt, put together from what its contract states."""
+"""What becomes of steps that meet a fault, and how soon the watchdogs of a cell end them, as its contract states."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from cellc.contract.contract import Contract
+from cellc.mock.bus.qos import served_actions
+from cellc.mock.faults.case import BORNE, SUCCEEDED, Ending, ends_in
 from cellc.mock.faults.cell_steps import CellStep
 from cellc.mock.nodes.motion_planner import PLANNING_LATENCY_S
 from cellc.mock.nodes.observations import DEFAULT_MAX_AGE_S as DEFAULT_OBSERVATION_AGE_S
@@ -19,6 +22,9 @@ MONITOR_S = 0.05
 """Result of an action at the default `action_monitor_rate` of 20 Hz: so much later than it was decided."""
 SETTLE_S = 0.02
 """A few update cycles: until a request to a controller manager is carried out and its event has come back."""
+
+StepEnding = Callable[[CellStep], Ending]
+"""Says of each step of a cell how it may end that meets a fault."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,3 +71,53 @@ class Bounds:
             if interface.type == POSE_TYPE and interface.frame == self.contract.frames[frame].parent
         ]
         return max((age for age in stated if age is not None), default=DEFAULT_OBSERVATION_AGE_S)
+
+
+def unobserved(bounds: Bounds, frames: tuple[str, ...]) -> StepEnding:
+    """Return how steps end while nothing new is seen of ``frames``.
+
+    A step that does not look itself is concerned as long as the cell stands where an observation has led it.
+    """
+
+    def ending(step: CellStep) -> Ending:
+        if not frames:
+            return BORNE
+        within_s = max(map(bounds.observation_s, frames))
+        if step.observes in frames:
+            return ends_in("stale_state", within_s=within_s)
+        return ends_in("stale_state", SUCCEEDED, within_s=within_s)
+
+    return ending
+
+
+def stateless(bounds: Bounds) -> StepEnding:
+    """Return how steps end while joint states stay away: one that sends no goal bears it."""
+    return lambda step: ends_in("stale_state", within_s=bounds.joint_state_s()) if step.controllers else BORNE
+
+
+def off_track(bounds: Bounds, controller: str, *more: str) -> StepEnding:
+    """Return how steps end when a joint of ``controller`` is off its track.
+
+    A step that leaves the joint where it is bears it. Without a goal time, as of a gripper, the controller may wait for
+    ever, and the client ends the goal.
+
+    Args:
+        more: outcomes that this fault may have besides.
+    """
+    action = served_actions(bounds.contract)[controller]
+    interface = bounds.contract.interfaces.get(action or "")
+    unbounded = interface is None or interface.timeout_s is None
+    patience = ("timeout",) if unbounded else ()
+
+    def ending(step: CellStep) -> Ending:
+        if controller not in step.controllers:
+            return BORNE
+        return ends_in("tolerance_violation", SUCCEEDED, *patience, *more, within_s=bounds.execution_s(step))
+
+    return ending
+
+
+def stopped(bounds: Bounds, outcome: str, after_s: float = 0.0) -> StepEnding:
+    """Return how steps end when a device stops ``after_s`` after the fault began: whichever device they move."""
+    ending = ends_in(outcome, within_s=after_s + bounds.hold_s())
+    return lambda step: ending

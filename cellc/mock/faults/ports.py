@@ -1,0 +1,267 @@
+"""What a fault may touch of a running cell: each part by the few things that can go wrong with it, and nothing else."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+from cellc.contract.contract import ContractFrame
+from cellc.mock.bus.network import Network
+from cellc.mock.clocks import Clock, Clocks
+from cellc.mock.control import ControlEvent, GripperEnded, GripperGoal, TrajectoryEnded, TrajectoryGoal
+from cellc.mock.engine.control_stack import ControlStack
+from cellc.mock.engine.queue import Action
+from cellc.mock.nodes.perception import Camera, Perception
+from cellc.mock.nodes.robot_state_publisher import RobotStatePublisher
+from cellc.mock.plant import Plant
+from cellc.mock.stops import Stops
+from cellc.mock.task_status import ActionStatus, ForeignGoal, Milestones, TaskRequests
+from cellc.mock.tf.buffer import DEFAULT_BUFFER_S, TransformBuffer
+from cellc.mock.tf.sources import SampledSource
+from cellc.mock.world.joint_states import JointStateHistory, LateArrival
+from cellc.transforms import Pose
+
+NEVER_NS = 10**15
+"""Later than any rehearsal ends."""
+
+
+class Schedule(Protocol):
+    """The simulated clock, and actions at its times."""
+
+    @property
+    def now_ns(self) -> int:
+        """The simulated time."""
+        ...
+
+    def at(self, when_ns: int, action: Action) -> None:
+        """Call an action at a time."""
+        ...
+
+    def every(self, first_ns: int, rate_hz: float, action: Callable[[int], None]) -> None:
+        """Call an action at a rate."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class HardwarePort:
+    """Joints that do not follow, components that stop, and update loops that miss cycles."""
+
+    control: ControlStack
+    stops: Stops
+
+    def stick(self, joint: str) -> None:
+        """Hold a joint where it is."""
+        for server in self.control.servers_of_joint(joint):
+            server.disturbances.stick(joint)
+
+    def slow(self, joint: str, velocity: float) -> None:
+        """Bound the speed of a joint, rad/s or m/s."""
+        for server in self.control.servers_of_joint(joint):
+            server.disturbances.slow(joint, velocity)
+
+    def displace(self, joint: str, displacement: float) -> None:
+        """Put a joint beside its command, by rad or m."""
+        for server in self.control.servers_of_joint(joint):
+            server.disturbances.offset(joint, displacement)
+
+    def free(self, joint: str) -> None:
+        """Let a joint follow its commands again."""
+        for server in self.control.servers_of_joint(joint):
+            server.disturbances.clear(joint)
+
+    def positions(self, component: str, joints: Collection[str]) -> dict[str, float]:
+        """Return where joints of a component stand."""
+        servers = self.control.servers_of_component(component)
+        return {joint: server.joint_positions()[joint] for server in servers for joint in joints}
+
+    def scale_speed(self, component: str, interface: str, factor: float) -> None:
+        """Set the speed scaling that a component reports, 0 to 1."""
+        for manager in self.control.managers_of_component(component):
+            manager.write_state(interface, factor)
+
+    def skip_cycles(self, cycles: int) -> None:
+        """Let every controller manager and adapter miss a number of cycles in a row."""
+        for manager in self.control.managers.values():
+            manager.disturbances.skip_cycles(cycles)
+        for server in self.control.adapters.values():
+            server.skip_cycles(cycles)
+
+    def stop(self, component: str, state: str) -> None:
+        """Stop a component; it lasts until ``end_cause`` and an acknowledgment."""
+        self.stops.enter(component, state)
+        for server in self.control.servers_of_component(component):
+            server.disturbances.protective_stop(component)
+
+    def lose(self, component: str, state: str) -> None:
+        """End the driver of a component: its read fails, and it is unconfigured."""
+        self.stops.enter(component, state)
+        for manager in self.control.managers_of_component(component):
+            manager.disturbances.lose(component)
+
+    def end_cause(self, component: str) -> None:
+        """Let what stopped a component be over; it stays stopped until somebody acknowledges."""
+        self.stops.end_cause(component)
+
+    def ignore_commands(self, component: str) -> None:
+        """Let no command reach a component."""
+        for manager in self.control.managers_of_component(component):
+            manager.disturbances.ignore_commands(component)
+
+    def heed_commands(self, component: str) -> None:
+        """Let commands reach a component again."""
+        for manager in self.control.managers_of_component(component):
+            manager.disturbances.heed_commands(component)
+
+
+@dataclass(frozen=True, slots=True)
+class ControllerPort:
+    """Controllers that somebody else switches or commands."""
+
+    control: ControlStack
+    actions: ActionStatus
+
+    def switch(self, manager: str, activate: Collection[str], deactivate: Collection[str]) -> None:
+        """Ask a controller manager for one strict switch."""
+        self.control.managers[manager].switch_controllers(list(activate), list(deactivate))
+
+    def activate(self, controller: str) -> None:
+        """Activate a controller."""
+        self.control.manager_of(controller).switch_controllers([controller], [])
+
+    def deactivate_when_idle(self, controller: str) -> None:
+        """Deactivate a controller, at once or as soon as the goal that it has is over."""
+        manager = self.control.manager_of(controller)
+        if not self.actions.is_executing(controller):
+            manager.switch_controllers([], [controller])
+            return
+        waiting = [True]
+
+        def after_goal(event: ControlEvent) -> None:
+            if waiting and isinstance(event, (TrajectoryEnded, GripperEnded)) and event.controller == controller:
+                waiting.clear()
+                manager.switch_controllers([], [controller])
+
+        self.control.listen(after_goal)
+
+    def positions(self, controller: str) -> dict[str, float]:
+        """Return where the joints of a controller's manager stand."""
+        return self.control.manager_of(controller).joint_positions()
+
+    def send_foreign_goal(self, controller: str, goal: TrajectoryGoal | GripperGoal, client: str, now_ns: int) -> None:
+        """Send the goal of another client than the task; one that is rejected commands nothing."""
+        response = self.control.send_goal(controller, goal)
+        if response.accepted:
+            self.actions.note_foreign(ForeignGoal(controller, response.goal_id, client), now_ns)
+
+
+@dataclass(frozen=True, slots=True)
+class SamplePort:
+    """Images and joint states that stay away or come late."""
+
+    histories: Collection[JointStateHistory]
+    cameras: Mapping[str, Camera]
+    schedule: Schedule
+
+    def freeze_camera(self, device: str, *, frozen: bool) -> None:
+        """Let a camera repeat its last image, or stream again; nothing for another device."""
+        if device in self.cameras:
+            self.cameras[device].frozen = frozen
+
+    def camera_node(self, device: str) -> str:
+        """Return the node that publishes the images of a camera."""
+        return self.cameras[device].device
+
+    def of_broadcasters(self, names: Collection[str]) -> list[JointStateHistory]:
+        """Return what some broadcasters publish."""
+        return [history for history in self.histories if history.broadcaster in names]
+
+    def of_joints(self, joints: Collection[str]) -> list[JointStateHistory]:
+        """Return what the broadcasters publish that report one of the joints."""
+        return [history for history in self.histories if any(joint in history.names for joint in joints)]
+
+    def hold_back(self, histories: Collection[JointStateHistory], delay_ns: int = NEVER_NS) -> None:
+        """Let joint states that are stamped from now on arrive late."""
+        for history in histories:
+            history.late.append(LateArrival(self.schedule.now_ns, None, delay_ns))
+
+    def release(self, histories: Collection[JointStateHistory], delay_ns: int = NEVER_NS) -> None:
+        """Let joint states that are stamped from now on arrive without a delay that began before."""
+        for history in histories:
+            for index, late in enumerate(history.late):
+                if late.until_ns is None and late.delay_ns == delay_ns:
+                    history.late[index] = replace(late, until_ns=self.schedule.now_ns)
+                    break
+
+
+@dataclass(frozen=True, slots=True)
+class TransformPort:
+    """Frames that are not published, or that two nodes publish."""
+
+    buffer: TransformBuffer
+    perceptions: Mapping[str, Perception]
+    publisher: RobotStatePublisher
+    schedule: Schedule
+    task_clock: Clock
+
+    def drop(self, frame: str) -> None:
+        """Stop publishing a frame."""
+        if frame in self.perceptions:
+            self.perceptions[frame].publishes_transform = False
+        else:
+            self.publisher.drop(frame, self.schedule.now_ns)
+
+    def resume(self, frame: str) -> None:
+        """Publish a frame again."""
+        if frame in self.perceptions:
+            self.perceptions[frame].publishes_transform = True
+        else:
+            self.publisher.resume(frame, self.schedule.now_ns)
+
+    def all_frames(self) -> Iterator[str]:
+        """Yield every frame on /tf: those that perception publishes, and the links."""
+        yield from self.perceptions
+        yield from self.publisher.links.joints
+
+    def add_authority(self, child: str, facts: ContractFrame, authority: str) -> SampledSource:
+        """Let another node publish a frame too; it publishes what is put into the source."""
+        buffer_s = facts.buffer_s or DEFAULT_BUFFER_S
+        source = SampledSource(facts.parent, child, authority, buffer_s, self.buffer.warnings)
+        self.buffer.add(child, source)
+        return source
+
+    def publish(self, source: SampledSource, pose: Pose) -> None:
+        """Publish a transform that is stamped on the clock of the task."""
+        source.insert(self.task_clock.read(self.schedule.now_ns), pose)
+
+
+@dataclass(frozen=True, slots=True)
+class FaultPorts:
+    """Everything that faults may touch."""
+
+    schedule: Schedule
+    hardware: HardwarePort
+    controllers: ControllerPort
+    samples: SamplePort
+    transforms: TransformPort
+    network: Network
+    clocks: Clocks
+    requests: TaskRequests
+    milestones: Milestones
+
+
+def fault_ports(plant: Plant) -> FaultPorts:
+    """Return what faults may touch of a plant."""
+    schedule: Schedule = plant.simulation
+    publisher, clock = plant.robot_state_publisher, plant.clocks.of(plant.task.name)
+    return FaultPorts(
+        schedule,
+        HardwarePort(plant.control, plant.stops),
+        ControllerPort(plant.control, plant.task.actions),
+        SamplePort(plant.control.histories.values(), plant.cameras, schedule),
+        TransformPort(plant.task.buffer, plant.perceptions, publisher, schedule, clock),
+        plant.network,
+        plant.clocks,
+        plant.task.requests,
+        plant.task.milestones,
+    )

@@ -1,0 +1,174 @@
+"""Devices that stop: by their safety functions, at the emergency stop, with their driver, or over a wrong payload."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import partial
+from typing import ClassVar
+
+from cellc.contract.contract import Contract
+from cellc.contract.rehearsals import FaultEntry
+from cellc.mock.faults.case import BORNE, SUCCEEDED, Ending, FaultCase, ends_in, fault_case
+from cellc.mock.faults.cell_steps import CellStep, components, device_of, joints_of_device, stoppable
+from cellc.mock.faults.endings import Bounds, stopped
+from cellc.mock.faults.ports import FaultPorts
+from cellc.mock.stops import EMERGENCY_STOP, FAULT, PROTECTIVE_STOP
+from cellc.vocabulary import FaultKind
+
+NOTICED_AFTER = 0.01
+"""rad or m that a joint moves before the torques give the load away."""
+LOOK_S = 0.01
+
+
+@dataclass(frozen=True, slots=True)
+class ProtectiveStop:
+    """A device goes into protective stop: its state stays visible, commands are refused."""
+
+    kind: ClassVar[FaultKind] = FaultKind.PROTECTIVE_STOP
+    component: str
+
+    @classmethod
+    def of(cls, entry: FaultEntry, contract: Contract) -> ProtectiveStop | None:
+        """Return the fault of an entry; None where nothing of its target can stop."""
+        component = stoppable(contract).get(entry.target)
+        return None if component is None else cls(component)
+
+    @classmethod
+    def cases(cls, contract: Contract) -> Iterator[FaultCase]:
+        """Yield every device with hardware or an adapter."""
+        for device in stoppable(contract):
+            entry = FaultEntry(kind=cls.kind, target=device)
+            yield fault_case(entry, contract, stopped(Bounds(contract), "protective_stop"), at_once=True)
+
+    def begin(self, ports: FaultPorts) -> None:
+        """Stop."""
+        ports.hardware.stop(self.component, PROTECTIVE_STOP)
+
+    def end(self, ports: FaultPorts) -> None:
+        """Let what stopped it be over; it stays stopped until that is acknowledged."""
+        ports.hardware.end_cause(self.component)
+
+
+@dataclass(frozen=True, slots=True)
+class EmergencyStop:
+    """Takes the power from the drives of a device; its own controller stays on, and tells where the joints stand."""
+
+    kind: ClassVar[FaultKind] = FaultKind.EMERGENCY_STOP
+    component: str
+
+    @classmethod
+    def of(cls, entry: FaultEntry, contract: Contract) -> EmergencyStop | None:
+        """Return the fault of an entry; None where nothing of its target can stop."""
+        component = stoppable(contract).get(entry.target)
+        return None if component is None else cls(component)
+
+    @classmethod
+    def cases(cls, contract: Contract) -> Iterator[FaultCase]:
+        """Yield every device with hardware or an adapter."""
+        for device in stoppable(contract):
+            entry = FaultEntry(kind=cls.kind, target=device)
+            yield fault_case(entry, contract, stopped(Bounds(contract), "emergency_stop"), at_once=True)
+
+    def begin(self, ports: FaultPorts) -> None:
+        """Stop."""
+        ports.hardware.stop(self.component, EMERGENCY_STOP)
+
+    def end(self, ports: FaultPorts) -> None:
+        """Let what stopped it be over; it stays stopped until that is acknowledged."""
+        ports.hardware.end_cause(self.component)
+
+
+@dataclass(frozen=True, slots=True)
+class RestartDriver:
+    """The driver of a hardware component ends and comes back unconfigured, with an old goal waiting.
+
+    The read of the component fails, its error handler leaves it unconfigured (ros2_control `Component::error`), and
+    every controller that uses it is deactivated, with its goals aborted. The robot stops by itself when commands stay
+    away. After the reconnect nothing is active until somebody acknowledges, and no goal from before is carried out.
+    """
+
+    kind: ClassVar[FaultKind] = FaultKind.RESTART_DRIVER
+    component: str
+
+    @classmethod
+    def of(cls, entry: FaultEntry, contract: Contract) -> RestartDriver | None:
+        """Return the fault of an entry; None where its target has no hardware."""
+        component = components(contract).get(entry.target)
+        return None if component is None else cls(component)
+
+    @classmethod
+    def cases(cls, contract: Contract) -> Iterator[FaultCase]:
+        """Yield every device with hardware."""
+        for device in components(contract):
+            entry = FaultEntry(kind=cls.kind, target=device)
+            yield fault_case(entry, contract, stopped(Bounds(contract), "hardware_fault"), at_once=True)
+
+    def begin(self, ports: FaultPorts) -> None:
+        """End the driver."""
+        ports.hardware.lose(self.component, FAULT)
+
+    def end(self, ports: FaultPorts) -> None:
+        """Connect again; that alone lets nothing move."""
+        ports.hardware.end_cause(self.component)
+
+
+class WrongPayload:
+    """An arm carries another load than it was told: it stops itself as soon as it moves, and every time it moves.
+
+    The torques that the robot's controller computes from the payload differ from those that it measures; it takes the
+    difference for a collision.
+    """
+
+    kind: ClassVar[FaultKind] = FaultKind.WRONG_PAYLOAD
+
+    def __init__(self, component: str, joints: tuple[str, ...]) -> None:
+        """Bind the fault to an arm."""
+        self._component = component
+        self._joints = joints
+        self._active = False
+        self._stopped_at: dict[str, float] = {}
+
+    @classmethod
+    def of(cls, entry: FaultEntry, contract: Contract) -> WrongPayload | None:
+        """Return the fault of an entry; None where its target is no arm that can stop."""
+        component = stoppable(contract).get(entry.target)
+        if component is None or contract.devices[entry.target].kind != "arm":
+            return None
+        return cls(component, joints_of_device(contract, entry.target))
+
+    @classmethod
+    def cases(cls, contract: Contract) -> Iterator[FaultCase]:
+        """Yield every arm."""
+        for device in stoppable(contract):
+            if contract.devices[device].kind == "arm":
+                entry = FaultEntry(kind=cls.kind, target=device)
+                yield fault_case(entry, contract, partial(_overloaded, Bounds(contract), device))
+
+    def begin(self, ports: FaultPorts) -> None:
+        """Change the load."""
+        self._active = True
+        self._stopped_at = ports.hardware.positions(self._component, self._joints)
+        self._look(ports)
+
+    def end(self, ports: FaultPorts) -> None:
+        """Tell the robot of its load."""
+        self._active = False
+
+    def _look(self, ports: FaultPorts) -> None:
+        """Stop where a joint has moved; what made the robot stop is over as soon as it stands."""
+        if not self._active:
+            return
+        positions = ports.hardware.positions(self._component, self._joints)
+        if any(abs(positions[joint] - self._stopped_at[joint]) > NOTICED_AFTER for joint in positions):
+            self._stopped_at = positions
+            ports.hardware.stop(self._component, PROTECTIVE_STOP)
+            ports.hardware.end_cause(self._component)
+        ports.schedule.at(ports.schedule.now_ns + round(LOOK_S * 1e9), partial(self._look, ports))
+
+
+def _overloaded(bounds: Bounds, device: str, step: CellStep) -> Ending:
+    """A step that leaves the arm where it stands bears the fault."""
+    if not any(device_of(bounds.contract, name) == device for name in step.controllers):
+        return BORNE
+    return ends_in("protective_stop", SUCCEEDED, within_s=bounds.execution_s(step))
