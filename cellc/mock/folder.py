@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from typing import TypeVar
 
+import yaml
 from pydantic import BaseModel, ValidationError
 
 from cellc.contract.contract import Contract
@@ -146,3 +147,22 @@ def _notes(folder: Path, contract: Contract, rehearsals: Rehearsals, manifest: M
             yield f"`{name}` stands in the manifest and is missing"
         elif hashlib.sha256(path.read_bytes()).hexdigest() != expected.removeprefix("sha256:"):
             yield f"`{name}` differs from the manifest: it was edited after it was generated"
+
+
+def path_tolerances(parameters: Mapping[str, str]) -> dict[str, float]:
+    """Return `constraints.<joint>.trajectory` of the parameter files, of each joint that has one above zero."""
+    return dict(found for text in parameters.values() for found in _tolerances(text))
+
+
+def _tolerances(text: str) -> Iterator[tuple[str, float]]:
+    try:
+        nodes = yaml.safe_load(text)
+    except yaml.YAMLError:
+        return  # the controller manager says what is wrong with it
+    for node in nodes.values() if isinstance(nodes, dict) else ():
+        parameters = node.get("ros__parameters") if isinstance(node, dict) else None
+        constraints = parameters.get("constraints") if isinstance(parameters, dict) else None
+        for joint, constraint in constraints.items() if isinstance(constraints, dict) else ():
+            value = constraint.get("trajectory") if isinstance(constraint, dict) else None
+            if isinstance(value, (int, float)) and not isinstance(value, bool) and value > 0.0:
+                yield str(joint), float(value)

@@ -152,6 +152,14 @@ class RehearsalResult:
     vacuous: bool = False
 
     @property
+    def reason(self) -> str:
+        """Why the rehearsal ended as it did; empty after a plain success."""
+        problems = [problem for stage in self.bringup for problem in stage.problems]
+        if problems:
+            return "; ".join(problems)
+        return self.attempts[-1].fault_code if self.attempts else ""
+
+    @property
     def in_time(self) -> bool:
         """Tell whether the bound was held, where there is one."""
         return self.within_s is None or (self.response_s is not None and self.response_s <= self.within_s)

@@ -10,7 +10,6 @@ from cellc.contract.rehearsals import RehearsalEntry, StepEntry
 from cellc.mock.campaign.campaign import Campaign
 from cellc.mock.campaign.limits import CommandStep, LimitsReport
 from cellc.mock.campaign.plan import SUCCEEDED, RunEnd
-from cellc.mock.command.rehearsals import reason
 
 SHORT = {
     "succeeded": "ok",
@@ -132,8 +131,8 @@ def end_lines(end: RunEnd, command: str) -> Iterator[str]:
     yield f"passed  {run.identifier}: {result.outcome} (named: {', '.join(run.outcomes)})"
     if run.within_s is not None and result.response_s is not None and result.outcome != SUCCEEDED:
         yield f"        bound: {result.response_s * 1e3:.0f} ms of {run.within_s * 1e3:.0f} ms"
-    if text := reason(result):
-        yield f"        reason: {text}"
+    if result.reason:
+        yield f"        reason: {result.reason}"
     yield f"        digest: {end.digest}"
 
 
@@ -148,7 +147,7 @@ def failure_lines(end: RunEnd, command: str) -> Iterator[str]:
         yield f"        bound: response {took}, allowed {run.within_s * 1e3:.0f} ms"
     for excess in end.limits.excesses:
         yield f"        limit: {excess}"
-    if text := end.crash or reason(result):
+    if text := end.crash or result.reason:
         yield f"        reason: {text}"
     yield f"        replay: {command}"
 
@@ -222,7 +221,7 @@ def _run(end: RunEnd, replay: ReplayCommand) -> dict[str, object]:
         "limits_held": end.limits.held,
         "excesses": [asdict(excess) for excess in end.limits.excesses],
         "sim_time_s": result.sim_time_s,
-        "reason": end.crash or reason(result),
+        "reason": end.crash or result.reason,
         "digest": end.digest,
         "replay": replay(run.identifier),
     }

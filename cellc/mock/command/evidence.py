@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from types import TracebackType
-
-import yaml
 
 from cellc.contract.rehearsals import RehearsalEntry
 from cellc.mock.campaign.campaign import Campaign
@@ -14,36 +12,16 @@ from cellc.mock.cell import MockCell
 from cellc.mock.evidence.bag.bag_file import Bag
 from cellc.mock.evidence.folder import EvidenceFolder, file_names
 from cellc.mock.evidence.kpis import Kpi, kpis, to_kpi_json
-from cellc.mock.evidence.listener import Onlooker
+from cellc.mock.evidence.listener import RunListener
 from cellc.mock.evidence.run_bag import RunBag
 from cellc.mock.evidence.run_trace import RunTrace, TraceResult
-from cellc.mock.folder import GeneratedFolder
-from cellc.mock.gates import campaign_witnesses, rehearsal_witnesses, sign_gates
+from cellc.mock.folder import path_tolerances
+from cellc.mock.gates import judged_campaign, judged_rehearsals, sign_gates
 from cellc.mock.plant import Plant
 from cellc.mock.report_page.content import ReportContent, RunEvidence
 from cellc.mock.report_page.page import to_report
 from cellc.mock.result import RehearsalResult, to_json_lines
 from cellc.mock.task.bounds import joint_state_age_s
-
-
-def path_tolerances(folder: GeneratedFolder) -> dict[str, float]:
-    """Return `constraints.<joint>.trajectory` of each joint that has one above zero; zero is no tolerance."""
-    return dict(found for text in folder.parameters.values() for found in _tolerances(text))
-
-
-def _tolerances(text: str) -> Iterator[tuple[str, float]]:
-    try:
-        nodes = yaml.safe_load(text)
-    except yaml.YAMLError:
-        return  # the controller manager says what is wrong with it
-    for node in nodes.values() if isinstance(nodes, dict) else ():
-        parameters = node.get("ros__parameters") if isinstance(node, dict) else None
-        constraints = parameters.get("constraints") if isinstance(parameters, dict) else None
-        for joint, constraint in constraints.items() if isinstance(constraints, dict) else ():
-            value = constraint.get("trajectory") if isinstance(constraint, dict) else None
-            if isinstance(value, (int, float)) and not isinstance(value, bool) and value > 0.0:
-                yield str(joint), float(value)
-
 
 REPORT = "report.html"
 
@@ -59,7 +37,7 @@ class EvidenceCollector:
         """
         self._runs: list[RunEvidence] = []
         self._cell = cell
-        self._tolerances = path_tolerances(cell.folder)
+        self._tolerances = path_tolerances(cell.folder.parameters)
         self._seed = seed
         self._stems = file_names(names)
         files = [REPORT, *(name for stem in self._stems.values() for name in _files(stem))]
@@ -81,18 +59,18 @@ class EvidenceCollector:
         """
         entry = self._cell.entry(name)
         bag_file, records_file, kpis_file = _files(self._stems[entry.name])
-        watched: list[tuple[Onlooker, RunTrace, Plant]] = []
+        watched: list[tuple[RunListener, RunTrace, Plant]] = []
         with self._folder.open(bag_file) as file:
             bag = Bag(file, self._cell.contract.distro, self._identity(entry))
 
             def watch(plant: Plant) -> None:
                 writer, trace = RunBag(bag, plant), RunTrace(plant)
                 writer.begin(self._cell.folder.urdf)
-                watched.append((Onlooker(plant, writer, trace), trace, plant))
+                watched.append((RunListener(plant, writer, trace), trace, plant))
 
             result = self._cell.rehearse(entry, seed=self._seed, watch=watch)
-            for onlooker, _, _ in watched:
-                onlooker.end(result.attempts)
+            for listener, _, _ in watched:
+                listener.end(result.attempts)
             bag.finish()
         trace = watched[0][1].result() if watched else None
         figures = () if trace is None else self._figures(result, trace)
@@ -112,10 +90,10 @@ class EvidenceCollector:
             MockError: the folder cannot take it.
         """
         contract = self._cell.contract
-        witnesses = rehearsal_witnesses(self._cell.entries, [run.result for run in self._runs])
+        runs = judged_rehearsals(self._cell.entries, [run.result for run in self._runs])
         if campaign is not None:
-            witnesses = (*witnesses, *campaign_witnesses(campaign))
-        gates = sign_gates(self._cell.folder, witnesses, self._seed)
+            runs = (*runs, *judged_campaign(campaign))
+        gates = sign_gates(self._cell.folder, runs, self._seed)
         content = ReportContent(contract, self._cell.notes, self._seed, tuple(self._runs), gates, campaign)
         self._folder.write(REPORT, to_report(content))
         self._folder.settle({"cell": contract.cell, "configuration_id": contract.configuration_id, "seed": self._seed})

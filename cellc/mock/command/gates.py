@@ -7,7 +7,7 @@ import json
 from cellc.mock.command.campaign import CampaignOptions, conduct_all, keep_evidence_of, load_checked, stopped
 from cellc.mock.errors import MockError
 from cellc.mock.gates.gate import GateResult, Verdict, gate_lines, gates_as_data
-from cellc.mock.gates.runs import campaign_witnesses, rehearsal_witnesses
+from cellc.mock.gates.runs import judged_campaign, judged_rehearsals
 from cellc.mock.gates.sign import sign_gates
 
 
@@ -24,8 +24,8 @@ def run_gates(folder: str, options: CampaignOptions) -> int:
         keep_evidence_of(cell, campaign, options)
     except (MockError, KeyboardInterrupt) as stop:
         return stopped(stop)
-    witnesses = (*rehearsal_witnesses(cell.entries, results), *campaign_witnesses(campaign))
-    gates = sign_gates(cell.folder, witnesses, options.seed)
+    runs = (*judged_rehearsals(cell.entries, results), *judged_campaign(campaign))
+    gates = sign_gates(cell.folder, runs, options.seed)
     if options.as_json:
         print(json.dumps({"gates": gates_as_data(gates), "notes": list(cell.notes)}, ensure_ascii=False, indent=2))
     else:

@@ -39,7 +39,7 @@ def to_summary_json(configuration_id: str, timed: Sequence[TimedResult], notes: 
             "wall_time_s": round(each.wall_time_s, 4),
             "response_s": each.result.response_s,
             "within_s": each.result.within_s,
-            "reason": reason(each.result),
+            "reason": each.result.reason,
         }
         for each in timed
     ]
@@ -63,18 +63,10 @@ def to_lines(timed: Sequence[TimedResult], notes: Sequence[str]) -> Iterator[str
         )
         if result.within_s is not None and result.response_s is not None:
             yield f"        bound: {result.response_s * 1e3:.0f} ms of {result.within_s * 1e3:.0f} ms"
-        if text := reason(result):
-            yield f"        reason: {text}"
+        if result.reason:
+            yield f"        reason: {result.reason}"
         for finding in result.findings:
             yield f"        finding: {finding}"
-
-
-def reason(result: RehearsalResult) -> str:
-    """Return why a rehearsal ended as it did; empty after a plain success."""
-    problems = [problem for stage in result.bringup for problem in stage.problems]
-    if problems:
-        return "; ".join(problems)
-    return result.attempts[-1].fault_code if result.attempts else ""
 
 
 def run_command(

@@ -19,7 +19,7 @@ _DIAGNOSTIC_NS = 1_000_000_000
 """diagnostic_updater publishes once a second by default."""
 
 
-class Onlooker:
+class RunListener:
     """Hands what happens on to the bag and to the trace of the run; it changes nothing."""
 
     def __init__(self, plant: Plant, bag: RunBag, trace: RunTrace) -> None:

@@ -4,15 +4,15 @@ What the mock cannot show stays UNKNOWN; no line says anything about hardware.
 """
 
 from cellc.mock.gates.gate import GateCheck, GateResult, Verdict
-from cellc.mock.gates.runs import Witness, campaign_witnesses, rehearsal_witnesses
+from cellc.mock.gates.runs import JudgedRun, judged_campaign, judged_rehearsals
 from cellc.mock.gates.sign import sign_gates
 
 __all__ = [
     "GateCheck",
     "GateResult",
+    "JudgedRun",
     "Verdict",
-    "Witness",
-    "campaign_witnesses",
-    "rehearsal_witnesses",
+    "judged_campaign",
+    "judged_rehearsals",
     "sign_gates",
 ]

@@ -7,72 +7,72 @@ from collections.abc import Iterator
 from cellc.contract.contract import ContractController
 from cellc.mock.campaign.limits import merge
 from cellc.mock.gates.gate import GateCheck, failed, judged, passed, unknown
-from cellc.mock.gates.runs import Testimony
+from cellc.mock.gates.runs import GateEvidence
 from cellc.mock.result import PacketStep
 from cellc.mock.task.bounds import cancel_bound_s
 
 _WHOLE = (PacketStep.GOAL_SENT, PacketStep.ACCEPTED, PacketStep.WRITTEN, PacketStep.DRIVEN, PacketStep.RETURNED)
 
 
-def commanded(testimony: Testimony) -> Iterator[tuple[str, ContractController]]:
+def commanded(evidence: GateEvidence) -> Iterator[tuple[str, ContractController]]:
     """Yield the controllers that are active and take goals, by name."""
-    for manager in testimony.contract.managers.values():
+    for manager in evidence.contract.managers.values():
         for name, controller in manager.controllers.items():
             if controller.active and controller.action is not None:
                 yield name, controller
 
 
-def owners(testimony: Testimony) -> GateCheck:
+def owners(evidence: GateEvidence) -> GateCheck:
     """Judge whether each command interface has the one owner that the contract says."""
     good: list[str] = []
     bad: list[str] = []
-    for witness in testimony.witnesses:
-        for stage in witness.result.bringup:
+    for run in evidence.runs:
+        for stage in run.result.bringup:
             if stage.stage == "claim":
-                bad += [f"{witness.name}: {problem}" for problem in stage.problems]
-                good = good or [f"{witness.name}: {fact}" for fact in stage.facts]
+                bad += [f"{run.name}: {problem}" for problem in stage.problems]
+                good = good or [f"{run.name}: {fact}" for fact in stage.facts]
     text = "Each command interface is claimed by its one owner"
     return judged(text, good, bad, "a run whose bring-up came to the claims")
 
 
-def goal_trace(testimony: Testimony, controller: str) -> GateCheck:
+def goal_trace(evidence: GateEvidence, controller: str) -> GateCheck:
     """Judge whether a goal was seen accepted, driven and answered."""
     good = [
-        f"{witness.name}, {attempt.step}: accepted, driven, {attempt.result.status}"
-        for witness, attempt in testimony.attempts(controller)
-        if attempt.result is not None and attempt.outcome == "succeeded" and witness.has_mark(attempt, *_WHOLE)
+        f"{run.name}, {attempt.step}: accepted, driven, {attempt.result.status}"
+        for run, attempt in evidence.attempts(controller)
+        if attempt.result is not None and attempt.outcome == "succeeded" and run.has_mark(attempt, *_WHOLE)
     ]
     text = f"A goal to {controller} is accepted, driven and answered"
     return judged(text, good, [], "a run in which it drives its joints and succeeds")
 
 
-def cancel_trace(testimony: Testimony, controller: str) -> GateCheck:
+def cancel_trace(evidence: GateEvidence, controller: str) -> GateCheck:
     """Judge whether cancelled goals are held within the bound, where their joints were moving."""
-    bound_s = cancel_bound_s(testimony.contract)
+    bound_s = cancel_bound_s(evidence.contract)
     good: list[str] = []
     bad: list[str] = []
-    for witness, attempt in testimony.attempts(controller):
+    for run, attempt in evidence.attempts(controller):
         cancel = attempt.cancel
-        moved = witness.has_mark(attempt, PacketStep.DRIVEN)
+        moved = run.has_mark(attempt, PacketStep.DRIVEN)
         if cancel is None or attempt.outcome != "cancelled" or not moved:
             continue
         if cancel.latency_s is None or cancel.latency_s > bound_s:
-            bad.append(f"{witness.name}, {attempt.step}: not held within {bound_s:g} s")
+            bad.append(f"{run.name}, {attempt.step}: not held within {bound_s:g} s")
         else:
-            good.append(f"{witness.name}, {attempt.step}: held after {cancel.latency_s * 1e3:.0f} ms")
+            good.append(f"{run.name}, {attempt.step}: held after {cancel.latency_s * 1e3:.0f} ms")
     text = f"A cancelled goal of {controller} is held within {bound_s:g} s on mock hardware"
     return judged(text, good, bad, "a run that cancels it while its joints move")
 
 
-def tolerance_trace(testimony: Testimony, controller: str) -> GateCheck:
+def tolerance_trace(evidence: GateEvidence, controller: str) -> GateCheck:
     """Judge whether a violated tolerance ends the attempt by name."""
     good: list[str] = []
     bad: list[str] = []
-    for witness, attempt in testimony.attempts(controller):
+    for run, attempt in evidence.attempts(controller):
         if attempt.outcome != "tolerance_violation":
             continue
-        line = f"{witness.name}, {attempt.step}: {attempt.fault_code}"
-        (good if witness.passed else bad).append(line)
+        line = f"{run.name}, {attempt.step}: {attempt.fault_code}"
+        (good if run.passed else bad).append(line)
     text = f"A violated tolerance of {controller} ends in a named outcome within its bound"
     return judged(text, good, bad, "a run in which one of its joints does not follow")
 
@@ -81,68 +81,68 @@ _MOCK_PACKAGE = "mock_components/"
 """Package of ros2_control whose plugins have nothing behind them."""
 
 
-def command_path_checks(testimony: Testimony) -> Iterator[GateCheck]:
+def command_path_checks(evidence: GateEvidence) -> Iterator[GateCheck]:
     """Yield the lines of L6."""
-    yield _no_real_interface(testimony)
-    yield owners(testimony)
-    for name, _ in commanded(testimony):
-        yield goal_trace(testimony, name)
-        yield cancel_trace(testimony, name)
-        yield tolerance_trace(testimony, name)
+    yield _no_real_interface(evidence)
+    yield owners(evidence)
+    for name, _ in commanded(evidence):
+        yield goal_trace(evidence, name)
+        yield cancel_trace(evidence, name)
+        yield tolerance_trace(evidence, name)
 
 
-def _no_real_interface(testimony: Testimony) -> GateCheck:
+def _no_real_interface(evidence: GateEvidence) -> GateCheck:
     good: list[str] = []
     bad: list[str] = []
-    for component in testimony.folder.description.hardware:
+    for component in evidence.folder.description.hardware:
         (good if component.plugin.startswith(_MOCK_PACKAGE) else bad).append(
             f"{component.name}: {component.plugin or 'no plugin'}"
         )
-    name = testimony.contract.files.urdf_mock
+    name = evidence.contract.files.urdf_mock
     return judged(f"No component of {name} is a route to a real interface", good, bad, "a hardware component")
 
 
-def mock_run_checks(testimony: Testimony) -> Iterator[GateCheck]:
+def mock_run_checks(evidence: GateEvidence) -> Iterator[GateCheck]:
     """Yield the lines of G2."""
-    yield _rehearsals(testimony)
-    yield _bringup(testimony)
+    yield _rehearsals(evidence)
+    yield _bringup(evidence)
     yield unknown("The launch file starts the nodes", "`ros2 launch` on a host with ROS 2")
-    yield owners(testimony)
-    yield _servers(testimony)
-    for name, _ in commanded(testimony):
-        yield cancel_trace(testimony, name)
-    yield _faults(testimony)
-    yield _limits(testimony)
+    yield owners(evidence)
+    yield _servers(evidence)
+    for name, _ in commanded(evidence):
+        yield cancel_trace(evidence, name)
+    yield _faults(evidence)
+    yield _limits(evidence)
 
 
-def _rehearsals(testimony: Testimony) -> GateCheck:
+def _rehearsals(evidence: GateEvidence) -> GateCheck:
     text = "Every rehearsal ends as declared"
-    seen = {witness.name: witness for witness in testimony.witnesses if witness.declared}
-    bad = [f"{name}: {witness.result.outcome}" for name, witness in seen.items() if not witness.passed]
-    missing = [entry.name for entry in testimony.folder.rehearsals if entry.name not in seen]
+    seen = {run.name: run for run in evidence.runs if run.declared}
+    bad = [f"{name}: {run.result.outcome}" for name, run in seen.items() if not run.passed]
+    missing = [entry.name for entry in evidence.folder.rehearsals if entry.name not in seen]
     if bad:
         return failed(text, bad)
     if missing or not seen:
         return unknown(text, f"a run of {', '.join(missing) or 'a rehearsal'}")
-    return passed(text, [f"{name}: {witness.result.outcome}" for name, witness in seen.items()])
+    return passed(text, [f"{name}: {run.result.outcome}" for name, run in seen.items()])
 
 
-def _bringup(testimony: Testimony) -> GateCheck:
+def _bringup(evidence: GateEvidence) -> GateCheck:
     good: list[str] = []
     bad: list[str] = []
-    for witness in testimony.undisturbed():
-        stages = witness.result.bringup
-        bad += [f"{witness.name}: {stage.stage}: {problem}" for stage in stages for problem in stage.problems]
+    for run in evidence.undisturbed():
+        stages = run.result.bringup
+        bad += [f"{run.name}: {stage.stage}: {problem}" for stage in stages for problem in stage.problems]
         if stages and all(stage.passed for stage in stages):
-            good.append(f"{witness.name}: {', '.join(stage.stage for stage in stages)} passed")
+            good.append(f"{run.name}: {', '.join(stage.stage for stage in stages)} passed")
     return judged("The cell comes up in stages", good, bad, "a run without faults")
 
 
-def _servers(testimony: Testimony) -> GateCheck:
+def _servers(evidence: GateEvidence) -> GateCheck:
     """Judge by the graph of the contract, which the mock executes as it is declared."""
     good: list[str] = []
     bad: list[str] = []
-    for name, interface in testimony.contract.interfaces.items():
+    for name, interface in evidence.contract.interfaces.items():
         if interface.kind == "action":
             servers = ", ".join(source.node for source in interface.sources) or "nobody"
             clients = ", ".join(sink.node for sink in interface.sinks) or "nobody"
@@ -150,16 +150,16 @@ def _servers(testimony: Testimony) -> GateCheck:
     return judged("Each action has one server and the declared clients", good, bad, "an action")
 
 
-def _faults(testimony: Testimony) -> GateCheck:
-    runs = [witness for witness in testimony.witnesses if not witness.declared]
-    bad = [f"{witness.name}: {witness.result.outcome}" for witness in runs if not witness.passed]
+def _faults(evidence: GateEvidence) -> GateCheck:
+    runs = [run for run in evidence.runs if not run.declared]
+    bad = [f"{run.name}: {run.result.outcome}" for run in runs if not run.passed]
     good = [f"{len(runs)} runs of the campaign"] if runs else []
     text = "Every fault at every step ends in a named outcome within its bound"
     return judged(text, good, bad, "a campaign: `--campaign`")
 
 
-def _limits(testimony: Testimony) -> GateCheck:
-    reports = [witness.limits for witness in testimony.witnesses if witness.limits is not None]
+def _limits(evidence: GateEvidence) -> GateCheck:
+    reports = [run.limits for run in evidence.runs if run.limits is not None]
     total = merge(reports)
     shares = ", ".join(f"{peak.quantity} {peak.share:.1%}" for peak in total.peaks)
     moved = any(peak.share > 0.0 for peak in total.peaks)

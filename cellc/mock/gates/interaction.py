@@ -12,7 +12,7 @@ from cellc.contract.contract import ContractInterface
 from cellc.contract.rehearsals import FaultEntry
 from cellc.mock.gates.command_path import cancel_trace
 from cellc.mock.gates.gate import GateCheck, judged, unknown
-from cellc.mock.gates.runs import SUCCEEDED, Testimony, Witness
+from cellc.mock.gates.runs import SUCCEEDED, GateEvidence, JudgedRun
 
 _IMAGE = "sensor_msgs/msg/Image"
 _JOINT_STATE = "sensor_msgs/msg/JointState"
@@ -21,58 +21,56 @@ _LATE = ("freeze", "delay", "drop_frame", "cut_network")
 _SILENT = ("unresponsive", "reject", "mismatch_qos")
 
 
-def interaction_checks(testimony: Testimony) -> Iterator[GateCheck]:
+def interaction_checks(evidence: GateEvidence) -> Iterator[GateCheck]:
     """Yield the lines of each interface of the contract, in its order."""
-    for name, interface in testimony.contract.interfaces.items():
+    for name, interface in evidence.contract.interfaces.items():
         if interface.kind == "topic":
-            yield _late_sample(testimony, name, interface)
+            yield _late_sample(evidence, name, interface)
             continue
-        yield _missing_responder(testimony, name, interface)
+        yield _missing_responder(evidence, name, interface)
         if interface.kind == "action":
-            yield _cancelled_goal(testimony, name)
+            yield _cancelled_goal(evidence, name)
     yield unknown("A hard servo loop meets its worst-case timing", "a measurement on the real controller")
 
 
-def _late_sample(testimony: Testimony, name: str, interface: ContractInterface) -> GateCheck:
+def _late_sample(evidence: GateEvidence, name: str, interface: ContractInterface) -> GateCheck:
     text = f"{name} (topic, {interface.wants or 'need not stated'}): a late sample ends in a visible, bounded state"
     runs = [
-        witness
-        for witness, fault in testimony.with_fault(*_LATE, "mismatch_qos")
-        if _delays(testimony, fault, name, interface)
+        run for run, fault in evidence.with_fault(*_LATE, "mismatch_qos") if _delays(evidence, fault, name, interface)
     ]
     return _bounded(text, runs, "a run in which its samples stay away")
 
 
-def _missing_responder(testimony: Testimony, name: str, interface: ContractInterface) -> GateCheck:
+def _missing_responder(evidence: GateEvidence, name: str, interface: ContractInterface) -> GateCheck:
     text = f"{name} ({interface.kind}): a missing responder ends in a visible, bounded state"
     servers = {source.node for source in interface.sources}
     servers |= {
         controller
-        for manager in testimony.contract.managers.values()
+        for manager in evidence.contract.managers.values()
         for controller, facts in manager.controllers.items()
         if facts.action == name
     }
-    runs = [witness for witness, fault in testimony.with_fault(*_SILENT) if fault.target in servers | {name}]
+    runs = [run for run, fault in evidence.with_fault(*_SILENT) if fault.target in servers | {name}]
     return _bounded(text, runs, "a run in which its server does not answer")
 
 
-def _cancelled_goal(testimony: Testimony, name: str) -> GateCheck:
-    for manager in testimony.contract.managers.values():
+def _cancelled_goal(evidence: GateEvidence, name: str) -> GateCheck:
+    for manager in evidence.contract.managers.values():
         for controller, facts in manager.controllers.items():
             if facts.action == name:
-                return cancel_trace(testimony, controller)
+                return cancel_trace(evidence, controller)
     return unknown(f"A cancelled goal of {name} is held", "its server, which the mock's task stands in for")
 
 
-def _bounded(text: str, runs: list[Witness], needed: str) -> GateCheck:
+def _bounded(text: str, runs: list[JudgedRun], needed: str) -> GateCheck:
     bad = [f"{run.name}: {run.result.outcome}" for run in runs if not run.passed]
     good = [f"{run.name}: {run.result.outcome}" for run in runs if run.result.outcome != SUCCEEDED]
     return judged(text, good, bad, needed)
 
 
-def _delays(testimony: Testimony, fault: FaultEntry, name: str, interface: ContractInterface) -> bool:
+def _delays(evidence: GateEvidence, fault: FaultEntry, name: str, interface: ContractInterface) -> bool:
     """Tell whether a fault keeps samples of a topic from arriving in time."""
-    contract = testimony.contract
+    contract = evidence.contract
     if fault.target == name:
         return True
     if fault.kind == "drop_frame":

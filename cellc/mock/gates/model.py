@@ -11,39 +11,39 @@ from collections.abc import Iterator
 
 from cellc.description.model import Description, Joint, JointLimit
 from cellc.mock.gates.gate import GateCheck, failed, judged, passed, unknown
-from cellc.mock.gates.runs import Testimony
+from cellc.mock.gates.runs import GateEvidence
 
 _UNIT = 1e-6
 """By which the length of an axis may differ from 1: URDF has six digits of it."""
 
 
-def model_checks(testimony: Testimony) -> Iterator[GateCheck]:
+def model_checks(evidence: GateEvidence) -> Iterator[GateCheck]:
     """Yield the lines of G1."""
-    description = testimony.folder.description
-    yield _generated(testimony)
+    description = evidence.folder.description
+    yield _generated(evidence)
     yield _one_tree(description)
     yield _axes(description)
     yield unknown("Axes turn as those of the robot do", "a person who compares them with drawing and robot")
-    yield _limits(testimony, description)
-    yield _tool_points(testimony)
-    yield _collision(testimony)
+    yield _limits(evidence, description)
+    yield _tool_points(evidence)
+    yield _collision(evidence)
     yield unknown("Collision shapes enclose the real parts", "a person who compares them with drawing and robot")
-    yield _frames(testimony)
-    for name, frame in testimony.contract.frames.items():
+    yield _frames(evidence)
+    for name, frame in evidence.contract.frames.items():
         if frame.calibration is not None:
             text = f"Frame {name} agrees with its physical marker (calibration {frame.calibration})"
             yield unknown(text, "a measurement in the cell")
 
 
-def _generated(testimony: Testimony) -> GateCheck:
+def _generated(evidence: GateEvidence) -> GateCheck:
     text = "The package is as it was generated, under one configuration id"
-    if testimony.folder.notes:
-        return failed(text, testimony.folder.notes)
-    digest = hashlib.sha256(testimony.folder.urdf.encode()).hexdigest()
-    name = testimony.contract.files.urdf_mock
+    if evidence.folder.notes:
+        return failed(text, evidence.folder.notes)
+    digest = hashlib.sha256(evidence.folder.urdf.encode()).hexdigest()
+    name = evidence.contract.files.urdf_mock
     return passed(
         text,
-        (f"manifest.json: every hash agrees, {testimony.contract.configuration_id}", f"{name}: sha256 {digest[:16]}"),
+        (f"manifest.json: every hash agrees, {evidence.contract.configuration_id}", f"{name}: sha256 {digest[:16]}"),
     )
 
 
@@ -70,17 +70,17 @@ def _axes(description: Description) -> GateCheck:
     return judged("Axes are of unit length", good, bad, "a joint that moves")
 
 
-def _limits(testimony: Testimony, description: Description) -> GateCheck:
+def _limits(evidence: GateEvidence, description: Description) -> GateCheck:
     """Compare the limits of the cell with those of the description: never wider, and never reversed."""
     described = {joint.name: joint for joint in description.joints}
-    limits = testimony.contract.joint_limits
-    bad = [problem for name in limits for problem in _wider(testimony, name, described.get(name))]
+    limits = evidence.contract.joint_limits
+    bad = [problem for name in limits for problem in _wider(evidence, name, described.get(name))]
     good = [f"{len(limits)} joints: position and velocity limits of contract and description agree"] if limits else []
     return judged("Limits of the cell are within those of the description", good, bad, "a joint with limits")
 
 
-def _wider(testimony: Testimony, name: str, joint: Joint | None) -> Iterator[str]:
-    limit = testimony.contract.joint_limits[name]
+def _wider(evidence: GateEvidence, name: str, joint: Joint | None) -> Iterator[str]:
+    limit = evidence.contract.joint_limits[name]
     if joint is None:
         yield f"joint {name} is not in the description"
         return
@@ -97,36 +97,36 @@ def _wider(testimony: Testimony, name: str, joint: Joint | None) -> Iterator[str
         yield f"joint {name}: upper {limit.upper}, {described.upper:g} in the description"
 
 
-def _tool_points(testimony: Testimony) -> GateCheck:
+def _tool_points(evidence: GateEvidence) -> GateCheck:
     good: list[str] = []
     bad: list[str] = []
-    for name, group in testimony.contract.groups.items():
-        known = group.tip_frame in testimony.contract.frames
+    for name, group in evidence.contract.groups.items():
+        known = group.tip_frame in evidence.contract.frames
         (good if known else bad).append(f"group {name} places frame {group.tip_frame}" + ("" if known else ", unknown"))
     return judged("Each group has its TCP in the tree", good, bad, "a planning group")
 
 
-def _collision(testimony: Testimony) -> GateCheck:
+def _collision(evidence: GateEvidence) -> GateCheck:
     """Judge by the plans of undisturbed runs, each of which was checked against the scene."""
     good: list[str] = []
     bad: list[str] = []
-    for witness in testimony.undisturbed():
-        for attempt in witness.result.attempts:
+    for run in evidence.undisturbed():
+        for attempt in run.result.attempts:
             if attempt.plan_result == "success":
-                good.append(f"{witness.name}: {attempt.step}")
+                good.append(f"{run.name}: {attempt.step}")
             elif attempt.plan_result is not None:
-                bad.append(f"{witness.name}: {attempt.step}: {attempt.plan_result}")
+                bad.append(f"{run.name}: {attempt.step}: {attempt.plan_result}")
     text = "Every motion of the rehearsals is planned free of collision"
     return judged(text, good, bad, "a rehearsal without faults that moves")
 
 
-def _frames(testimony: Testimony) -> GateCheck:
+def _frames(evidence: GateEvidence) -> GateCheck:
     good: list[str] = []
     bad: list[str] = []
-    for witness in testimony.undisturbed():
-        observe = [stage for stage in witness.result.bringup if stage.stage == "observe"]
-        bad += [f"{witness.name}: {problem}" for stage in observe for problem in stage.problems]
-        bad += [f"{witness.name}: {finding}" for finding in witness.result.findings if "two authorities" in finding]
+    for run in evidence.undisturbed():
+        observe = [stage for stage in run.result.bringup if stage.stage == "observe"]
+        bad += [f"{run.name}: {problem}" for stage in observe for problem in stage.problems]
+        bad += [f"{run.name}: {finding}" for finding in run.result.findings if "two authorities" in finding]
         if observe and all(stage.passed for stage in observe):
-            good.append(f"{witness.name}: all fixed frames and links were looked up at bring-up")
+            good.append(f"{run.name}: all fixed frames and links were looked up at bring-up")
     return judged("Every frame is found and has one authority", good, bad, "a rehearsal without faults")

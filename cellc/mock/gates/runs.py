@@ -1,4 +1,4 @@
-"""Runs as witnesses: what was injected, how it ended, and whether that is as it must be."""
+"""Runs that gates are judged by: what was injected, how it ended, and whether that is as it must be."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ SUCCEEDED = "succeeded"
 
 
 @dataclass(frozen=True, slots=True)
-class Witness:
+class JudgedRun:
     """One run.
 
     Attributes:
@@ -47,45 +47,45 @@ class Witness:
 
 
 @dataclass(frozen=True, slots=True)
-class Testimony:
+class GateEvidence:
     """Everything that gates are judged by."""
 
     folder: GeneratedFolder
-    witnesses: tuple[Witness, ...]
+    runs: tuple[JudgedRun, ...]
 
     @property
     def contract(self) -> Contract:
         """The contract of the cell."""
         return self.folder.contract
 
-    def undisturbed(self) -> tuple[Witness, ...]:
+    def undisturbed(self) -> tuple[JudgedRun, ...]:
         """Return the runs without faults."""
-        return tuple(witness for witness in self.witnesses if witness.undisturbed)
+        return tuple(run for run in self.runs if run.undisturbed)
 
-    def attempts(self, controller: str) -> Iterator[tuple[Witness, AttemptRecord]]:
+    def attempts(self, controller: str) -> Iterator[tuple[JudgedRun, AttemptRecord]]:
         """Yield the attempts of all runs that sent a goal to a controller."""
-        for witness in self.witnesses:
-            for attempt in witness.result.attempts:
+        for run in self.runs:
+            for attempt in run.result.attempts:
                 if attempt.controller_name == controller:
-                    yield witness, attempt
+                    yield run, attempt
 
-    def with_fault(self, *kinds: str) -> Iterator[tuple[Witness, FaultEntry]]:
+    def with_fault(self, *kinds: str) -> Iterator[tuple[JudgedRun, FaultEntry]]:
         """Yield the runs with a fault of one of these kinds, and the fault."""
-        for witness in self.witnesses:
-            for fault in witness.entry.faults:
+        for run in self.runs:
+            for fault in run.entry.faults:
                 if fault.kind in kinds:
-                    yield witness, fault
+                    yield run, fault
 
 
-def rehearsal_witnesses(entries: Sequence[RehearsalEntry], results: Iterable[RehearsalResult]) -> tuple[Witness, ...]:
-    """Return declared rehearsals as witnesses; ``entries`` are those of the folder."""
+def judged_rehearsals(entries: Sequence[RehearsalEntry], results: Iterable[RehearsalResult]) -> tuple[JudgedRun, ...]:
+    """Return declared rehearsals with their verdicts; ``entries`` are those of the folder."""
     known = {entry.name: entry for entry in entries}
-    return tuple(Witness(known[result.name], result, True, result.passed, None) for result in results)
+    return tuple(JudgedRun(known[result.name], result, True, result.passed, None) for result in results)
 
 
-def campaign_witnesses(campaign: Campaign) -> tuple[Witness, ...]:
-    """Return the runs of a campaign as witnesses; its undisturbed runs are declared rehearsals."""
+def judged_campaign(campaign: Campaign) -> tuple[JudgedRun, ...]:
+    """Return the runs of a campaign with their verdicts; its undisturbed runs are declared rehearsals."""
     return tuple(
-        Witness(end.run.entry, end.result, not end.run.hits, end.named and end.in_time, end.limits)
+        JudgedRun(end.run.entry, end.result, not end.run.hits, end.named and end.in_time, end.limits)
         for end in campaign.all_ends
     )

@@ -9,10 +9,10 @@ from cellc.mock.gates.command_path import command_path_checks, mock_run_checks
 from cellc.mock.gates.gate import GateCheck, GateResult
 from cellc.mock.gates.interaction import interaction_checks
 from cellc.mock.gates.model import model_checks
-from cellc.mock.gates.runs import Testimony, Witness
+from cellc.mock.gates.runs import GateEvidence, JudgedRun
 
 # Name, title and state of the robot as in sections 2, 5 and 11 of chapter 4.
-_GATES: tuple[tuple[str, str, str, Callable[[Testimony], Iterator[GateCheck]]], ...] = (
+_GATES: tuple[tuple[str, str, str, Callable[[GateEvidence], Iterator[GateCheck]]], ...] = (
     ("S2", "Interface selection checklist", "no hardware connected", interaction_checks),
     ("L6", "Command path", "mock, or drives off", command_path_checks),
     ("G1", "Model", "offline", model_checks),
@@ -20,17 +20,17 @@ _GATES: tuple[tuple[str, str, str, Callable[[Testimony], Iterator[GateCheck]]], 
 )
 
 
-def sign_gates(folder: GeneratedFolder, witnesses: Sequence[Witness], seed: int) -> tuple[GateResult, ...]:
+def sign_gates(folder: GeneratedFolder, runs: Sequence[JudgedRun], seed: int) -> tuple[GateResult, ...]:
     """Judge every line of the gates that can be judged without hardware.
 
     Args:
         folder: what was executed.
-        witnesses: its runs; of two with one name the last counts.
+        runs: its runs; of two with one name the last counts.
         seed: of the runs.
     """
-    testimony = Testimony(folder, tuple({witness.name: witness for witness in witnesses}.values()))
+    evidence = GateEvidence(folder, tuple({run.name: run for run in runs}.values()))
     return tuple(
-        GateResult(gate, title, state, folder.contract.configuration_id, seed, tuple(_distinct(checks(testimony))))
+        GateResult(gate, title, state, folder.contract.configuration_id, seed, tuple(_distinct(checks(evidence))))
         for gate, title, state, checks in _GATES
     )
 

@@ -9,7 +9,7 @@ import pytest
 
 from cellc.mock import MockCell, load
 from cellc.mock.folder import GeneratedFolder
-from cellc.mock.gates import GateCheck, GateResult, Witness, rehearsal_witnesses, sign_gates
+from cellc.mock.gates import GateCheck, GateResult, JudgedRun, judged_rehearsals, sign_gates
 from cellc.mock.result import AttemptRecord
 from tests.cells import generated
 
@@ -21,14 +21,14 @@ def pick() -> MockCell:
 
 
 @pytest.fixture(scope="session")
-def rehearsed(pick: MockCell) -> tuple[Witness, ...]:
+def rehearsed(pick: MockCell) -> tuple[JudgedRun, ...]:
     """Its declared rehearsals: one that succeeds, a stale camera, a cancelled goal."""
-    return rehearsal_witnesses(pick.entries, [pick.run(name) for name in pick.rehearsals])
+    return judged_rehearsals(pick.entries, [pick.run(name) for name in pick.rehearsals])
 
 
-def gate(name: str, folder: GeneratedFolder, witnesses: tuple[Witness, ...]) -> GateResult:
+def gate(name: str, folder: GeneratedFolder, runs: tuple[JudgedRun, ...]) -> GateResult:
     """Sign the gates, and return one."""
-    return next(each for each in sign_gates(folder, witnesses, 0) if each.gate == name)
+    return next(each for each in sign_gates(folder, runs, 0) if each.gate == name)
 
 
 def line(result: GateResult, words: str) -> GateCheck:
@@ -38,7 +38,7 @@ def line(result: GateResult, words: str) -> GateCheck:
     return found[0]
 
 
-def with_attempt(witness: Witness, step: str, change: Callable[[AttemptRecord], AttemptRecord]) -> Witness:
-    """Return a witness whose attempt of a step is another one."""
-    attempts = tuple(change(attempt) if attempt.step == step else attempt for attempt in witness.result.attempts)
-    return replace(witness, result=replace(witness.result, attempts=attempts))
+def with_attempt(run: JudgedRun, step: str, change: Callable[[AttemptRecord], AttemptRecord]) -> JudgedRun:
+    """Return a run whose attempt of a step is another one."""
+    attempts = tuple(change(attempt) if attempt.step == step else attempt for attempt in run.result.attempts)
+    return replace(run, result=replace(run.result, attempts=attempts))

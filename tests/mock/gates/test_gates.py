@@ -11,16 +11,16 @@ from cellc.description.urdf_reader import read_urdf
 from cellc.mock import MockCell
 from cellc.mock.campaign.limits import LimitExcess, LimitsReport, Peak
 from cellc.mock.folder import GeneratedFolder
-from cellc.mock.gates import Verdict, Witness, sign_gates
+from cellc.mock.gates import JudgedRun, Verdict, sign_gates
 from cellc.mock.result import CancelRecord
 from tests.mock.gates.conftest import gate, line, with_attempt
 
 PASSED, FAILED, UNKNOWN = Verdict.PASSED, Verdict.FAILED, Verdict.UNKNOWN
-Witnesses = tuple[Witness, ...]
+Witnesses = tuple[JudgedRun, ...]
 
 
-def witness(witnesses: Witnesses, name: str) -> Witness:
-    return next(each for each in witnesses if each.name == name)
+def run(runs: Witnesses, name: str) -> JudgedRun:
+    return next(each for each in runs if each.name == name)
 
 
 def changed_urdf(folder: GeneratedFolder, old: str, new: str) -> GeneratedFolder:
@@ -97,7 +97,7 @@ def test_file_edited_by_hand_fails_the_model(pick: MockCell, rehearsed: Witnesse
 
 
 def test_cancel_that_is_not_held_fails_its_line(pick: MockCell, rehearsed: Witnesses) -> None:
-    moving = witness(rehearsed, "cancelled")
+    moving = run(rehearsed, "cancelled")
     late = CancelRecord(requested_ns=1_000_000_000, held_ns=1_250_000_000, latency_s=0.25, return_code=0)
     never = replace(late, held_ns=None, latency_s=None)
     for cancel in (late, never):
@@ -108,12 +108,12 @@ def test_cancel_that_is_not_held_fails_its_line(pick: MockCell, rehearsed: Witne
 
 
 def test_cancel_of_a_goal_that_moved_nothing_is_no_evidence(pick: MockCell, rehearsed: Witnesses) -> None:
-    still = with_attempt(witness(rehearsed, "cancelled"), "move pick", partial(replace, trace=()))
+    still = with_attempt(run(rehearsed, "cancelled"), "move pick", partial(replace, trace=()))
     assert line(gate("L6", pick.folder, (still,)), "A cancelled goal of arm_trajectory").verdict is UNKNOWN
 
 
 def test_second_owner_fails_its_line(pick: MockCell, rehearsed: Witnesses) -> None:
-    good = witness(rehearsed, "pick_and_place")
+    good = run(rehearsed, "pick_and_place")
     problem = "`arm_elbow_joint/position` is claimed by `other`, the contract says `arm_trajectory`"
     stages = tuple(
         replace(stage, problems=(problem,)) if stage.stage == "claim" else stage for stage in good.result.bringup
@@ -124,7 +124,7 @@ def test_second_owner_fails_its_line(pick: MockCell, rehearsed: Witnesses) -> No
 
 
 def test_rehearsal_that_ends_otherwise_fails_the_mock_gate(pick: MockCell, rehearsed: Witnesses) -> None:
-    other = replace(witness(rehearsed, "stale_camera"), passed=False)
+    other = replace(run(rehearsed, "stale_camera"), passed=False)
     assert line(gate("G2", pick.folder, (*rehearsed, other)), "Every rehearsal ends").verdict is FAILED
     fewer = tuple(each for each in rehearsed if each.name != "stale_camera")
     missing = line(gate("G2", pick.folder, fewer), "Every rehearsal ends")
@@ -137,7 +137,7 @@ def test_late_sample_passes_where_it_ended_bounded_and_fails_where_it_did_not(
     words = "/camera/color/image_raw (topic, newest): a late sample"
     assert line(gate("S2", pick.folder, rehearsed), words).verdict is PASSED
     assert line(gate("S2", pick.folder, rehearsed), "/joint_states (topic, newest)").verdict is UNKNOWN
-    unbounded = replace(witness(rehearsed, "stale_camera"), passed=False)
+    unbounded = replace(run(rehearsed, "stale_camera"), passed=False)
     assert line(gate("S2", pick.folder, (unbounded,)), words).verdict is FAILED
     unnoticed = replace(unbounded, passed=True, result=replace(unbounded.result, outcome="succeeded"))
     assert line(gate("S2", pick.folder, (unnoticed,)), words).verdict is UNKNOWN
