@@ -16,10 +16,10 @@ from cellc.mock.result import CancelRecord
 from tests.mock.gates.conftest import gate, line, with_attempt
 
 PASSED, FAILED, UNKNOWN = Verdict.PASSED, Verdict.FAILED, Verdict.UNKNOWN
-Witnesses = tuple[JudgedRun, ...]
+Runs = tuple[JudgedRun, ...]
 
 
-def run(runs: Witnesses, name: str) -> JudgedRun:
+def run(runs: Runs, name: str) -> JudgedRun:
     return next(each for each in runs if each.name == name)
 
 
@@ -31,7 +31,7 @@ def changed_urdf(folder: GeneratedFolder, old: str, new: str) -> GeneratedFolder
     return replace(folder, urdf=urdf, description=description)
 
 
-def test_rehearsals_confirm_what_they_showed_and_leave_the_rest_unknown(pick: MockCell, rehearsed: Witnesses) -> None:
+def test_rehearsals_confirm_what_they_showed_and_leave_the_rest_unknown(pick: MockCell, rehearsed: Runs) -> None:
     command_path = gate("L6", pick.folder, rehearsed)
     assert line(command_path, "is a route to a real interface").verdict is PASSED
     assert line(command_path, "claimed by its one owner").verdict is PASSED
@@ -54,7 +54,7 @@ def test_no_evidence_leaves_every_line_about_runs_unknown(pick: MockCell) -> Non
             assert check.evidence
 
 
-def test_what_only_hardware_or_a_person_can_show_is_never_signed(pick: MockCell, rehearsed: Witnesses) -> None:
+def test_what_only_hardware_or_a_person_can_show_is_never_signed(pick: MockCell, rehearsed: Runs) -> None:
     model = gate("G1", pick.folder, rehearsed)
     assert line(model, "Axes turn as those of the robot").verdict is UNKNOWN
     assert line(model, "Collision shapes enclose").verdict is UNKNOWN
@@ -83,7 +83,7 @@ def test_what_only_hardware_or_a_person_can_show_is_never_signed(pick: MockCell,
     ],
 )
 def test_spoiled_description_fails_its_line(
-    pick: MockCell, rehearsed: Witnesses, old: str, new: str, words: str, reason: str
+    pick: MockCell, rehearsed: Runs, old: str, new: str, words: str, reason: str
 ) -> None:
     spoiled = changed_urdf(pick.folder, old, new)
     checks = [check for each in sign_gates(spoiled, rehearsed, 0) for check in each.checks if words in check.text]
@@ -91,12 +91,12 @@ def test_spoiled_description_fails_its_line(
     assert any(reason in piece for piece in checks[0].evidence), checks[0].evidence
 
 
-def test_file_edited_by_hand_fails_the_model(pick: MockCell, rehearsed: Witnesses) -> None:
+def test_file_edited_by_hand_fails_the_model(pick: MockCell, rehearsed: Runs) -> None:
     edited = replace(pick.folder, notes=("`urdf/ur5e_pick.mock.urdf` differs from the manifest",))
     assert line(gate("G1", edited, rehearsed), "as it was generated").verdict is FAILED
 
 
-def test_cancel_that_is_not_held_fails_its_line(pick: MockCell, rehearsed: Witnesses) -> None:
+def test_cancel_that_is_not_held_fails_its_line(pick: MockCell, rehearsed: Runs) -> None:
     moving = run(rehearsed, "cancelled")
     late = CancelRecord(requested_ns=1_000_000_000, held_ns=1_250_000_000, latency_s=0.25, return_code=0)
     never = replace(late, held_ns=None, latency_s=None)
@@ -107,12 +107,12 @@ def test_cancel_that_is_not_held_fails_its_line(pick: MockCell, rehearsed: Witne
         assert check.evidence == ("cancelled, move pick: not held within 0.2 s",)
 
 
-def test_cancel_of_a_goal_that_moved_nothing_is_no_evidence(pick: MockCell, rehearsed: Witnesses) -> None:
+def test_cancel_of_a_goal_that_moved_nothing_is_no_evidence(pick: MockCell, rehearsed: Runs) -> None:
     still = with_attempt(run(rehearsed, "cancelled"), "move pick", partial(replace, trace=()))
     assert line(gate("L6", pick.folder, (still,)), "A cancelled goal of arm_trajectory").verdict is UNKNOWN
 
 
-def test_second_owner_fails_its_line(pick: MockCell, rehearsed: Witnesses) -> None:
+def test_second_owner_fails_its_line(pick: MockCell, rehearsed: Runs) -> None:
     good = run(rehearsed, "pick_and_place")
     problem = "`arm_elbow_joint/position` is claimed by `other`, the contract says `arm_trajectory`"
     stages = tuple(
@@ -123,7 +123,7 @@ def test_second_owner_fails_its_line(pick: MockCell, rehearsed: Witnesses) -> No
     assert line(gate("G2", pick.folder, (spoiled,)), "comes up in stages").verdict is FAILED
 
 
-def test_rehearsal_that_ends_otherwise_fails_the_mock_gate(pick: MockCell, rehearsed: Witnesses) -> None:
+def test_rehearsal_that_ends_otherwise_fails_the_mock_gate(pick: MockCell, rehearsed: Runs) -> None:
     other = replace(run(rehearsed, "stale_camera"), passed=False)
     assert line(gate("G2", pick.folder, (*rehearsed, other)), "Every rehearsal ends").verdict is FAILED
     fewer = tuple(each for each in rehearsed if each.name != "stale_camera")
@@ -132,7 +132,7 @@ def test_rehearsal_that_ends_otherwise_fails_the_mock_gate(pick: MockCell, rehea
 
 
 def test_late_sample_passes_where_it_ended_bounded_and_fails_where_it_did_not(
-    pick: MockCell, rehearsed: Witnesses
+    pick: MockCell, rehearsed: Runs
 ) -> None:
     words = "/camera/color/image_raw (topic, newest): a late sample"
     assert line(gate("S2", pick.folder, rehearsed), words).verdict is PASSED
@@ -143,7 +143,7 @@ def test_late_sample_passes_where_it_ended_bounded_and_fails_where_it_did_not(
     assert line(gate("S2", pick.folder, (unnoticed,)), words).verdict is UNKNOWN
 
 
-def test_exceeded_limit_fails_the_mock_gate(pick: MockCell, rehearsed: Witnesses) -> None:
+def test_exceeded_limit_fails_the_mock_gate(pick: MockCell, rehearsed: Runs) -> None:
     peaks = (Peak("velocity", 0.5),)
     held = replace(rehearsed[0], limits=LimitsReport(peaks=peaks))
     assert line(gate("G2", pick.folder, (held,)), "exceeds a limit").verdict is PASSED
@@ -152,7 +152,7 @@ def test_exceeded_limit_fails_the_mock_gate(pick: MockCell, rehearsed: Witnesses
     assert line(gate("G2", pick.folder, (exceeded,)), "exceeds a limit").verdict is FAILED
 
 
-def test_signature_changes_with_any_evidence(pick: MockCell, rehearsed: Witnesses) -> None:
+def test_signature_changes_with_any_evidence(pick: MockCell, rehearsed: Runs) -> None:
     signed = gate("G2", pick.folder, rehearsed).signature
     assert gate("G2", pick.folder, rehearsed).signature == signed
     assert gate("G2", pick.folder, rehearsed[:-1]).signature != signed
