@@ -131,9 +131,7 @@ def test_rehearsal_that_ends_otherwise_fails_the_mock_gate(pick: MockCell, rehea
     assert (missing.verdict, missing.evidence) == (UNKNOWN, ("a run of stale_camera",))
 
 
-def test_late_sample_passes_where_it_ended_bounded_and_fails_where_it_did_not(
-    pick: MockCell, rehearsed: Runs
-) -> None:
+def test_late_sample_passes_where_it_ended_bounded_and_fails_where_it_did_not(pick: MockCell, rehearsed: Runs) -> None:
     words = "/camera/color/image_raw (topic, newest): a late sample"
     assert line(gate("S2", pick.folder, rehearsed), words).verdict is PASSED
     assert line(gate("S2", pick.folder, rehearsed), "/joint_states (topic, newest)").verdict is UNKNOWN
