@@ -135,10 +135,12 @@ class Payload:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Adapter:
-    """Watchdog of a direct SDK; None where the spec leaves it to the default."""
+    """Watchdog and bounds of a direct SDK; None where the spec leaves them to the default."""
 
     command_timeout_s: float | None = None
     stop_time_s: float | None = None
+    goal_time_s: float | None = None
+    path_tolerance: float | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

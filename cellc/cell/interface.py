@@ -117,7 +117,8 @@ class Interface(Entity):
     """A topic, service or action under its fully qualified name.
 
     ``sources`` publish a topic or serve a service or action; ``sinks`` subscribe to it or are its clients.
-    ``derived`` interfaces follow from a device or controller and were not written by the user.
+    ``derived`` interfaces follow from a device or controller and were not written by the user. ``timeout_s`` bounds a
+    response or a whole goal; ``goal_time_s`` is what a controller allows past the end of a trajectory.
     """
 
     kind: InterfaceKind
@@ -135,6 +136,7 @@ class Interface(Entity):
     transport_s: float | None = None
     on_stale: str | None = None
     timeout_s: float | None = None
+    goal_time_s: float | None = None
     on_timeout: str | None = None
     on_error: str | None = None
     cancel_within_s: float | None = None

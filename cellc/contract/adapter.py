@@ -20,4 +20,6 @@ class ContractAdapter(ContractModel):
     command_period_s: float = Field(description="Time from one command to the next.", gt=0.0)
     command_timeout_s: float = Field(description="Watchdog: silence after which it stops.", gt=0.0)
     stop_time_s: float = Field(description="Longest time from a hold to standstill.", gt=0.0)
+    goal_time_s: float = Field(description="Time past the end of a trajectory within which it stands still.", gt=0.0)
+    path_tolerance: float = Field(description="Distance from the command that ends a goal, rad or m.", gt=0.0)
     start_positions: tuple[float, ...] = Field(description="Where the mock's joints stand at first, rad or m.")

@@ -112,6 +112,9 @@ class ContractController(ContractModel):
     action_type: str | None = Field(description="ROS type of its action.")
     real_action: str | None = Field(description="Action that takes its goals where it is not loaded on real hardware.")
     real_action_type: str | None = Field(description="ROS type of that action.")
+    goal_time_s: float | None = Field(
+        description="Time allowed past the end of a trajectory; null or 0 for no limit. It bounds no whole goal."
+    )
     on_violation: str = Field(description="What happens on a tolerance violation.")
 
 

@@ -73,9 +73,12 @@ def _failures(interface: Interface) -> Iterator[str]:
         yield f"stale{age}: {interface.on_stale}"
     elif interface.kind is InterfaceKind.TOPIC and _latched(interface):
         yield "missing: its readers wait"
-    if interface.on_timeout is not None:
-        bound = "" if interface.timeout_s is None else f" after {shortest(interface.timeout_s)} s"
-        yield f"timeout{bound}: {interface.on_timeout}"
+    if interface.timeout_s is not None:
+        yield f"timeout after {shortest(interface.timeout_s)} s: {interface.on_timeout or _NOT_STATED}"
+    elif interface.kind is InterfaceKind.ACTION:
+        yield "no timeout stated"
+    if interface.goal_time_s is not None:
+        yield f"ends at most {shortest(interface.goal_time_s)} s after its trajectory"
     if interface.cancel_within_s is not None:
         yield f"cancel holds within {shortest(interface.cancel_within_s)} s"
     if interface.on_error is not None:

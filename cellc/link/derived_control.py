@@ -44,8 +44,7 @@ def _action(source: Derivation, controller: Controller, name: str, type_: str, s
         unit="rad, s",
         time_source="ros",
         owner=source.spec.owners.responsibilities.command,
-        timeout_s=controller.goal_time_s,
-        on_timeout="cancel_and_hold",
+        goal_time_s=controller.goal_time_s,
         on_error=controller.on_violation,
         cancel_within_s=None if source.spec.kpis.cancel is None else source.spec.kpis.cancel.si,
     )

@@ -83,7 +83,12 @@ def bind_adapter(written: DeviceSpec) -> Adapter | None:
     adapter = written.adapter
     if adapter is None:
         return None
-    return Adapter(command_timeout_s=si(adapter.command_timeout), stop_time_s=si(adapter.stop_time))
+    return Adapter(
+        command_timeout_s=si(adapter.command_timeout),
+        stop_time_s=si(adapter.stop_time),
+        goal_time_s=si(adapter.goal_time),
+        path_tolerance=si(adapter.path_tolerance),
+    )
 
 
 def bind_simulated_joints(

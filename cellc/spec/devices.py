@@ -90,6 +90,12 @@ class AdapterSpec(SpecModel):
         None, description="Watchdog: silence after which the device stops.", examples=["20 ms"]
     )
     stop_time: Duration | None = Field(None, description="Longest time from a hold to standstill.", examples=["100 ms"])
+    goal_time: Duration | None = Field(
+        None, description="Time past the end of a trajectory within which the device stands still.", examples=["0.5 s"]
+    )
+    path_tolerance: JointPosition | None = Field(
+        None, description="Largest distance of a joint from its command.", examples=["0.05 rad"]
+    )
 
 
 EVERY_JOINT = "*"

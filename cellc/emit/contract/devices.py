@@ -96,6 +96,8 @@ DEFAULT_RATE_HZ = 100.0
 DEFAULT_TIMEOUT_PERIODS = 10.0
 """Watchdog of an adapter that states none, in command periods."""
 DEFAULT_STOP_S = 0.1
+DEFAULT_GOAL_TIME_S = 0.5
+DEFAULT_PATH_TOLERANCE = 0.05
 """Time to standstill of an adapter that states none."""
 
 
@@ -119,6 +121,8 @@ def _adapter(adapted: AdaptedDevice, start: dict[str, float]) -> ContractAdapter
             "command_period_s": period_s,
             "command_timeout_s": _or(stated.command_timeout_s, DEFAULT_TIMEOUT_PERIODS * period_s),
             "stop_time_s": _or(stated.stop_time_s, DEFAULT_STOP_S),
+            "goal_time_s": _or(stated.goal_time_s, DEFAULT_GOAL_TIME_S),
+            "path_tolerance": _or(stated.path_tolerance, DEFAULT_PATH_TOLERANCE),
             "start_positions": tuple(start.get(joint.name, 0.0) for joint in joints),
         }
     )

@@ -163,6 +163,7 @@ def _controller(controller: Controller) -> ContractController:
             "action_type": controller.action_type,
             "real_action": None if other is None else other.action,
             "real_action_type": None if other is None else other.action_type,
+            "goal_time_s": controller.goal_time_s,
             "on_violation": controller.on_violation,
         }
     )

@@ -25,10 +25,6 @@ from cellc.mock.control import (
 )
 from cellc.mock.control.journal import Cause, CommandJournal
 
-PATH_TOLERANCE = 0.05
-"""rad or m by which a joint may be away from its command; nothing in a contract states it for an adapter."""
-GOAL_TIME_S = 0.5
-"""Time after the end of a trajectory within which its joints have to stand still."""
 _SAME = 1e-9
 """rad or m: a position nearer than this to the last command is the commanded one."""
 _ENDINGS = {
@@ -63,6 +59,7 @@ class AdapterServer:
         self.journal = CommandJournal()
         self.journal.interface_names += [f"{name}/position" for name in facts.joints]
         self._device = device
+        self._goal_time_s, self._path_tolerance = facts.goal_time_s, facts.path_tolerance
         self._next_ns = 0
         self._commanded = facts.start_positions
         self._events: list[ControlEvent] = []
@@ -91,7 +88,7 @@ class AdapterServer:
         self._note_start(trajectory.positions(0.0))
         self._goals += 1
         self._follower = TrajectoryFollower(
-            self.adapter, trajectory, path_tolerance=PATH_TOLERANCE, goal_time_s=GOAL_TIME_S
+            self.adapter, trajectory, path_tolerance=self._path_tolerance, goal_time_s=self._goal_time_s
         )
         return GoalResponse(True, self._goals)
 

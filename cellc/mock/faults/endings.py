@@ -6,12 +6,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from cellc.contract.contract import Contract
-from cellc.mock.bus.qos import served_actions
 from cellc.mock.faults.case import BORNE, SUCCEEDED, Ending, ends_in
 from cellc.mock.faults.cell_steps import CellStep
 from cellc.mock.nodes.motion_planner import PLANNING_LATENCY_S
 from cellc.mock.nodes.observations import DEFAULT_MAX_AGE_S as DEFAULT_OBSERVATION_AGE_S
-from cellc.mock.task.bounds import action_timeout_s, cancel_bound_s, joint_state_age_s
+from cellc.mock.task.bounds import action_timeout_s, cancel_bound_s, goal_timeout_s, joint_state_age_s
 from cellc.mock.task.context import WATCH_S
 from cellc.mock.task.grip import GRIP_TIMEOUT_S
 from cellc.mock.task.move import TF_TIMEOUT_S
@@ -56,8 +55,11 @@ class Bounds:
 
     def execution_s(self, step: CellStep) -> float | None:
         """Return the bound of a goal that makes no progress; None where no action of the contract states one."""
-        timeout_s = GRIP_TIMEOUT_S if step.kind == "grip" else action_timeout_s(self.contract)
-        return None if timeout_s is None else timeout_s * max(1, len(step.controllers)) + self.asked_s()
+        if step.kind == "grip":
+            return GRIP_TIMEOUT_S * max(1, len(step.controllers)) + self.asked_s()
+        goals = [goal_timeout_s(self.contract, controller) for controller in step.controllers]
+        stated = [timeout_s for timeout_s in goals or [action_timeout_s(self.contract)] if timeout_s is not None]
+        return sum(stated) + self.asked_s() if len(stated) == max(1, len(goals)) else None
 
     def dynamic_frames(self) -> tuple[str, ...]:
         """Return the frames that somebody has to observe."""
@@ -104,10 +106,7 @@ def off_track(bounds: Bounds, controller: str, *more: str) -> StepEnding:
     Args:
         more: outcomes that this fault may have besides.
     """
-    action = served_actions(bounds.contract)[controller]
-    interface = bounds.contract.interfaces.get(action or "")
-    unbounded = interface is None or interface.timeout_s is None
-    patience = ("timeout",) if unbounded else ()
+    patience = () if _goal_time_s(bounds.contract, controller) else ("timeout",)
 
     def ending(step: CellStep) -> Ending:
         if controller not in step.controllers:
@@ -115,6 +114,14 @@ def off_track(bounds: Bounds, controller: str, *more: str) -> StepEnding:
         return ends_in("tolerance_violation", SUCCEEDED, *patience, *more, within_s=bounds.execution_s(step))
 
     return ending
+
+
+def _goal_time_s(contract: Contract, controller: str) -> float | None:
+    """Return the time that a controller or adapter allows past the end of a trajectory; None or zero for no limit."""
+    if controller in contract.adapters:
+        return contract.adapters[controller].goal_time_s
+    found = (manager.controllers.get(controller) for manager in contract.managers.values())
+    return next((entry.goal_time_s for entry in found if entry is not None), None)
 
 
 def stopped(bounds: Bounds, outcome: str, after_s: float = 0.0) -> StepEnding:

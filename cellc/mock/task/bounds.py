@@ -35,6 +35,13 @@ def action_timeout_s(contract: Contract) -> float | None:
     return max((timeout_s for timeout_s in stated if timeout_s is not None), default=None)
 
 
+def goal_timeout_s(contract: Contract, controller: str) -> float | None:
+    """Return the bound of a whole goal: of the action that plans and executes, else of the one that takes the goal."""
+    planned_s = action_timeout_s(contract)
+    interface = contract.interfaces.get(served_actions(contract).get(controller) or "")
+    return planned_s if planned_s is not None or interface is None else interface.timeout_s
+
+
 def planning_server(contract: Contract) -> str:
     """Return the node that plans for the task; empty where the task plans itself."""
     actions = [interface for interface in planning_actions(contract).values() if interface.sinks]

@@ -10,7 +10,7 @@ from cellc.mock.engine.process import Waiting
 from cellc.mock.nodes.motion_planner import PLANNING_LATENCY_S, GoalPose, PlannedMotion
 from cellc.mock.result import PacketStep
 from cellc.mock.task.attempt import Attempt
-from cellc.mock.task.bounds import action_timeout_s, planning_server
+from cellc.mock.task.bounds import goal_timeout_s, planning_server
 from cellc.mock.task.context import AttemptError, CurrentState, TaskContext, current_state
 from cellc.mock.task.execute import await_response, execute, require_success
 from cellc.mock.tf.buffer import Transform
@@ -206,7 +206,7 @@ def _drive(
     context.retreats.pop(group, None)
     context.acting_on = observed_frame
     goal = _trajectory_goal(motion.trajectory)
-    timeout_s = _timeout_s(context, motion.trajectory.duration_ns * 1e-9)
+    timeout_s = _timeout_s(context, controller, motion.trajectory.duration_ns * 1e-9)
     ended = yield from execute(context, attempt, "move", controller, goal, timeout_s)
     require_success(ended, context)
     state = yield from state_since(context, ended.decided_ns)
@@ -241,6 +241,6 @@ def _trajectory_goal(trajectory: TimedTrajectory) -> TrajectoryGoal:
     )
 
 
-def _timeout_s(context: TaskContext, duration_s: float) -> float:
-    stated_s = action_timeout_s(context.plant.contract)
+def _timeout_s(context: TaskContext, controller: str, duration_s: float) -> float:
+    stated_s = goal_timeout_s(context.plant.contract, controller)
     return 2.0 * duration_s + MARGIN_S if stated_s is None else stated_s
