@@ -7,18 +7,16 @@ from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
+from cellc.catalog.compiled import CATALOGUE, SHOWN, compiled_device, compiled_table
 from cellc.catalog.controller_kind import ControllerKind
 from cellc.catalog.device_model import DeviceModel
 from cellc.catalog.read_model import ModelT, read_model
 from cellc.catalog.tables import ControllerManagerFacts, DistroTable, InterfaceTypeTable, QosTable
 from cellc.description.model import Description
-from cellc.description.read_description import read_catalogue_description, read_description
+from cellc.description.urdf_reader import read_urdf
 from cellc.diagnostics import Diagnostic, Outcome, Severity, YamlPath, did_you_mean
 from cellc.source.document import SourceDocument
 from cellc.vocabulary import PASSIVE
-
-CATALOGUE = Path(__file__).parent
-_SHOWN = "cellc/catalog"  # where the package lies on the machine is of no interest to a reader
 
 _NamedThing = tuple[YamlPath, str, set[str], str]
 """Where a name stands, the name, the names that exist, and what they are."""
@@ -26,10 +24,9 @@ _NamedThing = tuple[YamlPath, str, set[str], str]
 
 @dataclass(frozen=True, slots=True)
 class CatalogDevice:
-    """A device of the catalogue: its facts, the text behind them, and its description without prefix."""
+    """A device of the catalogue: its facts, and its description without prefix."""
 
     model: DeviceModel
-    document: SourceDocument
     description: Description
 
 
@@ -57,8 +54,21 @@ def load_device(name: str) -> Outcome[CatalogDevice]:
     """
     if name not in device_names():
         raise KeyError(name)
+    compiled = compiled_device(name)
+    if compiled is None:
+        return read_device(name)
+    facts, urdf, places = compiled
+    description = read_urdf(urdf, f"{SHOWN}/devices/{name}", places)
+    assert description.value is not None  # it was valid when it was compiled
+    return Outcome(CatalogDevice(DeviceModel.model_validate_json(facts), description.value))
+
+
+def read_device(name: str) -> Outcome[CatalogDevice]:
+    """Read the files of a device of the catalogue."""
+    from cellc.description.read_description import read_catalogue_description
+
     devices = CATALOGUE / "devices"
-    shown = f"{_SHOWN}/devices"
+    shown = f"{SHOWN}/devices"
 
     def read(file: Path, arguments: dict[str, str]) -> Outcome[Description]:
         return read_catalogue_description(file, arguments, devices, shown)
@@ -73,6 +83,8 @@ def load_device_folder(folder: Path, root: Path) -> Outcome[CatalogDevice]:
         folder: the folder, as the user named it.
         root: the folder that the description and all it includes must lie under.
     """
+
+    from cellc.description.read_description import read_description
 
     def read(file: Path, arguments: dict[str, str]) -> Outcome[Description]:
         return read_description(file, arguments, root)
@@ -91,7 +103,7 @@ def _load(
     if description.value is None:
         return Outcome(None, description.diagnostics)
     unknown = tuple(_unknown_names(model, description.value, document))
-    device = None if unknown else CatalogDevice(model, document, description.value)
+    device = None if unknown else CatalogDevice(model, description.value)
     return Outcome(device, description.diagnostics + unknown)
 
 
@@ -186,7 +198,10 @@ def load_qos_profiles() -> Outcome[QosTable]:
 
 
 def _table(file: str, model: type[ModelT]) -> Outcome[ModelT]:
-    read = read_model(CATALOGUE / file, f"{_SHOWN}/{file}", model)
+    compiled = compiled_table(file)
+    if compiled is not None:
+        return Outcome(model.model_validate_json(compiled))
+    read = read_model(CATALOGUE / file, f"{SHOWN}/{file}", model)
     return Outcome(None if read.value is None else read.value[0], read.diagnostics)
 
 

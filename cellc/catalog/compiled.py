@@ -1,0 +1,116 @@
+"""The catalogue in the form in which a check reads it: JSON with expanded descriptions, beside the files it comes from.
+
+Reading YAML with its places and expanding xacro took a fifth of a check. A compiled entry says from which bytes it was
+made; where they differ from the files, it is not used. ``python -m cellc.catalog.compiled`` writes all of them anew.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from cellc.diagnostics import Span
+
+CATALOGUE = Path(__file__).parent
+SHOWN = "cellc/catalog"
+"""Stands for the folder of the package in messages: where that lies on the machine is of no interest to a reader."""
+
+_COMPILED = "compiled"
+Places = Mapping[tuple[str, str], Span]
+"""Where each ``("link", name)`` and ``("joint", name)`` of a description was written before its expansion."""
+
+
+def compiled_table(file: str) -> str | None:
+    """Return the data of a YAML file of the catalogue as JSON, or None where it is to be read itself."""
+    entry = _entry(file, (CATALOGUE / file,))
+    return None if entry is None else json.dumps(entry["data"])
+
+
+def compiled_device(name: str) -> tuple[str, str, Places] | None:
+    """Return the facts of a device as JSON, its URDF and its places, or None where its files are to be read."""
+    entry = _entry(f"devices/{name}", _files_of(name))
+    if entry is None:
+        return None
+    places = {(tag, part): Span(f"{SHOWN}/devices/{file}", *at) for tag, part, file, *at in entry["places"]}
+    return json.dumps(entry["data"]), entry["urdf"], places
+
+
+def compile_catalogue() -> Iterator[tuple[Path, str]]:
+    """Yield every compiled file with its text.
+
+    Raises:
+        ValueError: an entry is not valid.
+    """
+    from cellc.catalog.load import controller_kinds, device_names
+
+    tables = ("distros", "controller_manager", "message_types", "qos_profiles")
+    for table in (*tables, *(f"controllers/{kind}" for kind in controller_kinds())):
+        yield _written(f"{table}.yaml", (CATALOGUE / f"{table}.yaml",), {"data": _data(CATALOGUE / f"{table}.yaml")})
+    for name in device_names():
+        yield _written(f"devices/{name}", _files_of(name), _device(name))
+
+
+def _device(name: str) -> dict[str, Any]:
+    from cellc.catalog.load import read_device
+    from cellc.description.xacro_expansion import expand_here
+
+    devices = CATALOGUE / "devices"
+    device = read_device(name)
+    if device.value is None or device.diagnostics:
+        raise ValueError(f"{name}: {'; '.join(found.message for found in device.diagnostics)}")
+    description = device.value.model.description
+    shown = f"{SHOWN}/devices"
+    file = (devices / name / description.file).as_posix()
+    expansion = expand_here(file, description.arguments, devices.as_posix(), shown).value
+    assert expansion is not None  # it was read a moment ago
+    places = [
+        [tag, part, span.file.removeprefix(f"{shown}/"), span.line, span.column, span.end_line, span.end_column]
+        for (tag, part), span in expansion.origins.items()
+    ]
+    return {"data": _data(devices / name / "device.yaml"), "urdf": expansion.text, "places": places}
+
+
+def _data(file: Path) -> object:
+    from cellc.source.compose import compose
+
+    root = compose(file.name, file.read_text(encoding="utf-8")).value
+    assert root is not None  # held valid by the catalogue's tests
+    return root.data
+
+
+def _files_of(name: str) -> tuple[Path, ...]:
+    devices = CATALOGUE / "devices"
+    return (*sorted(devices.glob("*.xacro")), *sorted(file for file in (devices / name).iterdir() if file.is_file()))
+
+
+def _written(name: str, sources: Sequence[Path], content: Mapping[str, object]) -> tuple[Path, str]:
+    return _file(name), json.dumps({"made_from": _digest(sources), **content}, separators=(",", ":")) + "\n"
+
+
+def _entry(name: str, sources: Sequence[Path]) -> dict[str, Any] | None:
+    try:
+        entry = json.loads(_file(name).read_bytes())
+    except OSError:
+        return None
+    return entry if isinstance(entry, dict) and entry["made_from"] == _digest(sources) else None
+
+
+def _file(name: str) -> Path:
+    return CATALOGUE / _COMPILED / f"{name.removesuffix('.yaml')}.json"
+
+
+def _digest(sources: Sequence[Path]) -> str:
+    digest = hashlib.sha256()
+    for source in sources:
+        # Bytes as in the repository: a checkout on another system may end lines in another way.
+        digest.update(f"{source.name}\0".encode() + source.read_bytes().replace(b"\r\n", b"\n") + b"\0")
+    return digest.hexdigest()
+
+
+if __name__ == "__main__":
+    for _file_, _text in compile_catalogue():
+        _file_.parent.mkdir(parents=True, exist_ok=True)
+        _file_.write_text(_text, encoding="utf-8", newline="\n")

@@ -1,0 +1,72 @@
+"""The compiled catalogue says what its files say; where it does not know a file, the file itself is read."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from cellc.catalog import compiled, load
+from cellc.catalog.compiled import CATALOGUE, compile_catalogue, compiled_device, compiled_table
+from cellc.catalog.controller_kind import ControllerKind
+from cellc.catalog.load import controller_kinds, device_names, load_controller_kind, load_device, read_device
+from cellc.catalog.read_model import read_model
+
+WRITTEN = sorted((CATALOGUE / "compiled").rglob("*.json"))
+
+
+def test_compiled_files_are_up_to_date() -> None:
+    # After a change in the catalogue: python -m cellc.catalog.compiled
+    expected = dict(compile_catalogue())
+    assert {file: file.read_text(encoding="utf-8") for file in WRITTEN} == expected
+
+
+@pytest.mark.parametrize("name", device_names())
+def test_compiled_device_is_the_device_of_the_files(name: str) -> None:
+    assert compiled_device(name) is not None
+    assert load_device(name) == read_device(name)
+
+
+@pytest.mark.parametrize("kind", controller_kinds())
+def test_compiled_kind_is_the_kind_of_the_file(kind: str) -> None:
+    read = read_model(CATALOGUE / f"controllers/{kind}.yaml", kind, ControllerKind)
+    assert read.value is not None
+    assert load_controller_kind(kind).value == read.value[0]
+
+
+def test_compiled_tables_are_those_of_the_files(monkeypatch: pytest.MonkeyPatch) -> None:
+    loads = (load.load_distros, load.load_controller_manager, load.load_message_types, load.load_qos_profiles)
+    recalled = [table() for table in loads]
+    monkeypatch.setattr(load, "compiled_table", lambda file: None)
+    for table in loads:
+        table.cache_clear()
+    assert [table() for table in loads] == recalled
+
+
+@pytest.mark.parametrize(
+    "changed", ["devices/ur5e/device.yaml", "devices/ur5e/ur5e.urdf.xacro", "devices/shapes.xacro"]
+)
+def test_device_whose_files_changed_is_not_taken_from_the_compiled_one(
+    changed: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    copy = tmp_path / "catalog"
+    shutil.copytree(CATALOGUE, copy, ignore=shutil.ignore_patterns("*.py", "__pycache__"))
+    monkeypatch.setattr(compiled, "CATALOGUE", copy)
+    assert compiled_device("ur5e") is not None
+    (copy / changed).write_bytes((copy / changed).read_bytes() + b" ")
+    assert compiled_device("ur5e") is None
+
+
+def test_missing_compiled_file_is_no_loss(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    shutil.copy(CATALOGUE / "distros.yaml", tmp_path)
+    monkeypatch.setattr(compiled, "CATALOGUE", tmp_path)
+    assert compiled_table("distros.yaml") is None
+
+
+def test_line_ends_of_another_system_change_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    copy = tmp_path / "catalog"
+    shutil.copytree(CATALOGUE, copy, ignore=shutil.ignore_patterns("*.py", "__pycache__"))
+    monkeypatch.setattr(compiled, "CATALOGUE", copy)
+    (copy / "distros.yaml").write_bytes((copy / "distros.yaml").read_bytes().replace(b"\n", b"\r\n"))
+    assert compiled_table("distros.yaml") is not None
