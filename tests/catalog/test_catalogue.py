@@ -9,9 +9,9 @@ from typing import Any
 
 import pytest
 
+from cellc.catalog.compiled import CATALOGUE
 from cellc.catalog.controller_kind import ControllerKind, ParameterFacts
 from cellc.catalog.load import (
-    CATALOGUE,
     CatalogDevice,
     controller_kinds,
     device_names,

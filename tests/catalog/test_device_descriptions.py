@@ -13,7 +13,8 @@ import numpy as np
 import pinocchio
 import pytest
 
-from cellc.catalog.load import CATALOGUE, device_names, load_device
+from cellc.catalog.compiled import CATALOGUE
+from cellc.catalog.load import device_names, load_device
 from cellc.description.model import Box, Description, Inertial
 from cellc.description.xacro_expansion import expand_here
 from tests.catalog.chains import Matrix, axis_rotation, transform
@@ -190,7 +191,8 @@ def test_gripper_does_not_touch_itself(angle: float) -> None:
 
 def test_expansion_is_the_same_under_any_hash_seed() -> None:
     program = (
-        "from cellc.catalog.load import device_names, CATALOGUE\n"
+        "from cellc.catalog.compiled import CATALOGUE\n"
+        "from cellc.catalog.load import device_names\n"
         "from cellc.description.xacro_expansion import expand_here\n"
         "d = CATALOGUE / 'devices'\n"
         "for n in device_names():\n"
