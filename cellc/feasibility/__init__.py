@@ -3,9 +3,17 @@
 The robot library is imported where an answer has to be computed and not before: a warm check does without.
 """
 
-from cellc.feasibility.answers import BodyContact, DisabledAnswer, DisabledLinks, GoalAnswer, MotionAnswer, PoseAnswer
-from cellc.feasibility.disabled import MARGIN_M, RNG_SEED, disabled_links
-from cellc.feasibility.motion import motion_answer
+from cellc.feasibility.answers import (
+    MARGIN_M,
+    RNG_SEED,
+    BodyContact,
+    DisabledAnswer,
+    DisabledLinks,
+    GoalAnswer,
+    MotionAnswer,
+    PoseAnswer,
+)
+from cellc.feasibility.feasibility import disabled_links, motion_answer
 
 __all__ = [
     "MARGIN_M",

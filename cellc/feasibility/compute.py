@@ -5,7 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from cellc.cell.frame import WORLD
-from cellc.feasibility.answers import BodyContact, DisabledLinks, GoalAnswer, MotionAnswer, PoseAnswer
+from cellc.feasibility.answers import (
+    MARGIN_M,
+    RNG_SEED,
+    BodyContact,
+    DisabledAnswer,
+    DisabledLinks,
+    GoalAnswer,
+    MotionAnswer,
+    PoseAnswer,
+)
 from cellc.feasibility.question import GoalQuestion, GroupQuestion, MotionQuestion
 from cellc.planning import (
     CollisionScene,
@@ -18,6 +27,9 @@ from cellc.planning import (
     Planner,
     PlanningGroup,
     RobotModel,
+    beyond_reach,
+    decided_collisions,
+    disabled_collisions,
 )
 from cellc.transforms import Pose
 
@@ -29,12 +41,36 @@ APPROACH_ATTEMPTS = 4
 Configuration = tuple[float, ...]
 
 
-def answer(question: MotionQuestion, disabled: tuple[DisabledLinks, ...]) -> MotionAnswer:
+SAMPLES = 10_000
+"""As many as MoveIt's Setup Assistant draws by default; fewer where many robots share a cell."""
+LEAST_SAMPLES = 500
+_PAIRS_TIMES_SAMPLES = 2_000_000
+
+
+def sample_pairs(urdf: str) -> DisabledAnswer:
+    """Find the pairs of a robot description that need no collision check."""
+    try:
+        robot = RobotModel.from_urdf(urdf)
+    except ModelError as error:
+        return DisabledAnswer((), 0, str(error))
+    samples = _samples(robot)
+    pairs = disabled_collisions(robot, samples=samples, rng_seed=RNG_SEED, margin_m=MARGIN_M)
+    links = tuple(DisabledLinks(pair.first, pair.second, pair.reason.value) for pair in pairs)
+    return DisabledAnswer(links, samples)
+
+
+def _samples(robot: RobotModel) -> int:
+    checked = len(set(CollisionScene(robot).checked_pairs()) - beyond_reach(robot, margin_m=MARGIN_M))
+    return min(SAMPLES, max(LEAST_SAMPLES, _PAIRS_TIMES_SAMPLES // max(1, checked)))
+
+
+def answer(question: MotionQuestion) -> MotionAnswer:
     """Answer all parts of a question in the scene of the cell, every joint not asked about at its start."""
     try:
         robot = RobotModel.from_urdf(question.urdf)
         start = {joint: value for joint, value in question.start if joint in robot.joints}
-        pairs = [(pair.first, pair.second) for pair in disabled]
+        disabled = decided_collisions(robot, samples=_samples(robot), rng_seed=RNG_SEED, margin_m=MARGIN_M)
+        pairs = [pair.links for pair in disabled]
         scene = CollisionScene(robot, disabled_collisions=pairs, other_positions=start)
         asked = {goal.group for goal in question.goals}
         planners = {group.name: _planner(group, robot, scene) for group in question.groups if group.name in asked}

@@ -10,7 +10,6 @@ from cellc.cell.cell import Cell
 from cellc.cell.device import DeviceJoint
 from cellc.cell.frame import FrameKind
 from cellc.cell.motion import CartesianGoal, PlanningGroup
-from cellc.feasibility.standing import pose_in_world
 from cellc.formats.urdf.robot import manager_description, start_positions
 from cellc.formats.xml_text import render
 from cellc.graph.cell_graph import CellGraph
@@ -107,7 +106,7 @@ def _poses(cell: Cell) -> tuple[PoseQuestion, ...]:
 
 def _goal(frames: FrameTree, goal: CartesianGoal, transform_tip_to_link: Pose) -> tuple[GoalQuestion, ...]:
     """Return the question of one goal, none where its frame moves or nobody knows where it will be."""
-    place = pose_in_world(frames, goal.frame)
+    place = _pose_in_world(frames, goal.frame)
     if place is None:
         return ()
     tip = place @ goal.transform_tip_to_frame
@@ -133,3 +132,24 @@ def _tip(frames: FrameTree, name: str) -> tuple[str, Pose]:
             return frame.name, pose
         pose = frame.transform_to_parent @ pose
     return name, identity()
+
+
+def _pose_in_world(frames: FrameTree, name: str) -> Pose | None:
+    """Return the pose of a frame in the world; a dynamic frame stands where the mock puts what it follows.
+
+    Returns:
+        None for a frame that a joint moves, and for a dynamic frame without a simulated pose.
+    """
+    pose = identity()
+    seen: set[str] = set()
+    while (frame := frames.get(name)) is not None and name not in seen:
+        seen.add(name)
+        if not frame.parent:
+            return pose
+        if frame.simulated_pose is not None:
+            pose, name = frame.simulated_pose.pose @ pose, frame.simulated_pose.parent
+        elif frame.moving or frame.transform_to_parent is None:
+            return None
+        else:
+            pose, name = frame.transform_to_parent @ pose, frame.parent
+    return None

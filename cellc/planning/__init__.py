@@ -1,6 +1,6 @@
 """The deterministic planner: inverse kinematics, collision-free paths, and jerk-limited trajectories."""
 
-from cellc.planning.collision_matrix import DisabledPair, DisabledReason, disabled_collisions
+from cellc.planning.collision_matrix import DisabledPair, DisabledReason, decided_collisions, disabled_collisions
 from cellc.planning.inverse_kinematics import IkSolution
 from cellc.planning.model import RobotModel
 from cellc.planning.pair_sampling import beyond_reach
@@ -38,6 +38,7 @@ __all__ = [
     "TimedTrajectory",
     "TrajectoryPoint",
     "beyond_reach",
+    "decided_collisions",
     "disabled_collisions",
     "time_parameterize",
 ]

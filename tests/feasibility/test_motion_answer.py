@@ -97,3 +97,17 @@ def test_pairs_of_a_cell_are_neighbours_alone_where_all_else_can_meet(tmp_path: 
     assert pairs["arm_lower", "arm_upper"] == "adjacent"
     assert pairs["arm_hand", "arm_lower"] == "adjacent"
     assert len(pairs) == 2  # the hand meets the upper bar where the arm is folded
+
+
+def test_poses_and_goals_are_answered_without_sampling_the_pairs_that_never_touch(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*arguments: object, **options: object) -> None:
+        raise AssertionError("pairs are sampled where no artifact asks for them")
+
+    monkeypatch.setenv("CELLC_NO_CACHE", "1")
+    monkeypatch.setattr("cellc.feasibility.compute.disabled_collisions", refuse)
+    graph = _graph(tmp_path, motion=_motion(poses={"folded": {"bars": "0 171 0 deg"}}))
+    assert [len(pose.contacts) for pose in motion_answer(graph).poses] == [1]
+    with pytest.raises(AssertionError):
+        disabled_links(graph)

@@ -12,7 +12,7 @@ REPOSITORY = Path(__file__).resolve().parents[2]
 SCRIPT = """
 import sys
 sys.path.insert(0, {tests!r})
-from kinematics.arm import ADJACENT, GROUP, HOME, LIMITS, arm_urdf
+from planning.arm import ADJACENT, GROUP, HOME, LIMITS, arm_urdf
 from cellc.planning import CollisionScene, Planner, RobotModel, disabled_collisions, time_parameterize
 from cellc.transforms import Pose
 

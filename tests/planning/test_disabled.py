@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cellc.planning import CollisionScene, DisabledReason, RobotModel, disabled_collisions
+from cellc.planning import CollisionScene, DisabledReason, RobotModel, decided_collisions, disabled_collisions
 
 from .arm import ADJACENT, arm_urdf
 from .test_catalogue_arm import ARM, GRIPPER, _expanded
@@ -99,3 +99,12 @@ def test_pairs_hold_at_other_samples(path: Path) -> None:
         touching = set(everything.contacts(model.configuration(drawn)))
         assert not touching & never
         assert always & moving <= touching
+
+
+def test_pairs_that_only_samples_keep_apart_are_left_to_the_check_of_a_configuration() -> None:
+    # The cube passes the post at 10 mm: its ball reaches the post, so that only samples tell that they stay apart.
+    model = RobotModel.from_urdf(_cart(gap=0.01))
+    everything = disabled_collisions(model, samples=100, rng_seed=5, margin_m=0.005)
+    decided = decided_collisions(model, samples=100, rng_seed=5, margin_m=0.005)
+    assert {pair.links for pair in set(everything) - set(decided)} == {("cube", "post")}
+    assert set(decided) <= set(everything)
