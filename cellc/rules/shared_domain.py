@@ -29,7 +29,7 @@ CODES: tuple[CodePage, ...] = (
 
 @dataclass(frozen=True, slots=True)
 class Presence:
-    """A cell as its neighbours see it.
+    """A cell as its neighbors see it.
 
     Args:
         name: of the cell, and so of its folder.

@@ -46,4 +46,4 @@ def check(graph: CellGraph) -> Findings:
         kind = next((kind for kind, pattern in _CREDENTIALS if pattern.search(text)), None)
         if kind is not None:
             message = f"the text holds {kind}"
-            yield found(graph, path, message, "name a file or an environment variable that holds it")
+            yield found(graph, path, message)

@@ -49,5 +49,5 @@ def check(graph: CellGraph) -> Findings:
         max_delta, velocity, timeout = (
             graph.cell.text("bringup", "first_motion", key) for key in ("max_delta", "velocity", "timeout")
         )
-        message = f"{max_delta} at {velocity} takes {needed:.3g} s, the timeout is {timeout}"
+        message = f"{max_delta} at {velocity} takes {needed:.3g} s, but the timeout is {timeout}"
         yield found(graph, ("bringup", "first_motion", "timeout"), message, f"allow more than {needed:.3g} s")

@@ -54,6 +54,6 @@ def check(graph: CellGraph) -> Findings:
             path = ("bringup", "first_motion", field)
             largest = "50 mm" if value.linear else "15 deg"
             per = " per second" if field == "velocity" else ""
-            written = f"{field.replace('_', ' ')} {graph.cell.text(*path)}"
-            message = f"the first motion has {written}, at most {largest}{per} are allowed"
+            allowed, written = f"{largest}{per}", graph.cell.text(*path)
+            message = f"`{field}` of the first motion must be at most {allowed}, got {written}"
             yield found(graph, path, message, f"write at most {largest}{per}")

@@ -33,4 +33,4 @@ def check(graph: CellGraph) -> Findings:
     moves = any(controller.command_interfaces for controller in graph.cell.controllers)
     if moves and graph.cell.bringup.first_motion is None:
         message = "the single-joint move of gate G6 is not stated"
-        yield found(graph, ("bringup", "first_motion"), message, "add `bringup.first_motion`")
+        yield found(graph, ("bringup", "first_motion"), message)

@@ -34,8 +34,8 @@ def check(graph: CellGraph) -> Findings:
         written = [gate for gate in gates if gate in ladder]
         missing = [gate for gate in ladder if gate not in written]
         if missing:
-            yield found(graph, ("bringup", "gates"), f"gate {', '.join(missing)} is missing", "write `gates: standard`")
+            yield found(graph, ("bringup", "gates"), f"gate {', '.join(missing)} is missing")
         elif written != list(ladder):
             order = ", ".join(written)
             message = f"gates are out of order: {order}"
-            yield found(graph, ("bringup", "gates"), message, "write them in order, or `gates: standard`")
+            yield found(graph, ("bringup", "gates"), message)

@@ -17,7 +17,7 @@ nodes:
   perception: {respawn: true}
 ```
 
-Fix: remove `respawn`, and let an operator start it again.
+Fix: remove `respawn`, and let an operator start the node again.
 
 Source: docs/principles.md#restarts-and-reconnects
 """
@@ -44,5 +44,5 @@ def check(graph: CellGraph) -> Findings:
             and any(e.node == node.name for e in (*interface.sinks, *interface.sources))
         ]
         if commands:
-            message = f"`{node.name}` is restarted by itself and commands `{commands[0]}`"
-            yield found(graph, (*node.path, "respawn"), message, "remove `respawn`; an operator starts it again")
+            message = f"`{node.name}` commands `{commands[0]}` and must not be restarted automatically"
+            yield found(graph, (*node.path, "respawn"), message)

@@ -42,8 +42,8 @@ def check(graph: CellGraph) -> Findings:
             if value and isinstance(value, str) and _SECRET.search(name):
                 path = (*node.path, "parameters", name)
                 message = f"parameter `{name}` of `{node.name}` holds a secret"
-                yield found(graph, path, message, "name a file or an environment variable that holds it")
+                yield found(graph, path, message)
     for written in written_parameters(graph.cell):
         if written.value and isinstance(written.value, str) and _SECRET.search(written.name):
             message = f"parameter `{written.name}` of `{written.controller.name}` holds a secret"
-            yield found(graph, written.path, message, "name a file or an environment variable that holds it")
+            yield found(graph, written.path, message)

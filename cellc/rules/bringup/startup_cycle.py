@@ -51,4 +51,4 @@ def check(graph: CellGraph) -> Findings:
     related = tuple(Related(f"`{n.part}` waits for `{n.proof}`", p) for n, p in zip(needs, places, strict=True))
     path = ("interfaces", needs[0].proof)
     message = f"parts wait for each other at start: {names}"
-    yield found(graph, path, message, "turn one of the calls into a topic", related[1:])
+    yield found(graph, path, message, related=related[1:])

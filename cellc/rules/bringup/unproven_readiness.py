@@ -17,7 +17,7 @@ nodes:
   warmer: {run: cell_tasks/warmer, host: control_pc, owner: integration, lifecycle: true}
 ```
 
-Fix: make it a managed node, or declare the interface or frame by which it can be seen.
+Fix: add `lifecycle: true`, or declare what the node publishes or serves, or the frame by which it can be seen.
 
 Source: docs/principles.md#start-up
 """
@@ -37,4 +37,4 @@ def check(graph: CellGraph) -> Findings:
     for node in graph.cell.nodes:
         if node.source is NodeSource.SPEC and not node.lifecycle and node.name not in shown:
             message = f"no state, interface or transform shows that `{node.name}` is ready"
-            yield found(graph, node.path, message, "add `lifecycle: true`, or declare what it publishes or serves")
+            yield found(graph, node.path, message)

@@ -41,7 +41,7 @@ def check(graph: CellGraph) -> Findings:
             continue
         way = " + ".join(str(share) for share in shares)
         age = interface.max_age_s * 1e3
-        message = f"`{interface.name}` may be {age:g} ms old, its observation takes {needed * 1e3:.4g} ms: {way}"
+        message = f"`max_age` of `{interface.name}` must be at least {needed * 1e3:.4g} ms ({way}), got {age:g} ms"
         related = tuple(
             Related("part of the chain", graph.cell.locate("interfaces", share.topic)) for share in shares[:-1]
         )

@@ -17,7 +17,7 @@ devices:
   camera: {stamp: {source: hardware, clock: camera, synchronised_by: global_time, max_offset: 2 ms}}
 ```
 
-Fix: tighten the synchronisation; the offset should be a small part of the age.
+Fix: tighten the synchronization: the offset must be a small part of the age.
 
 Source: docs/principles.md#clocks-and-age
 """
@@ -43,6 +43,7 @@ def check(graph: CellGraph) -> Findings:
         if shortest is not None and stamp.clock.max_offset_s >= (shortest.max_age_s or 0.0):
             path = (*device.path, "stamp", "max_offset")
             offset = graph.cell.text(*path)
-            message = f"clock of `{device.name}` may be off by {offset}, `{shortest.name}` only that old"
+            age = f"{(shortest.max_age_s or 0.0) * 1e3:g} ms, the `max_age` of `{shortest.name}`"
+            message = f"the clock offset of `{device.name}` must be below {age}, got {offset}"
             related = (Related("the age is limited here", graph.cell.locate(*shortest.path, "max_age")),)
-            yield found(graph, path, message, "tighten the synchronisation", related)
+            yield found(graph, path, message, related=related)

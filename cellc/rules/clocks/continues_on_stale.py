@@ -19,7 +19,7 @@ interfaces:
              wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: stop_and_hold}
 ```
 
-Fix: reject the goal, hold, or ignore the sample.
+Fix: write `reject_goal`, `stop_and_hold` or `ignore_sample`.
 
 Source: docs/principles.md#failing-closed
 """
@@ -34,6 +34,6 @@ def check(graph: CellGraph) -> Findings:
     """Yield topics on which a stale sample changes nothing."""
     for interface in graph.cell.interfaces:
         if interface.on_stale == "continue":
-            message = f"`{interface.name}` is used although it is stale"
+            message = f"`{interface.name}` is used even when it is stale"
             path = (*interface.path, "on_stale")
-            yield found(graph, path, message, "write `reject_goal`, `stop_and_hold` or `ignore_sample`")
+            yield found(graph, path, message)

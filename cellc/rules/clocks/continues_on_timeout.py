@@ -35,5 +35,5 @@ def check(graph: CellGraph) -> Findings:
     """Yield services and actions whose timeout changes nothing."""
     for interface in graph.cell.interfaces:
         if interface.on_timeout == "continue":
-            message = f"the client of `{interface.name}` goes on although no answer came"
-            yield found(graph, (*interface.path, "on_timeout"), message, "write `cancel_and_hold` or `error`")
+            message = f"the client of `{interface.name}` continues when no answer comes"
+            yield found(graph, (*interface.path, "on_timeout"), message)

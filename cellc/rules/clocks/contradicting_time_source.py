@@ -20,7 +20,7 @@ interfaces:
              wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: reject_goal, time_source: ros}
 ```
 
-Fix: write the clock that the publisher really stamps with.
+Fix: write the clock with which the publisher really stamps.
 
 Source: docs/principles.md#clocks-and-age
 """
@@ -44,8 +44,10 @@ def check(graph: CellGraph) -> Findings:
         for node, clock in _clocks(graph, interface):
             hardware = interface.time_source == "hardware" and clock != "hardware"
             if hardware or clock == _OTHER.get(interface.time_source):
-                message = f"`{interface.name}` claims {interface.time_source} stamps, `{node}` stamps by {clock} time"
-                yield found(graph, (*interface.path, "time_source"), message, "write the clock that really stamps")
+                message = (
+                    f"`{interface.name}` claims {interface.time_source} stamps, but `{node}` stamps with {clock} time"
+                )
+                yield found(graph, (*interface.path, "time_source"), message)
                 break
 
 

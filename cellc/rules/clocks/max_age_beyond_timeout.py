@@ -46,8 +46,9 @@ def check(graph: CellGraph) -> Findings:
             if readers.isdisjoint(sink.node for sink in action.sinks) or topic.max_age_s <= (action.timeout_s or 0.0):
                 continue
             message = (
-                f"`{topic.name}` may be {topic.max_age_s:g} s old, `{action.name}` ends after {action.timeout_s:g} s"
+                f"`max_age` of `{topic.name}` must be at most {action.timeout_s:g} s, the timeout of `{action.name}`, "
+                f"got {topic.max_age_s:g} s"
             )
             related = (Related("the goal is bounded here", graph.cell.locate(*action.path, "timeout")),)
-            yield found(graph, (*topic.path, "max_age"), message, "lower `max_age` below the timeout", related)
+            yield found(graph, (*topic.path, "max_age"), message, related=related)
             break

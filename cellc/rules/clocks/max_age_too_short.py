@@ -51,6 +51,8 @@ def check(graph: CellGraph) -> Findings:
             parts = (
                 f"period {1e3 / interface.rate_hz:.4g}, transport {transport * 1e3:g}, exposure {exposure * 1e3:g} ms"
             )
-            message = f"`{interface.name}` may be {age:g} ms old, needs {budget * 1e3:.4g}: {parts}"
+            message = (
+                f"`max_age` of `{interface.name}` must be at least {budget * 1e3:.4g} ms ({parts}), got {age:g} ms"
+            )
             path = (*interface.path, "max_age")
             yield found(graph, path, message, f"allow at least {math.ceil(budget * 1e3)} ms, or raise the rate")

@@ -20,7 +20,7 @@ interfaces:
              wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: reject_goal}
 ```
 
-Fix: state `max_age` and `on_stale`.
+Fix: add `max_age` and `on_stale`.
 
 Source: docs/principles.md#failing-closed
 """
@@ -44,4 +44,4 @@ def check(graph: CellGraph) -> Findings:
         if interface.name in feeding:
             way = graph.data.way_to_motion(interface)
             message = f"`{interface.name}` feeds motion, {way}, and has no `max_age`"
-            yield found(graph, interface.path, message, "state `max_age` and `on_stale`")
+            yield found(graph, interface.path, message)

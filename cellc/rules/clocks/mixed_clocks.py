@@ -34,5 +34,5 @@ def check(graph: CellGraph) -> Findings:
     for node in graph.cell.nodes:
         other = next((target for target, clock in targets.items() if node.clock not in (None, clock)), None)
         if other is not None:
-            message = f"node `{node.name}` runs on {node.clock} time, target `{other}` on {targets[other]} time"
-            yield found(graph, (*node.path, "clock"), message, "remove `clock:` so that the node follows its target")
+            message = f"node `{node.name}` runs on {node.clock} time, but target `{other}` on {targets[other]} time"
+            yield found(graph, (*node.path, "clock"), message)

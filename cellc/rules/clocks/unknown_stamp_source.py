@@ -17,7 +17,7 @@ devices:
   camera: {stamp: {source: hardware}}
 ```
 
-Fix: read the driver's documentation, or measure with a moving target, and write `hardware`, `driver` or `arrival`.
+Fix: read the driver's documentation, or measure with a moving target, and write source and clock of the stamp.
 
 Source: docs/principles.md#clocks-and-age
 """
@@ -37,10 +37,6 @@ def check(graph: CellGraph) -> Findings:
         stamp = device.stamp
         path = (*device.path, "stamp")
         if stamp is None or stamp.source == UNKNOWN:
-            yield found(
-                graph, (*path, "source"), f"the stamp source of `{device.name}` is UNKNOWN", "write what is stamped"
-            )
+            yield found(graph, (*path, "source"), f"the stamp source of `{device.name}` is UNKNOWN")
         elif stamp.clock.domain == UNKNOWN:
-            yield found(
-                graph, (*path, "clock"), f"the clock domain of `{device.name}` is UNKNOWN", "write whose clock it is"
-            )
+            yield found(graph, (*path, "clock"), f"the clock domain of `{device.name}` is UNKNOWN")

@@ -19,7 +19,7 @@ interfaces:
              wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: reject_goal}
 ```
 
-Fix: write `on_stale: reject_goal`, `stop_and_hold` or `ignore_sample`.
+Fix: add `on_stale:`, such as `reject_goal`, `stop_and_hold` or `ignore_sample`.
 
 Source: docs/principles.md#failing-closed
 """
@@ -34,5 +34,5 @@ def check(graph: CellGraph) -> Findings:
     """Yield topics with an age limit and nothing that follows from it."""
     for interface in graph.cell.interfaces:
         if not interface.derived and interface.max_age_s is not None and interface.on_stale is None:
-            message = f"`{interface.name}` may be {interface.max_age_s:g} s old, but nothing happens to an older sample"
-            yield found(graph, interface.path, message, "add `on_stale:`, such as `reject_goal`")
+            message = f"`{interface.name}` has a `max_age` of {interface.max_age_s:g} s but no `on_stale`"
+            yield found(graph, interface.path, message)

@@ -20,7 +20,7 @@ network: {discovery: multicast}
 safety: {stop: {independent_of: [control_pc, vision_pc]}}
 ```
 
-Fix: synchronise the hosts, by PTP or chrony, and write the bound that is monitored.
+Fix: synchronize the hosts by PTP or chrony, and write `synchronised_by` and the monitored `max_offset`.
 
 Source: docs/principles.md#clocks-and-age
 """
@@ -32,13 +32,13 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 @rule(Severity.BLOCKER)
 def check(graph: CellGraph) -> Findings:
-    """Yield hosts of a cell with several that are not synchronised within a bound."""
+    """Yield hosts of a cell with several that are not synchronized within a bound."""
     hosts = graph.cell.hosts
     if len(hosts) < 2:
         return
     for name, host in hosts.items():
         if host.clock.synchronised_by is None or host.clock.max_offset_s is None:
             field = "synchronised_by" if host.clock.synchronised_by is None else "max_offset"
-            message = f"the clock of host `{name}` has no stated `{field}`"
+            message = f"the clock of host `{name}` does not state `{field}`"
             path = ("hosts", name, "clock", field)
-            yield found(graph, path, message, "write `synchronised_by` and `max_offset`")
+            yield found(graph, path, message)

@@ -17,7 +17,7 @@ devices:
   camera: {stamp: {source: hardware, clock: camera, synchronised_by: global_time, max_offset: 2 ms}}
 ```
 
-Fix: say what ties the clock to the host's and how far they may be apart.
+Fix: write `synchronised_by`, what ties the clock to the host's, and `max_offset`, how far they may be apart.
 
 Source: docs/principles.md#clocks-and-age
 """
@@ -30,7 +30,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 @rule(Severity.BLOCKER)
 def check(graph: CellGraph) -> Findings:
-    """Yield stamps of a clock of their own without synchronisation or without a bound."""
+    """Yield stamps of a clock of their own without synchronization or without a bound."""
     host_domains = {host.clock.domain for host in graph.cell.hosts.values()} or {"ros"}
     for device in graph.cell.devices:
         stamp = device.stamp
@@ -38,6 +38,6 @@ def check(graph: CellGraph) -> Findings:
             continue
         if stamp.clock.synchronised_by is None or stamp.clock.max_offset_s is None:
             field = "synchronised_by" if stamp.clock.synchronised_by is None else "max_offset"
-            message = f"clock `{stamp.clock.domain}` of `{device.name}` has no stated `{field}`"
+            message = f"clock `{stamp.clock.domain}` of `{device.name}` does not state `{field}`"
             path = (*device.path, "stamp", field)
-            yield found(graph, path, message, "write `synchronised_by` and `max_offset`")
+            yield found(graph, path, message)

@@ -25,7 +25,7 @@ control:
                          goal_tolerance: 0.1 rad}
 ```
 
-Fix: use the plain trajectory controller.
+Fix: use `type: joint_trajectory` without a scaling interface.
 
 Source: docs/principles.md#speed-scaling
 """
@@ -46,4 +46,4 @@ def check(graph: CellGraph) -> Findings:
         )
         if reads and controller.device is not None and controller.device not in scaling:
             message = f"`{controller.name}` follows a speed scaling that `{controller.device}` does not have"
-            yield found(graph, controller.path, message, "use `type: joint_trajectory` without a scaling interface")
+            yield found(graph, controller.path, message)

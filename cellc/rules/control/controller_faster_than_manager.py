@@ -36,8 +36,8 @@ def check(graph: CellGraph) -> Findings:
         for controller in manager.controllers:
             if controller.update_rate_hz is not None and controller.update_rate_hz > manager.update_rate_hz:
                 message = (
-                    f"`{controller.name}` is to run at {controller.update_rate_hz:g} Hz, "
-                    f"its manager runs at {manager.update_rate_hz:g} Hz"
+                    f"`update_rate` of `{controller.name}` must be at most {manager.update_rate_hz:g} Hz, "
+                    f"the rate of its manager, got {controller.update_rate_hz:g} Hz"
                 )
                 path = (*controller.path, "update_rate")
                 yield found(graph, path, message, f"write at most {manager.update_rate_hz:g} Hz")

@@ -36,6 +36,8 @@ def check(graph: CellGraph) -> Findings:
     for controller in graph.cell.controllers:
         goal, way = controller.goal_tolerance, controller.path_tolerance
         if goal and way and goal > way:
-            message = f"`{controller.name}` allows {goal:g} at the goal but {way:g} on the way"
+            message = (
+                f"`goal_tolerance` of `{controller.name}` must be at most its `path_tolerance` of {way:g}, got {goal:g}"
+            )
             path = (*controller.path, "goal_tolerance")
-            yield found(graph, path, message, "swap the two, or tighten the goal tolerance")
+            yield found(graph, path, message)

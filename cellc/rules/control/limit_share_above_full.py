@@ -34,5 +34,5 @@ def check(graph: CellGraph) -> Findings:
             if share > 1.0:
                 path = (*device.path, "limits", name)
                 text = graph.cell.text(*path)
-                message = f"`{device.name}` asks for {text} of its own {name} limit, at most 100 % are allowed"
-                yield found(graph, path, message, "write 100 % or less")
+                message = f"the {name} share of `{device.name}` must be at most 100 %, got {text}"
+                yield found(graph, path, message)

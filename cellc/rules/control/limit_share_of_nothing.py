@@ -32,5 +32,5 @@ def check(graph: CellGraph) -> Findings:
         for name, share in (("velocity", shares.velocity), ("acceleration", shares.acceleration)):
             if share <= 0.0:
                 path = (*device.path, "limits", name)
-                message = f"`{device.name}` is left {graph.cell.text(*path)} of its {name} limit"
-                yield found(graph, path, message, "write a share above zero")
+                message = f"the {name} share of `{device.name}` must be above zero, got {graph.cell.text(*path)}"
+                yield found(graph, path, message)

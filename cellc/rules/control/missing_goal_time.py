@@ -19,7 +19,7 @@ control:
     arm_trajectory: {goal_time: 1 s}
 ```
 
-Fix: state `goal_time:`.
+Fix: add `goal_time:`, such as `1 s`.
 
 Source: https://control.ros.org/jazzy/doc/ros2_controllers/joint_trajectory_controller/doc/parameters.html
 (Jazzy): constraints.goal_time, where 0 means no limit
@@ -38,7 +38,9 @@ def check(graph: CellGraph) -> Findings:
         if controller.behaviour not in TRAJECTORIES:
             continue
         if not controller.goal_time_s:
-            stated = "does not state" if controller.goal_time_s is None else "switches off, with zero, its"
-            path = controller.path if controller.goal_time_s is None else (*controller.path, "goal_time")
-            message = f"`{controller.name}` {stated} `goal_time`"
-            yield found(graph, path, message, "add `goal_time:`, such as `1 s`")
+            unstated = controller.goal_time_s is None
+            path = controller.path if unstated else (*controller.path, "goal_time")
+            message = f"`{controller.name}` does not state `goal_time`"
+            if not unstated:
+                message = f"`goal_time` of `{controller.name}` must be above zero, which switches the check off"
+            yield found(graph, path, message)

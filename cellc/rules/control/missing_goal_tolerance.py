@@ -18,7 +18,7 @@ control:
     arm_trajectory: {goal_tolerance: 0.01 rad}
 ```
 
-Fix: state `goal_tolerance:`.
+Fix: add `goal_tolerance:`, such as `0.01 rad`.
 
 Source: https://control.ros.org/jazzy/doc/ros2_controllers/joint_trajectory_controller/doc/parameters.html
 (Jazzy): constraints.<joint>.goal, where 0 means not checked
@@ -37,7 +37,9 @@ def check(graph: CellGraph) -> Findings:
         if controller.behaviour not in TRAJECTORIES:
             continue
         if not controller.goal_tolerance:
-            stated = "does not state" if controller.goal_tolerance is None else "switches off, with zero, its"
-            path = controller.path if controller.goal_tolerance is None else (*controller.path, "goal_tolerance")
-            message = f"`{controller.name}` {stated} `goal_tolerance`"
-            yield found(graph, path, message, "add `goal_tolerance:`, such as `0.01 rad`")
+            unstated = controller.goal_tolerance is None
+            path = controller.path if unstated else (*controller.path, "goal_tolerance")
+            message = f"`{controller.name}` does not state `goal_tolerance`"
+            if not unstated:
+                message = f"`goal_tolerance` of `{controller.name}` must be above zero, which switches the check off"
+            yield found(graph, path, message)

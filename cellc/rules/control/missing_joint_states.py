@@ -18,7 +18,7 @@ control:
     joint_states: {type: joint_state_broadcaster}
 ```
 
-Fix: add a joint state broadcaster.
+Fix: add `joint_states: {type: joint_state_broadcaster}`.
 
 Source: docs/principles.md#planning-and-execution
 """
@@ -37,4 +37,4 @@ def check(graph: CellGraph) -> Findings:
         if not publishing and any(c.command_interfaces for c in manager.controllers):
             path = (*manager.path, "controllers")
             message = f"no controller of `{manager.name}` publishes joint states"
-            yield found(graph, path, message, "add `joint_states: {type: joint_state_broadcaster}`")
+            yield found(graph, path, message)

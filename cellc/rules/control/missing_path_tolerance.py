@@ -18,7 +18,7 @@ control:
     arm_trajectory: {path_tolerance: 0.2 rad}
 ```
 
-Fix: state `path_tolerance:`.
+Fix: add `path_tolerance:`, such as `0.2 rad`.
 
 Source: https://control.ros.org/jazzy/doc/ros2_controllers/joint_trajectory_controller/doc/parameters.html
 (Jazzy): constraints.<joint>.trajectory, where 0 means not checked
@@ -37,7 +37,9 @@ def check(graph: CellGraph) -> Findings:
         if controller.behaviour not in TRAJECTORIES:
             continue
         if not controller.path_tolerance:
-            stated = "does not state" if controller.path_tolerance is None else "switches off, with zero, its"
-            path = controller.path if controller.path_tolerance is None else (*controller.path, "path_tolerance")
-            message = f"`{controller.name}` {stated} `path_tolerance`"
-            yield found(graph, path, message, "add `path_tolerance:`, such as `0.2 rad`")
+            unstated = controller.path_tolerance is None
+            path = controller.path if unstated else (*controller.path, "path_tolerance")
+            message = f"`{controller.name}` does not state `path_tolerance`"
+            if not unstated:
+                message = f"`path_tolerance` of `{controller.name}` must be above zero, which switches the check off"
+            yield found(graph, path, message)

@@ -15,7 +15,7 @@ Example that is accepted:
 devices: {arm: {payload: {mass: 1.0 kg, center_of_mass: 0 0 58 mm}}}
 ```
 
-Fix: weigh the tool, and write `payload:` with its mass and centre of mass.
+Fix: weigh the tool, and add `payload:` with mass and center of mass at the flange.
 
 Source: docs/principles.md#payload
 """
@@ -32,4 +32,4 @@ def check(graph: CellGraph) -> Findings:
         if device.kind == "arm" and device.carries and device.payload is None:
             names = ", ".join(f"`{name}`" for name in device.carries)
             message = f"`{device.name}` carries {names}, but its payload is not stated"
-            yield found(graph, device.path, message, "add `payload:` with mass and centre of mass at the flange")
+            yield found(graph, device.path, message)

@@ -1,6 +1,6 @@
 """A driven joint has no velocity limit.
 
-Neither the description nor the catalogue says how fast the joint may move, so nothing can be planned in time.
+Neither the description nor the catalog says how fast the joint may move, so nothing can be planned in time.
 
 Example that is reported:
 
@@ -35,4 +35,4 @@ def check(graph: CellGraph) -> Findings:
             if joint.velocity is None or joint.velocity <= 0.0:
                 stated = "no velocity limit" if joint.velocity is None else f"a velocity limit of {joint.velocity:g}"
                 message = f"joint `{joint.name}` has {stated}"
-                yield found(graph, (*device.path, "model"), message, "write `velocity` in the `<limit>` of the joint")
+                yield found(graph, (*device.path, "model"), message)

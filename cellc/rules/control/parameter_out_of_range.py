@@ -40,18 +40,18 @@ def check(graph: CellGraph) -> Findings:
         facts = None if kind is None else kind.parameters.get(written.name)
         reason = "" if facts is None else _refusal(facts, written.value)
         if reason:
-            message = f"`{written.name}` of `{written.controller.name}` is `{written.value}`, {reason}"
-            yield found(graph, written.path, message, "use a value inside the range")
+            message = f"`{written.name}` of `{written.controller.name}` {reason}, got `{written.value}`"
+            yield found(graph, written.path, message)
 
 
 def _refusal(facts: ParameterFacts, value: ParameterValue) -> str:
     if isinstance(value, (int, float)) and not isinstance(value, bool):
         if facts.minimum is not None and value < facts.minimum:
-            return f"at least {facts.minimum:g} is due"
+            return f"must be at least {facts.minimum:g}"
         if facts.exclusive_minimum is not None and value <= facts.exclusive_minimum:
-            return f"more than {facts.exclusive_minimum:g} is due"
+            return f"must be more than {facts.exclusive_minimum:g}"
         if facts.maximum is not None and value > facts.maximum:
-            return f"at most {facts.maximum:g} is allowed"
+            return f"must be at most {facts.maximum:g}"
     if isinstance(value, str) and facts.one_of and value not in facts.one_of:
-        return "one of " + ", ".join(facts.one_of) + " is due"
+        return "must be one of " + ", ".join(facts.one_of)
     return ""

@@ -31,5 +31,5 @@ def check(graph: CellGraph) -> Findings:
         payload, limit_kg = device.payload, device.payload_limit_kg
         if payload is not None and limit_kg is not None and payload.mass_kg > limit_kg:
             path = (*device.path, "payload", "mass")
-            message = f"`{device.name}` is to carry {graph.cell.text(*path)}, at most {limit_kg:g} kg are allowed"
-            yield found(graph, path, message, "choose a lighter tool or another arm")
+            message = f"the payload of `{device.name}` must be at most {limit_kg:g} kg, got {graph.cell.text(*path)}"
+            yield found(graph, path, message)

@@ -39,5 +39,5 @@ def check(graph: CellGraph) -> Findings:
         )
         if mass > payload.mass_kg + _ROUNDING_KG:
             path = (*device.path, "payload", "mass")
-            message = f"`{device.name}` is told of {graph.cell.text(*path)}, but carries {mass:.3g} kg"
+            message = f"`{device.name}` carries {mass:.3g} kg, but its payload is {graph.cell.text(*path)}"
             yield found(graph, path, message, f"write at least {mass:.3g} kg")

@@ -40,5 +40,5 @@ def check(graph: CellGraph) -> Findings:
         names = tuple(c.removeprefix(prefix) for c in controller.command_interfaces if c.startswith(prefix))
         if names not in kind.command_combinations:
             allowed = "; ".join(", ".join(combination) for combination in kind.command_combinations)
-            message = f"`{controller.name}` cannot command {' + '.join(names)}"
+            message = f"`{controller.name}` refuses the command interfaces {' + '.join(names)}"
             yield found(graph, (*controller.path, "command_interfaces"), message, f"use one of: {allowed}")

@@ -33,6 +33,6 @@ def check(graph: CellGraph) -> Findings:
             rates = device.update_rates_hz
             if rates and all(abs(rate - manager.update_rate_hz) > 1e-9 for rate in rates):
                 accepted = " or ".join(f"{rate:g} Hz" for rate in rates)
-                message = f"`{device.name}` is driven at {accepted}, not at {manager.update_rate_hz:g} Hz"
+                message = f"`update_rate` for `{device.name}` must be {accepted}, got {manager.update_rate_hz:g} Hz"
                 path = (*manager.path, "update_rate")
                 yield found(graph, path, message, f"write {accepted}, or give the device a manager of its own")

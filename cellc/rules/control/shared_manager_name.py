@@ -41,6 +41,6 @@ def check(graph: CellGraph) -> Findings:
         earlier = first.setdefault(manager.namespace, manager)
         if earlier is not manager:
             name = manager.namespace or "/"
-            message = f"manager `{manager.name}` is in namespace `{name}`, as is `{earlier.name}`"
+            message = f"managers `{earlier.name}` and `{manager.name}` are both in namespace `{name}`"
             related = (Related("the first is here", earlier.span),)
-            yield found(graph, manager.path, message, "give it a namespace of its own", related)
+            yield found(graph, manager.path, message, related=related)

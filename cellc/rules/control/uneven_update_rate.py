@@ -43,5 +43,5 @@ def check(graph: CellGraph) -> Findings:
             cycles = manager.update_rate_hz / rate
             if abs(cycles - round(cycles)) > 1e-6:
                 even = manager.update_rate_hz / math.ceil(cycles)
-                message = f"`{controller.name}` would run every {cycles:.4g} cycles of its manager"
+                message = f"`{controller.name}` must run every whole number of manager cycles, got every {cycles:.4g}"
                 yield found(graph, (*controller.path, "update_rate"), message, f"write {even:g} Hz")

@@ -42,8 +42,8 @@ def check(graph: CellGraph) -> Findings:
         number = len(controller.joints)
         if kind is None or kind.joints_parameter is None or number == 1 or (number and not kind.single_joint):
             continue
-        due = "one joint" if kind.single_joint else "at least one joint"
-        has = f"`{controller.device}` has none that is driven" if number == 0 else f"not {number}"
-        message = f"`{controller.name}` of kind `{controller.kind}` drives {due}, {has}"
+        expected = "one joint" if kind.single_joint else "at least one joint"
+        got = f"none: no joint of `{controller.device}` is driven" if number == 0 else str(number)
+        message = f"expected {expected} for `{controller.name}` of kind `{controller.kind}`, got {got}"
         help_text = "name the device whose joints it drives" if number == 0 else "name the one joint under `joints`"
         yield found(graph, (*controller.path, "device"), message, help_text)

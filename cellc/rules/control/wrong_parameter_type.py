@@ -38,9 +38,13 @@ def check(graph: CellGraph) -> Findings:
     for written in written_parameters(graph.cell):
         kind = kind_of(graph.cell, written.controller)
         facts = None if kind is None else kind.parameters.get(written.name)
-        due = None if facts is None else facts.type
+        expected = None if facts is None else facts.type
         value = written.value
-        if due in _TYPES and type(value) not in _TYPES[due]:
-            message = f"`{written.name}` of `{written.controller.name}` is `{value}`, a {due} is due"
-            advice = f"write `{float(value)}`" if due == "double" and isinstance(value, int) else f"write a {due}"
+        if expected in _TYPES and type(value) not in _TYPES[expected]:
+            message = f"`{written.name}` of `{written.controller.name}` must be of type {expected}, got `{value}`"
+            advice = (
+                f"write `{float(value)}`"
+                if expected == "double" and isinstance(value, int)
+                else f"write a value of type {expected}"
+            )
             yield found(graph, written.path, message, advice)

@@ -34,6 +34,8 @@ def check(graph: CellGraph) -> Findings:
         bound = interface.cancel_within_s
         if target is not None and bound is not None and bound > target and not interface.derived:
             allowed = graph.cell.text("kpis", "cancel")
-            message = f"`{interface.name}` may take {bound * 1e3:g} ms to cancel, the target is {allowed}"
+            message = (
+                f"`cancel_within` of `{interface.name}` must be at most the target of {allowed}, got {bound * 1e3:g} ms"
+            )
             related = (Related("the target is here", graph.cell.locate("kpis", "cancel")),)
-            yield found(graph, (*interface.path, "cancel_within"), message, "tighten it, or loosen the target", related)
+            yield found(graph, (*interface.path, "cancel_within"), message, related=related)

@@ -30,4 +30,4 @@ def check(graph: CellGraph) -> Findings:
     missing = graph.cell.kpis.without_target()
     if missing:
         names = ", ".join(f"`{name}`" for name in missing)
-        yield found(graph, ("kpis",), f"{names} {'have' if len(missing) > 1 else 'has'} no target", "write the target")
+        yield found(graph, ("kpis",), f"{names} {'have' if len(missing) > 1 else 'has'} no target")

@@ -59,6 +59,6 @@ def check(graph: CellGraph) -> Findings:
         layers = [layer for fault in rehearsal.faults for layer in _LAYERS[fault.kind]]
         if layers and rehearsal.expect != "succeeded" and rehearsal.expect not in layers:
             faults = " and ".join(f"`{fault.kind}`" for fault in rehearsal.faults)
-            message = f"`{rehearsal.name}` provokes {faults} and expects `{rehearsal.expect}`"
-            due = " or ".join(f"`{layer}`" for layer in dict.fromkeys(layers))
-            yield found(graph, (*rehearsal.path, "expect"), message, f"expect {due}, or `succeeded`")
+            message = f"`{rehearsal.name}` injects {faults} but expects `{rehearsal.expect}`"
+            fitting = " or ".join(f"`{layer}`" for layer in dict.fromkeys(layers))
+            yield found(graph, (*rehearsal.path, "expect"), message, f"expect {fitting}, or `succeeded`")

@@ -34,4 +34,4 @@ def check(graph: CellGraph) -> Findings:
     if missing:
         names = ", ".join(f"`{field}`" for field in missing)
         path = ("recording", "attempt_fields")
-        yield found(graph, path, f"an attempt does not record {names}", "write `attempt_fields: standard`")
+        yield found(graph, path, f"an attempt does not record {names}")

@@ -29,9 +29,9 @@ def check(graph: CellGraph) -> Findings:
     """Yield a target above zero wrong owners, and below all stale samples rejected."""
     kpis = graph.cell.kpis
     if kpis.wrong_owner_events:
-        message = f"{kpis.wrong_owner_events} commands of a wrong owner are tolerated"
+        message = f"`wrong_owner_events` must be 0, got {kpis.wrong_owner_events}"
         yield found(graph, ("kpis", "wrong_owner_events"), message, "write 0")
     if kpis.stale_state_rejection is not None and kpis.stale_state_rejection < 1.0:
         path = ("kpis", "stale_state_rejection")
-        message = f"only {graph.cell.text(*path)} of stale samples have to be rejected"
+        message = f"`stale_state_rejection` must be 100 %, got {graph.cell.text(*path)}"
         yield found(graph, path, message, "write 100 %")

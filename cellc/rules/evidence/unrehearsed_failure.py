@@ -37,4 +37,4 @@ def check(graph: CellGraph) -> Findings:
     missing = [outcome for outcome in ("stale_state", "cancelled") if outcome not in expected]
     if missing:
         names = " and ".join(f"`{outcome}`" for outcome in missing)
-        yield found(graph, ("rehearsals",), f"no rehearsal ends in {names}", "inject the fault and expect its outcome")
+        yield found(graph, ("rehearsals",), f"no rehearsal ends in {names}")

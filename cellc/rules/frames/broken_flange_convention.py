@@ -18,7 +18,7 @@ devices:
   side_arm: {model: ./bare_arm_with_tool, mount: {parent: world, xyz: 0 2 0 m}, revision: A, firmware: bare 1.0.0}
 ```
 
-Fix: give `tool0` the origin of `flange`, turned by rpy 90 0 90 deg; a tool's length belongs into a frame of its own.
+Fix: turn the joint of `tool0` by rpy `90 0 90 deg` against `flange`; a tool's length belongs into a frame of its own.
 
 Source: https://gavanderhoorn.github.io/rep/rep-0199.html
 (draft of 2019-01-11): X+ of flange and Z+ of tool0 point away from the last link
@@ -44,8 +44,8 @@ def check(graph: CellGraph) -> Findings:
             continue
         pose = _pose_in(graph, tool, flange)
         if pose is None or not _by_convention(pose):
-            message = f"`tool0` of `{device.name}` is not its `flange` turned so that z of the one is x of the other"
-            yield found(graph, (*device.path, "model"), message, "turn the joint of `tool0` by rpy `90 0 90 deg`")
+            message = f"`tool0` of `{device.name}` must have the origin of `flange` and its z axis along x of `flange`"
+            yield found(graph, (*device.path, "model"), message)
 
 
 def _pose_in(graph: CellGraph, name: str, ancestor: str) -> Pose | None:

@@ -18,7 +18,7 @@ frames:
   object: {buffer: 2 s}
 ```
 
-Fix: keep the frame for longer than the age of the observation and the time to execution together.
+Fix: keep the frame at least for the age of the observation and the time to execution together.
 
 Source: docs/principles.md#transforms-at-the-time-of-observation
 """
@@ -43,14 +43,14 @@ def check(graph: CellGraph) -> Findings:
             continue
         needed = oldest.max_age_s + target
         message = (
-            f"`{frame.name}` is kept for {frame.buffer_s:g} s, its goals take {needed:g} s: "
-            f"`{oldest.name}` {oldest.max_age_s:g} s + plan to execute {target:g} s"
+            f"`buffer` of `{frame.name}` must be at least {needed:g} s "
+            f"(`{oldest.name}` {oldest.max_age_s:g} s + plan to execute {target:g} s), got {frame.buffer_s:g} s"
         )
         related = (
             Related("the age is allowed here", graph.cell.locate(*oldest.path, "max_age")),
             Related("the time to execution here", graph.cell.locate("kpis", "plan_to_execute")),
         )
-        yield found(graph, (*frame.path, "buffer"), message, f"keep it for more than {needed:g} s", related)
+        yield found(graph, (*frame.path, "buffer"), message, f"keep it for at least {needed:g} s", related)
 
 
 def _oldest(graph: CellGraph, node: str) -> Interface | None:

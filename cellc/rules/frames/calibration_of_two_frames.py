@@ -46,4 +46,4 @@ def check(graph: CellGraph) -> Findings:
             message = f"calibration `{frame.calibration}` gives `{frame.name}` another pose than `{earlier.name}`"
             related = (Related(f"first used for `{earlier.name}` here", earlier.span),)
             path = (*frame.path, "calibration")
-            yield found(graph, path, message, "give each measurement its own calibration", related)
+            yield found(graph, path, message, related=related)

@@ -17,7 +17,7 @@ calibrations:
   fixture_a: {revision: 2, measured: 2026-07-02, method: touch probe, samples: 5, residual: 0.3 mm, owner: perception}
 ```
 
-Fix: name the role or the team that answers for it.
+Fix: name the role or the team that answers for it, as its `owner:`.
 
 Source: docs/principles.md#calibration
 """
@@ -33,4 +33,4 @@ def check(graph: CellGraph) -> Findings:
     for item in graph.responsibilities.of_kind("calibration"):
         if item.open:
             message = f"nobody answers for calibration `{item.name}`"
-            yield found(graph, item.path, message, "name its owner")
+            yield found(graph, item.path, message)

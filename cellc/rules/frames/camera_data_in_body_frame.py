@@ -45,6 +45,6 @@ def check(graph: CellGraph) -> Findings:
             continue
         optical = {source.frames[name] for name in source.optical_frames}
         if interface.frame not in optical:
-            message = f"`{interface.name}` carries images in `{interface.frame}`, which is no optical frame"
+            message = f"`{interface.name}` carries images in `{interface.frame}`, which is not an optical frame"
             names = ", ".join(f"`{source.name}/{name}`" for name in source.optical_frames)
             yield found(graph, (*interface.path, "frame"), message, f"use one of {names}")

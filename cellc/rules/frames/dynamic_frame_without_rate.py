@@ -17,7 +17,7 @@ frames:
   part: {parent: world, dynamic: true, published_by: perception, rate: 10 Hz}
 ```
 
-Fix: write the rate at which it is published.
+Fix: add `rate:`, such as `10 Hz`.
 
 Source: docs/principles.md#one-authority-for-each-frame
 """
@@ -34,4 +34,4 @@ def check(graph: CellGraph) -> Findings:
     for frame in graph.cell.frames:
         if frame.kind is FrameKind.DYNAMIC and frame.rate_hz is None:
             message = f"dynamic frame `{frame.name}` has no rate"
-            yield found(graph, frame.path, message, "add `rate:`, such as `10 Hz`")
+            yield found(graph, frame.path, message)

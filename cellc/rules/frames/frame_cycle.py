@@ -18,7 +18,7 @@ frames:
   right: {parent: left, designed: true}
 ```
 
-Fix: let one frame of the circle hang on the world or on a link.
+Fix: let one frame of the circle hang on `world` or on a link.
 
 Source: https://www.ros.org/reps/rep-0105.html (as of 2025-10-24): the frames of a robot form a tree
 """
@@ -37,4 +37,4 @@ def check(graph: CellGraph) -> Findings:
         start = cycle.index(first)
         names = (*cycle[start:], *cycle[:start], first)
         message = "frames hang on each other in a circle: " + " → ".join(f"`{name}`" for name in names)
-        yield found(graph, (*frame.path, "parent"), message, "let one of them hang on `world` or on a link")
+        yield found(graph, (*frame.path, "parent"), message)

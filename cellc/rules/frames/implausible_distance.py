@@ -1,6 +1,6 @@
 """A frame lies farther from its parent than any cell is long.
 
-A fixture 400 m away is 400 mm read as metres. TF, planner and viewer accept it; the goal is then out of reach for a
+A fixture 400 m away is 400 mm read as meters. TF, planner and viewer accept it; the goal is then out of reach for a
 reason that no message names.
 
 Example that is reported:
@@ -21,7 +21,7 @@ frames:
   tray: {parent: world, xyz: 400 100 850 mm, calibration: tray}
 ```
 
-Fix: write the unit that the drawing uses; most drawings of cells are in mm.
+Fix: check the unit: most drawings of cells are in mm.
 
 Source:
 
@@ -46,5 +46,5 @@ def check(graph: CellGraph) -> Findings:
             continue
         distance = math.hypot(*frame.transform_to_parent.position)
         if distance > _LARGEST_CELL_M:
-            message = f"`{frame.name}` lies {distance:g} m from `{frame.parent}`, more than {_LARGEST_CELL_M:g} m"
-            yield found(graph, (*frame.path, "xyz"), message, "check the unit: drawings of cells are usually in mm")
+            message = f"`{frame.name}` must lie within {_LARGEST_CELL_M:g} m of `{frame.parent}`, got {distance:g} m"
+            yield found(graph, (*frame.path, "xyz"), message)

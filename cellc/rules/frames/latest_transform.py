@@ -19,7 +19,7 @@ motion:
     regrasp: {frame: object, rpy: 180 0 0 deg, transform_at: observation}
 ```
 
-Fix: look the transform up at the stamp of the observation, which is the default.
+Fix: remove the line: the stamp of the observation is the default.
 
 Source: docs/principles.md#transforms-at-the-time-of-observation
 """
@@ -35,4 +35,4 @@ def check(graph: CellGraph) -> Findings:
     for goal in graph.cell.goals:
         if goal.transform_at == "latest":
             message = f"goal `{goal.name}` asks for the latest transform of `{goal.frame}`"
-            yield found(graph, (*goal.path, "transform_at"), message, "remove the line: `observation` is the default")
+            yield found(graph, (*goal.path, "transform_at"), message)

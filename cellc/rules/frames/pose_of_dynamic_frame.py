@@ -16,7 +16,7 @@ frames:
   part: {parent: world, dynamic: true, published_by: perception, rate: 10 Hz}
 ```
 
-Fix: remove `xyz` and `rpy`; where the mock should put it stands under `simulated_pose`.
+Fix: remove `xyz` and `rpy`; the mock reads `simulated_pose`.
 
 Source: docs/principles.md#one-authority-for-each-frame
 """
@@ -34,4 +34,4 @@ def check(graph: CellGraph) -> Findings:
         field = next((key for key in ("xyz", "rpy", "calibration") if graph.cell.states(*frame.path, key)), None)
         if frame.kind is FrameKind.DYNAMIC and field is not None:
             message = f"frame `{frame.name}` is dynamic but states `{field}`"
-            yield found(graph, (*frame.path, field), message, "remove it; the mock reads `simulated_pose`")
+            yield found(graph, (*frame.path, field), message)

@@ -17,8 +17,7 @@ frames:
   part: {parent: world, dynamic: true, published_by: perception, rate: 10 Hz, buffer: 10 s}
 ```
 
-Fix: make the buffer longer than the longest `max_age` of what the publisher of the frame sends, or leave it out for
-10 s.
+Fix: make the buffer at least as long as the `max_age` of what its publisher sends, or leave it out for 10 s.
 
 Source:
 
@@ -43,9 +42,9 @@ def check(graph: CellGraph) -> Findings:
             sent = any(source.node == frame.authority for source in interface.sources)
             if sent and interface.max_age_s is not None and interface.max_age_s > frame.buffer_s:
                 message = (
-                    f"`{frame.name}` is kept for {frame.buffer_s:g} s, "
-                    f"but samples of `{interface.name}` may be {interface.max_age_s:g} s old"
+                    f"`buffer` of `{frame.name}` must be at least {interface.max_age_s:g} s, "
+                    f"the `max_age` of `{interface.name}`, got {frame.buffer_s:g} s"
                 )
                 related = (Related("the age is allowed here", graph.cell.locate(*interface.path, "max_age")),)
-                yield found(graph, (*frame.path, "buffer"), message, "make the buffer longer", related)
+                yield found(graph, (*frame.path, "buffer"), message, related=related)
                 break

@@ -41,4 +41,4 @@ def check(graph: CellGraph) -> Findings:
             continue
         if arm.tool_frame not in (frame.name for frame in graph.frames.chain(group.tip_frame)):
             message = f"tip `{group.tip_frame}` of group `{group.name}` does not hang on `{arm.tool_frame}`"
-            yield found(graph, (*group.path, "tip"), message, "use the tool frame or a frame that hangs on it")
+            yield found(graph, (*group.path, "tip"), message)

@@ -31,7 +31,7 @@ from __future__ import annotations
 from cellc.cell.frame import FrameKind
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
-_DUE = 3
+_LEAST = 3
 
 
 @rule(Severity.BLOCKER)
@@ -40,7 +40,7 @@ def check(graph: CellGraph) -> Findings:
     targets = {goal.frame for goal in graph.cell.goals}
     for frame in graph.cell.frames:
         concerned = frame.name in targets or frame.reference_points > 0
-        if frame.kind is FrameKind.FIXED and concerned and not frame.designed and frame.reference_points < _DUE:
-            message = f"`{frame.name}` has {frame.reference_points} reference points, {_DUE} are due"
+        if frame.kind is FrameKind.FIXED and concerned and not frame.designed and frame.reference_points < _LEAST:
+            message = f"`{frame.name}` must have at least {_LEAST} reference points, got {frame.reference_points}"
             path = (*frame.path, "reference_points")
-            yield found(graph, path, message, "measure three known points of the fixture and state their number")
+            yield found(graph, path, message)

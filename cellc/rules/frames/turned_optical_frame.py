@@ -56,7 +56,7 @@ def check(graph: CellGraph) -> Findings:
         for name in device.optical_frames:
             pose = _pose_in(graph, device.frames[name], device.root_link)
             if pose is not None and not _looks_forward(pose):
-                message = f"`{device.name}/{name}` does not look along z: x right, y down, z forward are due"
+                message = f"the axes of `{device.name}/{name}` must be x right, y down, z forward"
                 advice = "turn its joint by rpy `-90 0 -90 deg` against the camera's own frame"
                 yield found(graph, (*device.path, "model"), message, advice)
 

@@ -17,7 +17,7 @@ frames:
   camera_stand: {parent: world, xyz: 0 0 1 m, designed: true}
 ```
 
-Fix: rename the frame, or delete the one that repeats what another publishes.
+Fix: rename one of the two frames, or delete the one that repeats what another publishes.
 
 Source:
 
@@ -41,4 +41,4 @@ def check(graph: CellGraph) -> Findings:
                 continue  # inside one description this is a link with two parents
             message = f"frame `{name}` is published by `{first.authority}` and again by `{frame.authority}`"
             related = (Related(f"`{name}` already hangs on `{first.parent or WORLD}` here", first.span),)
-            yield Finding(message, frame.span, frame.path, "rename one of the two frames, or delete it", related)
+            yield Finding(message, frame.span, frame.path, related=related)

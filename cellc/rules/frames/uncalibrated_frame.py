@@ -19,7 +19,7 @@ frames:
   tray: {parent: world, xyz: 0.4 0.1 0.8 m, calibration: tray}
 ```
 
-Fix: name the calibration that measured it, or write `designed: true` where the value comes from a drawing.
+Fix: add `calibration:`, or `designed: true` if the value comes from a drawing.
 
 Source: docs/principles.md#calibration
 """
@@ -38,6 +38,4 @@ def check(graph: CellGraph) -> Findings:
         measured = frame.kind is FrameKind.FIXED or (frame.kind is FrameKind.MOUNT and frame.device in cameras)
         if measured and not frame.designed and frame.calibration is None:
             message = f"the pose of `{frame.name}` in `{frame.parent}` names no calibration"
-            yield found(
-                graph, frame.path, message, "add `calibration:`, or `designed: true` if it comes from a drawing"
-            )
+            yield found(graph, frame.path, message)

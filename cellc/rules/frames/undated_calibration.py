@@ -35,5 +35,5 @@ def check(graph: CellGraph) -> Findings:
     """Yield calibrations whose `measured` is no date."""
     for name, calibration in graph.cell.calibrations.items():
         if calibration.measured_on is None:
-            message = f"calibration `{name}` was measured on `{calibration.measured}`, which is no date"
-            yield found(graph, ("calibrations", name, "measured"), message, "write the day as YYYY-MM-DD")
+            message = f"`measured` of calibration `{name}` must be a date, got `{calibration.measured}`"
+            yield found(graph, ("calibrations", name, "measured"), message)

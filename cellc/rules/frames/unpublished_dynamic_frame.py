@@ -16,7 +16,7 @@ frames:
   part: {parent: world, dynamic: true, rate: 10 Hz, published_by: perception}
 ```
 
-Fix: name the one node or device that publishes it.
+Fix: add `published_by:` with the one node or device that broadcasts it.
 
 Source: docs/principles.md#one-authority-for-each-frame
 """
@@ -33,4 +33,4 @@ def check(graph: CellGraph) -> Findings:
     for frame in graph.cell.frames:
         if frame.kind is FrameKind.DYNAMIC and not graph.cell.states(*frame.path, "published_by"):
             message = f"dynamic frame `{frame.name}` has no publisher"
-            yield found(graph, frame.path, message, "add `published_by:` with the node that broadcasts it")
+            yield found(graph, frame.path, message)

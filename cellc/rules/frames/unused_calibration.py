@@ -36,4 +36,4 @@ def check(graph: CellGraph) -> Findings:
     for name in graph.cell.calibrations:
         if name not in used:
             message = f"no frame rests on calibration `{name}`"
-            yield found(graph, ("calibrations", name), message, "name it at the frame that it measured, or delete it")
+            yield found(graph, ("calibrations", name), message)

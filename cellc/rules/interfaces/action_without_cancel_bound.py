@@ -23,7 +23,7 @@ nodes:
   dock: {run: cell_tasks/dock, host: control_pc, owner: integration}
 ```
 
-Fix: write `cancel_within:` with the bound from cancel to hold.
+Fix: add `cancel_within:` with the longest time from cancel to hold, such as `200 ms`.
 
 Source: docs/principles.md#interaction-types
 """
@@ -40,4 +40,4 @@ def check(graph: CellGraph) -> Findings:
     for interface in graph.cell.interfaces:
         if interface.kind is InterfaceKind.ACTION and not interface.derived and interface.cancel_within_s is None:
             message = f"action `{interface.name}` does not say how soon a cancel takes effect"
-            yield found(graph, interface.path, message, "add `cancel_within:`, such as `200 ms`")
+            yield found(graph, interface.path, message)

@@ -36,4 +36,4 @@ def check(graph: CellGraph) -> Findings:
     for interface in graph.cell.interfaces:
         if not interface.derived and interface.kind is not InterfaceKind.TOPIC and not interface.sinks:
             message = f"nobody calls the {interface.kind.value} `{interface.name}`"
-            yield found(graph, (*interface.path, "client"), message, "name its client")
+            yield found(graph, (*interface.path, "client"), message)

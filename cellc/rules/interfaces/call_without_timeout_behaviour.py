@@ -18,7 +18,7 @@ interfaces:
              on_error: response.success is false}
 ```
 
-Fix: write `on_timeout: cancel_and_hold` for motion and `error` for a query.
+Fix: add `on_timeout:`, `cancel_and_hold` for motion and `error` for a query.
 
 Source: docs/principles.md#failing-closed
 """
@@ -31,9 +31,9 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
-    """Yield services and actions of the spec without a behaviour on timeout."""
+    """Yield services and actions of the spec without a behavior on timeout."""
     for interface in graph.cell.interfaces:
         if interface.kind is InterfaceKind.TOPIC or interface.derived or interface.on_timeout is not None:
             continue
         message = f"{interface.kind.value} `{interface.name}` does not say what happens when no answer comes"
-        yield found(graph, interface.path, message, "add `on_timeout:`, such as `cancel_and_hold`")
+        yield found(graph, interface.path, message)

@@ -22,7 +22,7 @@ nodes:
   dock: {run: cell_tasks/dock, host: control_pc, owner: integration}
 ```
 
-Fix: write `frame:` with the frame in which goals are given.
+Fix: add `frame:` with the frame in which goals are given, such as `world`.
 
 Source: docs/principles.md#command-contracts
 """
@@ -39,4 +39,4 @@ def check(graph: CellGraph) -> Findings:
     for interface in graph.cell.interfaces:
         if interface.kind is InterfaceKind.ACTION and not interface.derived and interface.frame is None:
             message = f"action `{interface.name}` does not say in which frame its goals are"
-            yield found(graph, interface.path, message, "add `frame:`, such as `world`")
+            yield found(graph, interface.path, message)

@@ -37,6 +37,6 @@ def check(graph: CellGraph) -> Findings:
     for name, path in named:
         earlier = first.setdefault(name, path)
         if earlier != path:
-            message = f"there is already a node `{name}`"
+            message = f"two nodes are named `{name}`"
             related = (Related("the first is here", graph.cell.locate(*earlier)),)
-            yield found(graph, path, message, "rename one of the two", related)
+            yield found(graph, path, message, related=related)

@@ -36,4 +36,4 @@ def check(graph: CellGraph) -> Findings:
     for interface in graph.cell.interfaces:
         if "_action" in interface.name.split("/"):
             message = f"`{interface.name}` is a hidden name of an action"
-            yield found(graph, interface.path, message, "declare the action instead")
+            yield found(graph, interface.path, message)

@@ -19,7 +19,7 @@ interfaces:
              wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: reject_goal}
 ```
 
-Fix: begin with `/` and use letters, digits and `_` between slashes, no part beginning with a digit.
+Fix: begin with `/`, and use letters, digits and `_` between slashes; no part begins with a digit.
 
 Source: https://design.ros2.org/articles/topic_and_service_names.html
 (as of 2026-11-22): allowed characters and lengths
@@ -42,10 +42,10 @@ def check(graph: CellGraph) -> Findings:
     for interface in graph.cell.interfaces:
         longest = _LONGEST[interface.kind]
         if _NAME.fullmatch(interface.name) is None:
-            message = f"`{interface.name}` is no full ROS name"
+            message = f"`{interface.name}` is not a legal ROS name"
             yield found(graph, interface.path, message, f"write `{_legal(interface.name)}`, as the nodes do")
         elif len(interface.name) > longest:
-            message = f"`{interface.name[:40]}…` has {len(interface.name)} characters, at most {longest} are allowed"
+            message = f"`{interface.name[:40]}…` must have at most {longest} characters, got {len(interface.name)}"
             yield found(graph, interface.path, message, "shorten the name")
 
 

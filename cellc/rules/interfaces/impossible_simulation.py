@@ -16,8 +16,7 @@ hosts:
   control_pc: {clock: {simulated_drift: 20 ppm}}
 ```
 
-Fix: latency and jitter from 0 s on, loss and reordering from 0 % to 100 %, drift within 10000 ppm either way; a
-watchdog and a stop take longer than 0 s; a joint lags and errs by 0 or more, in the unit in which it moves.
+Fix: write figures that a real network, clock, adapter or joint can have.
 
 Source:
 
@@ -46,9 +45,15 @@ def check(graph: CellGraph) -> Findings:
     cell = graph.cell
     for path, written, least, greatest in (*_clocks(cell), *_networks(cell), *_adapters(cell), *_joints(cell)):
         if written is not None and not least <= written <= greatest:
-            message = f"`{path[-1]}` is `{cell.text(*path)}`, which none can have"
-            yield found(graph, path, message, "write a figure that a network, clock or device can have")
+            message = f"`{path[-1]}` must be {_range(least, greatest)}, got `{cell.text(*path)}`"
+            yield found(graph, path, message)
     yield from _other_units(graph)
+
+
+def _range(least: float, greatest: float) -> str:
+    if greatest == inf:
+        return "above 0" if least > 0.0 else "at least 0"
+    return "between 0 % and 100 %" if least == 0.0 else "between -10000 ppm and 10000 ppm"
 
 
 def _clocks(cell: Cell) -> Iterator[Bounded]:

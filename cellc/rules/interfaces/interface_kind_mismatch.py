@@ -41,8 +41,8 @@ def check(graph: CellGraph) -> Findings:
     """Yield interfaces whose type stands in the folder of another kind."""
     for interface in graph.cell.interfaces:
         parts = interface.type.split("/")
-        due = _FOLDER[interface.kind]
-        if len(parts) == 3 and parts[1] in _FOLDER.values() and parts[1] != due:
+        expected = _FOLDER[interface.kind]
+        if len(parts) == 3 and parts[1] in _FOLDER.values() and parts[1] != expected:
             message = f"`{interface.name}` is a {interface.kind.value}, but `{interface.type}` is a `{parts[1]}` type"
             path = (*interface.path, interface.kind.value)
-            yield found(graph, path, message, f"use a `{due}` type, or declare it as what it is")
+            yield found(graph, path, message, f"use a `{expected}` type, or declare it as what it is")

@@ -41,7 +41,11 @@ def check(graph: CellGraph) -> Findings:
     """Yield types of another shape."""
     for interface in graph.cell.interfaces:
         if _TYPE.fullmatch(interface.type) is None:
-            message = f"`{interface.type}` is no interface type"
+            message = f"`{interface.type}` is not an interface type"
             parts = interface.type.split("/")
-            due = f"{parts[0]}/{_FOLDER[interface.kind]}/{parts[-1]}" if len(parts) == 2 else "sensor_msgs/msg/Image"
-            yield found(graph, (*interface.path, interface.kind.value), message, f"write three parts, such as `{due}`")
+            nearest = (
+                f"{parts[0]}/{_FOLDER[interface.kind]}/{parts[-1]}" if len(parts) == 2 else "sensor_msgs/msg/Image"
+            )
+            yield found(
+                graph, (*interface.path, interface.kind.value), message, f"write three parts, such as `{nearest}`"
+            )

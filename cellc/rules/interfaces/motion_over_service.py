@@ -20,7 +20,7 @@ interfaces:
                  on_timeout: error, on_error: response.error_code}
 ```
 
-Fix: declare it as an action, with feedback, cancel and result; a service that only plans or reads is fine.
+Fix: declare an action, with feedback, cancel and result; a service may plan or read.
 
 Source: docs/principles.md#interaction-types
 """
@@ -61,6 +61,4 @@ def check(graph: CellGraph) -> Findings:
             continue
         if not _MOTION.isdisjoint(words):
             message = f"`{interface.name}` requests motion over the service `{interface.type}`"
-            yield found(
-                graph, (*interface.path, "service"), message, "use an action: it reports progress and can be cancelled"
-            )
+            yield found(graph, (*interface.path, "service"), message)

@@ -41,4 +41,4 @@ def check(graph: CellGraph) -> Findings:
         for sink in interface.sinks:
             if sink.node in graph.data.commanders:
                 message = f"controller `{sink.node}` is commanded over the topic `{interface.name}`"
-                yield found(graph, sink.path, message, "send goals to the action of the controller")
+                yield found(graph, sink.path, message)

@@ -18,7 +18,7 @@ interfaces:
              on_error: response.success is false}
 ```
 
-Fix: write `on_error:` with the field of the response that tells it.
+Fix: add `on_error:` with the field of the response that tells it.
 
 Source: docs/principles.md#interaction-types
 """
@@ -34,5 +34,5 @@ def check(graph: CellGraph) -> Findings:
     """Yield services of the spec without a stated error answer."""
     for interface in graph.cell.interfaces:
         if interface.kind is InterfaceKind.SERVICE and not interface.derived and interface.on_error is None:
-            message = f"service `{interface.name}` does not say how an error is told"
-            yield found(graph, interface.path, message, "add `on_error:` with the field that tells it")
+            message = f"service `{interface.name}` does not say how it reports an error"
+            yield found(graph, interface.path, message)

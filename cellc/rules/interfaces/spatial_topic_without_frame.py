@@ -19,7 +19,7 @@ interfaces:
              wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: reject_goal}
 ```
 
-Fix: write `frame:`, for camera data the optical frame.
+Fix: add `frame:`, for camera data the optical frame.
 
 Source:
 
@@ -45,4 +45,4 @@ def check(graph: CellGraph) -> Findings:
             continue
         if facts.feeds_motion or interface.name in graph.data.feeding_motion():
             message = f"`{interface.name}` carries `{interface.type}` but names no frame"
-            yield found(graph, interface.path, message, "add `frame:`")
+            yield found(graph, interface.path, message)

@@ -19,7 +19,7 @@ interfaces:
              wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: reject_goal}
 ```
 
-Fix: write `rate:`.
+Fix: add `rate:`, such as `10 Hz`.
 
 Source: docs/principles.md#command-contracts
 """
@@ -42,6 +42,4 @@ def check(graph: CellGraph) -> Findings:
     for interface in without:
         if interface.name in feeding:
             way = graph.data.way_to_motion(interface)
-            yield found(
-                graph, interface.path, f"`{interface.name}` feeds motion, {way}, and has no `rate`", "add `rate:`"
-            )
+            yield found(graph, interface.path, f"`{interface.name}` feeds motion, {way}, and has no `rate`")

@@ -36,10 +36,10 @@ def check(graph: CellGraph) -> Findings:
     """Yield interfaces of the spec whose device or controller has another type for the name."""
     for interface in graph.cell.interfaces:
         for source in interface.sources:
-            due = _type_of(graph, source.node, interface.name)
-            if due is not None and due != interface.type:
-                message = f"`{interface.name}` is declared as `{interface.type}`, but `{source.node}` has `{due}`"
-                yield found(graph, (*interface.path, interface.kind.value), message, f"write `{due}`")
+            real = _type_of(graph, source.node, interface.name)
+            if real is not None and real != interface.type:
+                message = f"`{interface.name}` is declared as `{interface.type}`, but `{source.node}` has `{real}`"
+                yield found(graph, (*interface.path, interface.kind.value), message, f"write `{real}`")
 
 
 def _type_of(graph: CellGraph, node: str, name: str) -> str | None:

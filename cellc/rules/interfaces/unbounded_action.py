@@ -22,7 +22,7 @@ nodes:
   dock: {run: cell_tasks/dock, host: control_pc, owner: integration}
 ```
 
-Fix: write `timeout:` with the longest time that a goal may take.
+Fix: add `timeout:` with the longest time that a goal may take, such as `20 s`.
 
 Source: docs/principles.md#interaction-types
 """
@@ -39,4 +39,4 @@ def check(graph: CellGraph) -> Findings:
     for interface in graph.cell.interfaces:
         if interface.kind is InterfaceKind.ACTION and not interface.derived and interface.timeout_s is None:
             message = f"action `{interface.name}` has no bound on a whole goal"
-            yield found(graph, interface.path, message, "add `timeout:`, such as `20 s`")
+            yield found(graph, interface.path, message)

@@ -18,7 +18,7 @@ interfaces:
              on_error: response.success is false}
 ```
 
-Fix: write `timeout:` with the longest time that an answer may take.
+Fix: add `timeout:` with the longest time that an answer may take, such as `1 s`.
 
 Source: docs/principles.md#interaction-types
 """
@@ -35,4 +35,4 @@ def check(graph: CellGraph) -> Findings:
     for interface in graph.cell.interfaces:
         if interface.kind is InterfaceKind.SERVICE and not interface.derived and interface.timeout_s is None:
             message = f"service `{interface.name}` has no bound on its response time"
-            yield found(graph, interface.path, message, "add `timeout:`, such as `1 s`")
+            yield found(graph, interface.path, message)

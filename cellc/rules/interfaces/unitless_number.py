@@ -1,6 +1,6 @@
 """A topic carries bare numbers without a unit.
 
-A Float64 is millimetres for its writer and metres for its reader, until the arm shows which. Types of std_msgs fix no
+A Float64 is millimeters for its writer and meters for its reader, until the arm shows which. Types of std_msgs fix no
 unit.
 
 Example that is reported:
@@ -20,7 +20,7 @@ interfaces:
                  max_age: 200 ms, on_stale: reject_goal, unit: m}
 ```
 
-Fix: write `unit:`, in SI where you can choose, or use a type that fixes it.
+Fix: add `unit:`, such as `m`, or use a type that fixes it.
 
 Source:
 
@@ -43,4 +43,4 @@ def check(graph: CellGraph) -> Findings:
     for interface in graph.cell.interfaces:
         if not interface.derived and interface.unit is None and _NUMBER.fullmatch(interface.type):
             message = f"`{interface.name}` carries bare numbers without a unit"
-            yield found(graph, interface.path, message, "add `unit:`, such as `m`")
+            yield found(graph, interface.path, message)

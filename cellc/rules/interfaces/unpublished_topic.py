@@ -34,4 +34,4 @@ def check(graph: CellGraph) -> Findings:
     """Yield topics without a publisher."""
     for interface in graph.cell.interfaces:
         if interface.kind is InterfaceKind.TOPIC and not interface.sources:
-            yield found(graph, (*interface.path, "from"), f"nobody publishes `{interface.name}`", "name the publisher")
+            yield found(graph, (*interface.path, "from"), f"nobody publishes `{interface.name}`")

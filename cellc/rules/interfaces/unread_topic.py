@@ -18,7 +18,7 @@ interfaces:
              wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: reject_goal}
 ```
 
-Fix: name the subscribers, or delete the topic; what is only recorded belongs under `recording.topics`.
+Fix: name its readers under `to:`, or delete the topic; what is only recorded belongs under `recording.topics`.
 
 Source: docs/principles.md#delivery-contracts
 """
@@ -36,6 +36,4 @@ def check(graph: CellGraph) -> Findings:
         if interface.derived or interface.kind is not InterfaceKind.TOPIC or interface.sinks:
             continue
         if interface.name not in graph.cell.recording.topics:
-            yield found(
-                graph, interface.path, f"nobody subscribes to `{interface.name}`", "name its readers under `to:`"
-            )
+            yield found(graph, interface.path, f"nobody subscribes to `{interface.name}`")

@@ -20,7 +20,7 @@ interfaces:
              wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: reject_goal}
 ```
 
-Fix: write `wants: newest` for state and images, `wants: every_sample` for events.
+Fix: add `wants: newest` for state and images, `wants: every_sample` for events.
 
 Source: docs/principles.md#delivery-contracts
 """
@@ -42,4 +42,4 @@ def check(graph: CellGraph) -> Findings:
             and interface.wants is None
         ):
             message = f"`{interface.name}` does not say whether every sample counts or only the newest"
-            yield found(graph, interface.path, message, "add `wants: newest` or `wants: every_sample`")
+            yield found(graph, interface.path, message)

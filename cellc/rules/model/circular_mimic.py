@@ -45,7 +45,7 @@ def check(graph: CellGraph) -> Findings:
         if part.joint.name in followed:
             chain = " → ".join(f"`{name}`" for name in (part.joint.name, *followed))
             message = f"joint `{part.joint.name}` mimics itself: {chain}"
-            yield Finding(message, part.span, part.path, "name the joint that is driven")
+            yield Finding(message, part.span, part.path)
 
 
 def _leaders(description: Description, joint: Joint) -> list[str]:

@@ -41,4 +41,4 @@ def check(graph: CellGraph) -> Findings:
         if first is not part:
             message = f"`{part.device.name}` has two {kind}s named `{name}`"
             related = (Related(f"first {kind} `{name}` here", first.span),)
-            yield Finding(message, part.span, part.path, "rename one of the two", related)
+            yield Finding(message, part.span, part.path, related=related)

@@ -20,7 +20,7 @@ Example that is accepted:
 </link>
 ```
 
-Fix: compute the tensor about the centre of mass from the CAD model, in kg m^2; mm and g are the usual slip.
+Fix: compute the tensor about the center of mass from the CAD model, in kg m^2; mm and g are the usual mistake.
 
 Source: docs/principles.md#robot-descriptions
 """
@@ -39,8 +39,8 @@ def check(graph: CellGraph) -> Findings:
     """Yield links whose tensor is not positive or breaks the triangle inequality."""
     for part in graph.model.links():
         if part.link.inertial is not None and (reason := _impossible(part.link.inertial)):
-            message = f"link `{part.link.name}` has an inertia that no body has: {reason}"
-            yield Finding(message, part.span, part.path, "compute the tensor about the centre of mass, in kg m^2")
+            message = f"link `{part.link.name}` has an impossible inertia tensor: {reason}"
+            yield Finding(message, part.span, part.path)
 
 
 def _impossible(inertial: Inertial) -> str:

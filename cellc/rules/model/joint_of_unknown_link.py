@@ -31,6 +31,6 @@ def check(graph: CellGraph) -> Findings:
         description = part.device.description
         for role, name in (("parent", part.joint.parent), ("child", part.joint.child)):
             if description.link(name) is None:
-                message = f"the {role} of joint `{part.joint.name}` is `{name}`, which is no link"
+                message = f"the {role} of joint `{part.joint.name}` is `{name}`, which is not a link"
                 links = (link.name for link in description.links)
                 yield Finding(message, part.span, part.path, did_you_mean(name, links, "links"))

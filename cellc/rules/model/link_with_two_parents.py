@@ -16,7 +16,7 @@ Example that is accepted:
 <joint name="slide" type="fixed"><parent link="arm"/> <child link="carriage"/></joint>
 ```
 
-Fix: delete one joint; a closed chain is modelled by a mimic joint.
+Fix: delete one of the two joints; a closed chain is modeled by a mimic joint.
 
 Source: https://wiki.ros.org/urdf/XML/robot (as of 2026-11-22): a robot is a tree of links
 """
@@ -36,4 +36,4 @@ def check(graph: CellGraph) -> Findings:
         if first is not part:
             message = f"link `{part.joint.child}` is the child of joints `{first.joint.name}` and `{part.joint.name}`"
             related = (Related(f"already the child of `{first.joint.name}`", first.span),)
-            yield Finding(message, part.span, part.path, "delete one of the two joints", related)
+            yield Finding(message, part.span, part.path, related=related)

@@ -40,6 +40,6 @@ def check(graph: CellGraph) -> Findings:
         mimic = part.joint.mimic
         description = part.device.description
         if mimic is not None and description.joint(mimic.joint) is None:
-            message = f"joint `{part.joint.name}` mimics `{mimic.joint}`, which is no joint of `{part.device.name}`"
+            message = f"joint `{part.joint.name}` mimics `{mimic.joint}`, which is not a joint of `{part.device.name}`"
             names = (joint.name for joint in description.joints)
             yield Finding(message, part.span, part.path, did_you_mean(mimic.joint, names, "joints"))

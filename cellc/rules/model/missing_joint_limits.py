@@ -42,4 +42,4 @@ def check(graph: CellGraph) -> Findings:
         if missing:
             names = ", ".join(f"`{name}`" for name in missing)
             message = f"{part.joint.type} joint `{part.joint.name}` does not state {names}"
-            yield Finding(message, part.span, part.path, "write `<limit>` in rad or m and per second")
+            yield Finding(message, part.span, part.path)

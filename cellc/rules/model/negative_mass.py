@@ -38,5 +38,5 @@ def check(graph: CellGraph) -> Findings:
     for part in graph.model.links():
         inertial = part.link.inertial
         if inertial is not None and inertial.mass < 0.0:
-            message = f"link `{part.link.name}` has a mass of {inertial.mass:g} kg"
-            yield Finding(message, part.span, part.path, "write the mass in kg, or leave `<inertial>` out")
+            message = f"the mass of link `{part.link.name}` must not be negative, got {inertial.mass:g} kg"
+            yield Finding(message, part.span, part.path)

@@ -1,6 +1,6 @@
 """The axis of a moving joint is not of unit length.
 
-Some libraries normalise the axis, others multiply the joint position by its length, so that the same model moves by
+Some libraries normalize the axis, others multiply the joint position by its length, so that the same model moves by
 different amounts in the planner, in the viewer and in the controller.
 
 Example that is reported:
@@ -41,6 +41,6 @@ def check(graph: CellGraph) -> Findings:
     for part in graph.model.joints():
         length = math.hypot(*part.joint.axis)
         if part.joint.movable and length > 0.0 and abs(length - 1.0) > _TOLERANCE:
-            message = f"the axis of joint `{part.joint.name}` has length {length:g}, not 1"
+            message = f"the axis of joint `{part.joint.name}` must have length 1, got {length:g}"
             unit = " ".join(f"{component / length:.6g}" for component in part.joint.axis)
             yield Finding(message, part.span, part.path, f"write `{unit}` if the direction is right")

@@ -21,7 +21,7 @@ Example that is accepted:
 </joint>
 ```
 
-Fix: swap the two values, after checking on the real joint which way is positive.
+Fix: swap `lower` and `upper` after checking on the real joint which way is positive.
 
 Source:
 
@@ -42,4 +42,4 @@ def check(graph: CellGraph) -> Findings:
         if limit is None or limit.lower is None or limit.upper is None or limit.lower <= limit.upper:
             continue
         message = f"joint `{part.joint.name}` has lower limit {limit.lower:g} above upper limit {limit.upper:g}"
-        yield Finding(message, part.span, part.path, "swap `lower` and `upper` after checking the sign of the joint")
+        yield Finding(message, part.span, part.path)

@@ -33,4 +33,4 @@ def check(graph: CellGraph) -> Findings:
         root = part.device.root_link
         if part.link.name != root and part.link.name in part.device.description.roots():
             message = f"link `{part.link.name}` hangs on nothing; the root of `{part.device.name}` is `{root}`"
-            yield Finding(message, part.span, part.path, "connect it with a joint, or delete it")
+            yield Finding(message, part.span, part.path)

@@ -21,7 +21,7 @@ Example that is accepted:
 </joint>
 ```
 
-Fix: write the unit vector along which, or about which, the joint moves, in the joint frame.
+Fix: write the unit vector of the motion in the joint frame, such as `0 0 1`.
 
 Source: https://wiki.ros.org/urdf/XML/joint (as of 2026-11-22): the vector of an axis is normalized
 """
@@ -39,4 +39,4 @@ def check(graph: CellGraph) -> Findings:
     for part in graph.model.joints():
         if part.joint.movable and math.hypot(*part.joint.axis) == 0.0:
             message = f"joint `{part.joint.name}` is {part.joint.type} but its axis is `0 0 0`"
-            yield Finding(message, part.span, part.path, "write a unit vector in the joint frame, such as `0 0 1`")
+            yield Finding(message, part.span, part.path)

@@ -31,4 +31,4 @@ def check(graph: CellGraph) -> Findings:
     """Yield rehearsals without steps."""
     for rehearsal in graph.cell.rehearsals:
         if not rehearsal.steps:
-            yield found(graph, rehearsal.path, f"rehearsal `{rehearsal.name}` does nothing", "write `steps:` or `use:`")
+            yield found(graph, rehearsal.path, f"rehearsal `{rehearsal.name}` does nothing")

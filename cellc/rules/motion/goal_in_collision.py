@@ -18,7 +18,7 @@ scene:
   crate: {parent: fixture_A, xyz: 0 0 -100 mm, box: 200 200 150 mm}
 ```
 
-Fix: correct place and size of the box, or raise the goal above it.
+Fix: correct place and size of what is in the way, or move the goal.
 
 Source: docs/principles.md#how-geometry-is-checked
 """
@@ -37,5 +37,4 @@ def check(graph: CellGraph) -> Findings:
     for goal in motion_answer(graph).goals:
         if goal.failure == "goal_in_collision":
             message = f"at goal `{goal.name}` {goal.detail}"
-            help_text = "correct place and size of what is in the way, or move the goal"
-            yield found(graph, (*paths[goal.name], "frame"), message, help_text)
+            yield found(graph, (*paths[goal.name], "frame"), message)

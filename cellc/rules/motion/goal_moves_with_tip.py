@@ -43,4 +43,4 @@ def check(graph: CellGraph) -> Findings:
         moved = {children[edge.name] for edge in graph.frames.chain(goal.frame) if edge.name in children}
         if not moved.isdisjoint(groups[goal.group].joints):
             message = f"goal `{goal.name}` is in `{goal.frame}`, which group `{goal.group}` moves itself"
-            yield found(graph, (*goal.path, "frame"), message, "give it in a frame that does not hang on the arm")
+            yield found(graph, (*goal.path, "frame"), message)

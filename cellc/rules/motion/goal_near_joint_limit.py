@@ -1,7 +1,7 @@
 """A goal puts a joint next to its limit.
 
 A little farther and the goal has no solution, or the arm has to turn all the way round to the other one. Where a part
-lies a few millimetres aside, or the calibration is measured anew, the motion fails.
+lies a few millimeters aside, or the calibration is measured anew, the motion fails.
 
 Example that is reported:
 
@@ -39,8 +39,7 @@ def check(graph: CellGraph) -> Findings:
     for goal in motion_answer(graph).goals:
         if goal.limit_joint and goal.limit_share < _LEAST_SHARE:
             message = (
-                f"goal `{goal.name}` leaves `{goal.limit_joint}` {goal.limit_distance:.2g} from its limit, "
-                f"{goal.limit_share:.1%} of its range where {_LEAST_SHARE:.0%} are asked for"
+                f"goal `{goal.name}` must leave `{goal.limit_joint}` {_LEAST_SHARE:.0%} of its range to the limit, "
+                f"got {goal.limit_share:.1%} ({goal.limit_distance:.2g})"
             )
-            help_text = "begin nearer to the middle of the joint's range, or move the goal"
-            yield found(graph, (*paths[goal.name], "frame"), message, help_text)
+            yield found(graph, (*paths[goal.name], "frame"), message)

@@ -50,9 +50,9 @@ def check(graph: CellGraph) -> Findings:
         length = _stretched(graph, group)
         if distance > length:
             message = (
-                f"goal `{goal.name}` is {distance:.3g} m from `{group.base_link}`, the chain is {length:.3g} m long"
+                f"goal `{goal.name}` is {distance:.3g} m from `{group.base_link}`, but the chain is {length:.3g} m long"
             )
-            yield found(graph, (*goal.path, "frame"), message, "check parent, sign and unit of the frame")
+            yield found(graph, (*goal.path, "frame"), message)
 
 
 def _pose_in_world(graph: CellGraph, name: str) -> Pose | None:
@@ -66,7 +66,7 @@ def _pose_in_world(graph: CellGraph, name: str) -> Pose | None:
 
 
 def _stretched(graph: CellGraph, group: PlanningGroup) -> float:
-    """Return the sum of the lengths from base to tip, and of the travel of prismatic joints, in metres."""
+    """Return the sum of the lengths from base to tip, and of the travel of prismatic joints, in meters."""
     length = 0.0
     for frame in graph.frames.chain(group.tip_frame):
         if frame.name == group.base_link:

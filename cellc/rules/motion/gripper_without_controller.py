@@ -17,7 +17,7 @@ control:
   controllers: {gripper_action: {type: parallel_gripper, device: gripper, client: task}}
 ```
 
-Fix: add a gripper controller.
+Fix: add a controller of type `parallel_gripper` for it.
 
 Source: docs/principles.md#planning-and-execution
 """
@@ -36,4 +36,4 @@ def check(graph: CellGraph) -> Findings:
         if step.kind == "grip" and step.name not in driven and step.name not in reported:
             reported.add(step.name)
             message = f"no controller drives gripper `{step.name}`"
-            yield found(graph, step.path, message, "add a controller of type `parallel_gripper` for it")
+            yield found(graph, step.path, message)

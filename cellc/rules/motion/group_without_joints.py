@@ -32,4 +32,4 @@ def check(graph: CellGraph) -> Findings:
     for group in graph.cell.groups:
         if not group.joints:
             message = f"there is no moving joint between `{group.base_link}` and `{group.tip_frame}`"
-            yield found(graph, group.path, message, "choose base and tip at the two ends of the joints")
+            yield found(graph, group.path, message)

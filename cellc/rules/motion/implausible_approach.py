@@ -1,6 +1,6 @@
 """An approach is of length zero or longer than any arm.
 
-An approach of zero is none, and one of metres is mm read as m.
+An approach of zero is none, and one of meters is mm read as m.
 
 Example that is reported:
 
@@ -37,6 +37,6 @@ def check(graph: CellGraph) -> Findings:
         length = None if goal.approach is None else math.hypot(*goal.approach)
         if length is not None and not 0.0 < length <= _LONGEST_M:
             message = (
-                f"the approach of goal `{goal.name}` is {length:g} m long, more than 0 and up to {_LONGEST_M:g} m fit"
+                f"the approach of goal `{goal.name}` must be above 0 m and at most {_LONGEST_M:g} m, got {length:g} m"
             )
-            yield found(graph, (*goal.path, "approach"), message, "check the unit, or leave it out")
+            yield found(graph, (*goal.path, "approach"), message)

@@ -36,4 +36,4 @@ def check(graph: CellGraph) -> Findings:
     for goal in motion_answer(graph).goals:
         if goal.approach_failure:
             message = f"no straight line leads to goal `{goal.name}`: {goal.approach_failure}"
-            yield found(graph, (*paths[goal.name], "approach"), message, "shorten or turn the approach")
+            yield found(graph, (*paths[goal.name], "approach"), message)

@@ -42,5 +42,5 @@ def check(graph: CellGraph) -> Findings:
     for goal in motion_answer(graph).goals:
         least = goal.min_singular_value
         if least is not None and least < _LEAST:
-            message = f"at goal `{goal.name}` the least singular value is {least:.2g}, from {_LEAST:g} on there is room"
-            yield found(graph, (*paths[goal.name], "frame"), message, "move the frame or the robot, or turn the goal")
+            message = f"the least singular value at goal `{goal.name}` must be at least {_LEAST:g}, got {least:.2g}"
+            yield found(graph, (*paths[goal.name], "frame"), message)

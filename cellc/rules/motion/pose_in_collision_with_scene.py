@@ -41,4 +41,4 @@ def check(graph: CellGraph) -> Findings:
         contacts = with_scene(graph, pose.contacts)
         if contacts:
             message = f"in pose `{pose.name}` {named(contacts)}"
-            yield found(graph, paths[pose.name], message, "change the pose, or correct place and size of the box")
+            yield found(graph, paths[pose.name], message)

@@ -1,6 +1,6 @@
 """A named pose lets the robot touch itself.
 
-Two links that are no neighbours touch in this pose, so no planner goes there, and a controller that is commanded there
+Two links that are no neighbors touch in this pose, so no planner goes there, and a controller that is commanded there
 presses the arm against itself. A digit too many in an elbow is enough, and joint limits alone do not notice.
 
 Example that is reported:
@@ -37,4 +37,4 @@ def check(graph: CellGraph) -> Findings:
         contacts = within_robot(graph, pose.contacts)
         if contacts:
             message = f"in pose `{pose.name}` {named(contacts)}"
-            yield found(graph, paths[pose.name], message, "change the joint positions until the links are apart")
+            yield found(graph, paths[pose.name], message)

@@ -39,6 +39,6 @@ def check(graph: CellGraph) -> Findings:
             if joint is None or joint.lower is None or joint.upper is None:
                 continue
             if not joint.lower <= position <= joint.upper:
-                allowed = f"{joint.lower:.4g} to {joint.upper:.4g}"
-                message = f"`{name}` is at {position:.4g} in pose `{pose.name}`, allowed are {allowed}"
-                yield found(graph, pose.path, message, "correct the value, and check its unit")
+                allowed = f"between {joint.lower:.4g} and {joint.upper:.4g}"
+                message = f"`{name}` must be {allowed} in pose `{pose.name}`, got {position:.4g}"
+                yield found(graph, pose.path, message)

@@ -39,5 +39,5 @@ def check(graph: CellGraph) -> Findings:
     paths = {goal.name: goal.path for goal in graph.cell.goals}
     for goal in motion_answer(graph).goals:
         if goal.failure == "singular":
-            message = f"goal `{goal.name}` is reached in a singularity alone: {goal.detail}"
-            yield found(graph, (*paths[goal.name], "frame"), message, "move the frame or the robot, or turn the goal")
+            message = f"goal `{goal.name}` can be reached only in a singularity: {goal.detail}"
+            yield found(graph, (*paths[goal.name], "frame"), message)

@@ -41,4 +41,4 @@ def check(graph: CellGraph) -> Findings:
     contacts = motion_answer(graph).start
     if contacts and all(pose.name != "home" for pose in graph.cell.poses):
         message = f"where the cell begins {named(contacts)}"
-        yield found(graph, ("motion", "poses"), message, "declare a pose `home` that is free of collision")
+        yield found(graph, ("motion", "poses"), message)

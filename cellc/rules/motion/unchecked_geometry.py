@@ -1,7 +1,7 @@
 """Shapes cannot be read, so that nothing is known of collisions.
 
 The kinematics refuses the robot description, most often because it names a mesh that is not here. Poses and goals are
-then not checked, the semantic description lists neighbours alone, and the mock does not plan.
+then not checked, the semantic description lists neighbors alone, and the mock does not plan.
 
 Example that is reported:
 
@@ -38,4 +38,4 @@ def check(graph: CellGraph) -> Findings:
     refused = motion_answer(graph).refused
     if refused:
         message = f"poses and goals are not checked: {refused}"
-        yield found(graph, ("motion", "groups"), message, "give collision shapes as boxes, cylinders and spheres")
+        yield found(graph, ("motion", "groups"), message)

@@ -16,7 +16,7 @@ rehearsals:
   odd: {steps: [move: home, detect: object, move: pick], inject: {freeze: camera, at: 1 s}, expect: stale_state}
 ```
 
-Fix: inject the fault that leads to the expected outcome.
+Fix: add `inject:` with the fault that leads to the expected outcome.
 
 Source: docs/principles.md#rehearsals
 """
@@ -32,4 +32,4 @@ def check(graph: CellGraph) -> Findings:
     for rehearsal in graph.cell.rehearsals:
         if rehearsal.expect != "succeeded" and not rehearsal.faults:
             message = f"`{rehearsal.name}` expects `{rehearsal.expect}`, but nothing provokes it"
-            yield found(graph, (*rehearsal.path, "expect"), message, "add `inject:`")
+            yield found(graph, (*rehearsal.path, "expect"), message)

@@ -40,4 +40,4 @@ def check(graph: CellGraph) -> Findings:
     for goal in motion_answer(graph).goals:
         if goal.failure in ("no_ik_solution", "out_of_limits"):
             message = f"no joint positions were found for goal `{goal.name}`: {goal.detail}"
-            yield found(graph, (*paths[goal.name], "frame"), message, "move the frame or the robot, or turn the goal")
+            yield found(graph, (*paths[goal.name], "frame"), message)

@@ -22,7 +22,7 @@ rehearsals:
   look: {steps: [detect: part]}
 ```
 
-Fix: write `simulated_pose:` at the frame.
+Fix: add `simulated_pose:` to the frame.
 
 Source: docs/principles.md#mock-and-real
 """
@@ -40,4 +40,4 @@ def check(graph: CellGraph) -> Findings:
     for frame in graph.cell.frames:
         if frame.kind is FrameKind.DYNAMIC and frame.name in detected and frame.simulated_pose is None:
             message = f"a rehearsal detects `{frame.name}`, but the mock does not know where it is"
-            yield found(graph, frame.path, message, "add `simulated_pose:`")
+            yield found(graph, frame.path, message)

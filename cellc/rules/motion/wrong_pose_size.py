@@ -33,7 +33,7 @@ def check(graph: CellGraph) -> Findings:
     for pose in graph.cell.poses:
         if len(pose.joints) != len(pose.positions):
             message = (
-                f"pose `{pose.name}` has {len(pose.positions)} values, `{pose.group}` has {len(pose.joints)} joints"
+                f"expected {len(pose.joints)} values in pose `{pose.name}` of `{pose.group}`, got {len(pose.positions)}"
             )
             names = ", ".join(pose.joints)
             yield found(graph, pose.path, message, f"write one value for each of {names}")

@@ -45,4 +45,4 @@ def check(graph: CellGraph) -> Findings:
             if held:
                 message = f"parameter `{name}` of `{node.name}` holds {held[0]}, the address of `{owners[held[0]]}`"
                 path = (*node.path, "parameters", name)
-                yield found(graph, path, message, "leave the address to `connection:` of the device")
+                yield found(graph, path, message)

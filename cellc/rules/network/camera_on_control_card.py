@@ -32,4 +32,4 @@ def check(graph: CellGraph) -> Findings:
         nic = graph.network.nic_of(device)
         if nic is not None and "control" in nic.carries and device.device in cameras:
             message = f"camera `{device.device}` is on `{nic.full_name}`, which carries control"
-            yield found(graph, (*device.path, "nic"), message, "connect it to another card")
+            yield found(graph, (*device.path, "nic"), message)

@@ -38,4 +38,4 @@ def check(graph: CellGraph) -> Findings:
         if first.interface.network.overlaps(second.interface.network) and not same:
             message = f"`{second.full_name}` and `{first.full_name}` are both in {first.interface.network}"
             related = (Related("the other card is here", graph.cell.locate(*first.path, "address")),)
-            yield found(graph, (*second.path, "address"), message, "give each card a subnet of its own", related)
+            yield found(graph, (*second.path, "address"), message, related=related)

@@ -34,4 +34,4 @@ def check(graph: CellGraph) -> Findings:
         if device.address not in nic.interface.network:
             message = f"{device.address} of `{device.device}` is not in {nic.interface.network} of `{nic.full_name}`"
             related = (Related("the card is here", graph.cell.locate(*nic.path, "address")),)
-            yield found(graph, (*device.path, "address"), message, "use an address of the card's subnet", related)
+            yield found(graph, (*device.path, "address"), message, related=related)

@@ -30,4 +30,4 @@ def check(graph: CellGraph) -> Findings:
     """Yield discovery that is off in a cell of one host or none."""
     if graph.cell.network.discovery == "off" and len(graph.cell.hosts) < 2:
         message = "discovery is off, so no two processes of the cell find each other"
-        yield found(graph, ("network", "discovery"), message, "use `localhost`")
+        yield found(graph, ("network", "discovery"), message)

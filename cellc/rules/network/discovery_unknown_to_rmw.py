@@ -16,7 +16,7 @@ versions: {rmw: rmw_zenoh_cpp 0.2.10}
 network: {discovery: multicast}
 ```
 
-Fix: configure the router instead, and leave `discovery` at its default.
+Fix: configure the router and the session of Zenoh instead, and leave `discovery` at its default.
 
 Source: https://docs.ros.org/en/jazzy/Tutorials/Advanced/Improved-Dynamic-Discovery.html
 (Jazzy): rmw_zenoh does not support the variables
@@ -35,4 +35,4 @@ def check(graph: CellGraph) -> Findings:
         return
     if network.discovery != "multicast" or network.peers:
         field = "discovery" if network.discovery != "multicast" else "peers"
-        yield found(graph, ("network", field), f"Zenoh ignores `{field}`", "configure its router and session instead")
+        yield found(graph, ("network", field), f"Zenoh ignores `{field}`")

@@ -31,5 +31,5 @@ def check(graph: CellGraph) -> Findings:
     """Yield a domain outside 0 to 232."""
     domain = graph.cell.network.domain_id
     if not 0 <= domain <= _LARGEST:
-        message = f"domain {domain} is outside 0 to {_LARGEST}"
-        yield found(graph, ("network", "domain_id"), message, "use 0 to 101")
+        message = f"`domain_id` must be between 0 and {_LARGEST}, got {domain}"
+        yield found(graph, ("network", "domain_id"), message)

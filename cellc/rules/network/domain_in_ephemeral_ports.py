@@ -33,4 +33,4 @@ def check(graph: CellGraph) -> Findings:
     domain = graph.cell.network.domain_id
     if _FIRST <= domain <= _LAST:
         message = f"the ports of domain {domain} are ephemeral ports of Linux"
-        yield found(graph, ("network", "domain_id"), message, "use 0 to 101")
+        yield found(graph, ("network", "domain_id"), message)

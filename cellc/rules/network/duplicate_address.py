@@ -37,4 +37,4 @@ def check(graph: CellGraph) -> Findings:
         if earlier_path != path:
             message = f"`{name}` and `{earlier_name}` both have address {address}"
             related = (Related("first used here", graph.cell.locate(*earlier_path, "address")),)
-            yield found(graph, (*path, "address"), message, "give it an address of its own", related)
+            yield found(graph, (*path, "address"), message, related=related)

@@ -38,4 +38,4 @@ def check(graph: CellGraph) -> Findings:
     if discovery in ("localhost", "off") and len(hosts) > 1:
         names = " and ".join(f"`{name}`" for name in hosts)
         message = f"discovery is `{discovery}`, but the cell runs on {names}"
-        yield found(graph, ("network", "discovery"), message, "use `multicast`, or `unicast` with peers")
+        yield found(graph, ("network", "discovery"), message)

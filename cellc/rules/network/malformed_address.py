@@ -35,9 +35,9 @@ def check(graph: CellGraph) -> Findings:
     """Yield cards and devices whose address cannot be read."""
     for nic in graph.network.nics:
         if nic.interface is None:
-            message = f"`{nic.text}` of `{nic.full_name}` is no IPv4 address with a prefix length"
+            message = f"expected an IPv4 address with a prefix length for `{nic.full_name}`, got `{nic.text}`"
             yield found(graph, (*nic.path, "address"), message, "write it such as `192.168.56.10/24`")
     for device in graph.network.devices:
         if device.text is not None and device.address is None:
-            message = f"`{device.text}` of `{device.device}` is no IPv4 address"
+            message = f"expected an IPv4 address for `{device.device}`, got `{device.text}`"
             yield found(graph, (*device.path, "address"), message, "write it such as `192.168.56.101`")

@@ -33,4 +33,4 @@ def check(graph: CellGraph) -> Findings:
         cards = [nic for nic in graph.network.nics if nic.host == device.host and nic.interface is not None]
         if not any(nic.interface is not None and device.address in nic.interface.network for nic in cards):
             message = f"no card of `{device.host}` is in the subnet of {device.address} of `{device.device}`"
-            yield found(graph, (*device.path, "address"), message, "add a card in its subnet, or correct the address")
+            yield found(graph, (*device.path, "address"), message)

@@ -15,7 +15,7 @@ Example that is accepted:
 devices: {arm: {connection: {nic: null, address: 192.168.56.101}}}
 ```
 
-Fix: use an address of a private network.
+Fix: use an address of a private network: 10/8, 172.16/12 or 192.168/16.
 
 Source:
 
@@ -34,4 +34,4 @@ def check(graph: CellGraph) -> Findings:
     for device in graph.network.devices:
         if device.address is not None and device.address.is_global:
             message = f"{device.address} of `{device.device}` is a public address"
-            yield found(graph, (*device.path, "address"), message, "use one of 10/8, 172.16/12 or 192.168/16")
+            yield found(graph, (*device.path, "address"), message)

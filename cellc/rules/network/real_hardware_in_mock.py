@@ -14,7 +14,7 @@ Example that is accepted:
 targets: {mock: {hardware: mock}}
 ```
 
-Fix: use the hardware of the target's name.
+Fix: write the hardware of the target's name.
 
 Source: docs/principles.md#mock-and-real
 """

@@ -17,7 +17,7 @@ hosts:
   control_pc: {nics: {robot: {address: 192.168.56.10/24, carries: [control]}}}
 ```
 
-Fix: write `carries: [control]` at the card, or connect the robot to the one that has it.
+Fix: write `carries: [control]` at the card, or connect the robot to the card that has it.
 
 Source: docs/principles.md#the-control-link
 """
@@ -34,5 +34,5 @@ def check(graph: CellGraph) -> Findings:
     for device in graph.network.devices:
         nic = graph.network.nic_of(device)
         if device.device in dedicated and nic is not None and "control" not in nic.carries:
-            message = f"`{device.device}` is on `{nic.full_name}`, which is not for control"
-            yield found(graph, (*device.path, "nic"), message, "write `carries: [control]` at the card")
+            message = f"`{device.device}` is on `{nic.full_name}`, which does not carry control"
+            yield found(graph, (*device.path, "nic"), message)

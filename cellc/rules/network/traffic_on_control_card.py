@@ -33,4 +33,4 @@ def check(graph: CellGraph) -> Findings:
         others = [kind for kind in nic.carries if kind != "control"]
         if "control" in nic.carries and others:
             message = f"`{nic.full_name}` carries control together with {', '.join(others)}"
-            yield found(graph, (*nic.path, "carries"), message, "put the other traffic on another card")
+            yield found(graph, (*nic.path, "carries"), message)

@@ -14,7 +14,7 @@ Example that is accepted:
 network: {discovery: unicast, peers: [10.10.0.11]}
 ```
 
-Fix: list the peers, or use `localhost` where there is one host.
+Fix: list the `peers:`, or use `localhost` on a single host.
 
 Source: https://docs.ros.org/en/jazzy/Tutorials/Advanced/Improved-Dynamic-Discovery.html (Jazzy): ROS_STATIC_PEERS
 """
@@ -30,4 +30,4 @@ def check(graph: CellGraph) -> Findings:
     network = graph.cell.network
     if network.discovery == "unicast" and not network.peers and len(graph.cell.hosts) < 2:
         message = "discovery is unicast, but there is no second host and no peer"
-        yield found(graph, ("network", "discovery"), message, "list `peers:`, or use `localhost`")
+        yield found(graph, ("network", "discovery"), message)

@@ -39,6 +39,6 @@ def check(graph: CellGraph) -> Findings:
         host = graph.cell.hosts.get(link.host)
         if host is not None and host.scheduling in ("generic", UNKNOWN):
             reported.add(link.host)
-            message = f"`{device.name}` asks for real-time scheduling, `{link.host}` has `{host.scheduling}`"
+            message = f"`{link.host}` must have real-time scheduling for `{device.name}`, got `{host.scheduling}`"
             path = ("hosts", link.host, "scheduling")
-            yield found(graph, path, message, "install a PREEMPT_RT or low-latency kernel, and measure")
+            yield found(graph, path, message)

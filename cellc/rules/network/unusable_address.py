@@ -16,7 +16,7 @@ hosts:
   control_pc: {nics: {robot: {address: 192.168.56.10/24}}}
 ```
 
-Fix: use an address between the two.
+Fix: use an address between the first and the last of the subnet.
 
 Source:
 
@@ -37,13 +37,13 @@ def check(graph: CellGraph) -> Findings:
     """Yield cards and devices with the network or broadcast address of their subnet."""
     for nic in graph.network.nics:
         if nic.interface is not None and _reserved(nic, nic.interface.ip):
-            message = f"{nic.interface.ip} of `{nic.full_name}` is no address of a host in {nic.interface.network}"
-            yield found(graph, (*nic.path, "address"), message, "use an address inside the subnet")
+            message = f"{nic.interface.ip} of `{nic.full_name}` is not a host address in {nic.interface.network}"
+            yield found(graph, (*nic.path, "address"), message)
     for device in graph.network.devices:
         card = graph.network.nic_of(device)
         if card is not None and device.address is not None and _reserved(card, device.address):
-            message = f"{device.address} of `{device.device}` is no address of a host"
-            yield found(graph, (*device.path, "address"), message, "use an address inside the subnet")
+            message = f"{device.address} of `{device.device}` is not a host address"
+            yield found(graph, (*device.path, "address"), message)
 
 
 def _reserved(nic: Nic, address: IPv4Address) -> bool:

@@ -19,7 +19,7 @@ control:
     arm_trajectory: {client: move_group}
 ```
 
-Fix: write `client:` with the one node that may command it.
+Fix: add `client:` with the one node that may command it.
 
 Source: docs/principles.md#one-commander
 """
@@ -34,5 +34,5 @@ def check(graph: CellGraph) -> Findings:
     """Yield controllers with command interfaces and without a client."""
     for controller in graph.cell.controllers:
         if controller.command_interfaces and controller.client is None:
-            message = f"nobody is declared to command `{controller.name}`"
-            yield found(graph, controller.path, message, "add `client:` with the one node that may command it")
+            message = f"controller `{controller.name}` has no declared client"
+            yield found(graph, controller.path, message)

@@ -17,7 +17,7 @@ devices:
   gripper: {architecture: hybrid}
 ```
 
-Fix: declare the topic on which the adapter publishes stamped state: `from` the device, with rate, unit and age.
+Fix: declare the topic on which the adapter publishes stamped state: `from` the device, with rate, unit and `max_age`.
 
 Source: docs/principles.md#direct-sdk
 """
@@ -41,4 +41,4 @@ def check(graph: CellGraph) -> Findings:
         if not contract:
             message = f"`{device.name}` is driven by a direct SDK, but no interface carries its stamped state"
             path = (*device.path, "architecture")
-            yield found(graph, path, message, "declare a topic `from` it, with rate, unit and `max_age`")
+            yield found(graph, path, message)

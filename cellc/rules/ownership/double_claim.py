@@ -23,7 +23,7 @@ control:
     to_forward: {activate: [arm_forward], deactivate: [arm_trajectory]}
 ```
 
-Fix: let one of them start inactive, and declare the switch between them.
+Fix: let one of them start with `active: false`, and declare the switch between them.
 
 Source:
 
@@ -45,4 +45,4 @@ def check(graph: CellGraph) -> Findings:
             first, second = conflict.first, conflict.second
             message = f"`{second.name}` claims `{conflict.interface}`, which `{first.name}` claims too, from the start"
             related = (Related("first claimed here", first.span),)
-            yield found(graph, second.path, message, "let one of them start with `active: false`", related)
+            yield found(graph, second.path, message, related=related)

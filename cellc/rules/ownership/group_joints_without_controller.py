@@ -41,4 +41,4 @@ def check(graph: CellGraph) -> Findings:
             message = f"group `{group.name}` plans for {names}, which `{controllers[0].name}` does not move"
             related = (Related("the group is here", group.span),)
             path = (*controllers[0].path, "joints")
-            yield found(graph, path, message, "give the controller all joints of the group", related)
+            yield found(graph, path, message, related=related)

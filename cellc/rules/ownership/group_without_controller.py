@@ -37,4 +37,4 @@ def check(graph: CellGraph) -> Findings:
     for group in graph.cell.groups:
         if group.joints and not group.controllers and adapter_of_group(graph.cell, group) is None:
             message = f"no controller takes trajectories for the joints of group `{group.name}`"
-            yield found(graph, group.path, message, "add a trajectory controller for them")
+            yield found(graph, group.path, message)

@@ -40,4 +40,4 @@ def check(graph: CellGraph) -> Findings:
         for controller in manager.controllers:
             if controller.name not in active:
                 message = f"controller `{controller.name}` starts inactive and no switch activates it"
-                yield found(graph, controller.path, message, "declare the switch, or delete the controller")
+                yield found(graph, controller.path, message)

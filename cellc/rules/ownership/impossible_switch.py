@@ -46,5 +46,4 @@ def check(graph: CellGraph) -> Findings:
         for switch in manager.switches:
             if not any(can_switch(names, switch) for names in active):
                 message = f"switch `{switch.name}` cannot be carried out in any state that the cell reaches"
-                advice = "what it stops has to be active before, what it starts must not be"
-                yield found(graph, switch.path, message, advice)
+                yield found(graph, switch.path, message)

@@ -16,7 +16,7 @@ owners:
   approvals: {safety: safety}
 ```
 
-Fix: name the role or the person who signs.
+Fix: name the role or the person who signs, under `owners.approvals`.
 
 Source: docs/principles.md#owners-and-approvals
 """
@@ -32,10 +32,10 @@ def check(graph: CellGraph) -> Findings:
     unwritten = []
     for item in graph.responsibilities.of_kind("approval"):
         if item.open and graph.cell.states(*item.path):
-            yield found(graph, item.path, f"nobody approves `{item.name}`", "name its owner")
+            yield found(graph, item.path, f"nobody approves `{item.name}`")
         elif item.open:
             unwritten.append(item.name)
     if unwritten:
         names = ", ".join(f"`{name}`" for name in unwritten)
         path = ("owners", "approvals")
-        yield found(graph, path, f"nobody approves {names}", "name an owner of each under `owners.approvals`")
+        yield found(graph, path, f"nobody approves {names}")

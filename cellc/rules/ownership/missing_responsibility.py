@@ -17,7 +17,7 @@ owners:
   responsibilities: {limits: controls}
 ```
 
-Fix: name the role or the team that answers for it.
+Fix: name the role or the team that answers for it, under `owners.responsibilities`.
 
 Source: docs/principles.md#responsibilities
 """
@@ -33,10 +33,10 @@ def check(graph: CellGraph) -> Findings:
     unwritten = []
     for item in graph.responsibilities.of_kind("responsibility"):
         if item.open and graph.cell.states(*item.path):
-            yield found(graph, item.path, f"nobody answers for `{item.name}`", "name its owner")
+            yield found(graph, item.path, f"nobody answers for `{item.name}`")
         elif item.open:
             unwritten.append(item.name)
     if unwritten:
         names = ", ".join(f"`{name}`" for name in unwritten)
         path = ("owners", "responsibilities")
-        yield found(graph, path, f"nobody answers for {names}", "name an owner of each under `owners.responsibilities`")
+        yield found(graph, path, f"nobody answers for {names}")

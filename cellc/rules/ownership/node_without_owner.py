@@ -16,7 +16,7 @@ nodes:
   tracker: {run: cell_tasks/tracker, host: control_pc, owner: integration, lifecycle: true}
 ```
 
-Fix: write `owner:`.
+Fix: add `owner:` with the role or the team that answers for it.
 
 Source: docs/principles.md#owners-and-approvals
 """
@@ -31,4 +31,4 @@ def check(graph: CellGraph) -> Findings:
     """Yield nodes of the spec that nobody answers for."""
     for item in graph.responsibilities.of_kind("node"):
         if item.open:
-            yield found(graph, item.path, f"nobody answers for node `{item.name}`", "add `owner:`")
+            yield found(graph, item.path, f"nobody answers for node `{item.name}`")

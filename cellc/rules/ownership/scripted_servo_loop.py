@@ -56,4 +56,4 @@ def check(graph: CellGraph) -> Findings:
                 message = (
                     f"Python node `{source.node}` streams references on `{interface.name}` at {interface.rate_hz:g} Hz"
                 )
-                yield found(graph, source.path, message, "send goals, and leave the loop to a controller")
+                yield found(graph, source.path, message)

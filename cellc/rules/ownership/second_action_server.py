@@ -50,4 +50,4 @@ def check(graph: CellGraph) -> Findings:
             if owner is not None and source.full_name != owner.full_name:
                 message = f"`{source.node}` serves `{interface.name}`, which controller `{owner.name}` serves itself"
                 related = (Related("the controller is here", owner.span),)
-                yield found(graph, source.path, message, "give the other server another name", related)
+                yield found(graph, source.path, message, related=related)

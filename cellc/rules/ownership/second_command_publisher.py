@@ -43,4 +43,4 @@ def check(graph: CellGraph) -> Findings:
             first = interface.sources[0]
             message = f"`{source.node}` and `{first.node}` both command `{commanded}` over `{interface.name}`"
             related = (Related("first commanded here", first.span),)
-            yield found(graph, source.path, message, "let one node publish commands", related)
+            yield found(graph, source.path, message, related=related)

@@ -54,4 +54,4 @@ def check(graph: CellGraph) -> Findings:
             if deep and end.qos.reliability == "reliable":
                 queue = "every sample" if end.qos.history == "keep_all" else f"{end.qos.depth} samples"
                 message = f"`{end.node}` wants the newest of `{topic.name}` but queues {queue} reliably"
-                yield found(graph, end.path, message, "use `depth: 1`, or best effort for sensor data")
+                yield found(graph, end.path, message)

@@ -53,7 +53,8 @@ def check(graph: CellGraph) -> Findings:
             if end.qos.deadline_s is not None and end.qos.deadline_s < 1.0 / topic.rate_hz:
                 deadline, period = end.qos.deadline_s * 1e3, 1e3 / topic.rate_hz
                 message = (
-                    f"deadline {deadline:g} ms of `{end.node}` on `{topic.name}` is below its period {period:.4g} ms"
+                    f"`deadline` of `{end.node}` on `{topic.name}` must be at least its period of {period:.4g} ms, "
+                    f"got {deadline:g} ms"
                 )
                 path = (*end.path, "deadline")
                 yield found(graph, path, message, f"allow more than {period:.4g} ms")

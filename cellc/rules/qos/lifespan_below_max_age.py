@@ -49,7 +49,7 @@ def check(graph: CellGraph) -> Findings:
         for end in topic.sources:
             if topic.max_age_s is not None and end.qos.lifespan_s is not None and end.qos.lifespan_s < topic.max_age_s:
                 message = (
-                    f"samples of `{topic.name}` expire after {end.qos.lifespan_s * 1e3:g} ms, "
-                    f"but may be {topic.max_age_s * 1e3:g} ms old"
+                    f"`lifespan` of `{topic.name}` must be at least its `max_age` of {topic.max_age_s * 1e3:g} ms, "
+                    f"got {end.qos.lifespan_s * 1e3:g} ms"
                 )
-                yield found(graph, (*end.path, "lifespan"), message, "make `lifespan` longer than `max_age`")
+                yield found(graph, (*end.path, "lifespan"), message)

@@ -32,7 +32,7 @@ interfaces:
     on_stale: reject_goal
 ```
 
-Fix: publish and subscribe reliably, with a depth that covers the longest pause of the reader.
+Fix: use `reliability: reliable` on both sides, with a depth that covers the longest pause of the reader.
 
 Source: docs/principles.md#delivery-contracts
 """
@@ -51,4 +51,4 @@ def check(graph: CellGraph) -> Findings:
         lossy = next((end for end in (*topic.sinks, *topic.sources) if end.qos.reliability == "best_effort"), None)
         if lossy is not None:
             message = f"every sample of `{topic.name}` counts, but `{lossy.node}` uses best effort"
-            yield found(graph, lossy.path, message, "use `reliability: reliable` on both sides")
+            yield found(graph, lossy.path, message)

@@ -59,4 +59,4 @@ def check(graph: CellGraph) -> Findings:
             field = next((field for field, value in watched if value is not None), None)
             if field is not None and not topic.derived:
                 message = f"`{end.node}` sets `{field}` on `{topic.name}`, which Zenoh does not watch"
-                yield found(graph, (*end.path, field), message, "watch `max_age` in the reader instead")
+                yield found(graph, (*end.path, field), message)

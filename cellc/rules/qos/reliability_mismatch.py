@@ -32,7 +32,7 @@ interfaces:
     on_stale: reject_goal
 ```
 
-Fix: ask for best effort, or publish reliably
+Fix: request `best_effort`, or publish with `reliable`.
 
 Source: https://github.com/ros2/rmw_dds_common/blob/5a2951c89fa620ec1a37378c4f7178d9c4aadd63/rmw_dds_common/src/qos.cpp
 (5a2951c): the offer must be at least as strong as the request

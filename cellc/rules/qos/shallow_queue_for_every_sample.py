@@ -32,7 +32,7 @@ interfaces:
     on_stale: reject_goal
 ```
 
-Fix: raise `depth` to what arrives during the longest pause of the reader.
+Fix: raise `depth` to what arrives during the longest pause of the reader, or use `history: keep_all`.
 
 Source: docs/principles.md#delivery-contracts
 """
@@ -51,4 +51,4 @@ def check(graph: CellGraph) -> Findings:
         for end in topic.sinks:
             if end.qos.history == "keep_last" and end.qos.depth == 1:
                 message = f"every sample of `{topic.name}` counts, but `{end.node}` keeps one"
-                yield found(graph, end.path, message, "raise `depth`, or use `history: keep_all`")
+                yield found(graph, end.path, message)

@@ -14,7 +14,7 @@ Example that is accepted:
 safety: {recovery: {acknowledge: operator}}
 ```
 
-Fix: let an operator acknowledge.
+Fix: write `acknowledge: operator`.
 
 Source: docs/principles.md#restarts-and-reconnects
 """
@@ -29,4 +29,4 @@ def check(graph: CellGraph) -> Findings:
     """Yield a recovery that acknowledges itself."""
     if graph.cell.safety.recovery.acknowledge == "automatic":
         path = ("safety", "recovery", "acknowledge")
-        yield found(graph, path, "recovery goes on without a person", "write `acknowledge: operator`")
+        yield found(graph, path, "recovery continues without a person")

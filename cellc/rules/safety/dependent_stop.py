@@ -14,7 +14,7 @@ Example that is accepted:
 safety: {stop: {independent_of: [control_pc]}}
 ```
 
-Fix: verify that the stop works with the host switched off, and list the host.
+Fix: test the stop with the host switched off, and then list the host.
 
 Source: docs/principles.md#stop
 """
@@ -35,6 +35,4 @@ def check(graph: CellGraph) -> Findings:
     if needed:
         names = " and ".join(f"`{host}`" for host in needed)
         path = ("safety", "stop", "independent_of")
-        yield found(
-            graph, path, f"the stop is not said to be independent of {names}", "test it with the host off, then list it"
-        )
+        yield found(graph, path, f"the stop is not said to be independent of {names}")

@@ -33,4 +33,4 @@ def check(graph: CellGraph) -> Findings:
     if missing:
         names = " and ".join(item.name for item in missing)
         message = f"nobody is named for {names}"
-        yield found(graph, missing[0].path, message, "name who owns the procedure, and who stands at the stop")
+        yield found(graph, missing[0].path, message)

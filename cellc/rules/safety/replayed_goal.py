@@ -14,7 +14,7 @@ Example that is accepted:
 safety: {recovery: {on_reconnect: discard_goal}}
 ```
 
-Fix: discard it, and plan again from fresh state.
+Fix: write `on_reconnect: discard_goal`, and plan again from fresh state.
 
 Source: docs/principles.md#restarts-and-reconnects
 """
@@ -29,4 +29,4 @@ def check(graph: CellGraph) -> Findings:
     """Yield a recovery that resumes goals."""
     if graph.cell.safety.recovery.on_reconnect == "resume_goal":
         path = ("safety", "recovery", "on_reconnect")
-        yield found(graph, path, "an old goal is resumed after a reconnect", "write `on_reconnect: discard_goal`")
+        yield found(graph, path, "an old goal is resumed after a reconnect")

@@ -39,4 +39,4 @@ def check(graph: CellGraph) -> Findings:
         if match is not None:
             path = ("safety", "stop", "evidence", index)
             message = f"`{text}` says nothing about a safe state"
-            yield found(graph, path, message, "name the result of a test at the machine")
+            yield found(graph, path, message)

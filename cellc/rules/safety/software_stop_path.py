@@ -14,7 +14,7 @@ Example that is accepted:
 safety: {stop: {path: hardwired}}
 ```
 
-Fix: wire it, or use a safety bus.
+Fix: write `hardwired` or `safety_bus`, and build it.
 
 Source: docs/principles.md#stop
 """
@@ -28,5 +28,5 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 def check(graph: CellGraph) -> Findings:
     """Yield a stop path of software."""
     if graph.cell.safety.stop.path == "software":
-        message = "the stop reaches the drives by software"
-        yield found(graph, ("safety", "stop", "path"), message, "write `hardwired` or `safety_bus`, and build it")
+        message = "the stop must not reach the drives through software"
+        yield found(graph, ("safety", "stop", "path"), message)

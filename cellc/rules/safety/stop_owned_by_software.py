@@ -43,7 +43,7 @@ def check(graph: CellGraph) -> Findings:
     for path, owner in _safety_owners(graph):
         if owner in parts or _SOFTWARE.search(owner):
             message = f"`{path[-1]}` is answered for by `{owner}`, which is software"
-            yield found(graph, path, message, "name the role that signs for it")
+            yield found(graph, path, message)
 
 
 def _safety_owners(graph: CellGraph) -> Iterator[tuple[YamlPath, str]]:

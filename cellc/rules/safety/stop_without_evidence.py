@@ -31,6 +31,4 @@ def check(graph: CellGraph) -> Findings:
     stop = graph.cell.safety.stop
     if stop.authority != UNKNOWN and not stop.evidence:
         path = ("safety", "stop", "evidence")
-        yield found(
-            graph, path, f"nothing proves the stop of `{stop.authority}`", "name the result of an injected stop"
-        )
+        yield found(graph, path, f"nothing proves the stop of `{stop.authority}`")

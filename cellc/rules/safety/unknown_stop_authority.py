@@ -38,4 +38,4 @@ def check(graph: CellGraph) -> Findings:
     if missing:
         names = " and ".join(f"`{name}`" for name in missing)
         message = f"the stop {names} {'are' if len(missing) > 1 else 'is'} UNKNOWN"
-        yield found(graph, ("safety", "stop", missing[0]), message, "name what stops the drives, and by which path")
+        yield found(graph, ("safety", "stop", missing[0]), message)

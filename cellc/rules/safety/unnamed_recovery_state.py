@@ -23,14 +23,14 @@ from __future__ import annotations
 
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
-_DUE = ("protective_stop", "emergency_stop", "fault")
+_STOPPED = ("protective_stop", "emergency_stop", "fault")
 
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield the states that are missing, in one finding."""
     states = graph.cell.safety.recovery.states
-    missing = [state for state in _DUE if state not in states]
+    missing = [state for state in _STOPPED if state not in states]
     if missing:
         names = ", ".join(f"`{state}`" for state in missing)
         yield found(graph, ("safety", "recovery", "states"), f"no recovery is named for {names}", f"add {names}")

@@ -36,7 +36,7 @@ def check(graph: CellGraph) -> Findings:
         for row in rows if numbers else ():
             minimum, below = version_numbers(row.minimum or ""), version_numbers(row.below or "")
             if (minimum and numbers < minimum) or (below and numbers >= below):
-                least = f" from {row.minimum}" if row.minimum else ""
-                most = f" below {row.below}" if row.below else ""
-                message = f"firmware `{text}` of `{device.name}` is outside the matrix{least}{most} ({row.as_of})"
+                bounds = (row.minimum and f"at least {row.minimum}", row.below and f"below {row.below}")
+                allowed = f"{' and '.join(bound for bound in bounds if bound)} ({row.as_of})"
+                message = f"the firmware of `{device.name}` must be {allowed}, got `{text}`"
                 yield found(graph, (*device.path, "firmware"), message, row.note or "update the firmware")

@@ -38,5 +38,5 @@ def check(graph: CellGraph) -> Findings:
     for pin in pins:
         match = _FLOATING.search(pin.text)
         if match is not None:
-            message = f"`{pin.part}` of `{pin.holder}` is `{pin.text}`, which names no single version"
-            yield found(graph, pin.path, message, "write the exact version")
+            message = f"`{pin.part}` of `{pin.holder}` is `{pin.text}`, which is not one exact version"
+            yield found(graph, pin.path, message)

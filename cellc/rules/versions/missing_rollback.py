@@ -14,7 +14,7 @@ Example that is accepted:
 versions: {rollback: {image: "sha256:9f2c1a77"}}
 ```
 
-Fix: archive the last image that ran, and write its digest and configuration id.
+Fix: archive the last image that ran, and write its digest and the identifier of its configuration.
 
 Source: docs/principles.md#rollback
 """

@@ -35,7 +35,7 @@ def check(graph: CellGraph) -> Findings:
     if facts is None or system == UNKNOWN:
         return
     written = system.lower()
-    if not any(written == due or written.startswith(f"{due}.") for due in (*facts.os, *facts.os_tier3)):
-        due = ", ".join(f"`{name}`" for name in facts.os)
-        message = f"`{graph.cell.distro}` is built for {due}, not for `{system}`"
-        yield found(graph, ("versions", "os"), message, f"install {due}, or choose another distribution")
+    if not any(written == built or written.startswith(f"{built}.") for built in (*facts.os, *facts.os_tier3)):
+        built_for = ", ".join(f"`{name}`" for name in facts.os)
+        message = f"`{graph.cell.distro}` is built for {built_for}, not for `{system}`"
+        yield found(graph, ("versions", "os"), message, f"install {built_for}, or choose another distribution")

@@ -30,5 +30,5 @@ def check(graph: CellGraph) -> Findings:
     """Yield an image that is no digest."""
     image = graph.cell.versions.rollback.image
     if image != UNKNOWN and "sha256:" not in image:
-        message = f"the rollback image `{image}` is a name that can be moved"
-        yield found(graph, ("versions", "rollback", "image"), message, "write its digest, `sha256:…`")
+        message = f"the rollback image must be given by its digest, got `{image}`"
+        yield found(graph, ("versions", "rollback", "image"), message)

@@ -45,4 +45,4 @@ def check(graph: CellGraph) -> Findings:
     date, end = max(measured).isoformat(), str(facts.end_of_life)
     if date > end:
         message = f"`{graph.cell.distro}` reached its end of life on {end}, before the calibration of {date}"
-        yield found(graph, ("versions", "ros"), message, "plan the move to a supported distribution")
+        yield found(graph, ("versions", "ros"), message)

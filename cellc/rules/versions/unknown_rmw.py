@@ -39,5 +39,5 @@ def check(graph: CellGraph) -> Findings:
         return
     known = (*facts.rmw, *facts.rmw_unverified)
     if written.split()[0] not in known:
-        message = f"`{written.split()[0]}` is no middleware of {graph.cell.distro}"
+        message = f"`{written.split()[0]}` is not a middleware of {graph.cell.distro}"
         yield found(graph, ("versions", "rmw"), message, did_you_mean(written.split()[0], known, "middlewares"))

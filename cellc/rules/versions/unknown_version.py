@@ -15,7 +15,7 @@ Example that is accepted:
 versions: {kernel: 6.8.0-45-generic}
 ```
 
-Fix: read the version on the machine, the teach pendant or the nameplate, and write it.
+Fix: read the version on the machine, the teach pendant or the nameplate, and write it down.
 
 Source: docs/principles.md#pinned-versions
 """
@@ -34,9 +34,9 @@ def check(graph: CellGraph) -> Findings:
         if pin.known:
             continue
         if graph.cell.states(*pin.path):
-            yield found(graph, pin.path, f"`{pin.part}` of `{pin.holder}` is UNKNOWN", "read it and write it down")
+            yield found(graph, pin.path, f"`{pin.part}` of `{pin.holder}` is UNKNOWN")
         else:
             unwritten.setdefault(pin.holder, []).append(pin)
     for holder, pins in unwritten.items():
         names = ", ".join(f"`{pin.part}`" for pin in pins)
-        yield found(graph, pins[0].path[:-1], f"`{holder}` does not state its {names}", "read them and write them down")
+        yield found(graph, pins[0].path[:-1], f"`{holder}` does not state its {names}")

@@ -1,6 +1,6 @@
 """A part of the tuple names a package but no version.
 
-The name of a driver says which driver, not which of its releases. Behaviour changes between releases; the name does
+The name of a driver says which driver, not which of its releases. Behavior changes between releases; the name does
 not.
 
 Example that is reported:
