@@ -1,4 +1,4 @@
-"""``cellc schema``: the JSON schemas of the spec and of what is generated."""
+"""``cellc schema``: the JSON schemas of the spec and of what is generated, and the reference of the spec."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from pathlib import Path
 
 import click
 
+from cellc.spec.reference import spec_reference
 from cellc.spec.schema import schema_files
 from cellc.store.swap import write_whole
 
@@ -13,12 +14,16 @@ from cellc.store.swap import write_whole
 @click.command()
 @click.argument("name", required=False)
 @click.option("-o", "--output", type=click.Path(path_type=Path, file_okay=False), help="Write all schemas to a folder.")
-def schema(name: str | None, output: Path | None) -> None:
+@click.option("--reference", is_flag=True, help="Print the reference of the spec language as Markdown.")
+def schema(name: str | None, output: Path | None, reference: bool) -> None:
     """Print the schema NAME (the cell's if absent), or write all to a folder.
 
     Editors complete and explain a cell through the first line
     `# yaml-language-server: $schema=PATH/cell.schema.json`.
     """
+    if reference:
+        click.echo(spec_reference(), nl=False)
+        return
     files = schema_files()
     if output is not None:
         for file, text in files.items():
