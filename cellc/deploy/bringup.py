@@ -14,7 +14,7 @@ from cellc.cell.control import Controller, ControllerManager
 from cellc.cell.frame import WORLD, FrameKind
 from cellc.cell.interface import TARGETS, InterfaceKind, Node
 from cellc.deploy.processes import described_by, host_of, host_of_manager, is_mover, movers
-from cellc.link.derived_joint_states import JOINT_STATE_TYPE
+from cellc.link.derived import JOINT_STATE_TYPE
 
 MOVE = "move"
 """Begins the name of the steps that wait for everything and then become the program behind them, one a target."""

@@ -15,7 +15,7 @@ from cellc.deploy.releases import move_mock, move_real, start_mock, start_real
 from cellc.formats.header import Header
 from cellc.formats.numbers import shortest
 from cellc.graph.responsibilities import UNKNOWN
-from cellc.link.derived_joint_states import JOINT_STATE_TYPE
+from cellc.link.derived import JOINT_STATE_TYPE
 
 _STARTS = ("ros2 launch ", "ros2 bag record ")
 

@@ -7,7 +7,7 @@ from collections import Counter
 from cellc.cell.control import Controller, ControllerManager, ControllerSwitch
 from cellc.diagnostics import Diagnostic, Outcome, YamlPath
 from cellc.link.controller import ControlContext, ControllerPlace, link_controller
-from cellc.link.unknown import unknown_name
+from cellc.link.names import unknown_name
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
 from cellc.spec.control import ManagerSpec

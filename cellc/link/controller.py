@@ -15,7 +15,8 @@ from cellc.cell.interface import TARGETS, ParameterValue
 from cellc.diagnostics import Diagnostic, Outcome, Severity, YamlPath, did_you_mean
 from cellc.link.controller_parameters import bind_parameters
 from cellc.link.devices import BoundDevice
-from cellc.link.unknown import unknown_name
+from cellc.link.names import unknown_name
+from cellc.link.quantities import si
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
 from cellc.spec.control import ControllerSpec
@@ -154,11 +155,11 @@ def _controller(
         client=written.client,
         action=None if kind.action is None else f"{place.namespace}/{place.name}/{kind.action.suffix}",
         action_type=None if kind.action is None else kind.action.types.get(context.distro),
-        goal_time_s=None if written.goal_time is None else written.goal_time.si,
-        path_tolerance=None if written.path_tolerance is None else written.path_tolerance.si,
-        goal_tolerance=None if written.goal_tolerance is None else written.goal_tolerance.si,
+        goal_time_s=si(written.goal_time),
+        path_tolerance=si(written.path_tolerance),
+        goal_tolerance=si(written.goal_tolerance),
         on_violation=written.on_violation,
-        update_rate_hz=None if written.update_rate is None else written.update_rate.si,
+        update_rate_hz=si(written.update_rate),
     )
 
 

@@ -1,19 +1,59 @@
-"""Interfaces that follow from devices and controllers; the user need not write them, and may."""
+"""Interfaces that follow from devices and controllers; the user need not write them, and may.
+
+TF and the description first, then the joint states of the cell, then what controllers execute, publish and serve.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass, replace
 
-from cellc.cell.control import ControllerManager
-from cellc.cell.frame import FrameKind
-from cellc.cell.interface import Endpoint, Interface, InterfaceKind
+from cellc.catalog.controller_kind import ControllerService, ControllerTopic
+from cellc.catalog.load import kind_behind
+from cellc.cell.control import Controller, ControllerManager
+from cellc.cell.device import Device
+from cellc.cell.frame import Frame, FrameKind
+from cellc.cell.interface import Endpoint, Interface, InterfaceKind, Qos
 from cellc.diagnostics import YamlPath
-from cellc.link.derivation import Derivation
-from cellc.link.derived_control import control_interfaces
-from cellc.link.derived_joint_states import joint_states
+from cellc.link.endpoints import LATCHED, SENSOR_DATA, TF, TF_STATIC_LISTENER, EndName, EndpointNames, QosResolver
 from cellc.link.frames import ROBOT_STATE_PUBLISHER
-from cellc.link.nodes import DESCRIPTION_PUBLISHER, description_home
-from cellc.link.qos import LATCHED, TF, TF_STATIC_LISTENER
+from cellc.link.nodes import DESCRIPTION_PUBLISHER, JOINT_STATES, description_home
+from cellc.source.document import SourceDocument
+from cellc.spec.cell_spec import CellSpec
+from cellc.vocabulary import PASSIVE, Distro
+
+
+@dataclass(frozen=True, slots=True)
+class Derivation:
+    """The linked parts of a cell that bring interfaces along."""
+
+    spec: CellSpec
+    document: SourceDocument
+    distro: Distro
+    managers: tuple[ControllerManager, ...]
+    devices: tuple[Device, ...]
+    frames: tuple[Frame, ...]
+    ends: EndpointNames
+    resolver: QosResolver
+
+    def end(self, node: str, interface: str, path: YamlPath, qos: Qos | None = None) -> Endpoint:
+        """Return an end by its name in the spec or its full name; one that nothing has is reported elsewhere."""
+        known = self.ends.known.get(node, EndName(node, f"/{node.lstrip('/')}", "UNKNOWN"))
+        return known.end(interface, path, self.document.locate(path), qos)
+
+    def driver_end(self, device: str, node: str, interface: str, path: YamlPath, qos: Qos | None = None) -> Endpoint:
+        """Return the end of a driver's node, which runs on the real target alone."""
+        return replace(self.end(device, interface, path, qos), full_name=node, targets=("real",))
+
+    def planners(self) -> tuple[tuple[str, YamlPath], ...]:
+        """Return the nodes that command a controller's motion, each with the place where that is written."""
+        found: dict[str, YamlPath] = {}
+        for manager in self.managers:
+            for controller in manager.controllers:
+                if controller.client is not None:
+                    found.setdefault(controller.client, (*controller.path, "client"))
+        return tuple(found.items())
+
 
 _DESCRIPTION = "/robot_description"
 
@@ -86,3 +126,152 @@ def _description(
         owner=source.spec.owners.responsibilities.frames,
         wants="newest",
     )
+
+
+JOINT_STATE_TYPE = "sensor_msgs/msg/JointState"
+
+JOINT_STATE_MAX_AGE_S = 0.1
+"""Joint states older than this feed no plan: 50 periods at 500 Hz, half of the 200 ms in which a cancel must hold."""
+
+
+def joint_states(source: Derivation) -> Iterator[Interface]:
+    """Yield the one topic, where a controller publishes joint states; its rate is that of the slowest manager."""
+    broadcasters = [
+        (manager, controller, end)
+        for manager in source.managers
+        for controller in manager.controllers
+        for end in _published(source, controller)
+    ]
+    if not broadcasters:
+        return
+    path: YamlPath = broadcasters[0][1].path
+    listeners = ((ROBOT_STATE_PUBLISHER, path, SENSOR_DATA), *((node, at, None) for node, at in source.planners()))
+    yield Interface(
+        name=JOINT_STATES,
+        path=path,
+        span=source.document.locate(path),
+        kind=InterfaceKind.TOPIC,
+        type=JOINT_STATE_TYPE,
+        sources=(*(end for _, _, end in broadcasters), *_of_drivers(source)),
+        sinks=tuple(source.end(node, JOINT_STATES, at, qos) for node, at, qos in listeners),
+        derived=True,
+        unit="rad, rad/s, N m",
+        time_source="ros",
+        owner=source.spec.owners.responsibilities.command,
+        wants="newest",
+        rate_hz=min(_rate_hz(manager, controller) for manager, controller, _ in broadcasters),
+        max_age_s=JOINT_STATE_MAX_AGE_S,
+        on_stale="reject_goal",
+    )
+
+
+def _rate_hz(manager: ControllerManager, controller: Controller) -> float:
+    return controller.update_rate_hz or manager.update_rate_hz
+
+
+def _published(source: Derivation, controller: Controller) -> Iterator[Endpoint]:
+    kind = kind_behind(controller.kind, None)
+    for topic in () if kind is None else kind.topics:
+        if topic.direction == "publish" and topic.type == JOINT_STATE_TYPE:
+            yield source.end(controller.label, JOINT_STATES, controller.path, source.resolver.writer(topic.qos))
+
+
+def _of_drivers(source: Derivation) -> Iterator[Endpoint]:
+    """Yield the drivers that report joints on the real target, where no component of ros2_control does."""
+    for device in source.devices:
+        if device.driver is not None and device.driver.joint_states is not None:
+            qos = source.ends.known[device.name].offered.get(device.driver.joint_states)
+            yield source.driver_end(device.name, device.driver.node, JOINT_STATES, device.path, qos)
+
+
+def control_interfaces(source: Derivation) -> Iterator[Interface]:
+    """Yield the actions of all controllers, and the topics and services of the passive ones."""
+    for manager in source.managers:
+        for controller in manager.controllers:
+            yield from _actions(source, controller)
+            if controller.behaviour in PASSIVE:
+                yield from _passive(source, controller)
+
+
+def _actions(source: Derivation, controller: Controller) -> Iterator[Interface]:
+    if controller.action is not None and controller.action_type is not None:
+        server = source.end(controller.label, controller.action, controller.path)
+        yield _action(source, controller, controller.action, controller.action_type, server)
+    other = controller.stand_in
+    if other is not None and controller.device is not None:
+        server = source.driver_end(controller.device, other.node, other.action, controller.path)
+        yield _action(source, controller, other.action, other.action_type, server)
+
+
+def _action(source: Derivation, controller: Controller, name: str, type_: str, server: Endpoint) -> Interface:
+    return Interface(
+        name=name,
+        path=controller.path,
+        span=controller.span,
+        kind=InterfaceKind.ACTION,
+        type=type_,
+        sources=(server,),
+        sinks=_clients(source, controller, name),
+        derived=True,
+        frame=None,
+        unit="rad, s",
+        time_source="ros",
+        owner=source.spec.owners.responsibilities.command,
+        goal_time_s=controller.goal_time_s,
+        on_error=controller.on_violation,
+        cancel_within_s=None if source.spec.kpis.cancel is None else source.spec.kpis.cancel.si,
+    )
+
+
+def _clients(source: Derivation, controller: Controller, interface: str) -> tuple[Endpoint, ...]:
+    if controller.client is None:
+        return ()
+    return (source.end(controller.client, interface, (*controller.path, "client")),)
+
+
+def _passive(source: Derivation, controller: Controller) -> Iterator[Interface]:
+    kind = controller.declared
+    if kind is None:
+        return
+    for topic in kind.topics:
+        if topic.direction == "publish" and (not topic.only or source.distro in topic.only):
+            yield _topic(source, controller, topic)
+    yield from (_service(source, controller, service) for service in kind.services)
+
+
+def _topic(source: Derivation, controller: Controller, topic: ControllerTopic) -> Interface:
+    name = _absolute(controller, topic.name)
+    qos = source.resolver.writer(topic.qos)
+    return Interface(
+        name=name,
+        path=controller.path,
+        span=controller.span,
+        kind=InterfaceKind.TOPIC,
+        type=topic.type,
+        sources=(source.end(controller.label, name, controller.path, qos),),
+        sinks=(),
+        derived=True,
+        time_source="ros",
+        owner=source.spec.owners.responsibilities.command,
+        wants="newest",
+    )
+
+
+def _service(source: Derivation, controller: Controller, service: ControllerService) -> Interface:
+    name = _absolute(controller, service.name)
+    return Interface(
+        name=name,
+        path=controller.path,
+        span=controller.span,
+        kind=InterfaceKind.SERVICE,
+        type=service.type,
+        sources=(source.end(controller.label, name, controller.path),),
+        sinks=_clients(source, controller, name),
+        derived=True,
+        owner=source.spec.owners.responsibilities.command,
+    )
+
+
+def _absolute(controller: Controller, name: str) -> str:
+    """Return a name of the catalogue in full: below the controller's own, or in its namespace."""
+    return f"{controller.full_name}{name[1:]}" if name.startswith("~/") else f"{controller.namespace}/{name}"

@@ -26,9 +26,9 @@ from cellc.cell.device import (
 )
 from cellc.cell.interface import InterfaceKind
 from cellc.diagnostics import YamlPath
-from cellc.link.placeholders import Placeholders
-from cellc.link.placement import vector
-from cellc.link.site import bind_clock, joint_figure, si
+from cellc.link.names import Placeholders
+from cellc.link.quantities import joint_figure, si, vector
+from cellc.link.site import bind_clock
 from cellc.source.document import SourceDocument
 from cellc.spec.devices import EVERY_JOINT, DeviceSpec
 

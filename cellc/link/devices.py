@@ -1,17 +1,19 @@
-"""Binds each device to its catalogue entry: prefix, joints with limits, hardware component, mount."""
+"""Binds each device to its catalogue entry or folder: prefix, joints with limits, hardware component, mount."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from pathlib import Path
 
 from cellc.catalog.device_interfaces import GroupInterfaces, JointInterfaces
 from cellc.catalog.device_model import AccelerationLimit, DeviceModel, JerkLimit
-from cellc.catalog.load import CatalogDevice, device_names, load_device
+from cellc.catalog.load import CatalogDevice, device_names, load_device, load_device_folder
 from cellc.cell.device import EVERY_JOINT, Device, DeviceDriver, DeviceJoint, HardwareComponent, InterfaceGroup
 from cellc.cell.frame import WORLD
 from cellc.description.model import Description, Joint
-from cellc.diagnostics import Diagnostic, Outcome, Severity, did_you_mean
+from cellc.diagnostics import Diagnostic, Outcome, Related, Severity, Span, YamlPath, did_you_mean
 from cellc.link.device_facts import (
     bind_adapter,
     bind_camera,
@@ -27,10 +29,8 @@ from cellc.link.device_facts import (
     bind_stamp,
     bind_vendor_safety,
 )
-from cellc.link.local_device import local_device
-from cellc.link.placeholders import Placeholders, placeholders
-from cellc.link.placement import pose
-from cellc.link.unknown import unknown_name
+from cellc.link.names import Placeholders, placeholders, unknown_name
+from cellc.link.quantities import pose
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
 from cellc.spec.devices import DeviceSpec
@@ -294,3 +294,24 @@ def _groups(groups: Mapping[str, GroupInterfaces], prefix: str) -> tuple[Interfa
         )
         for name, entry in groups.items()
     )
+
+
+def local_device(model: str, place: Span, path: YamlPath) -> Outcome[CatalogDevice]:
+    """Load the device of a folder; what is wrong in it is reported there, with the line of the spec that names it.
+
+    Args:
+        model: the folder, relative to the file that names it.
+        place: where the spec names it.
+        path: the same place in the document.
+    """
+    root = Path(place.file).parent
+    folder = root / model
+    if not os.path.exists(folder / "device.yaml"):
+        problem = "holds no `device.yaml`" if os.path.isdir(folder) else "is no folder"
+        shown = folder.as_posix()
+        advice = "write the folder with its `device.yaml`, or name a model of the catalogue"
+        missing = Diagnostic("unknown-model", Severity.ERROR, f"`{shown}` {problem}", place, path, advice)
+        return Outcome(None, (missing,))
+    loaded = load_device_folder(folder, root)
+    named = Related("the spec names this folder here", place)
+    return Outcome(loaded.value, tuple(replace(one, related=(*one.related, named)) for one in loaded.diagnostics))

@@ -1,19 +1,44 @@
-"""Binds every frame of the cell to its parent, its authority and its calibration."""
+"""Binds references to frames to their TF names, and every frame to its parent, its authority and its calibration."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 
 from cellc.cell.device import Device
 from cellc.cell.frame import WORLD, Frame, FrameKind, SceneBox, SimulatedPose
-from cellc.diagnostics import Diagnostic, Outcome
-from cellc.link.frame_names import FrameNames
-from cellc.link.placement import pose, vector
-from cellc.link.unknown import unknown_name
+from cellc.diagnostics import Diagnostic, Outcome, YamlPath
+from cellc.link.names import unknown_name
+from cellc.link.quantities import pose, si, vector
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
 from cellc.spec.frames import FrameSpec
 from cellc.transforms import identity
+
+
+@dataclass(frozen=True, slots=True)
+class FrameNames:
+    """Every reference that the spec may write, with its TF frame."""
+
+    by_reference: Mapping[str, str]
+    document: SourceDocument
+
+    def bind(self, reference: str, path: YamlPath) -> Outcome[str]:
+        """Return the TF frame of a reference, or the diagnostic that it does not exist."""
+        if reference in self.by_reference:
+            return Outcome(self.by_reference[reference])
+        known = self.by_reference
+        return Outcome(None, (unknown_name("unknown-frame", reference, "frame", known, self.document, path),))
+
+
+def name_frames(spec: CellSpec, document: SourceDocument, devices: Iterable[Device]) -> FrameNames:
+    """Collect the frames of the world, of devices, of the spec's frames and of its scene."""
+    names = {WORLD: WORLD}
+    for device in devices:
+        names |= {f"{device.name}/{short}": link for short, link in device.frames.items()}
+    names |= {name: name for name in (*spec.frames, *spec.scene)}
+    return FrameNames(names, document)
+
 
 ROBOT_STATE_PUBLISHER = "robot_state_publisher"
 """Publishes every static frame, because all of them stand in the URDF: one authority."""
@@ -138,8 +163,8 @@ def _spec_frame(name: str, written: FrameSpec, document: SourceDocument, names: 
         calibration=written.calibration,
         designed=written.designed,
         moving=written.dynamic,
-        rate_hz=None if written.rate is None else written.rate.si,
-        buffer_s=None if written.buffer is None else written.buffer.si,
+        rate_hz=si(written.rate),
+        buffer_s=si(written.buffer),
         reference_points=written.reference_points,
         simulated_pose=simulated.value,
     )

@@ -6,10 +6,10 @@ from dataclasses import dataclass, replace
 
 from cellc.cell.interface import Endpoint, Interface, InterfaceKind, SimulatedNetwork
 from cellc.diagnostics import Diagnostic, Outcome, Severity, YamlPath
-from cellc.link.endpoints import EndName, EndpointNames
-from cellc.link.frame_names import FrameNames
-from cellc.link.qos import with_changes
-from cellc.link.unknown import unknown_name
+from cellc.link.endpoints import EndName, EndpointNames, with_changes
+from cellc.link.frames import FrameNames
+from cellc.link.names import unknown_name
+from cellc.link.quantities import si
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
 from cellc.spec.interfaces import (
@@ -21,7 +21,6 @@ from cellc.spec.interfaces import (
     SimulatedNetworkSpec,
     TopicSpec,
 )
-from cellc.spec.quantity import Quantity
 
 
 def link_interfaces(
@@ -90,9 +89,9 @@ def _topic(common: _Common, written: TopicSpec) -> Interface:
         time_source=_time_source(written),
         owner=common.owner,
         wants=written.wants,
-        rate_hz=_si(written.rate),
-        max_age_s=_si(written.max_age),
-        transport_s=_si(written.transport),
+        rate_hz=si(written.rate),
+        max_age_s=si(written.max_age),
+        transport_s=si(written.transport),
         on_stale=written.on_stale,
         simulated=_simulated(written.simulated),
     )
@@ -102,10 +101,10 @@ def _simulated(written: SimulatedNetworkSpec | None) -> SimulatedNetwork | None:
     if written is None:
         return None
     return SimulatedNetwork(
-        latency_s=_si(written.latency) or 0.0,
-        jitter_s=_si(written.jitter) or 0.0,
-        loss=_si(written.loss) or 0.0,
-        reordering=_si(written.reordering) or 0.0,
+        latency_s=si(written.latency) or 0.0,
+        jitter_s=si(written.jitter) or 0.0,
+        loss=si(written.loss) or 0.0,
+        reordering=si(written.reordering) or 0.0,
     )
 
 
@@ -123,10 +122,10 @@ def _call(common: _Common, written: ServiceSpec | ActionSpec) -> Interface:
         unit=written.unit,
         time_source=_time_source(written),
         owner=common.owner,
-        timeout_s=_si(written.timeout),
+        timeout_s=si(written.timeout),
         on_timeout=written.on_timeout,
         on_error=written.on_error if isinstance(written, ServiceSpec) else None,
-        cancel_within_s=_si(written.cancel_within) if isinstance(written, ActionSpec) else None,
+        cancel_within_s=si(written.cancel_within) if isinstance(written, ActionSpec) else None,
     )
 
 
@@ -172,7 +171,3 @@ def _written_endpoints(written: Endpoints, path: YamlPath) -> tuple[tuple[str, Q
 
 def _time_source(written: InterfaceFields) -> str:
     return written.time_source or "ros"
-
-
-def _si(quantity: Quantity | None) -> float | None:
-    return None if quantity is None else quantity.si

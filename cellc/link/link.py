@@ -8,16 +8,13 @@ from cellc.cell.cell import Cell
 from cellc.diagnostics import Diagnostic, Outcome, Severity, did_you_mean
 from cellc.link.control import link_managers
 from cellc.link.controller import ControlContext
-from cellc.link.derivation import Derivation
-from cellc.link.derived import derive_interfaces
+from cellc.link.derived import Derivation, derive_interfaces
 from cellc.link.devices import BoundDevice, link_devices
-from cellc.link.endpoints import name_endpoints
-from cellc.link.frame_names import name_frames
-from cellc.link.frames import link_frames, link_scene, scene_frames
+from cellc.link.endpoints import QosResolver, name_endpoints
+from cellc.link.frames import link_frames, link_scene, name_frames, scene_frames
 from cellc.link.interfaces import link_interfaces
 from cellc.link.motion import link_goals, link_groups, link_poses
 from cellc.link.nodes import link_nodes, standard_nodes
-from cellc.link.qos import QosResolver
 from cellc.link.rehearsals import link_rehearsals
 from cellc.link.site import (
     bind_bringup,

@@ -9,9 +9,9 @@ from cellc.cell.device import Device
 from cellc.cell.frame import Frame
 from cellc.cell.motion import CartesianGoal, NamedPose, PlanningGroup
 from cellc.diagnostics import Diagnostic, Outcome, Severity, YamlPath
-from cellc.link.frame_names import FrameNames
-from cellc.link.placement import pose, vector
-from cellc.link.unknown import unknown_name
+from cellc.link.frames import FrameNames
+from cellc.link.names import unknown_name
+from cellc.link.quantities import pose, vector
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
 

@@ -11,7 +11,7 @@ from cellc.cell.interface import Node, NodeSource
 from cellc.diagnostics import Diagnostic, Outcome, Severity, Span, YamlPath
 from cellc.link.devices import BoundDevice
 from cellc.link.frames import ROBOT_STATE_PUBLISHER
-from cellc.link.unknown import unknown_name
+from cellc.link.names import unknown_name
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
 

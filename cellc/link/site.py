@@ -20,7 +20,6 @@ from cellc.cell.site import (
     Clock,
     FirstMotion,
     Host,
-    JointFigure,
     Kpis,
     Network,
     NetworkCard,
@@ -35,14 +34,12 @@ from cellc.cell.site import (
     Versions,
 )
 from cellc.diagnostics import Span, YamlPath
+from cellc.link.quantities import joint_figure, si
 from cellc.source.document import Node, SourceDocument
 from cellc.spec.cell_spec import CellSpec
 from cellc.spec.devices import StampSpec
 from cellc.spec.hosts import ClockSpec
-from cellc.spec.quantity import Quantity
 from cellc.spec.safety import FirstMotionSpec
-
-_LENGTHS = ("m", "mm", "cm", "um", "m/s", "mm/s")
 
 
 def bind_places(document: SourceDocument) -> Places:
@@ -210,13 +207,3 @@ def bind_targets(spec: CellSpec) -> Mapping[str, Target]:
         clock = written.clock or ("sim" if name == "sim" else "wall")
         targets[name] = Target(hardware=written.hardware or name, clock=clock)
     return targets
-
-
-def si(quantity: Quantity | None) -> float | None:
-    """Return a quantity in SI, None where nothing is written."""
-    return None if quantity is None else quantity.si
-
-
-def joint_figure(quantity: Quantity) -> JointFigure:
-    """Return a position or speed of a joint, and whether the user wrote it as a length."""
-    return JointFigure(quantity.si, quantity.unit in _LENGTHS)

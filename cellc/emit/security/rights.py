@@ -14,7 +14,7 @@ from cellc.cell.control import Controller, ControllerManager
 from cellc.cell.interface import InterfaceKind, Node, NodeSource
 from cellc.deploy.processes import described_by
 from cellc.formats.xml_text import element
-from cellc.link.derived_joint_states import JOINT_STATE_TYPE
+from cellc.link.derived import JOINT_STATE_TYPE
 from cellc.link.nodes import JOINT_STATES
 from cellc.vocabulary import Feature, features
 

@@ -1,17 +1,39 @@
-"""Fills the placeholders of catalogue texts: ``{device}``, ``{prefix}``, ``{stem}``, ``{address}`` and the like."""
+"""What names of the spec and placeholders of the catalogue mean, and the report of a name that nothing has."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from cellc.cell.interface import ParameterValue
+from cellc.cell.site import UNKNOWN
+from cellc.diagnostics import Diagnostic, Severity, YamlPath, did_you_mean
+from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
 from cellc.spec.devices import DeviceSpec
 
+
+def unknown_name(
+    code: str, name: str, kind: str, candidates: Iterable[str], document: SourceDocument, path: YamlPath
+) -> Diagnostic:
+    """Report a reference to something that does not exist, with the nearest names that do.
+
+    Args:
+        kind: singular noun, such as ``frame``; its plural is formed with ``s``.
+        path: where the reference is written.
+    """
+    return Diagnostic(
+        code=code,
+        severity=Severity.ERROR,
+        message=f"there is no {kind} `{name}`",
+        span=document.locate(path),
+        yaml_path=path,
+        help=did_you_mean(name, candidates, f"{kind}s of this cell"),
+    )
+
+
 _PLACEHOLDER = re.compile(r"\{(\w+)\}")  # `{share:PACKAGE}` stays: only an installed workspace knows the folder
-UNKNOWN = "UNKNOWN"
 
 
 @dataclass(frozen=True, slots=True)
