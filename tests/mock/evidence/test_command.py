@@ -31,7 +31,8 @@ def test_unknown_rehearsal_leaves_nothing(generated: Path, tmp_path: Path, capsy
 def test_missing_package_is_told_with_what_to_install(
     generated: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    for name in [name for name in sys.modules if name.startswith(("mcap", "cellc.mock"))]:
+    loading = ("mcap", "cellc.mock.command.evidence", "cellc.mock.evidence.bag")
+    for name in [name for name in sys.modules if name.startswith(loading)]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "mcap", None)
     assert run_command(str(generated), names=["cancelled"], evidence=str(tmp_path / "out")) == 2
