@@ -19,12 +19,10 @@ from cellc.mock.folder import GeneratedFolder, read_folder
 from cellc.mock.nodes.motion_model import build_motion_model
 from cellc.mock.nodes.motion_planner import PlanMemory
 from cellc.mock.plant import Plant
-from cellc.mock.result import BRINGUP_FAILURE, AttemptRecord, RehearsalResult, StageEvidence
+from cellc.mock.result import AttemptRecord, RehearsalResult, RunFailure, StageEvidence
 from cellc.mock.task.context import TaskContext
 from cellc.mock.task.task import Task
 from cellc.vocabulary import AttemptOutcome
-
-SUCCEEDED = "succeeded"
 
 Watch = Callable[[Plant], None]
 """Called with the plant before anything runs, so that whoever keeps evidence can listen from the first cycle on."""
@@ -67,7 +65,7 @@ def rehearse(
     absent = tuple(injection.describe_absence() for injection in injections if injection.begun_ns is None)
     return RehearsalResult(
         name=rehearsal.name,
-        outcome=task.outcome.value,
+        outcome=task.outcome,
         expected=rehearsal.expect,
         sim_time_s=(plant.now_ns - begun_ns) / 1e9,
         response_s=_response_s(injections, task.records),
@@ -89,8 +87,8 @@ def _response_s(injections: Sequence[Injection], records: Sequence[AttemptRecord
     attempts = records[:-1]
     if not begun or not attempts:
         return None
-    ended = next((record for record in attempts if record.outcome != SUCCEEDED), attempts[-1])
-    if ended.outcome == "cancelled" and ended.cancel is not None:
+    ended = next((record for record in attempts if record.outcome != AttemptOutcome.SUCCEEDED), attempts[-1])
+    if ended.outcome == AttemptOutcome.CANCELLED and ended.cancel is not None:
         return ended.cancel.latency_s
     return (ended.ended_ns - max(*begun, ended.started_ns)) / 1e9
 
@@ -100,7 +98,7 @@ def _not_up(
 ) -> RehearsalResult:
     return RehearsalResult(
         name=rehearsal.name,
-        outcome=BRINGUP_FAILURE,
+        outcome=RunFailure.BRINGUP_FAILURE,
         expected=rehearsal.expect,
         sim_time_s=0.0,
         response_s=None,

@@ -11,6 +11,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass
 from enum import Enum
 
+from cellc.vocabulary import AttemptOutcome, Term
+
 
 class PacketStep(str, Enum):
     """The eight steps of one packet, from the observation to its result (chapter 4, section 10)."""
@@ -72,7 +74,7 @@ class AttemptRecord:
     attempt_id: str
     rehearsal: str
     step: str
-    outcome: str
+    outcome: AttemptOutcome
     configuration_id: str
     version_tuple: Mapping[str, str]
     calibration_id: tuple[str, ...]
@@ -104,8 +106,14 @@ def to_json_lines(records: Iterable[AttemptRecord]) -> str:
     return "".join(to_json_line(record) + "\n" for record in records)
 
 
-BRINGUP_FAILURE = "bringup_failure"
-"""Outcome of a rehearsal whose cell never came up; no rehearsal can expect it."""
+class RunFailure(Term):
+    """How a rehearsal ends that comes to no outcome of an attempt; none can expect it."""
+
+    BRINGUP_FAILURE = "bringup_failure"
+    CRASHED = "crashed"
+
+
+RunOutcome = AttemptOutcome | RunFailure
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,7 +140,7 @@ class RehearsalResult:
     """The end of one rehearsal with its evidence; nothing in it depends on the host or the hour.
 
     Attributes:
-        outcome: name of the outcome, or ``bringup_failure``.
+        outcome: of the failure that ended it, or succeeded; a run failure where the cell never came up.
         sim_time_s: simulated time from the end of the bring-up to the end.
         response_s: simulated time from the fault taking effect to the bounded end; None without a fault.
         within_s: bound of ``response_s``; None where there is none.
@@ -141,8 +149,8 @@ class RehearsalResult:
     """
 
     name: str
-    outcome: str
-    expected: str
+    outcome: RunOutcome
+    expected: AttemptOutcome
     sim_time_s: float
     response_s: float | None
     within_s: float | None

@@ -21,10 +21,7 @@ from cellc.mock.control.journal import CommandJournal, CommandSamples, Interrupt
 from cellc.mock.errors import MockError
 from cellc.mock.folder import GeneratedFolder
 from cellc.mock.plant import Plant
-from cellc.mock.result import RehearsalResult, to_json_lines
-
-CRASHED = "crashed"
-"""Outcome of a run that ended in an exception of the mock; no fault may have it."""
+from cellc.mock.result import RehearsalResult, RunFailure, to_json_lines
 
 
 def execute(cell: MockCell, run: CampaignRun, seed: int) -> RunEnd:
@@ -56,7 +53,7 @@ def execute(cell: MockCell, run: CampaignRun, seed: int) -> RunEnd:
 def _crashed(run: CampaignRun) -> RehearsalResult:
     return RehearsalResult(
         name=run.identifier,
-        outcome=CRASHED,
+        outcome=RunFailure.CRASHED,
         expected=run.entry.expect,
         sim_time_s=0.0,
         response_s=None,
@@ -72,7 +69,7 @@ def _digest(result: RehearsalResult, samples: Sequence[CommandSamples], interrup
     for each in samples:
         digest.update("\0".join((each.controller, *each.interfaces)).encode())
         digest.update(each.stamps_ns.tobytes() + each.values.tobytes())
-    digest.update(repr((interruptions, result.outcome, result.response_s, result.findings)).encode())
+    digest.update(repr((interruptions, result.outcome.value, result.response_s, result.findings)).encode())
     return digest.hexdigest()[:16]
 
 

@@ -10,8 +10,7 @@ from cellc.contract.rehearsals import RehearsalEntry
 from cellc.mock.campaign.limits import LimitsReport
 from cellc.mock.faults.case import FaultCase
 from cellc.mock.result import PacketStep, RehearsalResult
-
-SUCCEEDED = "succeeded"
+from cellc.vocabulary import AttemptOutcome
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,20 +37,20 @@ class CampaignRun:
 
     Attributes:
         rehearsal: name of the rehearsal that it is made of; ``entry`` is named by the run's identifier.
-        outcomes: names of the outcomes that it may end in, sorted.
+        outcomes: those that it may end in, sorted.
         within_s: bound of the response where it does not succeed; None where the rehearsal's timeout is the bound.
     """
 
     rehearsal: str
     hits: tuple[Hit, ...]
     entry: RehearsalEntry
-    outcomes: tuple[str, ...]
+    outcomes: tuple[AttemptOutcome, ...]
     within_s: float | None
 
     @classmethod
     def undisturbed(cls, entry: RehearsalEntry) -> CampaignRun:
         """Return the run of a rehearsal as it stands, which has to succeed."""
-        return cls(entry.name, (), entry, (SUCCEEDED,), None)
+        return cls(entry.name, (), entry, (AttemptOutcome.SUCCEEDED,), None)
 
     @property
     def identifier(self) -> str:
@@ -82,7 +81,7 @@ class RunEnd:
     @property
     def in_time(self) -> bool:
         """Tell whether the bound was held; a fault that was borne, or never met, needs no response."""
-        if self.run.within_s is None or self.result.outcome == SUCCEEDED:
+        if self.run.within_s is None or self.result.outcome == AttemptOutcome.SUCCEEDED:
             return True
         return self.result.response_s is not None and self.result.response_s <= self.run.within_s
 

@@ -9,22 +9,24 @@ from dataclasses import asdict, dataclass
 from cellc.contract.rehearsals import RehearsalEntry, StepEntry
 from cellc.mock.campaign.campaign import Campaign
 from cellc.mock.campaign.limits import CommandStep, LimitsReport
-from cellc.mock.campaign.plan import SUCCEEDED, RunEnd
+from cellc.mock.campaign.plan import RunEnd
+from cellc.mock.result import RunOutcome
+from cellc.vocabulary import AttemptOutcome
 
-SHORT = {
-    "succeeded": "ok",
-    "cancelled": "cancel",
-    "stale_state": "stale",
-    "tf_failure": "tf",
-    "planning_failure": "plan",
-    "goal_rejection": "reject",
-    "tolerance_violation": "toler",
-    "missed_cycle": "missed",
-    "protective_stop": "stop",
-    "emergency_stop": "estop",
-    "hardware_fault": "hardware",
-    "wrong_owner": "owner",
-    "timeout": "time",
+SHORT: dict[RunOutcome, str] = {
+    AttemptOutcome.SUCCEEDED: "ok",
+    AttemptOutcome.CANCELLED: "cancel",
+    AttemptOutcome.STALE_STATE: "stale",
+    AttemptOutcome.TF_FAILURE: "tf",
+    AttemptOutcome.PLANNING_FAILURE: "plan",
+    AttemptOutcome.GOAL_REJECTION: "reject",
+    AttemptOutcome.TOLERANCE_VIOLATION: "toler",
+    AttemptOutcome.MISSED_CYCLE: "missed",
+    AttemptOutcome.PROTECTIVE_STOP: "stop",
+    AttemptOutcome.EMERGENCY_STOP: "estop",
+    AttemptOutcome.HARDWARE_FAULT: "hardware",
+    AttemptOutcome.WRONG_OWNER: "owner",
+    AttemptOutcome.TIMEOUT: "time",
 }
 """Outcomes as the matrix has them; one that is not here stands in full."""
 
@@ -129,7 +131,7 @@ def end_lines(end: RunEnd, command: str) -> Iterator[str]:
         yield f"        digest: {end.digest}"
         return
     yield f"passed  {run.identifier}: {result.outcome} (named: {', '.join(run.outcomes)})"
-    if run.within_s is not None and result.response_s is not None and result.outcome != SUCCEEDED:
+    if run.within_s is not None and result.response_s is not None and result.outcome != AttemptOutcome.SUCCEEDED:
         yield f"        bound: {result.response_s * 1e3:.0f} ms of {run.within_s * 1e3:.0f} ms"
     if result.reason:
         yield f"        reason: {result.reason}"
@@ -176,7 +178,7 @@ def outcome_lines(ends: Sequence[RunEnd]) -> Iterator[str]:
     """Yield how many runs ended in each outcome, and the one that came nearest to its bound."""
     for outcome in sorted({end.result.outcome for end in ends}):
         these = [end for end in ends if end.result.outcome == outcome]
-        bounded = [(_share(end), end) for end in these if outcome != SUCCEEDED and end.run.within_s]
+        bounded = [(_share(end), end) for end in these if outcome != AttemptOutcome.SUCCEEDED and end.run.within_s]
         line = f"{outcome}: {len(these)} runs"
         if bounded:
             slowest = max(bounded, key=lambda entry: entry[0])[1]

@@ -10,6 +10,7 @@ from cellc.contract.contract import ContractKpis
 from cellc.contract.rehearsals import RehearsalEntry
 from cellc.mock.evidence.run_trace import StateChange, TraceResult
 from cellc.mock.result import AttemptRecord, PacketStep, RehearsalResult
+from cellc.vocabulary import AttemptOutcome
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +38,7 @@ def kpis(targets: ContractKpis, result: RehearsalResult, trace: TraceResult, max
     Args:
         max_state_age_s: how old a joint state may be.
     """
-    attempts = [record for record in result.attempts if record.trace or record.outcome != "succeeded"]
+    attempts = [record for record in result.attempts if record.trace or record.outcome != AttemptOutcome.SUCCEEDED]
     stops = [change for change in trace.changes if change.kind == "hardware component"]
     latencies = [record.cancel.latency_s for record in attempts if record.cancel is not None]
     never_held = any(latency is None for latency in latencies)
@@ -72,7 +73,7 @@ def kpis(targets: ContractKpis, result: RehearsalResult, trace: TraceResult, max
             "wrong_owner_events",
             "events",
             sum(not claim.by_contract for claim in trace.claims)
-            + sum(record.outcome == "wrong_owner" for record in attempts),
+            + sum(record.outcome == AttemptOutcome.WRONG_OWNER for record in attempts),
             targets.wrong_owner_events,
             "claims that the contract does not state, and attempts that another commander ended",
         ),
@@ -106,7 +107,7 @@ def _cancel(worst_s: float | None, never_held: bool, target_s: float | None) -> 
 
 def _rejection(attempts: Sequence[AttemptRecord], target: float | None, max_age_s: float) -> Kpi:
     """Return the share of stale data that ended its attempt, of all that was met."""
-    rejected = sum(record.outcome == "stale_state" for record in attempts)
+    rejected = sum(record.outcome == AttemptOutcome.STALE_STATE for record in attempts)
     used = sum(
         record.joint_state_age is not None and record.joint_state_age > max_age_s and record.action_goal_id is not None
         for record in attempts

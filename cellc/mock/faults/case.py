@@ -8,8 +8,7 @@ from dataclasses import dataclass
 from cellc.contract.contract import Contract
 from cellc.contract.rehearsals import FaultEntry, FaultEvent, StepEntry
 from cellc.mock.faults.cell_steps import CellStep, cell_steps
-
-SUCCEEDED = "succeeded"
+from cellc.vocabulary import AttemptOutcome
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,15 +21,15 @@ class Ending:
             end of the step; None where only the timeout of the rehearsal bounds it.
     """
 
-    outcomes: frozenset[str]
+    outcomes: frozenset[AttemptOutcome]
     within_s: float | None = None
 
 
-BORNE = Ending(frozenset({SUCCEEDED}))
+BORNE = Ending(frozenset({AttemptOutcome.SUCCEEDED}))
 """A step that the fault does not concern."""
 
 
-def ends_in(*outcomes: str, within_s: float | None) -> Ending:
+def ends_in(*outcomes: AttemptOutcome, within_s: float | None) -> Ending:
     """Return the ending of a step that the fault concerns."""
     return Ending(frozenset(outcomes), within_s)
 
@@ -65,12 +64,14 @@ class FaultCase:
         """Return how one step may end that meets the fault."""
         return self.endings.get((step.kind, step.target), BORNE)
 
-    def outcomes(self, steps: Sequence[StepEntry], first: int, when: str = "started") -> frozenset[str]:
+    def outcomes(self, steps: Sequence[StepEntry], first: int, when: str = "started") -> frozenset[AttemptOutcome]:
         """Return the outcomes of a run whose step ``first``, counted from 1, is the first to meet the fault."""
         endings = self._endings(steps, first, when)
-        failures = frozenset(outcome for ending in _met(endings) for outcome in ending.outcomes - {SUCCEEDED})
-        borne = all(SUCCEEDED in ending.outcomes for ending in endings)
-        return failures | {SUCCEEDED} if borne else failures
+        failures = frozenset(
+            outcome for ending in _met(endings) for outcome in ending.outcomes - {AttemptOutcome.SUCCEEDED}
+        )
+        borne = all(AttemptOutcome.SUCCEEDED in ending.outcomes for ending in endings)
+        return failures | {AttemptOutcome.SUCCEEDED} if borne else failures
 
     def within_s(self, steps: Sequence[StepEntry], first: int, when: str = "started") -> float | None:
         """Return the bound of the response of such a run; None where only the rehearsal's timeout bounds it."""
@@ -85,7 +86,7 @@ class FaultCase:
         """
         endings = [self.ending(step) for step in steps[first - 1 :]]
         if endings and when != "started" and not self.at_once:
-            endings[0] = Ending(endings[0].outcomes | {SUCCEEDED}, endings[0].within_s)
+            endings[0] = Ending(endings[0].outcomes | {AttemptOutcome.SUCCEEDED}, endings[0].within_s)
         return endings
 
 
@@ -94,7 +95,7 @@ def _met(endings: Sequence[Ending]) -> list[Ending]:
     met: list[Ending] = []
     for ending in endings:
         met.append(ending)
-        if SUCCEEDED not in ending.outcomes:
+        if AttemptOutcome.SUCCEEDED not in ending.outcomes:
             break
     return met
 

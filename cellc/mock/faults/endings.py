@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from cellc.contract.contract import Contract
-from cellc.mock.faults.case import BORNE, SUCCEEDED, Ending, ends_in
+from cellc.mock.faults.case import BORNE, Ending, ends_in
 from cellc.mock.faults.cell_steps import CellStep
 from cellc.mock.nodes.motion_planner import PLANNING_LATENCY_S
 from cellc.mock.nodes.observations import DEFAULT_MAX_AGE_S as DEFAULT_OBSERVATION_AGE_S
@@ -15,6 +15,7 @@ from cellc.mock.task.context import WATCH_S
 from cellc.mock.task.grip import GRIP_TIMEOUT_S
 from cellc.mock.task.move import TF_TIMEOUT_S
 from cellc.mock.task.task import DEFAULT_RATE_HZ, PATIENCE_PERIODS
+from cellc.vocabulary import AttemptOutcome
 
 POSE_TYPE = "geometry_msgs/msg/PoseStamped"
 MONITOR_S = 0.05
@@ -86,18 +87,20 @@ def unobserved(bounds: Bounds, frames: tuple[str, ...]) -> StepEnding:
             return BORNE
         within_s = max(map(bounds.observation_s, frames))
         if step.observes in frames:
-            return ends_in("stale_state", within_s=within_s)
-        return ends_in("stale_state", SUCCEEDED, within_s=within_s)
+            return ends_in(AttemptOutcome.STALE_STATE, within_s=within_s)
+        return ends_in(AttemptOutcome.STALE_STATE, AttemptOutcome.SUCCEEDED, within_s=within_s)
 
     return ending
 
 
 def stateless(bounds: Bounds) -> StepEnding:
     """Return how steps end while joint states stay away: one that sends no goal bears it."""
-    return lambda step: ends_in("stale_state", within_s=bounds.joint_state_s()) if step.controllers else BORNE
+    return lambda step: (
+        ends_in(AttemptOutcome.STALE_STATE, within_s=bounds.joint_state_s()) if step.controllers else BORNE
+    )
 
 
-def off_track(bounds: Bounds, controller: str, *more: str) -> StepEnding:
+def off_track(bounds: Bounds, controller: str, *more: AttemptOutcome) -> StepEnding:
     """Return how steps end when a joint of ``controller`` is off its track.
 
     A step that leaves the joint where it is bears it. Without a goal time, as of a gripper, the controller may wait for
@@ -111,7 +114,13 @@ def off_track(bounds: Bounds, controller: str, *more: str) -> StepEnding:
     def ending(step: CellStep) -> Ending:
         if controller not in step.controllers:
             return BORNE
-        return ends_in("tolerance_violation", SUCCEEDED, *patience, *more, within_s=bounds.execution_s(step))
+        return ends_in(
+            AttemptOutcome.TOLERANCE_VIOLATION,
+            AttemptOutcome.SUCCEEDED,
+            *patience,
+            *more,
+            within_s=bounds.execution_s(step),
+        )
 
     return ending
 
@@ -124,7 +133,7 @@ def _goal_time_s(contract: Contract, controller: str) -> float | None:
     return next((entry.goal_time_s for entry in found if entry is not None), None)
 
 
-def stopped(bounds: Bounds, outcome: str, after_s: float = 0.0) -> StepEnding:
+def stopped(bounds: Bounds, outcome: AttemptOutcome, after_s: float = 0.0) -> StepEnding:
     """Return how steps end when a device stops ``after_s`` after the fault began: whichever device they move."""
     ending = ends_in(outcome, within_s=after_s + bounds.hold_s())
     return lambda step: ending

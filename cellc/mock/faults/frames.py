@@ -9,13 +9,13 @@ from typing import ClassVar
 
 from cellc.contract.contract import Contract, ContractFrame
 from cellc.contract.rehearsals import FaultEntry
-from cellc.mock.faults.case import BORNE, SUCCEEDED, Ending, FaultCase, ends_in, fault_case
+from cellc.mock.faults.case import BORNE, Ending, FaultCase, ends_in, fault_case
 from cellc.mock.faults.cell_steps import CellStep, published_frames
 from cellc.mock.faults.endings import Bounds
 from cellc.mock.faults.ports import FaultPorts
 from cellc.mock.tf.sources import SampledSource
 from cellc.transforms import Pose
-from cellc.vocabulary import FaultKind
+from cellc.vocabulary import AttemptOutcome, FaultKind
 
 AUTHORITY = "second_authority"
 RATE_HZ = 10.0
@@ -131,21 +131,26 @@ def _dropped(bounds: Bounds, frame: str, step: CellStep) -> Ending:
     """An observation from before the fault can still be looked up, so that a move may bear it."""
     if step.kind != "move" or frame not in step.frames:
         return BORNE
-    return ends_in("tf_failure", SUCCEEDED, within_s=bounds.asked_s())
+    return ends_in(AttemptOutcome.TF_FAILURE, AttemptOutcome.SUCCEEDED, within_s=bounds.asked_s())
 
 
 def _doubled(bounds: Bounds, frame: str, step: CellStep) -> Ending:
     """A step that does not look the frame up is concerned as long as the cell stands where the frame has led it."""
     if step.kind == "move" and frame in step.frames:
-        return ends_in("tf_failure", within_s=bounds.asked_s())
+        return ends_in(AttemptOutcome.TF_FAILURE, within_s=bounds.asked_s())
     if bounds.contract.frames[frame].kind != "dynamic":
         return BORNE
-    return ends_in("tf_failure", SUCCEEDED, within_s=bounds.watched_s())
+    return ends_in(AttemptOutcome.TF_FAILURE, AttemptOutcome.SUCCEEDED, within_s=bounds.watched_s())
 
 
 def _jumped(bounds: Bounds, step: CellStep) -> Ending:
     """Whatever is stale or cannot be looked up afterwards ends the step; new samples let it go on."""
     within_s = max([bounds.joint_state_s(), *(map(bounds.observation_s, bounds.dynamic_frames()))])
     if step.kind == "move" and step.frames:
-        return ends_in("stale_state", "tf_failure", SUCCEEDED, within_s=within_s + bounds.asked_s())
-    return ends_in("stale_state", SUCCEEDED, within_s=within_s)
+        return ends_in(
+            AttemptOutcome.STALE_STATE,
+            AttemptOutcome.TF_FAILURE,
+            AttemptOutcome.SUCCEEDED,
+            within_s=within_s + bounds.asked_s(),
+        )
+    return ends_in(AttemptOutcome.STALE_STATE, AttemptOutcome.SUCCEEDED, within_s=within_s)

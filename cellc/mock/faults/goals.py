@@ -10,12 +10,12 @@ from typing import ClassVar
 from cellc.contract.contract import Contract, ContractController
 from cellc.contract.rehearsals import FaultEntry
 from cellc.mock.control import GripperGoal, TrajectoryGoal, TrajectoryPoint
-from cellc.mock.faults.case import BORNE, SUCCEEDED, Ending, FaultCase, ends_in, fault_case
+from cellc.mock.faults.case import BORNE, Ending, FaultCase, ends_in, fault_case
 from cellc.mock.faults.cell_steps import CellStep, cell_steps, controllers
 from cellc.mock.faults.endings import Bounds
 from cellc.mock.faults.ports import FaultPorts
 from cellc.mock.task.bounds import cancel_bound_s
-from cellc.vocabulary import TRAJECTORIES, Behaviour, FaultKind
+from cellc.vocabulary import TRAJECTORIES, AttemptOutcome, Behaviour, FaultKind
 
 DISTANCE_M = 10.0
 """Farther than any arm of a cell reaches."""
@@ -133,7 +133,7 @@ class SecondCommander:
     @classmethod
     def cases(cls, contract: Contract) -> Iterator[FaultCase]:
         """Yield every controller that takes goals; a second commander ends whatever step it meets."""
-        ending = ends_in("wrong_owner", within_s=Bounds(contract).watched_s())
+        ending = ends_in(AttemptOutcome.WRONG_OWNER, within_s=Bounds(contract).watched_s())
         for name, facts in controllers(contract).items():
             if facts.active and facts.action is not None:
                 entry = FaultEntry(kind=cls.kind, target=name)
@@ -205,19 +205,19 @@ class Switch:
 def _unreachable(bounds: Bounds, goal: str, step: CellStep) -> Ending:
     if (step.kind, step.target) != ("move", goal):
         return BORNE
-    return ends_in("planning_failure", within_s=bounds.asked_s())
+    return ends_in(AttemptOutcome.PLANNING_FAILURE, within_s=bounds.asked_s())
 
 
 def _cancelled(kind: str, within_s: float, step: CellStep) -> Ending:
-    return ends_in("cancelled", within_s=within_s) if step.kind == kind and step.controllers else BORNE
+    return ends_in(AttemptOutcome.CANCELLED, within_s=within_s) if step.kind == kind and step.controllers else BORNE
 
 
 def _rejected(bounds: Bounds, name: str, facts: ContractController, step: CellStep) -> Ending:
     if facts.action is None and step.controllers:
-        return ends_in("stale_state", within_s=bounds.joint_state_s())
+        return ends_in(AttemptOutcome.STALE_STATE, within_s=bounds.joint_state_s())
     if name in step.controllers:
         # A goal that is sent in the very cycle of the switch is accepted, and loses its controller at once.
-        return ends_in("goal_rejection", "wrong_owner", within_s=bounds.asked_s())
+        return ends_in(AttemptOutcome.GOAL_REJECTION, AttemptOutcome.WRONG_OWNER, within_s=bounds.asked_s())
     return BORNE
 
 
@@ -225,4 +225,6 @@ def _switched(bounds: Bounds, deactivated: tuple[str, ...], step: CellStep) -> E
     """A switch between two goals, or one that is refused, is borne; after it a goal may meet an inactive controller."""
     if not set(deactivated) & set(step.controllers):
         return BORNE
-    return ends_in("wrong_owner", "goal_rejection", SUCCEEDED, within_s=bounds.asked_s())
+    return ends_in(
+        AttemptOutcome.WRONG_OWNER, AttemptOutcome.GOAL_REJECTION, AttemptOutcome.SUCCEEDED, within_s=bounds.asked_s()
+    )

@@ -9,11 +9,11 @@ from typing import ClassVar
 
 from cellc.contract.contract import Contract
 from cellc.contract.rehearsals import FaultEntry
-from cellc.mock.faults.case import BORNE, SUCCEEDED, Ending, FaultCase, ends_in, fault_case
+from cellc.mock.faults.case import BORNE, Ending, FaultCase, ends_in, fault_case
 from cellc.mock.faults.cell_steps import CellStep, controllers, driven_joints, first_joints
 from cellc.mock.faults.endings import Bounds, off_track
 from cellc.mock.faults.ports import FaultPorts
-from cellc.vocabulary import Behaviour, FaultKind
+from cellc.vocabulary import AttemptOutcome, Behaviour, FaultKind
 
 SHARE_OF_LIMIT = 0.01
 """A case lets a joint move at this share of its limit."""
@@ -106,7 +106,7 @@ class Displace:
         """Yield one joint of every controller that takes goals; a plan may start beyond a limit or in a collision."""
         for joint, controller in first_joints(contract).items():
             entry = FaultEntry(kind=cls.kind, target=joint, displacement=_displacement(contract, joint))
-            yield fault_case(entry, contract, off_track(Bounds(contract), controller, "planning_failure"))
+            yield fault_case(entry, contract, off_track(Bounds(contract), controller, AttemptOutcome.PLANNING_FAILURE))
 
     def begin(self, ports: FaultPorts) -> None:
         """Displace."""
@@ -171,7 +171,9 @@ class SkipCycles:
         """Yield the loops; a cell that does not say how many misses it allows bears these few."""
         allowed = contract.kpis.missed_cycles
         entry = FaultEntry(kind=cls.kind, target="", cycles=BEYOND + (allowed or 0))
-        missed = BORNE if allowed is None else ends_in("missed_cycle", within_s=Bounds(contract).watched_s())
+        missed = (
+            BORNE if allowed is None else ends_in(AttemptOutcome.MISSED_CYCLE, within_s=Bounds(contract).watched_s())
+        )
         yield fault_case(entry, contract, lambda step: missed)
 
     def begin(self, ports: FaultPorts) -> None:
@@ -194,4 +196,4 @@ def _scaled(bounds: Bounds, device: str, step: CellStep) -> Ending:
     used = [facts for name, facts in controllers(bounds.contract).items() if name in step.controllers]
     if not any(facts.device == device and facts.behaviour is Behaviour.SCALED_JOINT_TRAJECTORY for facts in used):
         return BORNE
-    return ends_in("timeout", SUCCEEDED, within_s=bounds.execution_s(step))
+    return ends_in(AttemptOutcome.TIMEOUT, AttemptOutcome.SUCCEEDED, within_s=bounds.execution_s(step))

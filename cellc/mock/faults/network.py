@@ -10,7 +10,7 @@ from typing import ClassVar
 from cellc.contract.contract import Contract, ContractInterface
 from cellc.contract.rehearsals import FaultEntry
 from cellc.mock.bus.qos import served_actions
-from cellc.mock.faults.case import BORNE, SUCCEEDED, Ending, FaultCase, ends_in, fault_case
+from cellc.mock.faults.case import BORNE, Ending, FaultCase, ends_in, fault_case
 from cellc.mock.faults.cell_steps import CellStep, cameras, cell_steps, components, controllers, image_topic
 from cellc.mock.faults.endings import POSE_TYPE, Bounds, stateless, stopped, unobserved
 from cellc.mock.faults.ports import FaultPorts
@@ -18,7 +18,7 @@ from cellc.mock.stops import FAULT
 from cellc.mock.task.bounds import planning_actions, planning_server
 from cellc.mock.task.execute import RESPONSE_S
 from cellc.mock.world.joint_states import JOINT_STATE_TYPE
-from cellc.vocabulary import FaultKind
+from cellc.vocabulary import AttemptOutcome, FaultKind
 
 TF = "/tf"
 POLICY = "reliability"
@@ -148,7 +148,9 @@ class CutNetwork:
         bounds = Bounds(contract)
         for device in components(contract):
             entry = FaultEntry(kind=cls.kind, target=device)
-            yield fault_case(entry, contract, stopped(bounds, "hardware_fault", KEEP_ALIVE_S), at_once=True)
+            yield fault_case(
+                entry, contract, stopped(bounds, AttemptOutcome.HARDWARE_FAULT, KEEP_ALIVE_S), at_once=True
+            )
         for device, frames in cameras(contract).items():
             yield fault_case(FaultEntry(kind=cls.kind, target=device), contract, unobserved(bounds, frames))
 
@@ -190,20 +192,24 @@ def _unanswered(bounds: Bounds, name: str, step: CellStep) -> Ending:
     served = served_actions(bounds.contract)
     plans = name in planning_actions(bounds.contract) and step.kind == "move"
     if plans or name in {served[each] for each in step.controllers}:
-        return ends_in("timeout", within_s=bounds.execution_s(step))
+        return ends_in(AttemptOutcome.TIMEOUT, within_s=bounds.execution_s(step))
     return BORNE
 
 
 def _frameless(bounds: Bounds, step: CellStep) -> Ending:
     """A goal whose transforms are all static, or were all heard before, is borne."""
-    return ends_in("tf_failure", SUCCEEDED, within_s=bounds.asked_s()) if step.frames else BORNE
+    return (
+        ends_in(AttemptOutcome.TF_FAILURE, AttemptOutcome.SUCCEEDED, within_s=bounds.asked_s())
+        if step.frames
+        else BORNE
+    )
 
 
 def _silent(bounds: Bounds, server: str, plans: bool, step: CellStep) -> Ending:
     """A request is given up soon; a result that stays away at the bound of the action."""
     if plans and step.kind == "move":
-        return ends_in("timeout", within_s=RESPONSE_S + bounds.asked_s())
+        return ends_in(AttemptOutcome.TIMEOUT, within_s=RESPONSE_S + bounds.asked_s())
     if server not in step.controllers:
         return BORNE
     execution_s = bounds.execution_s(step)
-    return ends_in("timeout", within_s=None if execution_s is None else max(RESPONSE_S, execution_s))
+    return ends_in(AttemptOutcome.TIMEOUT, within_s=None if execution_s is None else max(RESPONSE_S, execution_s))

@@ -9,12 +9,12 @@ from typing import ClassVar
 from cellc.contract.contract import Contract
 from cellc.contract.rehearsals import FaultEntry
 from cellc.mock.bus.network import EdgeBehaviour
-from cellc.mock.faults.case import SUCCEEDED, Ending, FaultCase, ends_in, fault_case
+from cellc.mock.faults.case import Ending, FaultCase, ends_in, fault_case
 from cellc.mock.faults.cell_steps import CellStep, cameras, image_topic, joints_of_device
 from cellc.mock.faults.endings import Bounds, StepEnding, stateless, unobserved
 from cellc.mock.faults.ports import FaultPorts
 from cellc.mock.task.bounds import joint_state_age_s
-from cellc.vocabulary import FaultKind
+from cellc.vocabulary import AttemptOutcome, FaultKind
 
 TIMES_TOO_LATE = 3.0
 """A case delays by this multiple of the age that is allowed."""
@@ -101,7 +101,7 @@ def _late_images(bounds: Bounds, frames: tuple[str, ...]) -> StepEnding:
     within_s = max(map(bounds.observation_s, frames))
 
     def ending(step: CellStep) -> Ending:
-        borne = () if step.observes in frames else (SUCCEEDED,)
-        return ends_in("stale_state", *borne, within_s=within_s)
+        borne = () if step.observes in frames else (AttemptOutcome.SUCCEEDED,)
+        return ends_in(AttemptOutcome.STALE_STATE, *borne, within_s=within_s)
 
     return ending

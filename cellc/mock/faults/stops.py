@@ -9,12 +9,12 @@ from typing import ClassVar
 
 from cellc.contract.contract import Contract
 from cellc.contract.rehearsals import FaultEntry
-from cellc.mock.faults.case import BORNE, SUCCEEDED, Ending, FaultCase, ends_in, fault_case
+from cellc.mock.faults.case import BORNE, Ending, FaultCase, ends_in, fault_case
 from cellc.mock.faults.cell_steps import CellStep, components, device_of, joints_of_device, stoppable
 from cellc.mock.faults.endings import Bounds, stopped
 from cellc.mock.faults.ports import FaultPorts
 from cellc.mock.stops import EMERGENCY_STOP, FAULT, PROTECTIVE_STOP
-from cellc.vocabulary import FaultKind
+from cellc.vocabulary import AttemptOutcome, FaultKind
 
 NOTICED_AFTER = 0.01
 """rad or m that a joint moves before the torques give the load away."""
@@ -39,7 +39,7 @@ class ProtectiveStop:
         """Yield every device with hardware or an adapter."""
         for device in stoppable(contract):
             entry = FaultEntry(kind=cls.kind, target=device)
-            yield fault_case(entry, contract, stopped(Bounds(contract), "protective_stop"), at_once=True)
+            yield fault_case(entry, contract, stopped(Bounds(contract), AttemptOutcome.PROTECTIVE_STOP), at_once=True)
 
     def begin(self, ports: FaultPorts) -> None:
         """Stop."""
@@ -68,7 +68,7 @@ class EmergencyStop:
         """Yield every device with hardware or an adapter."""
         for device in stoppable(contract):
             entry = FaultEntry(kind=cls.kind, target=device)
-            yield fault_case(entry, contract, stopped(Bounds(contract), "emergency_stop"), at_once=True)
+            yield fault_case(entry, contract, stopped(Bounds(contract), AttemptOutcome.EMERGENCY_STOP), at_once=True)
 
     def begin(self, ports: FaultPorts) -> None:
         """Stop."""
@@ -102,7 +102,7 @@ class RestartDriver:
         """Yield every device with hardware."""
         for device in components(contract):
             entry = FaultEntry(kind=cls.kind, target=device)
-            yield fault_case(entry, contract, stopped(Bounds(contract), "hardware_fault"), at_once=True)
+            yield fault_case(entry, contract, stopped(Bounds(contract), AttemptOutcome.HARDWARE_FAULT), at_once=True)
 
     def begin(self, ports: FaultPorts) -> None:
         """End the driver."""
@@ -171,4 +171,4 @@ def _overloaded(bounds: Bounds, device: str, step: CellStep) -> Ending:
     """A step that leaves the arm where it stands bears the fault."""
     if not any(device_of(bounds.contract, name) == device for name in step.controllers):
         return BORNE
-    return ends_in("protective_stop", SUCCEEDED, within_s=bounds.execution_s(step))
+    return ends_in(AttemptOutcome.PROTECTIVE_STOP, AttemptOutcome.SUCCEEDED, within_s=bounds.execution_s(step))

@@ -10,6 +10,7 @@ from cellc.mock.gates.gate import GateCheck, failed, judged, passed, unknown
 from cellc.mock.gates.runs import GateEvidence
 from cellc.mock.result import PacketStep
 from cellc.mock.task.bounds import cancel_bound_s
+from cellc.vocabulary import AttemptOutcome
 
 _WHOLE = (PacketStep.GOAL_SENT, PacketStep.ACCEPTED, PacketStep.WRITTEN, PacketStep.DRIVEN, PacketStep.RETURNED)
 
@@ -40,7 +41,7 @@ def goal_trace(evidence: GateEvidence, controller: str) -> GateCheck:
     good = [
         f"{run.name}, {attempt.step}: accepted, driven, {attempt.result.status}"
         for run, attempt in evidence.attempts(controller)
-        if attempt.result is not None and attempt.outcome == "succeeded" and run.has_mark(attempt, *_WHOLE)
+        if attempt.result is not None and attempt.outcome == AttemptOutcome.SUCCEEDED and run.has_mark(attempt, *_WHOLE)
     ]
     text = f"A goal to {controller} is accepted, driven and answered"
     return judged(text, good, [], "a run in which it drives its joints and succeeds")
@@ -54,7 +55,7 @@ def cancel_trace(evidence: GateEvidence, controller: str) -> GateCheck:
     for run, attempt in evidence.attempts(controller):
         cancel = attempt.cancel
         moved = run.has_mark(attempt, PacketStep.DRIVEN)
-        if cancel is None or attempt.outcome != "cancelled" or not moved:
+        if cancel is None or attempt.outcome != AttemptOutcome.CANCELLED or not moved:
             continue
         if cancel.latency_s is None or cancel.latency_s > bound_s:
             bad.append(f"{run.name}, {attempt.step}: not held within {bound_s:g} s")
@@ -69,7 +70,7 @@ def tolerance_trace(evidence: GateEvidence, controller: str) -> GateCheck:
     good: list[str] = []
     bad: list[str] = []
     for run, attempt in evidence.attempts(controller):
-        if attempt.outcome != "tolerance_violation":
+        if attempt.outcome != AttemptOutcome.TOLERANCE_VIOLATION:
             continue
         line = f"{run.name}, {attempt.step}: {attempt.fault_code}"
         (good if run.passed else bad).append(line)

@@ -12,7 +12,8 @@ from cellc.contract.contract import ContractInterface
 from cellc.contract.rehearsals import FaultEntry
 from cellc.mock.gates.command_path import cancel_trace
 from cellc.mock.gates.gate import GateCheck, judged, unknown
-from cellc.mock.gates.runs import SUCCEEDED, GateEvidence, JudgedRun
+from cellc.mock.gates.runs import GateEvidence, JudgedRun
+from cellc.vocabulary import AttemptOutcome
 
 _IMAGE = "sensor_msgs/msg/Image"
 _JOINT_STATE = "sensor_msgs/msg/JointState"
@@ -64,7 +65,7 @@ def _cancelled_goal(evidence: GateEvidence, name: str) -> GateCheck:
 
 def _bounded(text: str, runs: list[JudgedRun], needed: str) -> GateCheck:
     bad = [f"{run.name}: {run.result.outcome}" for run in runs if not run.passed]
-    good = [f"{run.name}: {run.result.outcome}" for run in runs if run.result.outcome != SUCCEEDED]
+    good = [f"{run.name}: {run.result.outcome}" for run in runs if run.result.outcome != AttemptOutcome.SUCCEEDED]
     return judged(text, good, bad, needed)
 
 

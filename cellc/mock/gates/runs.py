@@ -12,8 +12,6 @@ from cellc.mock.campaign.limits import LimitsReport
 from cellc.mock.folder import GeneratedFolder
 from cellc.mock.result import AttemptRecord, PacketStep, RehearsalResult
 
-SUCCEEDED = "succeeded"
-
 
 @dataclass(frozen=True, slots=True)
 class JudgedRun:

@@ -14,6 +14,7 @@ from cellc.mock.report_page.content import RunEvidence
 from cellc.mock.report_page.html import Child, at, count, seconds, tag
 from cellc.mock.report_page.plots import age_plot, joint_plot, state_plot
 from cellc.mock.result import AttemptRecord, PacketStep
+from cellc.vocabulary import AttemptOutcome
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,7 +107,7 @@ def attempts(records: Sequence[AttemptRecord], time: TimeAxis) -> Element:
 
 
 def _attempt(record: AttemptRecord, time: TimeAxis) -> Iterator[Element]:
-    good = record.outcome == "succeeded"
+    good = record.outcome == AttemptOutcome.SUCCEEDED
     words = f"{at(record.started_ns)} to {at(record.ended_ns)}: {record.outcome}"
     bar = Bar(record.started_ns / 1e9, record.ended_ns / 1e9, "done" if good else "ended", words)
     outcome = tag("span", record.outcome, class_="plain" if good else "bad")

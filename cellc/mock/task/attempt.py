@@ -57,7 +57,7 @@ class Attempt:
             attempt_id=self.attempt_id,
             rehearsal=self.identity.rehearsal,
             step=self.step,
-            outcome=outcome.value,
+            outcome=outcome,
             configuration_id=self.identity.configuration_id,
             version_tuple=self.identity.version_tuple,
             calibration_id=self.calibration_id,

@@ -10,6 +10,7 @@ from cellc.contract.contract import ContractKpis
 from cellc.mock.evidence.kpis import Kpi, kpis
 from cellc.mock.evidence.run_trace import Claim, StateChange, TraceResult
 from cellc.mock.result import AttemptRecord, CancelRecord, PacketStep, RehearsalResult, TracePoint
+from cellc.vocabulary import AttemptOutcome
 from tests.mock.evidence.conftest import Written
 
 TARGETS = ContractKpis(
@@ -57,7 +58,7 @@ def test_cancel_that_never_held_misses_the_target_without_a_value(plain: Rehears
 
 def test_share_of_stale_data_that_was_rejected(plain: RehearsalResult) -> None:
     record = plain.attempts[0]
-    rejected = replace(record, outcome="stale_state", trace=())
+    rejected = replace(record, outcome=AttemptOutcome.STALE_STATE, trace=())
     used = replace(marked(record, 0, 1), joint_state_age=0.3, action_goal_id="a")
     assert figures(plain, rejected)["stale_state_rejection"].value == 1.0
     assert figures(plain, rejected, used)["stale_state_rejection"].value == 0.5
@@ -83,7 +84,7 @@ def test_claim_of_a_controller_that_the_contract_does_not_name_is_a_wrong_owner(
 
 
 def test_attempt_that_another_commander_ended_is_a_wrong_owner(plain: RehearsalResult) -> None:
-    ended = replace(plain.attempts[0], outcome="wrong_owner")
+    ended = replace(plain.attempts[0], outcome=AttemptOutcome.WRONG_OWNER)
     assert figures(plain, ended)["wrong_owner_events"].value == 1
 
 

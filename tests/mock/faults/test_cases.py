@@ -12,7 +12,7 @@ from cellc.mock import MockCell
 from cellc.mock.errors import MockError
 from cellc.mock.faults.case import BORNE, FaultCase, ends_in
 from cellc.mock.faults.registry import possible_faults
-from cellc.vocabulary import FaultKind
+from cellc.vocabulary import AttemptOutcome, FaultKind
 from tests.mock.faults.conftest import Rehearse
 
 
@@ -41,7 +41,9 @@ def test_outcomes_of_a_run_are_those_of_the_steps_up_to_the_first_that_cannot_be
     entry = FaultEntry(kind="freeze", target="camera")
     look = StepEntry(kind="detect", target="part")
     wait = StepEntry(kind="wait", target="")
-    case = FaultCase(entry, {("detect", "part"): ends_in("stale_state", within_s=1.0), ("wait", ""): BORNE})
+    case = FaultCase(
+        entry, {("detect", "part"): ends_in(AttemptOutcome.STALE_STATE, within_s=1.0), ("wait", ""): BORNE}
+    )
     steps = (wait, wait, look, wait)
     assert case.outcomes(steps, first) == outcomes
 
@@ -49,9 +51,9 @@ def test_outcomes_of_a_run_are_those_of_the_steps_up_to_the_first_that_cannot_be
 def test_bound_of_a_run_is_the_longest_of_the_steps_that_it_may_end_in() -> None:
     entry = FaultEntry(kind="stick", target="joint")
     endings = {
-        ("move", "a"): ends_in("tolerance_violation", "succeeded", within_s=2.0),
-        ("move", "b"): ends_in("tolerance_violation", within_s=5.0),
-        ("move", "c"): ends_in("tolerance_violation", within_s=9.0),
+        ("move", "a"): ends_in(AttemptOutcome.TOLERANCE_VIOLATION, AttemptOutcome.SUCCEEDED, within_s=2.0),
+        ("move", "b"): ends_in(AttemptOutcome.TOLERANCE_VIOLATION, within_s=5.0),
+        ("move", "c"): ends_in(AttemptOutcome.TOLERANCE_VIOLATION, within_s=9.0),
     }
     steps = tuple(StepEntry(kind="move", target=name) for name in "abc")
     assert FaultCase(entry, endings).within_s(steps, 1) == 5.0

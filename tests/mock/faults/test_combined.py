@@ -13,7 +13,7 @@ from cellc.mock.result import to_json_lines
 from cellc.vocabulary import AttemptOutcome, FaultKind
 from tests.mock.faults.conftest import ACKNOWLEDGE, DETECT, HOME, PICK, Rehearse, during, wait
 
-NAMED = {outcome.value for outcome in AttemptOutcome}
+NAMED = set(AttemptOutcome)
 
 
 def test_neighbours_of_the_list_of_faults_end_together_in_a_named_outcome_of_either(

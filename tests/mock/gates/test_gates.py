@@ -13,6 +13,7 @@ from cellc.mock.campaign.limits import LimitExcess, LimitsReport, Peak
 from cellc.mock.folder import GeneratedFolder
 from cellc.mock.gates import JudgedRun, Verdict, sign_gates
 from cellc.mock.result import CancelRecord
+from cellc.vocabulary import AttemptOutcome
 from tests.mock.gates.conftest import gate, line, with_attempt
 
 PASSED, FAILED, UNKNOWN = Verdict.PASSED, Verdict.FAILED, Verdict.UNKNOWN
@@ -137,7 +138,7 @@ def test_late_sample_passes_where_it_ended_bounded_and_fails_where_it_did_not(pi
     assert line(gate("S2", pick.folder, rehearsed), "/joint_states (topic, newest)").verdict is UNKNOWN
     unbounded = replace(run(rehearsed, "stale_camera"), passed=False)
     assert line(gate("S2", pick.folder, (unbounded,)), words).verdict is FAILED
-    unnoticed = replace(unbounded, passed=True, result=replace(unbounded.result, outcome="succeeded"))
+    unnoticed = replace(unbounded, passed=True, result=replace(unbounded.result, outcome=AttemptOutcome.SUCCEEDED))
     assert line(gate("S2", pick.folder, (unnoticed,)), words).verdict is UNKNOWN
 
 
