@@ -16,7 +16,7 @@ class ContractAdapter(ContractModel):
     units: tuple[Literal["rad", "m"], ...] = Field(description="Unit of each joint's position.")
     action: str = Field(description="Full name of the action that takes its trajectories.")
     state_topic: str = Field(description="Full name of the topic of its stamped state.")
-    client: str | None = Field(description="Name of the one node that may command it.")
+    client: str | None = Field(None, description="Name of the one node that may command it.")
     command_period_s: float = Field(description="Time from one command to the next.", gt=0.0)
     command_timeout_s: float = Field(description="Watchdog: silence after which it stops.", gt=0.0)
     stop_time_s: float = Field(description="Longest time from a hold to standstill.", gt=0.0)

@@ -1,7 +1,8 @@
 """``contract.json``: the cell as its artifacts promise it, for the mock, for tools and for people.
 
-Everything is resolved: full ROS names, SI and radians, no defaults left to the reader. The mock reads this file, the
-URDF and controllers.yaml that ros2_control would read, and nothing of the compiler.
+Everything is resolved: full ROS names, SI and radians. What is at the default that the schema states, null most of
+all, is left out. The mock reads this file, the URDF and controllers.yaml that ros2_control would read, the pairs of the
+SRDF, and nothing of the compiler.
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ class ContractFiles(ContractModel):
     urdf_mock: str = Field(description="Robot description for the mock.")
     urdf_real: str = Field(description="Robot description for the real cell.")
     parameters: dict[str, str] = Field(description="Parameter file of each controller manager, by manager.")
+    srdf: str | None = Field(None, description="Pairs of links whose collision is not checked, for planning groups.")
     rehearsals: str = Field(description="What the mock executes.")
 
 
@@ -35,17 +37,18 @@ class ContractCalibration(ContractModel):
 
 
 class ContractFrame(ContractModel):
-    """One TF frame; the pose is in ``parent``, absent for dynamic frames and for links that move with a joint."""
+    """One TF frame; a pose that the robot description holds stands there alone, so that it has one truth."""
 
     parent: str = Field(description="Parent frame; empty for the root.")
-    authority: str = Field(description="Who publishes the edge.")
+    authority: str = Field("robot_state_publisher", description="Who publishes the edge.")
     kind: Literal["world", "link", "mount", "fixed", "scene", "dynamic"] = Field(
-        description="Where the frame comes from."
+        "link", description="Where the frame comes from."
     )
-    pose: ContractPose | None = Field(description="Pose in the parent.")
-    calibration: str | None = Field(description="Calibration that measured it.")
-    rate_hz: float | None = Field(description="Rate of a dynamic frame.")
-    buffer_s: float | None = Field(description="History that consumers keep.")
+    moving: bool = Field(False, description="Published on /tf, not once on /tf_static.")
+    pose: ContractPose | None = Field(None, description="Pose in the parent of a frame that no URDF holds.")
+    calibration: str | None = Field(None, description="Calibration that measured it.")
+    rate_hz: float | None = Field(None, description="Rate of a dynamic frame.")
+    buffer_s: float | None = Field(None, description="History that consumers keep.")
     simulated_parent: str | None = Field(None, description="Frame in which the mock puts what a dynamic frame follows.")
     simulated_pose: ContractPose | None = Field(None, description="Pose there.")
 
@@ -55,12 +58,14 @@ class ContractQos(ContractModel):
 
     reliability: Literal["reliable", "best_effort"] = Field(description="Every sample, or what arrives.")
     durability: Literal["volatile", "transient_local"] = Field(description="Whether a late joiner gets history.")
-    history: Literal["keep_last", "keep_all"] = Field(description="What is queued.")
+    history: Literal["keep_last", "keep_all"] = Field("keep_last", description="What is queued.")
     depth: int = Field(description="Queue length of keep_last.")
-    deadline_s: float | None = Field(description="Longest time between samples.")
-    lifespan_s: float | None = Field(description="Age at which a sample is dropped.")
-    liveliness: Literal["automatic", "manual_by_topic"] = Field(description="Who asserts that the publisher lives.")
-    lease_duration_s: float | None = Field(description="Bound of the assertion.")
+    deadline_s: float | None = Field(None, description="Longest time between samples.")
+    lifespan_s: float | None = Field(None, description="Age at which a sample is dropped.")
+    liveliness: Literal["automatic", "manual_by_topic"] = Field(
+        "automatic", description="Who asserts that the publisher lives."
+    )
+    lease_duration_s: float | None = Field(None, description="Bound of the assertion.")
 
 
 class ContractEndpoint(ContractModel):
@@ -68,7 +73,9 @@ class ContractEndpoint(ContractModel):
 
     node: str = Field(description="Name of the node, controller or device, which no other end has.")
     full_name: str = Field(description="Fully qualified name of the node in the ROS graph.")
-    targets: tuple[Literal["mock", "real"], ...] = Field(description="Targets on which it stands there.")
+    targets: tuple[Literal["mock", "real"], ...] = Field(
+        ("mock", "real"), description="Targets on which it stands there."
+    )
     qos: ContractQos = Field(description="Its profile.")
 
 
@@ -79,19 +86,19 @@ class ContractInterface(ContractModel):
     type: str = Field(description="ROS type.")
     sources: tuple[ContractEndpoint, ...] = Field(description="Publishers, or the server.")
     sinks: tuple[ContractEndpoint, ...] = Field(description="Subscribers, or the clients.")
-    frame: str | None = Field(description="Frame of the payload.")
-    unit: str | None = Field(description="Unit of the payload.")
-    time_source: str | None = Field(description="Clock of the stamps.")
-    owner: str | None = Field(description="Who answers for it.")
-    wants: str | None = Field(description="What the consumer needs: newest or every_sample.")
-    rate_hz: float | None = Field(description="Publishing rate.")
-    max_age_s: float | None = Field(description="Oldest sample that may be used.")
-    transport_s: float | None = Field(description="Budget from publishing to use.")
-    on_stale: str | None = Field(description="What happens on an older sample.")
-    timeout_s: float | None = Field(description="Bound of a response or a whole goal.")
-    on_timeout: str | None = Field(description="What the client does then.")
-    on_error: str | None = Field(description="How an error is told.")
-    cancel_within_s: float | None = Field(description="Bound from cancel to hold.")
+    frame: str | None = Field(None, description="Frame of the payload.")
+    unit: str | None = Field(None, description="Unit of the payload.")
+    time_source: str | None = Field(None, description="Clock of the stamps.")
+    owner: str | None = Field(None, description="Who answers for it.")
+    wants: str | None = Field(None, description="What the consumer needs: newest or every_sample.")
+    rate_hz: float | None = Field(None, description="Publishing rate.")
+    max_age_s: float | None = Field(None, description="Oldest sample that may be used.")
+    transport_s: float | None = Field(None, description="Budget from publishing to use.")
+    on_stale: str | None = Field(None, description="What happens on an older sample.")
+    timeout_s: float | None = Field(None, description="Bound of a response or a whole goal.")
+    on_timeout: str | None = Field(None, description="What the client does then.")
+    on_error: str | None = Field(None, description="How an error is told.")
+    cancel_within_s: float | None = Field(None, description="Bound from cancel to hold.")
     simulated: ContractNetwork | None = Field(None, description="How the mock carries it; null for at once.")
 
 
@@ -101,19 +108,21 @@ class ContractController(ContractModel):
     plugin: str = Field(description="Type as the controller manager loads it.")
     behaviour: Behaviour = Field(description="What it does.")
     full_name: str = Field(description="Fully qualified name of its node.")
-    targets: tuple[Literal["mock", "real"], ...] = Field(description="Targets on which it is loaded.")
-    device: str | None = Field(description="Device whose joints it drives.")
+    targets: tuple[Literal["mock", "real"], ...] = Field(("mock", "real"), description="Targets on which it is loaded.")
+    device: str | None = Field(None, description="Device whose joints it drives.")
     joints: tuple[str, ...] = Field(description="Joints in the controller's order.")
     command_interfaces: tuple[str, ...] = Field(description="Interfaces it claims, as `joint/interface`.")
     state_interfaces: tuple[str, ...] = Field(description="Interfaces it reads, as `joint/interface`.")
     active: bool = Field(description="Active after start-up.")
-    client: str | None = Field(description="Name of the one node that may command it.")
-    action: str | None = Field(description="Full name of its action.")
-    action_type: str | None = Field(description="ROS type of its action.")
-    real_action: str | None = Field(description="Action that takes its goals where it is not loaded on real hardware.")
-    real_action_type: str | None = Field(description="ROS type of that action.")
+    client: str | None = Field(None, description="Name of the one node that may command it.")
+    action: str | None = Field(None, description="Full name of its action.")
+    action_type: str | None = Field(None, description="ROS type of its action.")
+    real_action: str | None = Field(
+        None, description="Action that takes its goals where it is not loaded on real hardware."
+    )
+    real_action_type: str | None = Field(None, description="ROS type of that action.")
     goal_time_s: float | None = Field(
-        description="Time allowed past the end of a trajectory; null or 0 for no limit. It bounds no whole goal."
+        None, description="Time allowed past the end of a trajectory; null or 0 for no limit. It bounds no whole goal."
     )
     on_violation: str = Field(description="What happens on a tolerance violation.")
 
@@ -140,7 +149,9 @@ class ContractGripper(ContractModel):
     """A gripper in its joint's units: rad or m."""
 
     joint: str = Field(description="Joint that is commanded.")
-    controller: str | None = Field(description="Controller that moves it; by full name where managers share names.")
+    controller: str | None = Field(
+        None, description="Controller that moves it; by full name where managers share names."
+    )
     open: float = Field(description="Position when open.")
     closed: float = Field(description="Position when closed on nothing.")
     max_effort: float = Field(description="Largest effort, N or Nm.")
@@ -161,7 +172,7 @@ class ContractDriver(ContractModel):
 
     node: str = Field(description="Full name of the node.")
     program: str = Field(description="Package and executable.")
-    joint_states: str | None = Field(description="Topic on which its program publishes joints, before remapping.")
+    joint_states: str | None = Field(None, description="Topic on which its program publishes joints, before remapping.")
 
 
 class ContractDevice(ContractModel):
@@ -172,18 +183,18 @@ class ContractDevice(ContractModel):
     prefix: str = Field(description="Put before its joint and link names.")
     root_link: str = Field(description="Link that is mounted.")
     architecture: str = Field(description="Who owns the command path.")
-    hardware_component: str | None = Field(description="Name of its ros2_control component.")
-    driver: ContractDriver | None = Field(description="What moves it where it has no component on real hardware.")
-    speed_scaling_interface: str | None = Field(description="State interface of its speed scaling.")
-    gripper: ContractGripper | None = Field(description="What a gripper adds.")
-    camera: ContractCamera | None = Field(description="What a camera adds.")
+    hardware_component: str | None = Field(None, description="Name of its ros2_control component.")
+    driver: ContractDriver | None = Field(None, description="What moves it where it has no component on real hardware.")
+    speed_scaling_interface: str | None = Field(None, description="State interface of its speed scaling.")
+    gripper: ContractGripper | None = Field(None, description="What a gripper adds.")
+    camera: ContractCamera | None = Field(None, description="What a camera adds.")
 
 
 class ContractJointLimits(ContractModel):
     """Limits of the cell for one joint; rad or m."""
 
-    lower: float | None = Field(description="Lower position; null without bound.")
-    upper: float | None = Field(description="Upper position; null without bound.")
+    lower: float | None = Field(None, description="Lower position; null without bound.")
+    upper: float | None = Field(None, description="Upper position; null without bound.")
     velocity: float = Field(description="Largest speed.")
     acceleration: float = Field(description="Largest acceleration.")
     jerk: float = Field(description="Largest jerk.")
@@ -213,18 +224,10 @@ class ContractGoal(ContractModel):
     group: str = Field(description="Group that moves.")
     frame: str = Field(description="Frame that the goal is given in.")
     pose: ContractPose = Field(description="Tip in that frame.")
-    approach: tuple[float, float, float] | None = Field(description="Offset of the pose before, in the tip's axes, m.")
-    transform_at: Literal["observation", "latest"] = Field(description="Stamp that transforms are looked up at.")
-
-
-class ContractDisabledCollision(ContractModel):
-    """Two links whose collision is not checked, as in the SRDF."""
-
-    first: str = Field(description="Link, the lesser name.")
-    second: str = Field(description="Link, the greater name.")
-    reason: Literal["adjacent", "never", "always"] = Field(
-        description="Neighbours, or in contact at none or all of the sampled configurations."
+    approach: tuple[float, float, float] | None = Field(
+        None, description="Offset of the pose before, in the tip's axes, m."
     )
+    transform_at: Literal["observation", "latest"] = Field(description="Stamp that transforms are looked up at.")
 
 
 class ContractSafety(ContractModel):
@@ -240,19 +243,19 @@ class ContractSafety(ContractModel):
 class ContractKpis(ContractModel):
     """Targets; null where none was set."""
 
-    plan_to_execute_s: float | None = Field(description="Longest time from plan to execution.")
-    cancel_s: float | None = Field(description="Longest time from cancel to hold.")
-    missed_cycles: int | None = Field(description="Missed cycles allowed in a run.")
-    stale_state_rejection: float | None = Field(description="Share of stale samples rejected, 0 to 1.")
-    protective_stops: int | None = Field(description="Protective stops allowed in a shift.")
-    recovery_time_s: float | None = Field(description="Longest time from stop to ready.")
-    wrong_owner_events: int | None = Field(description="Commands of a wrong owner allowed.")
+    plan_to_execute_s: float | None = Field(None, description="Longest time from plan to execution.")
+    cancel_s: float | None = Field(None, description="Longest time from cancel to hold.")
+    missed_cycles: int | None = Field(None, description="Missed cycles allowed in a run.")
+    stale_state_rejection: float | None = Field(None, description="Share of stale samples rejected, 0 to 1.")
+    protective_stops: int | None = Field(None, description="Protective stops allowed in a shift.")
+    recovery_time_s: float | None = Field(None, description="Longest time from stop to ready.")
+    wrong_owner_events: int | None = Field(None, description="Commands of a wrong owner allowed.")
 
 
 class Contract(ContractModel):
     """The whole contract of one cell."""
 
-    format: Literal[1] = Field(description="Version of this format.")
+    format: Literal[2] = Field(description="Version of this format.")
     cell: str = Field(description="Name of the cell and its package.")
     summary: str = Field(description="What the cell does.")
     configuration_id: str = Field(description="Id over calibrations, TF publishers and URDF.")
@@ -280,9 +283,6 @@ class Contract(ContractModel):
     groups: dict[str, ContractGroup] = Field(description="Planning groups by name.")
     poses: dict[str, tuple[ContractPoseTarget, ...]] = Field(description="Named poses.")
     goals: dict[str, ContractGoal] = Field(description="Cartesian goals by name.")
-    disabled_collisions: tuple[ContractDisabledCollision, ...] = Field(
-        description="Pairs of links whose collision is not checked, sorted by name."
-    )
     responsibilities: dict[str, str] = Field(description="Owner of each responsibility.")
     approvals: dict[str, str] = Field(description="Owner of each approval area.")
     safety: ContractSafety = Field(description="Safety boundary.")

@@ -57,13 +57,12 @@ class RehearsalEntry(ContractModel):
     steps: tuple[StepEntry, ...] = Field(description="Steps in order.")
     faults: tuple[FaultEntry, ...] = Field(description="Faults that are injected.")
     expect: AttemptOutcome = Field(description="Outcome that it must end in.")
-    within_s: float | None = Field(description="Bound from the fault's effect to the outcome.")
+    within_s: float | None = Field(None, description="Bound from the fault's effect to the outcome.")
     timeout_s: float = Field(description="Bound of the whole run in simulated time.")
 
 
 class Rehearsals(ContractModel):
     """All rehearsals of a cell."""
 
-    format: Literal[1] = Field(description="Version of this format.")
-    configuration_id: str = Field(description="Configuration that the names belong to.")
+    format: Literal[2] = Field(description="Version of this format.")
     rehearsals: tuple[RehearsalEntry, ...] = Field(description="Rehearsals in the order of the spec.")

@@ -97,7 +97,7 @@ def _model(cell: Cell, header: Header) -> Gate:
         ),
         evidence="G1-model.md",
         owner=cell.owners.responsibilities.frames,
-        stop=("a sign or scale that differs", f"a configuration id other than {header.configuration_id}"),
+        stop=("a sign or scale that differs", "another configuration id than that of `manifest.json`"),
     )
 
 

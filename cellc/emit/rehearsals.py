@@ -1,6 +1,6 @@
 """``rehearsals.json``: what the mock executes, and the outcome that each run must end in.
 
-Format 1, ``cellc.contract.rehearsals``: every name resolved, times in simulated seconds. Read by ``cellc.mock``. Left
+Format 2, ``cellc.contract.rehearsals``: every name resolved, times in simulated seconds. Read by ``cellc.mock``. Left
 out: ``use``; a rehearsal that takes another's steps carries its own copy.
 """
 
@@ -20,7 +20,7 @@ from cellc.graph.cell_graph import CellGraph
 def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
     """Yield the rehearsals."""
     entries = tuple(map(_rehearsal, graph.cell.rehearsals))
-    model = Rehearsals(format=1, configuration_id=header.configuration_id, rehearsals=entries)
+    model = Rehearsals(format=2, rehearsals=entries)
     yield Artifact(REHEARSALS, render(model))
 
 

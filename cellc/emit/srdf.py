@@ -1,8 +1,8 @@
 """``config/moveit/<cell>.srdf``: groups, end effectors, named poses, and links that may touch.
 
-SRDF as srdfdom reads it; move_group takes it as ``robot_description_semantic``. Pairs without a check are found by
-sampling, as MoveIt's Setup Assistant does, with its reasons. Left out: virtual joints, because the description is
-rooted in the world.
+SRDF as srdfdom reads it; move_group takes it as ``robot_description_semantic``, the mock takes its pairs. Pairs without
+a check are found by sampling, as MoveIt's Setup Assistant does, with its reasons. Left out: virtual joints, because the
+description is rooted in the world.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from xml.etree.ElementTree import Element
 from cellc.artifact import Artifact
 from cellc.cell.device import Device
 from cellc.cell.motion import NamedPose
-from cellc.deploy.files import plans, semantic_file
+from cellc.deploy.files import semantic_file
 from cellc.feasibility import MARGIN_M, RNG_SEED, disabled_links
 from cellc.formats.header import Header
 from cellc.formats.numbers import shortest
@@ -22,9 +22,9 @@ from cellc.graph.cell_graph import CellGraph
 
 
 def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
-    """Yield the semantic description of a cell that plans."""
+    """Yield the semantic description of a cell with planning groups."""
     cell = graph.cell
-    if plans(cell):
+    if cell.groups:
         root = element("robot", {"name": cell.name}, _parts(graph))
         yield Artifact(semantic_file(cell), render(root, header.text))
 

@@ -1,4 +1,4 @@
-"""JSON text for review: one item a line, except short lists of plain values, which stay on theirs."""
+"""JSON text for review: what fits into a line stands in one, everything else has one item a line."""
 
 from __future__ import annotations
 
@@ -15,25 +15,26 @@ Json = None | bool | int | float | str | Sequence["Json"] | Mapping[str, "Json"]
 
 
 def render(model: BaseModel) -> str:
-    """Write a model in the order of its fields; ends in a line break."""
-    return _value(model.model_dump(mode="json"), 0) + "\n"
+    """Write a model in the order of its fields, without those at their default; ends in a line break."""
+    return _value(model.model_dump(mode="json", exclude_defaults=True), "", 0) + "\n"
 
 
-def _value(value: Json, depth: int) -> str:
+def _value(value: Json, key: str, depth: int) -> str:
+    """Write a value behind its key, at the depth of the line that it begins on."""
     if isinstance(value, Mapping):
-        entries = [f"{_scalar(key)}: {_value(inner, depth + 1)}" for key, inner in value.items()]
-        return _block("{", entries, "}", depth)
+        entries = [_value(inner, f"{_scalar(name)}: ", depth + 1) for name, inner in value.items()]
+        return key + _enclosed("{", entries, "}", len(key), depth)
     if isinstance(value, Sequence) and not isinstance(value, str):
-        entries = [_value(inner, depth + 1) for inner in value]
-        line = f"[{', '.join(entries)}]"
-        plain = not any(isinstance(inner, (Mapping, list)) for inner in value)
-        return line if plain and len(line) + 2 * depth <= _WIDTH else _block("[", entries, "]", depth)
-    return _scalar(value)
+        entries = [_value(inner, "", depth + 1) for inner in value]
+        return key + _enclosed("[", entries, "]", len(key), depth)
+    return key + _scalar(value)
 
 
-def _block(start: str, entries: Sequence[str], end: str, depth: int) -> str:
-    if not entries:
-        return start + end
+def _enclosed(start: str, entries: Sequence[str], end: str, before: int, depth: int) -> str:
+    line = f"{start}{', '.join(entries)}{end}"
+    fits = "\n" not in line and 2 * depth + before + len(line) < _WIDTH  # with the comma behind it
+    if not entries or (fits and depth > 0):
+        return line
     inner = "  " * (depth + 1)
     return f"{start}\n{inner}" + f",\n{inner}".join(entries) + f"\n{'  ' * depth}{end}"
 

@@ -199,7 +199,10 @@ def cell_of(folder: GeneratedFolder) -> MockCell:
     Raises:
         MockError: its parts do not fit together.
     """
-    return MockCell(folder, PlanMemory(build_motion_model(folder.contract, folder.urdf, folder.description)))
+    return MockCell(
+        folder,
+        PlanMemory(build_motion_model(folder.contract, folder.urdf, folder.description, folder.allowed_collisions)),
+    )
 
 
 def run_all(cell: MockCell, *, seed: int = 0) -> tuple[RehearsalResult, ...]:

@@ -16,6 +16,7 @@ from cellc.contract.manifest import Manifest
 from cellc.contract.rehearsals import RehearsalEntry, Rehearsals
 from cellc.description.model import Description
 from cellc.description.urdf_reader import read_urdf
+from cellc.description.xml_tree import read_xml
 from cellc.mock.errors import MockError
 
 CONTRACT_FILE = "contract.json"
@@ -36,6 +37,7 @@ class GeneratedFolder:
     Attributes:
         urdf: text of the robot description that the mock executes.
         description: what it says.
+        allowed_collisions: pairs of links whose collision is not checked, from the SRDF.
         parameters: text of the parameter file of each controller manager, by manager.
         notes: what is odd but no reason to stop, such as a file edited by hand.
     """
@@ -44,6 +46,7 @@ class GeneratedFolder:
     rehearsals: tuple[RehearsalEntry, ...]
     urdf: str
     description: Description
+    allowed_collisions: tuple[tuple[str, str], ...]
     parameters: dict[str, str]
     notes: tuple[str, ...]
 
@@ -72,8 +75,9 @@ def read_folder(folder: Path) -> GeneratedFolder:
         rehearsals=rehearsals.rehearsals,
         urdf=urdf,
         description=_described(urdf, contract.files.urdf_mock),
+        allowed_collisions=tuple(_allowed_collisions(folder, contract.files.srdf)),
         parameters={name: _read_text(folder, path) for name, path in contract.files.parameters.items()},
-        notes=tuple(_notes(folder, contract, rehearsals, manifest)),
+        notes=tuple(_notes(folder, contract, manifest)),
     )
 
 
@@ -83,6 +87,21 @@ def _described(urdf: str, file: str) -> Description:
         found = read.diagnostics[0]
         raise MockError(file, f"line {found.span.line}: {found.message}")
     return read.value
+
+
+def _allowed_collisions(folder: Path, file: str | None) -> Iterator[tuple[str, str]]:
+    """Read the pairs of links that the SRDF excuses from the collision check; a cell without groups has none."""
+    if file is None:
+        return
+    read = read_xml(_read_text(folder, file), file)
+    if read.value is None:
+        found = read.diagnostics[0]
+        raise MockError(file, f"line {found.span.line}: {found.message}")
+    for pair in read.value.all("disable_collisions"):
+        first, second = (pair.attributes.get(name) for name in ("link1", "link2"))
+        if first is None or second is None:
+            raise MockError(file, f"line {pair.span.line}: expected `link1` and `link2`")
+        yield first, second
 
 
 def _check_rehearsals(file: str, rehearsals: Rehearsals) -> None:
@@ -137,10 +156,9 @@ def _inside(folder: Path, name: str) -> Path:
     return folder.joinpath(*relative.parts)
 
 
-def _notes(folder: Path, contract: Contract, rehearsals: Rehearsals, manifest: Manifest) -> Iterator[str]:
-    for name, identity in ((contract.files.rehearsals, rehearsals), (MANIFEST_FILE, manifest)):
-        if identity.configuration_id != contract.configuration_id:
-            yield f"`{name}` is of configuration `{identity.configuration_id}`, not `{contract.configuration_id}`"
+def _notes(folder: Path, contract: Contract, manifest: Manifest) -> Iterator[str]:
+    if manifest.configuration_id != contract.configuration_id:
+        yield f"`{MANIFEST_FILE}` is of configuration `{manifest.configuration_id}`, not `{contract.configuration_id}`"
     for name, expected in sorted(manifest.files.items()):
         path = _inside(folder, name)
         if not path.is_file():

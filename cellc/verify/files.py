@@ -90,11 +90,11 @@ def _check_schema(path: str, data: object) -> Iterator[Disagreement]:
 
 
 def _check_configuration(read: Mapping[str, Any]) -> Iterator[Disagreement]:
-    named = {path: data.get("configuration_id") for path, data in read.items() if isinstance(data, dict)}
-    for path in _MODELS:
-        if path in named and "contract.json" in named and named[path] != named["contract.json"]:
-            reason = f"names configuration {named[path]}, the contract {named['contract.json']}"
-            yield Disagreement("verify-json", path, reason)
+    contract, manifest = read.get("contract.json"), read.get("manifest.json")
+    if isinstance(contract, dict) and isinstance(manifest, dict):
+        ours, theirs = manifest.get("configuration_id"), contract.get("configuration_id")
+        if ours != theirs:
+            yield Disagreement("verify-json", "manifest.json", f"names configuration {ours}, the contract {theirs}")
 
 
 def _check_files(read: Mapping[str, Any], made: set[str]) -> Iterator[Disagreement]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import re
 import subprocess
@@ -14,6 +13,7 @@ import pytest
 from tests.consumers.launch_interpreter import Command
 from tests.consumers.matrix import HERE, build, every_build
 from tests.consumers.starting import activated, bring_ups, commands, moves, written, written_managers
+from tests.emit.cells import contract_data
 from tests.foreign_yaml import safe_load
 
 _FILE = "launch/bring_up.bash"
@@ -41,7 +41,7 @@ def test_script_is_bash_and_launching_starts_every_step(cell: str, distro: str) 
 @every_build
 def test_conditions_name_what_the_cell_has(cell: str, distro: str) -> None:
     texts = build(cell, distro).texts
-    contract = json.loads(texts["contract.json"])
+    contract = contract_data(texts["contract.json"])
     frames = set(safe_load(texts["config/frames.yaml"])["frames"])
     controllers = {
         (f"{manager['namespace']}/controller_manager", one["full_name"].rpartition("/")[2])

@@ -90,7 +90,7 @@ _CHECKS: tuple[Callable[[str, str], None], ...] = (
     test_agreement.test_named_states_are_the_poses_of_the_spec,
     test_environment.test_profiles_reach_the_cards_for_ros_and_no_other,
     test_environment.test_fast_dds_uses_the_transports_that_it_describes,
-    test_agreement.test_collision_pairs_of_contract_and_semantic_description_are_the_same,
+    test_agreement.test_mock_reads_the_collision_pairs_of_the_semantic_description,
     test_moveit.test_move_group_gets_both_descriptions,
     test_moveit.test_values_are_within_what_their_readers_can_use,
     test_launch.test_plugins_are_of_packages_that_the_manifest_names,

@@ -9,6 +9,7 @@ from typing import Any
 from tests.cells import ROOT
 from tests.consumers.matrix import build, every_build, spec_for
 from tests.consumers.starting import node_name, processes, written
+from tests.emit.cells import contract_data
 from tests.foreign_yaml import safe_load
 
 _OF_CELL = ("os", "kernel", "ros", "rmw", "ros2_control", "moveit")
@@ -45,7 +46,7 @@ def test_manifest_has_the_version_tuple_of_the_spec(cell: str, distro: str) -> N
     manifest = json.loads(build(cell, distro).texts["manifest.json"])
     assert manifest["version_tuple"] == {name: str(value) for name, value in _tuple(cell, distro).items()}
     assert manifest["cell"] == cell
-    contract = json.loads(build(cell, distro).texts["contract.json"])
+    contract = contract_data(build(cell, distro).texts["contract.json"])
     assert manifest["configuration_id"] == contract["configuration_id"]
 
 
@@ -66,7 +67,7 @@ def test_audit_asks_for_every_unknown_and_judges_every_pin(cell: str, distro: st
 @every_build
 def test_audit_expects_the_interfaces_of_the_contract(cell: str, distro: str) -> None:
     found = tables(cell, distro)
-    promised = json.loads(build(cell, distro).texts["contract.json"])["interfaces"]
+    promised = contract_data(build(cell, distro).texts["contract.json"])["interfaces"]
     rows = [row for kind in ("topics", "services", "actions") for row in found[f"Expected {kind}"]]
     assert [row[0].strip("`") for row in rows if "`" in row[0]] == [
         name for kind in ("topic", "service", "action") for name, one in promised.items() if one["kind"] == kind
@@ -86,7 +87,7 @@ def test_audit_expects_the_interfaces_of_the_contract(cell: str, distro: str) ->
 
 @every_build
 def test_audit_names_one_owner_for_each_command_interface(cell: str, distro: str) -> None:
-    promised = json.loads(build(cell, distro).texts["contract.json"])["managers"].values()
+    promised = contract_data(build(cell, distro).texts["contract.json"])["managers"].values()
     claims = [
         (name, controller, one["active"])
         for manager in promised
@@ -128,7 +129,7 @@ def test_people_of_the_spec_answer_for_what_it_says(cell: str, distro: str) -> N
 def test_audit_expects_the_nodes_that_are_launched_with_what_they_are_told(cell: str, distro: str) -> None:
     rows = {row[0].strip("`"): row for row in tables(cell, distro)["Expected nodes"]}
     started = {node_name(one): one for one in processes(cell, distro, "real") if one.executable != "spawner"}
-    contract = json.loads(build(cell, distro).texts["contract.json"])
+    contract = contract_data(build(cell, distro).texts["contract.json"])
     plugins = {
         one["full_name"]: one["plugin"]
         for manager in contract["managers"].values()

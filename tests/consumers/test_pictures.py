@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from itertools import pairwise
 from typing import Any
@@ -11,6 +10,7 @@ from xml.etree.ElementTree import Element, fromstring
 import pytest
 
 from tests.consumers.matrix import build, every_build
+from tests.emit.cells import contract_data
 
 SHEET = "responsibility.svg"
 _SPACE = "{http://www.w3.org/2000/svg}"
@@ -20,7 +20,7 @@ _DRAWN = {"svg", "defs", "marker", "path", "rect", "text", "line"}
 
 def contract(cell: str, distro: str) -> Any:
     """Return the contract as plain data."""
-    return json.loads(build(cell, distro).texts["contract.json"])
+    return contract_data(build(cell, distro).texts["contract.json"])
 
 
 def sheet(cell: str, distro: str) -> Element:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import json
 import re
 import subprocess
 
 from tests.consumers.matrix import build, every_build
+from tests.emit.cells import contract_data
 from tests.foreign_yaml import safe_load
 
 _ORDER = ["G0", "G1", "G2", "G3", *(f"L{number}" for number in range(1, 7)), "G4", "G5", "G6", "G7"]
@@ -101,7 +101,7 @@ def test_blocks_are_what_a_shell_takes(cell: str, distro: str) -> None:
 @every_build
 def test_commands_name_what_the_cell_has(cell: str, distro: str) -> None:
     artifacts = build(cell, distro).texts
-    contract = json.loads(artifacts["contract.json"])
+    contract = contract_data(artifacts["contract.json"])
     kinds = {name: one["kind"] for name, one in contract["interfaces"].items()}
     managers = {f"{one['namespace']}/controller_manager" for one in contract["managers"].values()}
     frames = set(safe_load(artifacts["config/frames.yaml"])["frames"])

@@ -5,7 +5,9 @@ from __future__ import annotations
 import tempfile
 from functools import cache
 from pathlib import Path
+from typing import Any
 
+from cellc.contract.contract import Contract
 from cellc.emit.emit_all import emit_all
 from cellc.graph.cell_graph import CellGraph
 from tests.cells import graph_of, spec_text, written
@@ -30,3 +32,8 @@ def artifacts_of(cell: str, distro: str = "jazzy") -> dict[str, str]:
     """Return the artifacts of a cell of the repository, for any distribution."""
     with tempfile.TemporaryDirectory() as folder:
         return emitted(Path(folder), spec_text(cell).replace("ros: jazzy", f"ros: {distro}"))
+
+
+def contract_data(text: str) -> Any:
+    """Return a contract as plain data, with what is left out of the file at the default that the schema states."""
+    return Contract.model_validate_json(text).model_dump(mode="json")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
 import pytest
@@ -10,7 +9,7 @@ import pytest
 from cellc.emit.audit.tables import table
 from tests.cells import spec_text
 from tests.cli.run import MINIMAL, PICK, run
-from tests.emit.cells import CELLS, artifacts_of, emitted
+from tests.emit.cells import CELLS, artifacts_of, contract_data, emitted
 
 
 def section(text: str, title: str) -> list[list[str]]:
@@ -85,7 +84,7 @@ def test_command_path_states_what_the_chapter_asks_for() -> None:
 def test_audit_expects_the_interfaces_of_the_contract(cell: str) -> None:
     artifacts = artifacts_of(cell)
     kinds = {"topic": "Expected topics", "service": "Expected services", "action": "Expected actions"}
-    for name, interface in json.loads(artifacts["contract.json"])["interfaces"].items():
+    for name, interface in contract_data(artifacts["contract.json"])["interfaces"].items():
         assert f"`{name}`" in [row[0] for row in section(artifacts["audit.md"], kinds[interface["kind"]])]
 
 

@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-import json
-
 import pytest
 
 from cellc.mock import control
 from cellc.vocabulary import Distro
 from tests.cells import DISTROS
-from tests.emit.cells import CELLS, artifacts_of
+from tests.emit.cells import CELLS, artifacts_of, contract_data
 
 
 @pytest.mark.parametrize("distro", DISTROS)
 @pytest.mark.parametrize("cell", CELLS)
 def test_every_controller_becomes_active(cell: str, distro: str) -> None:
     artifacts = artifacts_of(cell, distro)
-    contract = json.loads(artifacts["contract.json"])
+    contract = contract_data(artifacts["contract.json"])
     (manager,) = contract["managers"].values()
     machine = control.ControllerManager(
         artifacts[contract["files"]["urdf_mock"]],

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from functools import lru_cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -15,7 +14,7 @@ from cellc.catalog.load import load_device
 from cellc.mock.control import ControllerManager, DeclaredInterfaces
 from cellc.vocabulary import Distro
 from tests.cells import diagnose, spec_text
-from tests.emit.cells import emitted
+from tests.emit.cells import contract_data, emitted
 from tests.foreign_yaml import safe_load
 from tests.oracles import UPSTREAM, needs_upstream
 
@@ -38,7 +37,7 @@ def _artifacts(cell: str) -> dict[str, str]:
 
 
 def _controllers(cell: str) -> dict[str, Any]:
-    (manager,) = json.loads(_artifacts(cell)["contract.json"])["managers"].values()
+    (manager,) = contract_data(_artifacts(cell)["contract.json"])["managers"].values()
     controllers: dict[str, Any] = manager["controllers"]
     return controllers
 
@@ -118,7 +117,7 @@ def test_second_claimant_of_a_service_is_reported(tmp_path: Path) -> None:
 
 
 def test_topics_and_services_are_promised_and_permitted() -> None:
-    interfaces = json.loads(_artifacts("ur5e_pick")["contract.json"])["interfaces"]
+    interfaces = contract_data(_artifacts("ur5e_pick")["contract.json"])["interfaces"]
     assert interfaces["/scaling/speed_scaling"]["type"] == "std_msgs/msg/Float64"
     asked = interfaces["/activation/reactivate_gripper"]
     assert [end["full_name"] for end in asked["sinks"]] == ["/task"]
@@ -141,7 +140,7 @@ def test_mock_runs_a_broadcaster_on_what_it_reads_and_refuses_what_it_has_not() 
         artifacts["urdf/ur5e_pick.mock.urdf"],
         artifacts["config/controllers.yaml"],
         distro=Distro.JAZZY,
-        plugin_behaviours=json.loads(artifacts["contract.json"])["plugin_behaviours"],
+        plugin_behaviours=contract_data(artifacts["contract.json"])["plugin_behaviours"],
         declared={
             name: DeclaredInterfaces(tuple(one["command_interfaces"]), tuple(one["state_interfaces"]))
             for name, one in controllers.items()

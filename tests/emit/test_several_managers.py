@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from functools import lru_cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from xml.etree import ElementTree
 
-from tests.emit.cells import emitted
+from tests.emit.cells import contract_data, emitted
 from tests.foreign_yaml import safe_load
 
 SPEC = """
@@ -75,14 +74,14 @@ def test_joint_states_of_both_meet_on_one_topic_without_a_merger() -> None:
     # joint_state_publisher would give old states a new stamp, and zero to joints that it has not heard of.
     assert not _nodes("joint_state_publisher")
     assert "joint_state_publisher" not in _artifacts()["package.xml"]
-    interfaces = json.loads(_artifacts()["contract.json"])["interfaces"]
+    interfaces = contract_data(_artifacts()["contract.json"])["interfaces"]
     ends = {name: [end["full_name"] for end in interfaces[name]["sources"]] for name in interfaces}
     assert ends["/joint_states"] == ["/left/joint_states", "/right/joint_states"]
     assert "/left/joint_states" not in interfaces
 
 
 def test_descriptions_are_of_each_manager() -> None:
-    interfaces = json.loads(_artifacts()["contract.json"])["interfaces"]
+    interfaces = contract_data(_artifacts()["contract.json"])["interfaces"]
     for side in ("left", "right"):
         said = interfaces[f"/{side}/robot_description"]
         assert [end["full_name"] for end in said["sources"]] == [f"/{side}/description_publisher"]

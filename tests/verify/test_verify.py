@@ -58,7 +58,8 @@ FAULTS = [
     ({"contract.json": ('"root_frame": "world",', '"root_frame": "world", "x": 1,')}, "verify-json", "contract.json"),
     ({"contract.json": (r'"update_rate_hz": [\d.]+', '"update_rate_hz": NaN')}, "verify-json", "contract.json"),
     ({"contract.json": (MOCK, "urdf/none.urdf")}, "verify-json", "contract.json"),
-    ({"rehearsals.json": ('"cfg-', '"cfg-0')}, "verify-json", "rehearsals.json"),
+    ({"manifest.json": ('"cfg-', '"cfg-0')}, "verify-json", "manifest.json"),
+    ({"rehearsals.json": ('"format": 2', '"format": 1')}, "verify-json", "rehearsals.json"),
     ({"manifest.json": ('"format": 1', '"format": 2')}, "verify-json", "manifest.json"),
 ]  # fmt: skip
 

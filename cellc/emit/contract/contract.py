@@ -1,8 +1,8 @@
 """``contract.json``: what the cell's artifacts promise, for the mock, for tools and for people.
 
-Format 1, ``cellc.contract.contract``: full ROS names, SI and radians, every default resolved. Read by ``cellc.mock``,
-which knows nothing of the spec. Left out: whatever stands in the URDF and in the controllers' parameters, because the
-mock reads those as ros2_control would; and costs of planning, which are the planner's own.
+Format 2, ``cellc.contract.contract``: full ROS names, SI and radians, every default resolved. Read by ``cellc.mock``,
+which knows nothing of the spec. Left out: whatever stands in the URDF, poses most of all, in the controllers'
+parameters and in the SRDF, because the mock reads those; and costs of planning, which are the planner's own.
 """
 
 from __future__ import annotations
@@ -25,12 +25,11 @@ from cellc.contract.contract import (
 )
 from cellc.contract.network import ContractNetwork
 from cellc.deploy.configuration import version_tuple
-from cellc.deploy.files import REHEARSALS, controllers_file, description_file
+from cellc.deploy.files import REHEARSALS, controllers_file, description_file, semantic_file
 from cellc.emit.contract.clocks import clock_of, clocks
 from cellc.emit.contract.devices import adapters, devices, simulated_joints
 from cellc.emit.contract.motion import (
     calibrations,
-    disabled_collisions,
     frames,
     goals,
     groups,
@@ -51,7 +50,7 @@ def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
 def _contract(graph: CellGraph, configuration_id: str) -> Contract:
     cell = graph.cell
     return Contract(
-        format=1,
+        format=2,
         cell=cell.name,
         summary=cell.summary,
         configuration_id=configuration_id,
@@ -73,7 +72,6 @@ def _contract(graph: CellGraph, configuration_id: str) -> Contract:
         groups=groups(cell),
         poses=poses(cell),
         goals=goals(cell),
-        disabled_collisions=disabled_collisions(graph),
         responsibilities=dict(cell.owners.responsibilities.items()),
         approvals=dict(cell.owners.approvals.items()),
         safety=_safety(cell),
@@ -87,6 +85,7 @@ def _files(cell: Cell) -> ContractFiles:
         urdf_mock=description_file(cell, "mock"),
         urdf_real=description_file(cell, "real"),
         parameters={manager.name: controllers_file(cell, manager) for manager in cell.managers},
+        srdf=semantic_file(cell) if cell.groups else None,
         rehearsals=REHEARSALS,
     )
 

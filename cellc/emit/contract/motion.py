@@ -10,7 +10,6 @@ from cellc.contract.base import ContractPose
 from cellc.contract.contract import (
     ContractCalibration,
     ContractController,
-    ContractDisabledCollision,
     ContractFrame,
     ContractGoal,
     ContractGroup,
@@ -19,10 +18,9 @@ from cellc.contract.contract import (
     ContractPoseTarget,
     ContractSwitch,
 )
-from cellc.feasibility import disabled_links
 from cellc.formats.numbers import settled
+from cellc.formats.urdf.robot import described_frames
 from cellc.graph.adapters import adapter_of_group
-from cellc.graph.cell_graph import CellGraph
 from cellc.transforms import Pose
 
 
@@ -35,17 +33,19 @@ def calibrations(cell: Cell) -> dict[str, ContractCalibration]:
 
 
 def frames(cell: Cell) -> dict[str, ContractFrame]:
-    """Return every frame by name."""
-    return {frame.name: _frame(frame) for frame in cell.frames}
+    """Return every frame by name; the pose of one in the robot description is left to that."""
+    described = described_frames(cell)
+    return {frame.name: _frame(frame, frame.name in described) for frame in cell.frames}
 
 
-def _frame(frame: Frame) -> ContractFrame:
-    pose = None if frame.moving else frame.transform_to_parent
+def _frame(frame: Frame, described: bool) -> ContractFrame:
+    pose = None if described else frame.transform_to_parent
     simulated = frame.simulated_pose
     return ContractFrame(
         parent=frame.parent,
         authority=frame.authority,
         kind=frame.kind.value,
+        moving=frame.moving or frame.transform_to_parent is None,
         pose=None if pose is None else contract_pose(pose),
         calibration=frame.calibration,
         rate_hz=frame.rate_hz,
@@ -74,15 +74,6 @@ def poses(cell: Cell) -> dict[str, tuple[ContractPoseTarget, ...]]:
 def goals(cell: Cell) -> dict[str, ContractGoal]:
     """Return every Cartesian goal."""
     return {goal.name: _goal(goal) for goal in cell.goals}
-
-
-def disabled_collisions(graph: CellGraph) -> tuple[ContractDisabledCollision, ...]:
-    """Return the pairs that the SRDF lists too; none where there is no group to plan for."""
-    pairs = disabled_links(graph).pairs if graph.cell.groups else ()
-    return tuple(
-        ContractDisabledCollision.model_validate({"first": pair.first, "second": pair.second, "reason": pair.reason})
-        for pair in pairs
-    )
 
 
 def _group(cell: Cell, group: PlanningGroup) -> ContractGroup:

@@ -37,19 +37,36 @@ def manager_description(cell: Cell, target: str, devices: tuple[str, ...]) -> El
     return element("robot", {"name": cell.name}, _parts(cell, target, devices))
 
 
-def _parts(cell: Cell, target: str, devices: tuple[str, ...]) -> Iterator[Element]:
+def described_frames(cell: Cell) -> frozenset[str]:
+    """Return the frames that the description holds: the world, links, mounts, fixed frames and the scene."""
+    links = (link.name for device in cell.devices for link in device.description.links)
+    fixed = (frame.name for frame in _fixed_frames(cell))
+    return frozenset((WORLD, *links, *fixed, *(box.name for box in _standing(cell))))
+
+
+def _fixed_frames(cell: Cell) -> Iterator[Frame]:
     apart = _off_the_tree(cell)
+    for frame in cell.frames:
+        if frame.kind is FrameKind.FIXED and frame.authority == ROBOT_STATE_PUBLISHER and frame.name not in apart:
+            yield frame
+
+
+def _standing(cell: Cell) -> Iterator[SceneBox]:
+    apart = _off_the_tree(cell)
+    return (box for box in cell.scene if box.parent not in apart)
+
+
+def _parts(cell: Cell, target: str, devices: tuple[str, ...]) -> Iterator[Element]:
     yield frame_link(WORLD)
     for device in cell.devices:
         yield comment(f"devices.{device.name}: {device.model}")
         yield from _device(device)
-    for frame in cell.frames:
-        if frame.kind is FrameKind.FIXED and frame.authority == ROBOT_STATE_PUBLISHER and frame.name not in apart:
-            yield comment(f"frames.{frame.name}{_calibration(cell, frame)}")
-            yield frame_link(frame.name)
-            yield _held(frame.name, frame)
+    for frame in _fixed_frames(cell):
+        yield comment(f"frames.{frame.name}{_calibration(cell, frame)}")
+        yield frame_link(frame.name)
+        yield _held(frame.name, frame)
     yield from scene_materials(cell.scene)
-    for box in (box for box in cell.scene if box.parent not in apart):
+    for box in _standing(cell):
         yield comment(f"scene.{box.name}: {box.kind}")
         yield scene_link(box)
         yield _held(box.name, box)

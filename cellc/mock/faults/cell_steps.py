@@ -138,4 +138,4 @@ def published_frames(contract: Contract) -> tuple[str, ...]:
 
 
 def _moves(contract: Contract, frame: str) -> bool:
-    return contract.frames[frame].kind == "link" and contract.frames[frame].pose is None
+    return contract.frames[frame].kind == "link" and contract.frames[frame].moving

@@ -76,7 +76,7 @@ def _delays(evidence: GateEvidence, fault: FaultEntry, name: str, interface: Con
         return True
     if fault.kind == "drop_frame":
         frame = contract.frames.get(fault.target)
-        return frame is not None and name == ("/tf" if frame.pose is None else "/tf_static") and interface.type == _TF
+        return frame is not None and name == ("/tf" if frame.moving else "/tf_static") and interface.type == _TF
     device = contract.devices.get(fault.target)
     if device is None:
         return False

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from cellc.contract.contract import Contract, ContractGroup, ContractJointLimits
@@ -40,12 +40,13 @@ class MotionModel:
     links: LinkTree
 
 
-def build_motion_model(contract: Contract, urdf: str, description: Description) -> MotionModel:
+def build_motion_model(
+    contract: Contract, urdf: str, description: Description, allowed_collisions: Sequence[tuple[str, str]]
+) -> MotionModel:
     """Build the planners of all groups; raise MockError where the URDF and the contract do not fit together."""
     try:
         robot = RobotModel.from_urdf(urdf, description=description)
-        disabled = [(pair.first, pair.second) for pair in contract.disabled_collisions]
-        scene = CollisionScene(robot, disabled_collisions=disabled)
+        scene = CollisionScene(robot, disabled_collisions=allowed_collisions)
     except ModelError as error:
         raise MockError(contract.files.urdf_mock, str(error)) from None
     groups = {name: _group_model(name, group, contract, robot, scene) for name, group in contract.groups.items()}

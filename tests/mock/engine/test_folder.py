@@ -118,8 +118,8 @@ def test_edit_by_hand_is_a_note(folder: Path) -> None:
     )
 
 
-def test_rehearsals_of_another_configuration_are_a_note(folder: Path) -> None:
-    path = folder / "rehearsals.json"
+def test_manifest_of_another_configuration_is_a_note(folder: Path) -> None:
+    path = folder / "manifest.json"
     path.write_text(json.dumps(json.loads(path.read_text()) | {"configuration_id": "cfg-other"}))
     assert any("is of configuration `cfg-other`" in note for note in load(folder).notes)
 
