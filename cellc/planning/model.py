@@ -27,6 +27,7 @@ PinData = Any
 PinGeometry = Any
 PinTransform = Any
 PinShape = Any
+PinManager = Any
 
 
 @dataclass(frozen=True, slots=True, eq=False)

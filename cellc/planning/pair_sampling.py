@@ -13,7 +13,7 @@ import pinocchio
 
 from cellc.planning.model import RobotModel
 from cellc.planning.problem import Array
-from cellc.planning.scene import LinkPair, shape_links
+from cellc.planning.scene import LinkPair, broad_phase, shape_links
 
 
 def draw_configurations(model: RobotModel, *, samples: int, rng_seed: int) -> Array:
@@ -83,10 +83,7 @@ class PairCheck:
         self._geometry_data = self._geometry.createData()
         for request in self._geometry_data.collisionRequests:
             request.security_margin = margin_m
-        # A tree of bounding boxes: without it the time grows with the square of the number of shapes.
-        self._manager = pinocchio.BroadPhaseManager_DynamicAABBTreeCollisionManager(
-            self._model, self._geometry, self._geometry_data
-        )
+        self._manager = broad_phase(model, self._geometry, self._geometry_data)
         self._active: dict[LinkPair, list[int]] = {pair: [] for pair in wanted}
         for index, pair in enumerate(self._links):
             self._active[pair].append(index)

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 import pinocchio
 
-from cellc.planning.model import PinGeometry, PinShape, RobotModel, from_pose
+from cellc.planning.model import PinData, PinGeometry, PinManager, PinShape, RobotModel, from_pose
 from cellc.planning.problem import Array, ModelError
 from cellc.transforms import Pose, Vector3
 
@@ -55,13 +55,7 @@ class CollisionScene:
         self._geometry.setCollisionPairs(movable_pairs(self._geometry, self._names, self.disabled_collisions))
         self._data = model.kinematics.createData()
         self._geometry_data = self._geometry.createData()
-        # Bounding boxes leave only neighbours to be compared shape by shape.
-        manager = (
-            pinocchio.BroadPhaseManager_NaiveCollisionManager
-            if len(self._names) <= _FEW_SHAPES
-            else pinocchio.BroadPhaseManager_DynamicAABBTreeCollisionManager
-        )
-        self._boxes_around = manager(model.kinematics, self._geometry, self._geometry_data)
+        self._boxes_around = broad_phase(model, self._geometry, self._geometry_data)
         self._rest = model.configuration(self.other_positions)
 
     def attach(self, name: str, link: str, size: Vector3, pose_in_link: Pose) -> CollisionScene:
@@ -170,6 +164,17 @@ class Box:
     link: str
     size: Vector3
     pose_in_link: Pose
+
+
+def broad_phase(model: RobotModel, geometry: PinGeometry, geometry_data: PinData) -> PinManager:
+    """Return bounding boxes round all shapes: they leave only neighbours to be compared shape by shape."""
+    few = len(geometry.geometryObjects) <= _FEW_SHAPES
+    manager = (
+        pinocchio.BroadPhaseManager_NaiveCollisionManager
+        if few
+        else pinocchio.BroadPhaseManager_DynamicAABBTreeCollisionManager
+    )
+    return manager(model.kinematics, geometry, geometry_data)
 
 
 def with_boxes(model: RobotModel, boxes: Sequence[Box]) -> tuple[list[str], PinGeometry]:
