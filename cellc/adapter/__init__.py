@@ -4,13 +4,19 @@ Nothing here needs ROS, the compiler or the mock. `cellc.adapter.conformance` ha
 passes, the mock's and yours; `TrajectoryFollower` turns trajectories into the bounded commands that an adapter takes.
 """
 
-from cellc.adapter.bounds import check_command
-from cellc.adapter.device import DeviceAdapter
-from cellc.adapter.follow import FollowerResult, FollowerStatus, TrajectoryFollower
-from cellc.adapter.messages import DeviceState, JointCommand, Refusal, RefusalReason
-from cellc.adapter.model import AdapterModel, JointModel, Unit
-from cellc.adapter.phase import Phase
-from cellc.adapter.trajectory import Trajectory, Waypoint
+from cellc.adapter.device import (
+    AdapterModel,
+    DeviceAdapter,
+    DeviceState,
+    JointCommand,
+    JointModel,
+    Phase,
+    Refusal,
+    RefusalReason,
+    Unit,
+    check_command,
+)
+from cellc.adapter.follow import FollowerResult, FollowerStatus, Trajectory, TrajectoryFollower, Waypoint
 
 __all__ = [
     "AdapterModel",

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from dataclasses import dataclass
 
-from cellc.mock.engine.process import Signal
-from cellc.mock.engine.queue import Action
+from cellc.mock.engine.process import Action, Signal
 from cellc.transforms import Vector3
 
 

@@ -10,10 +10,8 @@ A rig makes fresh adapters and lets time pass. The checks move the first joint b
 its greatest speed: on real hardware with the area clear, the observer at the stop, and reduced limits.
 """
 
-from cellc.adapter.conformance.case import ConformanceCase, Rig
-from cellc.adapter.conformance.commands import COMMAND_CASES
-from cellc.adapter.conformance.lifecycle import LIFECYCLE_CASES
-from cellc.adapter.conformance.watchdog import WATCHDOG_CASES
+from cellc.adapter.conformance.commands import COMMAND_CASES, WATCHDOG_CASES
+from cellc.adapter.conformance.lifecycle import LIFECYCLE_CASES, ConformanceCase, Rig
 
 CASES: tuple[ConformanceCase, ...] = (*LIFECYCLE_CASES, *COMMAND_CASES, *WATCHDOG_CASES)
 

@@ -1,8 +1,9 @@
-"""The mock's implementation of a device adapter: joints that follow their commands, and stop when nobody commands."""
+"""A simulated device behind an adapter, and its faults, asked for as those of ros2_control's hardware are."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
@@ -182,3 +183,40 @@ class SimulatedAdapter:
         share = elapsed_s / period_s
         positions = tuple(a + (b - a) * share for a, b in zip(self._from, self._to, strict=True))
         return positions, tuple((b - a) / period_s for a, b in zip(self._from, self._to, strict=True))
+
+
+class AdapterDisturbances:
+    """Switches faults of one device on and off; its component is the device itself."""
+
+    def __init__(self, adapter: SimulatedAdapter) -> None:
+        """Bind the healthy device."""
+        self._adapter = adapter
+
+    def stick(self, joint: str) -> None:
+        """Let a joint stand still whatever is commanded."""
+        self._adapter.disturb(joint, replace(self._fault(joint), stuck=True))
+
+    def slow(self, joint: str, max_velocity: float) -> None:
+        """Let a joint not exceed a velocity (rad/s or m/s)."""
+        self._adapter.disturb(joint, replace(self._fault(joint), max_velocity=max_velocity))
+
+    def offset(self, joint: str, offset: float) -> None:
+        """Let a joint stand beside its command by a constant (rad or m)."""
+        self._adapter.disturb(joint, replace(self._fault(joint), offset=offset))
+
+    def clear(self, joint: str) -> None:
+        """Let a joint be healthy again."""
+        self._adapter.disturb(joint, JointFault())
+
+    def protective_stop(self, component: str) -> None:
+        """Let the safety of the device stop it."""
+        self._adapter.trip(f"safety stop of {component}")
+
+    def recover(self, component: str) -> None:
+        """Leave a stop whose reason is over, and take commands again; the joints stay where they stand."""
+        self._adapter.release()
+        self._adapter.acknowledge()
+        self._adapter.activate()
+
+    def _fault(self, joint: str) -> JointFault:
+        return self._adapter.joint_faults.get(joint, JointFault())

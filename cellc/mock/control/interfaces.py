@@ -1,9 +1,10 @@
-"""Every command and state interface of the manager, as two flat arrays with names and owners."""
+"""Command and state interfaces in two arrays, and blocks of update cycles over them."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
@@ -88,3 +89,27 @@ class InterfaceTable:
     def data_type(self, name: str) -> str:
         """The declared data type of an interface."""
         return self._types[name]
+
+
+@dataclass(slots=True)
+class Block:
+    """Update cycles of a block; row i belongs to the cycle at `times_ns[i]`.
+
+    Attributes:
+        times_ns: times of the cycles, evenly spaced.
+        period_ns: time between two cycles.
+        command: command interfaces after the update of each cycle, shape (cycles, commands).
+        state: state interfaces as read in each cycle, shape (cycles, states).
+    """
+
+    times_ns: Times
+    period_ns: int
+    command: Array
+    state: Array
+
+    def __len__(self) -> int:
+        return len(self.times_ns)
+
+    def cut(self, cycles: int) -> Block:
+        """The first cycles of the block."""
+        return Block(self.times_ns[:cycles], self.period_ns, self.command[:cycles], self.state[:cycles])

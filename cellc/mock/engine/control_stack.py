@@ -1,8 +1,11 @@
-"""All controller managers of the cell behind the simulated clock."""
+"""All controller managers of the cell behind the simulated clock, and what they tell of goals and joint states."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Protocol
 
 from cellc.contract.contract import ContractManager
 from cellc.mock.adapter.server import AdapterServer
@@ -16,11 +19,65 @@ from cellc.mock.control import (
     JointStateBlock,
     TrajectoryGoal,
 )
-from cellc.mock.engine.dangers import dangers
 from cellc.mock.engine.process import Signal
-from cellc.mock.engine.watcher import ControlWatcher, GoalSent
 from cellc.mock.world.joint_states import JointStateHistory
 from cellc.vocabulary import Behaviour
+
+
+@dataclass(frozen=True, slots=True)
+class GoalSent:
+    """A goal that was sent to the action of a controller, and the answer."""
+
+    stamp_ns: int
+    controller: str
+    goal: TrajectoryGoal | GripperGoal
+    response: GoalResponse
+
+
+class ControlWatcher(Protocol):
+    """Listens to the control stack of one run."""
+
+    def configured(self) -> None:
+        """Take note that all controllers are configured and none has published anything."""
+        ...
+
+    def joint_states(self, manager: str, controller: str, block: JointStateBlock) -> None:
+        """Take joint states that a broadcaster of a manager published."""
+        ...
+
+    def goal_sent(self, sent: GoalSent) -> None:
+        """Take note of a goal."""
+        ...
+
+
+def dangers(controller: str, goal: TrajectoryGoal | GripperGoal) -> Iterator[str]:
+    """Say of an accepted goal what makes it dangerous; nothing for a sound one."""
+    if any(not math.isfinite(value) for value in _values(goal)):
+        yield (
+            f"dangerous: `{controller}` accepted a goal with NaN or an infinite value, as the real controller does; "
+            "a joint of NaN stays where it is, and the goal succeeds"
+        )
+    if isinstance(goal, GripperGoal):
+        return
+    if len(set(goal.joint_names)) < len(goal.joint_names):
+        yield (
+            f"dangerous: `{controller}` accepted a goal that names a joint twice, as the real controller does; "
+            "the last value counts, and a joint that is not named stays where it is"
+        )
+    if any(point.positions and point.accelerations and not point.velocities for point in goal.points):
+        yield (
+            f"dangerous: `{controller}` accepted accelerations without velocities, as the real controller does; its "
+            "reference is zero for every joint until the last point"
+        )
+
+
+def _values(goal: TrajectoryGoal | GripperGoal) -> Iterator[float]:
+    if isinstance(goal, GripperGoal):
+        yield from (*goal.position, *goal.velocity, *goal.effort)
+        return
+    for point in goal.points:
+        yield from (*point.positions, *point.velocities, *point.accelerations, *point.effort)
+
 
 GoalServer = ControllerManager | AdapterServer
 """What takes goals, runs in simulated time and tells of events."""

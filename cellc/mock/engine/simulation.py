@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from cellc.mock.engine.control_stack import ControlStack
-from cellc.mock.engine.process import Process, Waiting
-from cellc.mock.engine.queue import Action, EventQueue
+from cellc.mock.engine.process import Action, EventQueue, Process, Waiting
 
 _MAX_STEPS_AT_ONCE = 100_000
 

@@ -6,7 +6,7 @@ from functools import partial
 
 from cellc.mock.control import ControlEvent, ControllerChanged, HardwareChanged, JointStateBlock
 from cellc.mock.control.controllers.joint_trajectory.recorder import Recorder
-from cellc.mock.engine.watcher import GoalSent
+from cellc.mock.engine.control_stack import GoalSent
 from cellc.mock.evidence.run_bag import RunBag, TransformStream
 from cellc.mock.evidence.run_trace import RunTrace
 from cellc.mock.plant import Plant

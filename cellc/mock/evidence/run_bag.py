@@ -9,7 +9,7 @@ import numpy as np
 
 from cellc.contract.contract import ContractController
 from cellc.mock.control import ControllerManager, GripperGoal, JointStateBlock, Recording
-from cellc.mock.engine.watcher import GoalSent
+from cellc.mock.engine.control_stack import GoalSent
 from cellc.mock.evidence.bag import messages
 from cellc.mock.evidence.bag.bag_file import Bag
 from cellc.mock.evidence.bag.cdr import MessageRows

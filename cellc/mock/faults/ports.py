@@ -11,7 +11,7 @@ from cellc.mock.bus.network import Network
 from cellc.mock.clocks import Clock, Clocks
 from cellc.mock.control import ControlEvent, GripperEnded, GripperGoal, TrajectoryEnded, TrajectoryGoal
 from cellc.mock.engine.control_stack import ControlStack
-from cellc.mock.engine.queue import Action
+from cellc.mock.engine.process import Action
 from cellc.mock.nodes.perception import Camera, Perception
 from cellc.mock.nodes.robot_state_publisher import RobotStatePublisher
 from cellc.mock.plant import Plant

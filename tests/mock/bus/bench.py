@@ -11,7 +11,7 @@ from cellc.mock.bus.edge import Subscription
 from cellc.mock.bus.network import Network, QosEventKind
 from cellc.mock.bus.qos import DDS, Middleware
 from cellc.mock.bus.topic import Topic
-from cellc.mock.engine.queue import EventQueue
+from cellc.mock.engine.process import EventQueue
 
 MS = 1_000_000
 TOPIC = "/numbers"

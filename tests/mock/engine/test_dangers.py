@@ -7,8 +7,7 @@ import math
 import pytest
 
 from cellc.mock.control import GripperGoal, TrajectoryGoal, TrajectoryPoint
-from cellc.mock.engine.control_stack import ControlStack
-from cellc.mock.engine.dangers import dangers
+from cellc.mock.engine.control_stack import ControlStack, dangers
 from tests.mock.control.bench import S, bench, point
 
 _SOUND = TrajectoryGoal(("a", "b"), (point(0.1, 0.1), point(0.2, 0.2, at=2.0, v=(0.0, 0.0), a=(0.0, 0.0))))

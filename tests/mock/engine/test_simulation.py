@@ -8,8 +8,7 @@ import pytest
 
 from cellc.mock import MockCell, to_json_lines
 from cellc.mock.engine.control_stack import ControlStack
-from cellc.mock.engine.process import Process, Signal, Wait, Waiting
-from cellc.mock.engine.queue import EventQueue
+from cellc.mock.engine.process import EventQueue, Process, Signal, Wait, Waiting
 from cellc.mock.engine.simulation import Simulation
 
 

@@ -11,14 +11,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cellc.mock.control.block import Block
-from cellc.mock.control.controllers.base import Context, Cycle, QuietController
-from cellc.mock.control.controllers.monitor import GoalMonitor
-from cellc.mock.control.events import GoalStatus, GripperEnded
+from cellc.mock.control.controllers.base import Context, Cycle, GoalMonitor, QuietController
+from cellc.mock.control.interfaces import Block
 from cellc.mock.control.journal import Cause
-from cellc.mock.control.messages import GripperGoal
+from cellc.mock.control.messages import GoalStatus, GripperEnded, GripperGoal
 from cellc.mock.control.parameters import Parameter
-from cellc.mock.control.parameters.requirements import at_least, not_empty
+from cellc.mock.control.parameters.declaration import at_least, not_empty
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,7 +2,7 @@
 
 from cellc.mock.control.hardware.disturbances import Disturbances, JointFault
 from cellc.mock.control.hardware.generic_system import GenericSystem
+from cellc.mock.control.hardware.joint_motion import Noise
 from cellc.mock.control.hardware.limiter import CommandLimiter
-from cellc.mock.control.hardware.noise import Noise
 
 __all__ = ["CommandLimiter", "Disturbances", "GenericSystem", "JointFault", "Noise"]

@@ -8,8 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cellc.mock.control.hardware.noise import Noise
-from cellc.mock.control.hardware.ramp import rate_limit
+from cellc.mock.control.hardware.joint_motion import Noise, rate_limit
 from cellc.mock.control.interfaces import Array
 
 

@@ -12,11 +12,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from cellc.mock.control.block import Block
 from cellc.mock.control.errors import UpdateError
-from cellc.mock.control.hardware.joint_states import hold_last
-from cellc.mock.control.hardware.ramp import clamp, rate_limit, step_bounds
-from cellc.mock.control.interfaces import InterfaceTable
+from cellc.mock.control.hardware.joint_motion import clamp, hold_last, rate_limit, step_bounds
+from cellc.mock.control.interfaces import Block, InterfaceTable
 from cellc.mock.control.log import Log
 from cellc.mock.control.robot_description import JointLimits
 

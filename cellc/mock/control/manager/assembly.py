@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from cellc.description.model import Description
 from cellc.mock.control.controllers.base import DeclaredInterfaces
 from cellc.mock.control.errors import DescriptionError
-from cellc.mock.control.events import ControlEvent
 from cellc.mock.control.hardware import CommandLimiter, Disturbances
 from cellc.mock.control.interfaces import InterfaceTable
 from cellc.mock.control.log import Log
@@ -16,8 +15,8 @@ from cellc.mock.control.manager.cycles import CycleRunner
 from cellc.mock.control.manager.hardware_set import HardwareSet, all_limits
 from cellc.mock.control.manager.registry import ControllerRegistry
 from cellc.mock.control.manager.settings import NODE_NAME, read_file, read_settings
-from cellc.mock.control.manager.switch_checks import SwitchChecker
-from cellc.mock.control.manager.switching import Switcher
+from cellc.mock.control.manager.switching import SwitchChecker, Switcher
+from cellc.mock.control.messages import ControlEvent
 from cellc.mock.control.parameters import ParameterSet
 from cellc.mock.control.robot_description import RobotDescription, take_description
 from cellc.vocabulary import Behaviour, Distro

@@ -6,24 +6,24 @@ from collections.abc import Mapping, Sequence
 
 from cellc.description.model import Description
 from cellc.mock.control.controllers.base import Controller, DeclaredInterfaces
-from cellc.mock.control.controllers.forward_command import ForwardCommandController
-from cellc.mock.control.controllers.gpio import GpioCommandController
-from cellc.mock.control.controllers.joint_state_broadcaster import JointStateBlock, JointStateBroadcaster
+from cellc.mock.control.controllers.broadcasters import JointStateBlock, JointStateBroadcaster
+from cellc.mock.control.controllers.forward_command import ForwardCommandController, GpioCommandController
 from cellc.mock.control.controllers.joint_trajectory import JointTrajectoryController
 from cellc.mock.control.controllers.joint_trajectory.recorder import Recorder, Recording
-from cellc.mock.control.events import ControlEvent
-from cellc.mock.control.manager.actions import GoalDesk
 from cellc.mock.control.manager.assembly import NodeOptions, assemble
-from cellc.mock.control.manager.listing import (
+from cellc.mock.control.manager.services import (
     ControllerState,
+    GoalDesk,
     HardwareComponentState,
     HardwareInterfaces,
     Listing,
+    Spawner,
+    SpawnResponse,
 )
-from cellc.mock.control.manager.spawner import Spawner, SpawnResponse
-from cellc.mock.control.manager.switch_checks import Strictness, Switch
+from cellc.mock.control.manager.switching import Strictness, Switch
 from cellc.mock.control.messages import (
     CancelResponse,
+    ControlEvent,
     Goal,
     GoalResponse,
     HardwareStateResponse,
@@ -43,7 +43,7 @@ class ControllerManager:
         robot_description: the text of a URDF, or what was read of it before.
         parameters: text of the parameter file (controllers.yaml); empty for none.
         namespace: namespace of the manager and its controllers.
-        distro: humble, jazzy, kilted or lyrical.
+        distro: ROS distribution.
         plugin_behaviours: behaviour of further controller plugin types.
         start_ns: simulated time of the first update cycle.
         declared: interfaces of controllers that only the cell tells, by name.

@@ -10,12 +10,10 @@ from cellc.mock.control.hardware import CommandLimiter, Disturbances
 from cellc.mock.control.interfaces import InterfaceTable
 from cellc.mock.control.log import Log
 from cellc.mock.control.manager.hardware_set import Component, HardwareSet
-from cellc.mock.control.manager.loaded import LoadedController
 from cellc.mock.control.manager.lookahead import Lookahead
-from cellc.mock.control.manager.registry import ControllerRegistry
+from cellc.mock.control.manager.registry import ControllerRegistry, LoadedController
 from cellc.mock.control.manager.settings import NODE_NAME
-from cellc.mock.control.manager.switch_checks import Switch
-from cellc.mock.control.manager.switching import Switcher
+from cellc.mock.control.manager.switching import Switch, Switcher
 
 _SHORTEST_BLOCK = 64
 _LONGEST_BLOCK = 2048

@@ -6,13 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cellc.mock.control.controllers.plugins import HARDWARE_BEHAVIOURS
 from cellc.mock.control.errors import DescriptionError
-from cellc.mock.control.events import ControlEvent, HardwareChanged
 from cellc.mock.control.hardware import Disturbances, GenericSystem
 from cellc.mock.control.interfaces import InterfaceTable
 from cellc.mock.control.log import Log
-from cellc.mock.control.manager.plugins import HARDWARE_BEHAVIOURS
-from cellc.mock.control.messages import HardwareStateResponse
+from cellc.mock.control.messages import ControlEvent, HardwareChanged, HardwareStateResponse
 from cellc.mock.control.robot_description import JointLimits, RobotDescription, joint_limits
 
 _STATES = ("unconfigured", "inactive", "active", "finalized")

@@ -12,12 +12,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cellc.mock.control.block import Block
 from cellc.mock.control.hardware import CommandLimiter
-from cellc.mock.control.interfaces import Columns, InterfaceTable
+from cellc.mock.control.interfaces import Block, Columns, InterfaceTable
 from cellc.mock.control.log import Log
 from cellc.mock.control.manager.hardware_set import HardwareSet
-from cellc.mock.control.manager.loaded import LoadedController
+from cellc.mock.control.manager.registry import LoadedController
 
 
 @dataclass(frozen=True, slots=True)

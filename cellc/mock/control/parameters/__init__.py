@@ -4,10 +4,11 @@ from cellc.mock.control.parameters.declaration import (
     Parameter,
     ParameterError,
     ParameterSet,
+    ParameterValue,
     Requirement,
+    type_name,
 )
 from cellc.mock.control.parameters.file import ParameterFile, ParameterFileError
-from cellc.mock.control.parameters.values import ParameterValue, type_name
 
 __all__ = [
     "Parameter",

@@ -1,11 +1,69 @@
-"""Declared parameters: types, defaults and checks, with the messages of generate_parameter_library and rclcpp."""
+"""Parameters of a node: values with their types, declarations, and what is required of a value."""
 
 from __future__ import annotations
 
+import math
+import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 
-from cellc.mock.control.parameters.values import ParameterValue, type_name
+ParameterValue = bool | int | float | str | list[bool] | list[int] | list[float] | list[str]
+
+_TRUE = ("Y", "y", "yes", "Yes", "YES", "true", "True", "TRUE", "on", "On", "ON")
+_FALSE = ("N", "n", "no", "No", "NO", "false", "False", "FALSE", "off", "Off", "OFF")
+_INTEGER = re.compile(r"[-+]?(0[xX][0-9a-fA-F]+|[0-9]+)")
+_FLOAT = re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?")
+_SPECIAL = {".inf": math.inf, "+.inf": math.inf, "-.inf": -math.inf, ".nan": math.nan}
+
+
+def _integer(text: str) -> int:
+    """Read an integer as strtol does with base 0: a leading 0 means octal."""
+    sign = -1 if text.startswith("-") else 1
+    digits = text.lstrip("+-")
+    if digits[:2] in ("0x", "0X"):
+        return sign * int(digits, 16)
+    if len(digits) > 1 and digits[0] == "0" and all(digit in "01234567" for digit in digits):
+        return sign * int(digits, 8)
+    return sign * int(digits)
+
+
+def scalar(text: str, quoted: bool) -> bool | int | float | str:
+    """Type a plain YAML scalar.
+
+    Args:
+        text: the scalar as written.
+        quoted: whether it stood in quotes, which makes it a string.
+
+    Returns:
+        The value.
+    """
+    if quoted:
+        return text
+    if text in _TRUE or text in _FALSE:
+        return text in _TRUE
+    if _INTEGER.fullmatch(text):
+        return _integer(text)
+    if text.lower() in _SPECIAL:
+        return _SPECIAL[text.lower()]
+    if _FLOAT.fullmatch(text):
+        return float(text)
+    return text
+
+
+def type_name(value: ParameterValue | None) -> str:
+    """The name of a value's type as rclcpp prints it."""
+    if isinstance(value, list):
+        return f"{_scalar_name(value[0])}_array" if value else "not set"
+    return "not set" if value is None else _scalar_name(value)
+
+
+def _scalar_name(value: bool | int | float | str) -> str:
+    if isinstance(value, bool):
+        return "bool"
+    if isinstance(value, int):
+        return "integer"
+    return "double" if isinstance(value, float) else "string"
+
 
 Requirement = Callable[[str, ParameterValue], str]
 """Check of one value: takes the parameter's name and value, returns the complaint or an empty string."""
@@ -146,3 +204,57 @@ class ParameterSet:
     def given(self, name: str) -> ParameterValue | None:
         """A value of the parameter file, declared or not."""
         return self._given.get(name)
+
+
+def not_empty(name: str, value: ParameterValue) -> str:
+    """The list or text must not be empty."""
+    empty = isinstance(value, list | str) and len(value) == 0
+    return f"Parameter '{name}' cannot be empty" if empty else ""
+
+
+def unique(name: str, value: ParameterValue) -> str:
+    """The list must not name anything twice."""
+    if isinstance(value, list) and len(set(value)) != len(value):
+        return f"Duplicate value(s) in parameter '{name}'"
+    return ""
+
+
+def longer_than_zero(name: str, value: ParameterValue) -> str:
+    """The list must have an entry."""
+    if isinstance(value, list) and not value:
+        return f"Length of parameter '{name}' is '0' but must be greater than '0'"
+    return ""
+
+
+def subset_of(*allowed: str) -> Requirement:
+    """Every entry must be one of the allowed ones."""
+
+    def check(name: str, value: ParameterValue) -> str:
+        for entry in value if isinstance(value, list) else []:
+            if entry not in allowed:
+                return f"Entry '{entry}' in parameter '{name}' is not in the set '{{{', '.join(allowed)}}}'"
+        return ""
+
+    return check
+
+
+def one_of(*allowed: str) -> Requirement:
+    """The text must be one of the allowed ones."""
+
+    def check(name: str, value: ParameterValue) -> str:
+        if value not in allowed:
+            return f"Parameter '{name}' with the value '{value}' is not in the set '{{{', '.join(allowed)}}}'"
+        return ""
+
+    return check
+
+
+def at_least(minimum: float) -> Requirement:
+    """The number must not be smaller: declared as a floating point range of rclcpp."""
+
+    def check(name: str, value: ParameterValue) -> str:
+        if isinstance(value, int | float) and value < minimum:
+            return f"Parameter {{{name}}} doesn't comply with floating point range."
+        return ""
+
+    return check

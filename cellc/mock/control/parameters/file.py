@@ -10,7 +10,7 @@ from typing import TypeAlias, cast
 
 import yaml
 
-from cellc.mock.control.parameters.values import ParameterValue, scalar
+from cellc.mock.control.parameters.declaration import ParameterValue, scalar
 
 
 class ParameterFileError(Exception):

@@ -1,4 +1,4 @@
-"""The joint trajectory controller: facts/follow_joint_trajectory.md, row by row.
+"""The joint trajectory controller.
 
 One `update` is: take over a new trajectory, read the state, sample the trajectory now and one period ahead, check
 tolerances, command, decide the goal. Blocks repeat the same arithmetic for many updates in which nothing is decided.
@@ -8,30 +8,26 @@ from __future__ import annotations
 
 import numpy as np
 
-from cellc.mock.control.block import Block
 from cellc.mock.control.controllers.base import Context, Cycle, QuietController
-from cellc.mock.control.controllers.joint_trajectory.commands import JointCommands
+from cellc.mock.control.controllers.joint_trajectory.acceptance import AcceptanceRules, in_local_order
+from cellc.mock.control.controllers.joint_trajectory.commands import JointCommands, SpeedScaling
 from cellc.mock.control.controllers.joint_trajectory.declaration import declare
-from cellc.mock.control.controllers.joint_trajectory.goals import GoalBook
+from cellc.mock.control.controllers.joint_trajectory.goals import GoalBook, decide_failure, judge, tell_violation
 from cellc.mock.control.controllers.joint_trajectory.interfaces import JointInterfaces
-from cellc.mock.control.controllers.joint_trajectory.interruption import cause_of
-from cellc.mock.control.controllers.joint_trajectory.local_order import in_local_order
 from cellc.mock.control.controllers.joint_trajectory.motion import (
     LastUpdate,
     Motion,
     PendingTrajectory,
     Samples,
+    default_tolerances,
     held_point,
     regular_updates,
     start_of,
+    stop_points,
 )
 from cellc.mock.control.controllers.joint_trajectory.recorder import Recorder
-from cellc.mock.control.controllers.joint_trajectory.scaling import SpeedScaling
 from cellc.mock.control.controllers.joint_trajectory.spline import Spline, StartState
-from cellc.mock.control.controllers.joint_trajectory.stopping import stop_points
-from cellc.mock.control.controllers.joint_trajectory.tolerances import default_tolerances
-from cellc.mock.control.controllers.joint_trajectory.validation import AcceptanceRules
-from cellc.mock.control.controllers.joint_trajectory.verdict import decide_failure, judge, tell_violation
+from cellc.mock.control.interfaces import Array, Block
 from cellc.mock.control.journal import Cause
 from cellc.mock.control.messages import Trajectory, TrajectoryStateResponse
 from cellc.mock.control.parameters import ParameterValue
@@ -296,3 +292,26 @@ class JointTrajectoryController(QuietController):
         if not self.active or self._motion is None:
             return TrajectoryStateResponse(False)
         return self._motion.query(time_ns)
+
+
+_SAME = 1e-9
+"""rad or m: a measured position nearer than this to the command is the commanded one."""
+
+
+def cause_of(pending: PendingTrajectory, motion: Motion | None, measured: Array, commanded: Array) -> Cause | None:
+    """Tell why the command may step as a trajectory is taken over; None where it must go on smoothly.
+
+    Args:
+        pending: what is taken over.
+        motion: what it follows.
+        measured: measured positions, which it starts from.
+        commanded: present commands of the first kind of interface.
+    """
+    if pending.interrupts:
+        return Cause.HOLD if len(pending.points) == 1 else Cause.DECELERATION
+    if pending.held:
+        return None
+    if motion is not None and not motion.held:
+        return Cause.REPLACED
+    steps = np.abs(measured[: len(commanded)] - commanded)
+    return None if bool((steps <= _SAME).all()) else Cause.OFF_COMMAND

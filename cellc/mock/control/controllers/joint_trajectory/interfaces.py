@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cellc.mock.control.controllers.base import Context, claimed_names
 from cellc.mock.control.controllers.joint_trajectory.spline import StartState
-from cellc.mock.control.interfaces import Array
-
-Columns = NDArray[np.intp]
+from cellc.mock.control.interfaces import Array, Columns
 
 
 class JointInterfaces:

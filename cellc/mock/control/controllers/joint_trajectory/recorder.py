@@ -6,10 +6,9 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from cellc.mock.control.block import Block
 from cellc.mock.control.controllers.joint_trajectory.interfaces import JointInterfaces
 from cellc.mock.control.controllers.joint_trajectory.motion import Samples
-from cellc.mock.control.interfaces import Array, Columns, Times
+from cellc.mock.control.interfaces import Array, Block, Columns, Times
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,11 +8,14 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from cellc.mock.control.controllers.base import Context, Controller
-from cellc.mock.control.controllers.broadcasters import DeclaredController, ForceTorqueBroadcaster, PassiveBroadcaster
-from cellc.mock.control.controllers.forward_command import ForwardCommandController
-from cellc.mock.control.controllers.gpio import GpioCommandController
+from cellc.mock.control.controllers.broadcasters import (
+    DeclaredController,
+    ForceTorqueBroadcaster,
+    JointStateBroadcaster,
+    PassiveBroadcaster,
+)
+from cellc.mock.control.controllers.forward_command import ForwardCommandController, GpioCommandController
 from cellc.mock.control.controllers.gripper import EFFORT, PARALLEL, POSITION, GripperController
-from cellc.mock.control.controllers.joint_state_broadcaster import JointStateBroadcaster
 from cellc.mock.control.controllers.joint_trajectory import JointTrajectoryController
 from cellc.mock.control.controllers.pid import PidController
 from cellc.vocabulary import Behaviour, Distro

@@ -1,10 +1,64 @@
-"""Rate limiting of a whole column at once, bit-identical to limiting it value by value."""
+"""How simulated joints follow their commands: their states, a ramp with bounded speed, and noise."""
 
 from __future__ import annotations
 
+import hashlib
+from dataclasses import dataclass
+
 import numpy as np
+from numpy.typing import NDArray
 
 from cellc.mock.control.interfaces import Array
+
+
+@dataclass(slots=True)
+class Motion:
+    """Values of all joints over successive cycles, each of shape (cycles, joints)."""
+
+    position: Array
+    velocity: Array
+    acceleration: Array
+
+    @staticmethod
+    def standing(cycles: int, position: Array, velocity: Array, acceleration: Array) -> Motion:
+        """Every joint keeps its values."""
+        return Motion(_repeat(position, cycles), _repeat(velocity, cycles), _repeat(acceleration, cycles))
+
+
+def _repeat(row: Array, cycles: int) -> Array:
+    rows = np.empty((cycles, len(row)))
+    rows[:] = row
+    return rows
+
+
+def differences(values: Array, previous: Array, period_s: float) -> Array:
+    """Difference quotients of successive rows, the first against `previous`."""
+    out = np.empty_like(values)
+    np.subtract(values[0], previous, out=out[0])
+    np.subtract(values[1:], values[:-1], out=out[1:])
+    out /= period_s
+    return out
+
+
+def integral(rates: Array, previous: Array, period_s: float) -> Array:
+    """Sums of rate * period, row by row, starting from `previous`."""
+    out = np.empty((len(rates) + 1, rates.shape[1]))
+    out[0] = previous
+    np.multiply(rates, period_s, out=out[1:])
+    np.add.accumulate(out, axis=0, out=out)
+    return out[1:]
+
+
+def hold_last(values: Array, previous: Array) -> Array:
+    """Replace NaN by the last number of the same column, at the top by `previous`."""
+    missing = np.isnan(values)
+    if not missing.any():
+        return values
+    rows: NDArray[np.intp] = np.where(missing, 0, np.arange(1, len(values) + 1)[:, None])
+    np.maximum.accumulate(rows, axis=0, out=rows)
+    stacked = np.vstack([previous, values])
+    return np.take_along_axis(stacked, rows, axis=0)
+
 
 # A column that changes between free and limited more often than this is limited value by value.
 _MAX_SWITCHES = 8
@@ -88,3 +142,37 @@ def _follow_ramp(values: Array, start: int, before: float, step: float, lower: f
         return start + 1
     values[start : start + length] = ramp[:length]
     return start + length
+
+
+# Steps and multipliers of SplitMix64 (Steele, Lea, Flood: Fast Splittable Pseudorandom Number Generators, 2014), whose
+# n-th value needs none of those before it.
+_STEP = np.uint64(0x9E3779B97F4A7C15)
+_MIX = (np.uint64(0xBF58476D1CE4E5B9), np.uint64(0x94D049BB133111EB))
+
+
+@dataclass(frozen=True, slots=True)
+class Noise:
+    """Evenly distributed noise of one joint.
+
+    Attributes:
+        amplitude: rad or m; no value is farther from zero.
+        key: of the sequence.
+    """
+
+    amplitude: float
+    key: int
+
+    @classmethod
+    def of_joint(cls, joint: str, amplitude: float, seed: int) -> Noise:
+        """Return the noise of a joint in a run with a seed."""
+        digest = hashlib.sha256(f"{seed}/{joint}".encode()).digest()
+        return cls(amplitude, int.from_bytes(digest[:8], "big"))
+
+    def values(self, first: int, count: int) -> Array:
+        """Return the values of ``count`` update cycles, of which ``first`` is the number of the first one."""
+        state = (np.arange(first + 1, first + count + 1, dtype=np.uint64) * _STEP) + np.uint64(self.key)
+        state = (state ^ (state >> np.uint64(30))) * _MIX[0]
+        state = (state ^ (state >> np.uint64(27))) * _MIX[1]
+        state ^= state >> np.uint64(31)
+        unit: Array = (state >> np.uint64(11)).astype(np.float64) * 2.0**-53
+        return (2.0 * unit - 1.0) * self.amplitude
