@@ -2,36 +2,37 @@
 
 from __future__ import annotations
 
-import _thread
 import gc
+import os
+import signal
 import sys
-import time
-from collections.abc import Callable
 
 
-def _interrupt_soon() -> None:
-    time.sleep(0.01)  # not inside the callback, where it would be lost again
-    _thread.interrupt_main()
+def raise_lost_interrupts() -> None:
+    """Have Ctrl-C raised again, by an alarm, where a callback of the interpreter swallowed it.
 
+    Importing has such callbacks: one Ctrl-C in a hundred was lost while a check loaded.
+    """
+    others = sys.unraisablehook
 
-def _raise_lost_interrupts() -> None:
-    """Raise Ctrl-C again where a callback of the interpreter swallowed it: importing has such moments."""
-    before: Callable[[sys.UnraisableHookArgs], object] = sys.unraisablehook
-
-    def hook(unraisable: sys.UnraisableHookArgs, /) -> None:
-        if issubclass(unraisable.exc_type, KeyboardInterrupt):
-            _thread.start_new_thread(_interrupt_soon, ())
+    def again(swallowed: sys.UnraisableHookArgs) -> None:
+        if issubclass(swallowed.exc_type, KeyboardInterrupt):
+            signal.setitimer(signal.ITIMER_REAL, 0.01)
         else:
-            before(unraisable)
+            others(swallowed)
 
-    sys.unraisablehook = hook
+    if hasattr(signal, "setitimer"):
+        signal.signal(signal.SIGALRM, signal.default_int_handler)
+        sys.unraisablehook = again
 
 
 def main() -> None:
     """Run the command; the import stands inside, so that Ctrl-C while it loads ends without a traceback too."""
     # A tenth of a short command went into collecting garbage while models are built: collect far less often.
     gc.set_threshold(70_000, 20, 20)
-    _raise_lost_interrupts()
+    # What a spec means is no matter of plugins; looking for some takes longer than reading the spec.
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
+    raise_lost_interrupts()
     try:
         from cellc.cli.main import main as run
 

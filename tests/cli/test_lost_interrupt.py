@@ -7,8 +7,8 @@ import sys
 
 _PROGRAM = """
 import sys, time, weakref
-from cellc.__main__ import _raise_lost_interrupts
-_raise_lost_interrupts()
+from cellc.__main__ import raise_lost_interrupts
+raise_lost_interrupts()
 class Thing: pass
 def interrupted(_): raise KeyboardInterrupt
 thing = Thing()
