@@ -10,8 +10,7 @@ from cellc.cell.device import Device
 from cellc.cell.entity import Places
 from cellc.cell.frame import Frame, SceneBox
 from cellc.cell.interface import Interface, Node
-from cellc.cell.motion import CartesianGoal, NamedPose, PlanningGroup
-from cellc.cell.rehearsal import Rehearsal
+from cellc.cell.motion import CartesianGoal, NamedPose, PlanningGroup, Rehearsal
 from cellc.cell.site import (
     Bringup,
     Calibration,

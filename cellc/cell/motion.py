@@ -1,4 +1,4 @@
-"""Planning groups, poses and goals with their joints and frames bound."""
+"""What moves: planning groups, poses and goals, joints and frames bound, and rehearsals with their steps and faults."""
 
 from __future__ import annotations
 
@@ -36,3 +36,54 @@ class CartesianGoal(Entity):
     transform_tip_to_frame: Pose
     approach: Vector3 | None
     transform_at: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Step(Entity):
+    """One step: ``kind`` is move, detect, grip, wait or acknowledge.
+
+    ``name`` is the pose, goal, frame or device, or who acknowledges.
+    """
+
+    kind: str
+    command: str | None = None  # open or close, for grip
+    duration_s: float | None = None  # for wait
+
+
+@dataclass(frozen=True, slots=True)
+class StepEvent:
+    """How far a step has come: ``when`` is started, accepted or moving; ``after_s`` is counted from there."""
+
+    step: int  # from 1
+    when: str
+    after_s: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Fault(Entity):
+    """One fault: ``kind`` as in the spec, ``name`` the ROS name of what it hits; times in simulated seconds.
+
+    It begins at ``at_s`` or with ``event``; one of them is None.
+    """
+
+    kind: str
+    at_s: float | None
+    event: StepEvent | None = None
+    lasting_s: float | None = None
+    cycles: int | None = None  # for skip_cycles
+    delay_s: float | None = None  # for delay
+    jump_s: float | None = None  # for jump_clock
+    displacement: float | None = None  # for displace, rad or m
+    velocity: float | None = None  # for slow, rad/s or m/s
+    factor: float | None = None  # for scale_speed, 0 to 1
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Rehearsal(Entity):
+    """A run of the mock and the outcome that it must end in."""
+
+    steps: tuple[Step, ...]
+    faults: tuple[Fault, ...]
+    expect: str
+    within_s: float | None
+    timeout_s: float

@@ -8,13 +8,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from cellc.cell.cell import Cell
+from cellc.cell.site import UNKNOWN
 from cellc.contract.manifest import ConfigurationInputs
 from cellc.diagnostics import YamlPath
 from cellc.formats.header import Header
 from cellc.formats.urdf.robot import robot_description
 from cellc.formats.xml_text import render
 from cellc.graph.cell_graph import CellGraph
-from cellc.graph.responsibilities import UNKNOWN
 
 _DIGITS = 12
 

@@ -7,14 +7,13 @@ from dataclasses import dataclass
 
 from cellc.cell.cell import Cell
 from cellc.cell.interface import InterfaceKind
-from cellc.cell.site import FirstMotion
+from cellc.cell.site import UNKNOWN, FirstMotion
 from cellc.deploy.configuration import version_tuple
 from cellc.deploy.processes import is_mover
 from cellc.deploy.recording import record_command
 from cellc.deploy.releases import move_mock, move_real, start_mock, start_real
 from cellc.formats.header import Header
 from cellc.formats.numbers import shortest
-from cellc.graph.responsibilities import UNKNOWN
 from cellc.link.derived import JOINT_STATE_TYPE
 
 _STARTS = ("ros2 launch ", "ros2 bag record ")

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cellc.artifact import Artifact
-from cellc.cell.rehearsal import Fault, Rehearsal, Step
+from cellc.cell.motion import Fault, Rehearsal, Step
 from cellc.contract.rehearsals import FaultEntry, RehearsalEntry, Rehearsals, StepEntry
 from cellc.deploy.files import REHEARSALS
 from cellc.formats.header import Header

@@ -10,8 +10,7 @@ from typing import TypeVar, cast
 from cellc.cell.cell import Cell
 from cellc.graph.claims import ClaimGraph, build_claims
 from cellc.graph.data_flow import DataFlow, build_data_flow
-from cellc.graph.frame_tree import FrameTree, build_frame_tree
-from cellc.graph.model_parts import ModelParts
+from cellc.graph.frame_tree import FrameTree, ModelParts, build_frame_tree
 from cellc.graph.network import NetworkGraph, build_network
 from cellc.graph.responsibilities import Responsibilities, build_responsibilities
 from cellc.graph.startup import StartupGraph, build_startup

@@ -6,10 +6,8 @@ from dataclasses import dataclass
 
 from cellc.cell.cell import Cell
 from cellc.cell.interface import NodeSource
+from cellc.cell.site import UNKNOWN
 from cellc.diagnostics import YamlPath
-
-UNKNOWN = "UNKNOWN"
-"""The answer of a spec that does not guess; it blocks the real target and stands in the audit."""
 
 
 @dataclass(frozen=True, slots=True)

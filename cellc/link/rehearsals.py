@@ -13,7 +13,7 @@ from cellc.cell.control import ControllerManager
 from cellc.cell.device import Device
 from cellc.cell.entity import Entity
 from cellc.cell.interface import Interface, InterfaceKind
-from cellc.cell.rehearsal import Fault, Rehearsal, Step, StepEvent
+from cellc.cell.motion import Fault, Rehearsal, Step, StepEvent
 from cellc.diagnostics import Diagnostic, Outcome, Severity, YamlPath
 from cellc.link.frames import FrameNames
 from cellc.link.names import unknown_name

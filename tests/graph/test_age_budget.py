@@ -8,7 +8,7 @@ import pytest
 
 from cellc.cell.cell import Cell
 from cellc.cell.interface import Endpoint, Interface
-from cellc.graph.age_budget import age_chains
+from cellc.graph.data_flow import age_chains
 from tests.cells import COMPLETE, linked
 
 

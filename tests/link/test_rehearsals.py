@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from cellc.cell.rehearsal import Fault, Rehearsal, StepEvent
+from cellc.cell.motion import Fault, Rehearsal, StepEvent
 from cellc.diagnostics import Diagnostic
 from tests.cells import linked, linking, spec_text, written
 

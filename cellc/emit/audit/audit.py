@@ -12,6 +12,7 @@ from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
 from cellc.cell.device import Device
 from cellc.cell.interface import InterfaceKind
+from cellc.cell.site import UNKNOWN
 from cellc.deploy.configuration import OpenQuestion, open_questions
 from cellc.emit.audit.tables import (
     command_section,
@@ -25,8 +26,7 @@ from cellc.emit.audit.tables import (
 from cellc.formats.header import Header
 from cellc.formats.parameter_file import spec_path
 from cellc.graph.cell_graph import CellGraph
-from cellc.graph.compatibility import Answer, Judgement, compatibility
-from cellc.graph.responsibilities import UNKNOWN
+from cellc.graph.versions import Answer, Judgement, compatibility
 
 
 def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:

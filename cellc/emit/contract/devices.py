@@ -12,7 +12,7 @@ from cellc.contract.adapter import ContractAdapter
 from cellc.contract.contract import ContractCamera, ContractDevice, ContractDriver, ContractGripper
 from cellc.contract.simulated_joint import ContractSimulatedJoint
 from cellc.formats.urdf.robot import start_positions
-from cellc.graph.adapters import AdaptedDevice, adapted_devices
+from cellc.graph.claims import AdaptedDevice, adapted_devices
 
 
 def devices(cell: Cell) -> dict[str, ContractDevice]:

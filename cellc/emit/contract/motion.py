@@ -20,7 +20,7 @@ from cellc.contract.contract import (
 )
 from cellc.formats.numbers import settled
 from cellc.formats.urdf.robot import described_frames
-from cellc.graph.adapters import adapter_of_group
+from cellc.graph.claims import adapter_of_group
 from cellc.transforms import Pose
 
 

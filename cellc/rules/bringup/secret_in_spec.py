@@ -26,7 +26,7 @@ from __future__ import annotations
 import re
 
 from cellc.cell.interface import NodeSource
-from cellc.graph.written_parameters import written_parameters
+from cellc.graph.claims import written_parameters
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _SECRET = re.compile(r"(?i)(^|_|\.)(password|passwd|passphrase|secret|token|api_?key|private_?key|credential)s?$")

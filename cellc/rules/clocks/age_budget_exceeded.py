@@ -26,7 +26,7 @@ from __future__ import annotations
 
 import math
 
-from cellc.graph.age_budget import age_chains
+from cellc.graph.data_flow import age_chains
 from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 
 

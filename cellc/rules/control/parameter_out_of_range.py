@@ -27,8 +27,7 @@ from __future__ import annotations
 
 from cellc.catalog.controller_kind import ParameterFacts
 from cellc.cell.interface import ParameterValue
-from cellc.graph.controller_kinds import kind_of
-from cellc.graph.written_parameters import written_parameters
+from cellc.graph.claims import written_parameters
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
@@ -36,7 +35,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 def check(graph: CellGraph) -> Findings:
     """Yield numbers of the spec below or above what the declaration allows, and texts that it does not list."""
     for written in written_parameters(graph.cell):
-        kind = kind_of(graph.cell, written.controller)
+        kind = written.controller.declared
         facts = None if kind is None else kind.parameters.get(written.name)
         reason = "" if facts is None else _refusal(facts, written.value)
         if reason:

@@ -25,7 +25,6 @@ Source: docs/principles.md#facts-of-the-catalog
 
 from __future__ import annotations
 
-from cellc.graph.controller_kinds import kind_of
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
@@ -33,7 +32,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 def check(graph: CellGraph) -> Findings:
     """Yield controllers with a combination that their kind does not list."""
     for controller in graph.cell.controllers:
-        kind = kind_of(graph.cell, controller)
+        kind = controller.declared
         if kind is None or not kind.command_combinations or not controller.joints:
             continue
         prefix = f"{controller.joints[0]}/"

@@ -27,8 +27,7 @@ from __future__ import annotations
 
 import re
 
-from cellc.graph.controller_kinds import kind_of, plugin_parameters
-from cellc.graph.written_parameters import written_parameters
+from cellc.graph.claims import written_parameters
 from cellc.rules.kit import CellGraph, Findings, Severity, did_you_mean, found, rule
 
 
@@ -36,11 +35,11 @@ from cellc.rules.kit import CellGraph, Findings, Severity, did_you_mean, found, 
 def check(graph: CellGraph) -> Findings:
     """Yield parameters of the spec that the kind of the controller does not declare for the distribution."""
     for written in written_parameters(graph.cell):
-        kind = kind_of(graph.cell, written.controller)
+        kind = written.controller.declared
         if kind is None:
             continue
         here = {name for name, facts in kind.parameters.items() if not facts.only or graph.cell.distro in facts.only}
-        here |= plugin_parameters(graph.cell, written.controller)
+        here |= written.controller.plugin_parameters
         if not any(_matches(declared, written.name) for declared in here):
             message = f"`{written.controller.kind}` has no parameter `{written.name}` in {graph.cell.distro}"
             yield found(graph, written.path, message, did_you_mean(written.name, here, "parameters"))

@@ -30,7 +30,6 @@ Source:
 
 from __future__ import annotations
 
-from cellc.graph.controller_kinds import kind_of
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
@@ -38,7 +37,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 def check(graph: CellGraph) -> Findings:
     """Yield controllers without a joint where their kind names joints, or with several where it names one."""
     for controller in graph.cell.controllers:
-        kind = kind_of(graph.cell, controller)
+        kind = controller.declared
         number = len(controller.joints)
         if kind is None or kind.joints_parameter is None or number == 1 or (number and not kind.single_joint):
             continue

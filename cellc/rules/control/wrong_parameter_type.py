@@ -25,8 +25,7 @@ Source: docs/principles.md#facts-of-the-catalog
 
 from __future__ import annotations
 
-from cellc.graph.controller_kinds import kind_of
-from cellc.graph.written_parameters import written_parameters
+from cellc.graph.claims import written_parameters
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _TYPES: dict[str, tuple[type, ...]] = {"bool": (bool,), "int": (int,), "double": (float,), "string": (str,)}
@@ -36,7 +35,7 @@ _TYPES: dict[str, tuple[type, ...]] = {"bool": (bool,), "int": (int,), "double":
 def check(graph: CellGraph) -> Findings:
     """Yield scalar parameters of the spec whose value has another type."""
     for written in written_parameters(graph.cell):
-        kind = kind_of(graph.cell, written.controller)
+        kind = written.controller.declared
         facts = None if kind is None else kind.parameters.get(written.name)
         expected = None if facts is None else facts.type
         value = written.value

@@ -21,7 +21,6 @@ Source: docs/principles.md#records-of-attempts
 
 from __future__ import annotations
 
-from cellc.graph.device_topics import device_topics
 from cellc.rules.kit import CellGraph, Findings, Severity, did_you_mean, found, rule
 
 _ALWAYS = ("/diagnostics", "/rosout", "/parameter_events", "/tf", "/tf_static", "/clock", "/joint_states")
@@ -32,7 +31,7 @@ def check(graph: CellGraph) -> Findings:
     """Yield recorded topics that no interface declares and no device publishes."""
     known = {*_ALWAYS, *(interface.name for interface in graph.cell.interfaces)}
     for device in graph.cell.devices:
-        known |= set(device_topics(graph.cell, device))
+        known |= set(device.topics)
     for index, topic in enumerate(graph.cell.recording.topics):
         if topic not in known:
             path = ("recording", "topics", index)

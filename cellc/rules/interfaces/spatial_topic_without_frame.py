@@ -30,7 +30,7 @@ Source:
 from __future__ import annotations
 
 from cellc.cell.interface import InterfaceKind
-from cellc.graph.interface_types import interface_types
+from cellc.graph.data_flow import interface_types
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 

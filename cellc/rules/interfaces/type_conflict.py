@@ -27,7 +27,6 @@ Source: docs/principles.md#network-in-layers
 
 from __future__ import annotations
 
-from cellc.graph.device_topics import device_topics
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
@@ -45,5 +44,5 @@ def check(graph: CellGraph) -> Findings:
 def _type_of(graph: CellGraph, node: str, name: str) -> str | None:
     device = next((device for device in graph.cell.devices if device.name == node), None)
     if device is not None:
-        return device_topics(graph.cell, device).get(name)
+        return device.topics.get(name)
     return next((c.action_type for c in graph.cell.controllers if c.label == node and c.action == name), None)

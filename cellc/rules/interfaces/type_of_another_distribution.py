@@ -33,7 +33,7 @@ Source: docs/principles.md#facts-of-the-catalog
 
 from __future__ import annotations
 
-from cellc.graph.interface_types import interface_types
+from cellc.graph.data_flow import interface_types
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 

@@ -30,7 +30,7 @@ from __future__ import annotations
 import re
 from difflib import SequenceMatcher
 
-from cellc.graph.interface_types import interface_types
+from cellc.graph.data_flow import interface_types
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _ALIKE = 0.8  # ratio of difflib: one letter in a word of four, two in a word of ten

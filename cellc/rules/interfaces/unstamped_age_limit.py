@@ -26,7 +26,7 @@ Source: docs/principles.md#transforms-at-the-time-of-observation
 
 from __future__ import annotations
 
-from cellc.graph.interface_types import interface_types
+from cellc.graph.data_flow import interface_types
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 

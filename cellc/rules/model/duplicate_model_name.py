@@ -25,7 +25,7 @@ Source: https://wiki.ros.org/urdf/XML/robot (as of 2026-11-22): names of links a
 
 from __future__ import annotations
 
-from cellc.graph.model_parts import ModelJoint, ModelLink
+from cellc.graph.frame_tree import ModelJoint, ModelLink
 from cellc.rules.kit import CellGraph, Finding, Findings, Related, Severity, rule
 
 

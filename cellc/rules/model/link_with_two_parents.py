@@ -23,7 +23,7 @@ Source: https://wiki.ros.org/urdf/XML/robot (as of 2026-11-22): a robot is a tre
 
 from __future__ import annotations
 
-from cellc.graph.model_parts import ModelJoint
+from cellc.graph.frame_tree import ModelJoint
 from cellc.rules.kit import CellGraph, Finding, Findings, Related, Severity, rule
 
 

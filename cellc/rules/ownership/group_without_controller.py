@@ -27,7 +27,7 @@ Source: docs/principles.md#planning-and-execution
 
 from __future__ import annotations
 
-from cellc.graph.adapters import adapter_of_group
+from cellc.graph.claims import adapter_of_group
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 

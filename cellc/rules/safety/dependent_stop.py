@@ -21,7 +21,7 @@ Source: docs/principles.md#stop
 
 from __future__ import annotations
 
-from cellc.graph.responsibilities import UNKNOWN
+from cellc.cell.site import UNKNOWN
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 

@@ -23,7 +23,7 @@ from __future__ import annotations
 
 import re
 
-from cellc.graph.pins import Pin, cell_pins, device_pins
+from cellc.graph.versions import Pin, cell_pins, device_pins
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _FLOATING = re.compile(r"(?i)\b(latest|main|master|devel|develop|head|nightly|stable|any|tip)\b|[<>~^*]|\.x\b")

@@ -22,7 +22,7 @@ Source: https://www.ros.org/reps/rep-2000.html (as of 2025-10-24): support tiers
 
 from __future__ import annotations
 
-from cellc.graph.distribution import distribution
+from cellc.graph.versions import distribution
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 

@@ -22,8 +22,8 @@ Source: https://www.ros.org/reps/rep-2000.html (as of 2025-10-24): target platfo
 
 from __future__ import annotations
 
-from cellc.graph.distribution import distribution
-from cellc.graph.responsibilities import UNKNOWN
+from cellc.cell.site import UNKNOWN
+from cellc.graph.versions import distribution
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 

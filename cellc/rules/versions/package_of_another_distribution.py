@@ -25,8 +25,7 @@ Source:
 
 from __future__ import annotations
 
-from cellc.graph.distribution import distribution
-from cellc.graph.pins import cell_pins, version_numbers
+from cellc.graph.versions import cell_pins, distribution, version_numbers
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 

@@ -31,7 +31,7 @@ Source:
 
 from __future__ import annotations
 
-from cellc.graph.distribution import distribution
+from cellc.graph.versions import distribution
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 

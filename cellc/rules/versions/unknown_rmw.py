@@ -25,8 +25,8 @@ Source:
 
 from __future__ import annotations
 
-from cellc.graph.distribution import distribution
-from cellc.graph.responsibilities import UNKNOWN
+from cellc.cell.site import UNKNOWN
+from cellc.graph.versions import distribution
 from cellc.rules.kit import CellGraph, Findings, Severity, did_you_mean, found, rule
 
 

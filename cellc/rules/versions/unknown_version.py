@@ -22,7 +22,7 @@ Source: docs/principles.md#pinned-versions
 
 from __future__ import annotations
 
-from cellc.graph.pins import Pin, cell_pins, device_pins
+from cellc.graph.versions import Pin, cell_pins, device_pins
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 

@@ -22,7 +22,7 @@ Source: docs/principles.md#pinned-versions
 
 from __future__ import annotations
 
-from cellc.graph.pins import cell_pins, device_pins, version_number
+from cellc.graph.versions import cell_pins, device_pins, version_number
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _NUMBERED = ("os", "kernel", "rmw", "ros2_control", "moveit", "firmware", "driver", "sdk", "description")

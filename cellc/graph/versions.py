@@ -1,7 +1,8 @@
-"""Whether the parts of the version tuple go together, as far as a matrix says: OK, INCOMPATIBLE or UNKNOWN."""
+"""The version tuple as pins, each at its place, and whether they go together as far as a matrix says."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import Enum
@@ -10,8 +11,72 @@ from cellc.catalog.device_model import VersionRow
 from cellc.catalog.load import load_distros
 from cellc.catalog.tables import DistroFacts
 from cellc.cell.cell import Cell
-from cellc.graph.distribution import distribution
-from cellc.graph.pins import Pin, cell_pins, device_pins, version_number, version_numbers
+from cellc.cell.site import UNKNOWN
+from cellc.diagnostics import YamlPath
+
+_NUMBER = re.compile(r"\d+(?:\.\d+)*")
+_DEVICE_PARTS = ("revision", "firmware", "driver", "sdk", "description")
+
+
+@dataclass(frozen=True, slots=True)
+class Pin:
+    """One part of the tuple: ``holder`` is the cell or a device, ``text`` as written."""
+
+    holder: str
+    part: str
+    text: str
+    path: YamlPath
+
+    @property
+    def known(self) -> bool:
+        """Whether something else than UNKNOWN is written."""
+        return self.text != UNKNOWN
+
+
+def cell_pins(cell: Cell) -> Iterator[Pin]:
+    """Yield the parts of the tuple that belong to the whole cell; MoveIt is no part of a cell that has no goals."""
+    versions = cell.versions
+    texts = {
+        "os": versions.os,
+        "kernel": versions.kernel,
+        "ros": versions.ros,
+        "rmw": versions.rmw,
+        "ros2_control": versions.ros2_control,
+        "moveit": versions.moveit,
+    }
+    for part, text in texts.items():
+        if part != "moveit" or cell.goals or text != UNKNOWN:
+            yield Pin(cell.name, part, text, ("versions", part))
+
+
+def device_pins(cell: Cell) -> Iterator[Pin]:
+    """Yield the parts of the tuple of each device; what its catalogue entry says it has none of is left out."""
+    for device in cell.devices:
+        packages = device.packages
+        absent = {"driver": packages.driver, "sdk": packages.sdk, "description": packages.description}
+        for part in _DEVICE_PARTS:
+            text = device.versions.part(part)
+            if text != UNKNOWN or absent.get(part, part) is not None:
+                yield Pin(device.name, part, text, (*device.path, part))
+
+
+def version_number(text: str) -> str:
+    """Return the version in a pin such as ``driver_package 3.8.0``; empty where there is none."""
+    last = text.split()[-1] if text.split() else ""
+    match = _NUMBER.search(last)
+    return match.group() if match else ""
+
+
+def version_numbers(text: str) -> tuple[int, ...]:
+    """Return a version as numbers that compare."""
+    return tuple(int(part) for part in version_number(text).split(".") if part)
+
+
+def distribution(cell: Cell) -> DistroFacts | None:
+    """Return the facts of the pinned distribution, or None where the catalogue has none."""
+    table = load_distros().value
+    known = {} if table is None else dict(table.distros.items())
+    return next((facts for name, facts in known.items() if name == cell.distro), None)
 
 
 class Answer(str, Enum):
