@@ -1,4 +1,4 @@
-"""A text of the spec holds a credential.
+"""A text of the spec contains a credential.
 
 An address with a password in it, a private key or a token of a code host is a secret under whatever key it stands. The
 spec is reviewed, copied and compiled into files that everybody on the host can read.

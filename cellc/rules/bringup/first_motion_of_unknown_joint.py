@@ -1,6 +1,6 @@
 """The first motion names a joint that does not exist.
 
-The joint that is stated aloud has to be the one that moves.
+The joint that is stated aloud must be the one that moves.
 
 Example that is reported:
 

@@ -1,4 +1,4 @@
-"""The first motion is faster or farther than a first motion may be.
+"""The first motion is too fast or too far.
 
 Gate G6 is a small move at reduced speed, so that a wrong sign is seen before it matters.
 

@@ -1,4 +1,4 @@
-"""A node on the command path is restarted by itself.
+"""A node on the command path is restarted automatically.
 
 A restarted commander may send its last goal again, with nobody beside the arm. Restarting perception is not the same
 as restarting what moves.

@@ -1,4 +1,4 @@
-"""A secret stands in the spec.
+"""The spec contains a secret.
 
 The spec is reviewed, copied and compiled into parameter files that everybody on the host can read.
 

@@ -1,4 +1,4 @@
-"""An observation is too old at the end of its chain, though each step of the chain keeps its own limit.
+"""An observation is too old at the end of its chain, although each step keeps its own limit.
 
 A detector passes the stamp of the image on. Its pose is as old as the image was, plus its own period: the reader's
 limit holds for the sum, and a limit that only fits the last step rejects fresh poses.

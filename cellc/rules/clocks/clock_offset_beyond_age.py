@@ -1,4 +1,4 @@
-"""Clocks may be farther apart than a sample may be old.
+"""The offset of a clock exceeds the age limit of its samples.
 
 With such an offset a sample passes the age test although it is too old, or fails it although it is fresh.
 

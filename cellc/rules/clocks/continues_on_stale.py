@@ -1,4 +1,4 @@
-"""Motion goes on with data that is too old.
+"""Motion continues with data that is too old.
 
 To continue on a stale sample, or after a clock jump that makes every sample stale, is to move blindly. A timeout has
 to fail closed.

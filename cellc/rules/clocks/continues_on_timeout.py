@@ -1,6 +1,6 @@
-"""Motion goes on although an answer is overdue.
+"""Motion continues although an answer is missing.
 
-A server that does not answer may have died in the middle of a motion, or a clock has jumped. The caller has to end in
+A server that does not answer may have died in the middle of a motion, or a clock has jumped. The caller must end in
 a state that somebody can see.
 
 Example that is reported:

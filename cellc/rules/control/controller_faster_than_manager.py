@@ -1,4 +1,4 @@
-"""A controller is to run faster than its manager.
+"""A controller is faster than its manager.
 
 The manager calls its controllers. It cannot call one more often than it runs itself.
 

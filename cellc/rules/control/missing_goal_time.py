@@ -1,6 +1,6 @@
 """A trajectory controller has no bound on reaching its goal.
 
-With a goal time of zero the controller waits for ever for a joint that does not arrive. The action neither succeeds
+With a goal time of zero the controller waits forever for a joint that does not arrive. The action neither succeeds
 nor fails, and the task behind it waits too.
 
 Example that is reported:

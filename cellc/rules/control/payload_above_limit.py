@@ -1,4 +1,4 @@
-"""An arm is to carry more than it can.
+"""The payload of an arm is above its limit.
 
 Beyond its payload the arm keeps neither its path nor its stopping distance.
 

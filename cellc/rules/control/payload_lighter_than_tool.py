@@ -1,4 +1,4 @@
-"""An arm is told of less than what is mounted on it.
+"""The payload of an arm is below the mass of its tools.
 
 The masses of the mounted devices alone exceed the payload that the controller is told.
 

@@ -1,4 +1,4 @@
-"""The update rate is none that a device accepts.
+"""A device does not accept the update rate.
 
 The driver exchanges commands at a fixed rate. A manager with another one repeats or drops commands, and the arm hums
 or stops with a communication error.

@@ -1,4 +1,4 @@
-"""Two controller managers have one name.
+"""Two controller managers have the same name.
 
 Both would be `/controller_manager`: a spawner reaches one of them, by chance.
 

@@ -1,4 +1,4 @@
-"""A controller does not run every so many cycles of its manager.
+"""The rate of a controller does not divide the rate of its manager.
 
 The manager counts cycles. A rate that does not divide its own makes the controller run at another rate than written,
 or unevenly.

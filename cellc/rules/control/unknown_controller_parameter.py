@@ -1,4 +1,4 @@
-"""A controller does not have such a parameter.
+"""A controller has no such parameter.
 
 Unknown parameters are ignored without a word. A misspelt tolerance is then a tolerance of zero, which means none.
 

@@ -1,4 +1,4 @@
-"""A device scales speed, and its trajectory controller does not know.
+"""A trajectory controller ignores the speed scaling of its device.
 
 The slider or the reduced mode slows the arm while the controller's clock runs on. The following error grows until the
 tolerance aborts the goal, or the arm jumps when the slider is opened.

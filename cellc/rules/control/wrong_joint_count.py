@@ -1,7 +1,7 @@
 """A controller drives more joints than its kind can, or none.
 
 It is loaded and fails when it is configured: a trajectory controller refuses an empty list of joints, a gripper
-controller takes one name. Everything that waits for its claims waits for ever.
+controller takes one name. Everything that waits for its claims waits forever.
 
 Example that is reported:
 

@@ -1,4 +1,4 @@
-"""A controller parameter has another type than it is declared with.
+"""A controller parameter has another type than declared.
 
 ROS distinguishes 1 from 1.0. A parameter of the wrong type ends the controller when it is configured.
 

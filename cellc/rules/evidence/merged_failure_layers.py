@@ -1,4 +1,4 @@
-"""A rehearsal expects the failure of another layer than the one that it provokes.
+"""A rehearsal expects the failure of another layer than it provokes.
 
 A lost transform that ends as stale state, or one that ends in a mere timeout, teaches nobody which layer failed. The
 outcomes are kept apart so that each names its cause; a timeout is the outcome of what answers or moves no more.
@@ -17,7 +17,7 @@ rehearsals:
   lost_frame: {use: pick_and_place, inject: {drop_frame: object, at: 0 s}, expect: tf_failure}
 ```
 
-Fix: expect the outcome of the layer that the injected fault hits, or `succeeded` where the cell should bear it.
+Fix: expect the outcome of the layer that the injected fault hits, or `succeeded` where the cell should tolerate it.
 
 Source: docs/principles.md#layers-of-failure
 """

@@ -1,4 +1,4 @@
-"""An attempt does not record a field of the checkpoint.
+"""An attempt does not record a required field.
 
 Each of the fifteen fields separates two causes. Without the goal stamp a stale image looks like a planning failure;
 without the controller's name nobody knows who moved.

@@ -1,4 +1,4 @@
-"""A topic is to be recorded that nobody publishes.
+"""Nobody publishes a topic that is recorded.
 
 The bag has no such channel, and it is noticed when it is needed.
 

@@ -1,4 +1,4 @@
-"""Two different transforms rest on one calibration.
+"""Two different transforms use one calibration.
 
 One id stands for one measurement. Where two frames with different parents or values name it, at least one of them
 carries a value that nobody measured, and a new revision silently changes both.

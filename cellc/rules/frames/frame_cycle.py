@@ -1,4 +1,4 @@
-"""Frames hang on each other in a circle.
+"""Frames form a cycle.
 
 No frame of the circle has a pose in the world, and a lookup through it never ends or fails at run time.
 
@@ -36,5 +36,5 @@ def check(graph: CellGraph) -> Findings:
         frame = graph.frames.authorities(first)[0]
         start = cycle.index(first)
         names = (*cycle[start:], *cycle[:start], first)
-        message = "frames hang on each other in a circle: " + " → ".join(f"`{name}`" for name in names)
+        message = "frames form a cycle: " + " → ".join(f"`{name}`" for name in names)
         yield found(graph, (*frame.path, "parent"), message)

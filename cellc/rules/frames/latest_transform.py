@@ -1,4 +1,4 @@
-"""A goal asks for the latest transform.
+"""A goal uses the latest transform.
 
 The latest transform belongs to another moment than the image: the arm, and with it a wrist camera, has moved on
 since. The error is as large as the motion in between and shows only when the robot is fast.

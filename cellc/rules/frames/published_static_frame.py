@@ -1,4 +1,4 @@
-"""A static frame is said to be published by a node.
+"""A static frame names a publisher or a rate.
 
 Static frames stand in the robot description and are published once, by robot_state_publisher. A node that publishes
 the same frame is a second authority.

@@ -1,6 +1,6 @@
 """A measured transform names no calibration.
 
-A static transform does not move during operation; that does not make it right for ever. Without a calibration id
+A static transform does not move during operation; that does not make it right forever. Without a calibration id
 nobody can tell which measurement a goal rested on, nor notice that a bumped camera still uses the old one.
 
 Example that is reported:

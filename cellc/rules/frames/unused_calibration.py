@@ -1,4 +1,4 @@
-"""No transform rests on a calibration.
+"""No transform uses a calibration.
 
 A measurement that nothing uses is usually one that was meant for a frame which still carries the old value.
 

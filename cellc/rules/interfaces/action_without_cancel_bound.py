@@ -1,6 +1,6 @@
 """An action does not say how soon a cancel takes effect.
 
-Cancel is a request. How long the arm may go on after it has to be known before anybody relies on it.
+Cancel is a request. How long the arm may go on after it must be known before anybody relies on it.
 
 Example that is reported:
 

@@ -1,6 +1,6 @@
-"""Nothing is said on what happens when a service or action does not answer.
+"""A service or action does not say what happens when no answer comes.
 
-A missing responder has to end in a state that somebody can see, not in a caller that hangs.
+A missing responder must end in a state that somebody can see, not in a caller that hangs.
 
 Example that is reported:
 

@@ -1,4 +1,4 @@
-"""Two nodes of a cell have one full name.
+"""Two nodes of a cell have the same full name.
 
 Parameters, actions and lifecycle services of the two mix: a request reaches one of them, by chance. The middleware
 allows it and prints one warning.

@@ -1,4 +1,4 @@
-"""A simulated network, clock, adapter or joint has figures that none can have.
+"""A simulated network, clock, adapter or joint has impossible figures.
 
 A rehearsal over a network with negative latency, or with a clock that runs backwards, shows nothing about the cell.
 

@@ -1,4 +1,4 @@
-"""The type of an interface is of another kind.
+"""The type of an interface does not fit its kind.
 
 A message cannot be called and a service cannot be streamed: the nodes do not compile, or never meet. A stream
 declared as a service or an action is the usual reason.

@@ -1,4 +1,4 @@
-"""One name carries two types.
+"""One name is used with two types.
 
 Endpoints of different types never meet. The name shows in every list, and no sample arrives.
 

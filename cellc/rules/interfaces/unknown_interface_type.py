@@ -1,4 +1,4 @@
-"""The type of an interface exists nowhere, but nearly.
+"""The type of an interface is misspelled.
 
 A misspelt type is found by no type support, and the node fails when it starts. Types of packages that cellc does not
 know are left alone: every cell may have its own.

@@ -1,6 +1,6 @@
 """Nobody publishes a topic.
 
-Its subscribers wait for ever, or go on with what they had.
+Its subscribers wait forever, or go on with what they had.
 
 Example that is reported:
 

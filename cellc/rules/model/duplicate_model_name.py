@@ -1,4 +1,4 @@
-"""Two links or two joints of a description have one name.
+"""Two links or two joints of a description have the same name.
 
 Whoever looks the name up gets the first or the last, depending on the library; TF then shows one of two bodies.
 

@@ -1,4 +1,4 @@
-"""No body has such an inertia tensor.
+"""No body can have such an inertia tensor.
 
 The moments of inertia of a real body are positive, and none exceeds the sum of the other two, in any axes. URDF
 libraries load a tensor that breaks this; simulations then gain energy and explode, and model-based control commands

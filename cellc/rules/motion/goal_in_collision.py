@@ -1,4 +1,4 @@
-"""At a goal the robot touches something.
+"""The robot is in collision at a goal.
 
 Joint positions for the goal exist, but in none of them is the robot free: a link, the tool or the scene is in the way.
 The planner refuses the goal.

@@ -1,4 +1,4 @@
-"""A goal is fixed to the arm that shall reach it.
+"""A goal is fixed to the arm that must reach it.
 
 The frame of the goal moves with the joints of the group, so the distance between tip and goal never changes.
 

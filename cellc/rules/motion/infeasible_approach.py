@@ -1,7 +1,7 @@
 """No straight line leads to a goal.
 
 The goal itself can be reached, its approach cannot: the pose before it is out of reach, something is in the way, or the
-arm would have to change its posture on the line.
+arm would must change its posture on the line.
 
 Example that is reported:
 

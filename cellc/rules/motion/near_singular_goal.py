@@ -1,6 +1,6 @@
 """A goal lies near a singularity.
 
-The arm gets there, but slowly: what the tip moves in the lost direction a joint has to move many times over, and small
+The arm gets there, but slowly: what the tip moves in the lost direction a joint must move many times over, and small
 errors of calibration become large motions of a joint.
 
 Example that is reported:

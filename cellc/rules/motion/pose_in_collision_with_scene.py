@@ -1,4 +1,4 @@
-"""A named pose puts the robot into something of the scene.
+"""The robot touches the scene in a named pose.
 
 A link and a declared solid thing are at one place. The planner refuses the pose, or the scene is not where it was
 declared and the next plan goes through the real thing.

@@ -1,4 +1,4 @@
-"""A named pose lets the robot touch itself.
+"""The robot touches itself in a named pose.
 
 Two links that are no neighbors touch in this pose, so no planner goes there, and a controller that is commanded there
 presses the arm against itself. A digit too many in an elbow is enough, and joint limits alone do not notice.

@@ -1,4 +1,4 @@
-"""A goal is reached in a singularity alone.
+"""A goal can be reached only in a singularity.
 
 In every configuration that puts the tip there the arm has lost a direction: it is stretched out, or two axes are in
 line. A straight motion would ask a joint for a speed without bound, and the controller stops.

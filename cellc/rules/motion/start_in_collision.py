@@ -1,4 +1,4 @@
-"""The cell begins in a collision.
+"""The cell starts in a collision.
 
 Without a pose `home` every joint begins at the home of its device, or at zero. There something touches, so that no
 planner finds a first motion and every rehearsal ends before it moves.

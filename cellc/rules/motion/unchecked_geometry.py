@@ -1,4 +1,4 @@
-"""Shapes cannot be read, so that nothing is known of collisions.
+"""Shapes cannot be read, so that collisions are not checked.
 
 The kinematics refuses the robot description, most often because it names a mesh that is not here. Poses and goals are
 then not checked, the semantic description lists neighbors alone, and the mock does not plan.

@@ -1,6 +1,6 @@
 """A rehearsal detects an object that the mock cannot place.
 
-The mock has no world. Where the thing lies that a dynamic frame follows has to be said, or the rehearsal can only
+The mock has no world. Where the thing lies that a dynamic frame follows must be said, or the rehearsal can only
 fail.
 
 Example that is reported:

@@ -1,6 +1,6 @@
 """A node holds the address of a real device in its parameters.
 
-The parameters are the same for every target. On the mock the node then talks to the real machine, past everything that
+The parameters are the same forevery target. On the mock the node then talks to the real machine, past everything that
 was meant to keep it out.
 
 Example that is reported:

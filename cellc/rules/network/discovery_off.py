@@ -1,4 +1,4 @@
-"""Nobody discovers anybody.
+"""Discovery is off, so that no two processes find each other.
 
 With discovery off, nodes in two processes never meet, on one host either.
 

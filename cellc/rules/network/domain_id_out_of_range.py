@@ -1,4 +1,4 @@
-"""The domain id has no ports.
+"""The domain id is out of range.
 
 DDS derives its ports from the domain. Above 232 they do not exist, and below 0 there is no domain.
 

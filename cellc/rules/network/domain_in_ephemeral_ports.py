@@ -1,4 +1,4 @@
-"""The ports of the domain are those that Linux gives to anybody.
+"""The ports of the domain are ephemeral ports of Linux.
 
 A browser or an update may take a port of the domain first, and one node then does not start, once a month.
 

@@ -1,4 +1,4 @@
-"""Two things have one address.
+"""Two cards or devices have the same address.
 
 Packets reach whichever answered last. The link looks unstable, and commands may go to the other device.
 

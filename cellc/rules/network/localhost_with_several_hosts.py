@@ -1,4 +1,4 @@
-"""Discovery ends at the host, but the cell has several.
+"""Discovery is limited to one host, but the cell has several.
 
 Nodes on two hosts never find each other, although each sees its own half.
 

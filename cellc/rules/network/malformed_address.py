@@ -1,4 +1,4 @@
-"""An address is no IPv4 address.
+"""An address is not an IPv4 address.
 
 A name, a missing prefix length or a typing error: the card gets no address, or the driver waits for a device that
 nobody has.

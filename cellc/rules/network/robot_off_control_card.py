@@ -1,4 +1,4 @@
-"""A robot is connected to a card that is not for control.
+"""A robot is connected to a card that does not carry control.
 
 Whatever else that card carries delays the robot's packets, and nothing in the spec forbids it.
 

@@ -1,4 +1,4 @@
-"""Unicast discovery has nobody to ask.
+"""Unicast discovery has no peers.
 
 Without multicast a participant finds only those that it is told of.
 

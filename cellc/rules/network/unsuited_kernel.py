@@ -1,4 +1,4 @@
-"""A host without real-time scheduling runs a fast controller manager.
+"""A host without real-time scheduling runs a driver that needs it.
 
 An ordinary kernel lets other work delay the loop by many milliseconds. The vendor asks for a preemptible one.
 

@@ -1,4 +1,4 @@
-"""An address names the subnet itself or everybody in it.
+"""An address is the network or broadcast address of its subnet.
 
 The first and the last address of a subnet belong to no host.
 

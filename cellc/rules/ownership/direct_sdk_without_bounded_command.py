@@ -1,6 +1,6 @@
 """A device that moves by a direct SDK has no bounded command.
 
-Without a controller of ros2_control nothing limits the commands but the application. The adapter has to take them over
+Without a controller of ros2_control nothing limits the commands but the application. The adapter must take them over
 one action that can be canceled and ends in time; calls of the library from anywhere have no bound and no owner.
 
 Example that is reported:

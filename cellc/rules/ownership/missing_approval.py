@@ -32,10 +32,10 @@ def check(graph: CellGraph) -> Findings:
     unwritten = []
     for item in graph.responsibilities.of_kind("approval"):
         if item.open and graph.cell.states(*item.path):
-            yield found(graph, item.path, f"nobody approves `{item.name}`")
+            yield found(graph, item.path, f"no owner approves `{item.name}`")
         elif item.open:
             unwritten.append(item.name)
     if unwritten:
         names = ", ".join(f"`{name}`" for name in unwritten)
         path = ("owners", "approvals")
-        yield found(graph, path, f"nobody approves {names}")
+        yield found(graph, path, f"no owner approves {names}")

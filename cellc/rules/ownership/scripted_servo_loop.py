@@ -1,7 +1,7 @@
 """A Python node closes a servo loop.
 
-A publish rate is no deadline. An interpreter with garbage collection and a shared executor misses cycles, and the arm
-follows references that stop and jump.
+A publish rate is not a deadline. An interpreter with garbage collection and a shared executor misses cycles, and the
+arm follows references that stop and jump.
 
 Example that is reported:
 

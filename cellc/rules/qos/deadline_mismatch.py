@@ -1,4 +1,4 @@
-"""A subscriber demands a shorter deadline than its publisher promises.
+"""A subscriber requests a shorter deadline than its publisher promises.
 
 The middleware does not connect the two. A publisher that promises nothing offers an infinite deadline.
 

@@ -1,4 +1,4 @@
-"""A late joiner demands history that its publisher does not keep.
+"""A subscriber requests history that its publisher does not keep.
 
 The middleware does not connect the two. The topic shows in every list, and no sample ever arrives.
 

@@ -1,4 +1,4 @@
-"""A subscriber demands that a publisher asserts its life, which it does not.
+"""A subscriber requests liveliness that its publisher does not assert.
 
 The middleware does not connect the two.
 

@@ -1,4 +1,4 @@
-"""The pinned middleware does not do what a QoS policy asks for.
+"""The pinned middleware ignores a QoS policy.
 
 With Zenoh, deadline, liveliness and incompatible QoS raise no event: a watchdog that rests on one of them never
 fires.

@@ -1,4 +1,4 @@
-"""A subscriber demands reliable samples of a best-effort publisher.
+"""A subscriber requests reliable samples of a best-effort publisher.
 
 The middleware does not connect the two. The topic shows in every list, and no sample ever arrives.
 

@@ -1,4 +1,4 @@
-"""Motion goes on after a stop without a person.
+"""Motion resumes after a stop without a person.
 
 What triggered the stop may still be there, and somebody may be in the cell to look at it.
 

@@ -1,4 +1,4 @@
-"""The stop is not said to be independent of a host.
+"""The stop is not declared independent of a host.
 
 If the path of the stop needs a computer of the cell, it fails together with what it should stop.
 
@@ -35,4 +35,4 @@ def check(graph: CellGraph) -> Findings:
     if needed:
         names = " and ".join(f"`{host}`" for host in needed)
         path = ("safety", "stop", "independent_of")
-        yield found(graph, path, f"the stop is not said to be independent of {names}")
+        yield found(graph, path, f"the stop is not declared independent of {names}")

@@ -1,6 +1,6 @@
-"""The stop runs over software.
+"""The stop path runs through software.
 
-A message may be late, lost or refused. A stop has to work when everything that sends messages is dead.
+A message may be late, lost or refused. A stop must work when everything that sends messages is dead.
 
 Example that is reported:
 

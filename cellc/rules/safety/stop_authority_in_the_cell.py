@@ -1,6 +1,6 @@
 """The authority to stop is given to a computer or a node of the cell.
 
-A computer that plans and controls is what has to be stopped. It hangs, reboots and updates itself.
+A computer that plans and controls is what must be stopped. It hangs, reboots and updates itself.
 
 Example that is reported:
 
@@ -36,5 +36,5 @@ def check(graph: CellGraph) -> Findings:
     authority = graph.cell.safety.stop.authority
     parts = {*graph.cell.hosts, *(n.name for n in graph.cell.nodes), *(c.name for c in graph.cell.controllers)}
     if authority in parts or _SOFTWARE.search(authority):
-        message = f"`{authority}` has the authority to stop, but is itself what has to be stopped"
+        message = f"`{authority}` has the authority to stop, but is itself what must be stopped"
         yield found(graph, ("safety", "stop", "authority"), message)

@@ -1,4 +1,4 @@
-"""The stop is said to be independent of a host that does not exist.
+"""The stop is declared independent of a host that does not exist.
 
 A misspelt host leaves the real one unmentioned.
 

@@ -1,6 +1,6 @@
 """There is no image and configuration to go back to.
 
-When the new configuration fails on Friday evening, the way back has to be a replay and not a reinstallation.
+When the new configuration fails on Friday evening, the way back must be a replay and not a reinstallation.
 
 Example that is reported:
 

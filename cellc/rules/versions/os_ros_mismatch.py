@@ -1,4 +1,4 @@
-"""Operating system and ROS distribution are no pair.
+"""The ROS distribution is not built for the operating system.
 
 Packages of a distribution are built for one release of the operating system. On another they do not install, or run
 against other libraries than they were tested with.

@@ -1,4 +1,4 @@
-"""The middleware is none that the distribution has.
+"""The distribution does not have this middleware.
 
 A misspelt middleware is not loaded; the nodes end when they start, or one of them takes the default and never meets
 the others.

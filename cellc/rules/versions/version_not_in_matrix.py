@@ -1,4 +1,4 @@
-"""A combination stands in no matrix.
+"""A combination is in no version matrix.
 
 Nobody has said that it works, and nobody that it does not. It stays UNKNOWN until a test of this tuple says so.
 

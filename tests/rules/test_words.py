@@ -1,0 +1,110 @@
+"""The words of rules: sentences that say what must be, each help once, and suggestions that hold."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from cellc.rules.kit import Rule
+from cellc.rules.run import ALL_RULES
+from tests.rules.examples import Example, diagnose_example
+
+FOLDER = Path(__file__).resolve().parents[2] / "cellc" / "rules"
+RULES = [pytest.param(rule, id=rule.code) for rule in ALL_RULES]
+_REFUSED = re.compile(
+    r"\b(?:is|are) (?:due|asked for|allowed)\b|\bnone can\b|(?<![Tt]here )\bis no [a-z]|\bha(?:s|ve) to be\b"
+    r"|\bcatalogue|\bcancelled\b"
+)
+_WORDING = ("message", "advice", "allowed", "reason")
+IMAGE = "the digest of the last image that ran"
+CONFIGURATION = "the id of the last configuration that ran, such as `cfg-0123456789ab`"
+
+_INTERFACE = """
+interfaces:
+  "{name}": {{topic: geometry_msgs/msg/PoseStamped, from: perception, to: {{task: {{depth: 1}}}}, frame: world,
+             wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: reject_goal}}
+"""
+
+
+def texts(rule: Rule) -> Iterator[str]:
+    """Yield what a rule says to people: its page without examples, and the texts of its messages and helps."""
+    page = re.sub(r"```.*?```", "", rule.page, flags=re.DOTALL)
+    yield re.sub(r"`[^`]*`", "", page)
+    for call in calls_of(rule):
+        yield from (
+            node.value for node in ast.walk(call) if isinstance(node, ast.Constant) and isinstance(node.value, str)
+        )
+
+
+def calls_of(rule: Rule) -> Iterator[ast.AST]:
+    """Yield the assignments of texts and the calls that report, in the file of a rule."""
+    (file,) = FOLDER.glob(f"*/{rule.code.replace('-', '_')}.py")
+    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+        named = isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) in _WORDING
+        if named or (isinstance(node, ast.Call) and ast.unparse(node.func) in ("found", "Finding")):
+            yield node
+
+
+@pytest.mark.parametrize("rule", RULES)
+def test_words_are_those_of_the_style_sheet(rule: Rule) -> None:
+    assert [match[0] for text in texts(rule) for match in _REFUSED.finditer(text)] == []
+
+
+@pytest.mark.parametrize("rule", RULES)
+def test_fix_is_one_line_that_begins_with_a_verb(rule: Rule) -> None:
+    assert re.match(r"[a-z]+ ", rule.fix)
+    assert len(rule.fix) <= 140
+    assert not rule.fix.startswith(("the ", "a ", "an ", "no ", "it "))
+
+
+@pytest.mark.parametrize("rule", RULES)
+def test_help_that_is_always_the_same_is_the_fix_of_the_page(rule: Rule) -> None:
+    calls = [call for call in calls_of(rule) if isinstance(call, ast.Call)]
+    helps = {ast.unparse(call.args[3]) if len(call.args) > 3 else "" for call in calls}
+    assert not (len(helps) == 1 and next(iter(helps)).startswith(("'", '"'))), helps
+
+
+@pytest.mark.parametrize(
+    ("rollback", "message", "help_"),
+    [
+        ("image: UNKNOWN, configuration: cfg-1", "the rollback `image` is UNKNOWN", f"write {IMAGE}"),
+        (
+            "image: sha256-1, configuration: UNKNOWN",
+            "the rollback `configuration` is UNKNOWN",
+            f"write {CONFIGURATION}",
+        ),
+        (
+            "image: UNKNOWN, configuration: UNKNOWN",
+            "the rollback `image` and `configuration` are UNKNOWN",
+            f"write {IMAGE} and {CONFIGURATION}",
+        ),
+    ],
+)
+def test_words_fit_what_is_missing(rollback: str, message: str, help_: str, tmp_path: Path) -> None:
+    example = Example("yaml", f"versions: {{rollback: {{{rollback}}}}}")
+    (found,) = [one for one in diagnose_example(example, tmp_path) if one.code == "missing-rollback"]
+    assert (found.message, found.help) == (message, help_)
+
+
+@pytest.mark.parametrize(
+    ("written", "suggested"),
+    [
+        ("/camera-markers", "/camera_markers"),
+        ("markers", "/markers"),
+        ("/2d/markers", "/_2d/markers"),
+        ("/markers//left/", "/markers/left"),
+        ("/$(id)", "/id"),
+        ("/-", "/name"),
+    ],
+)
+def test_suggested_name_is_legal(written: str, suggested: str, tmp_path: Path) -> None:
+    def found(name: str) -> list[str]:
+        example = Example("yaml", _INTERFACE.format(name=name))
+        return [one.help for one in diagnose_example(example, tmp_path) if one.code == "illegal-ros-name"]
+
+    assert found(written) == [f"write `{suggested}`, as the nodes do"]
+    assert found(suggested) == []
