@@ -11,11 +11,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from cellc.contract.adapter import ContractAdapter
 from cellc.contract.base import ContractModel, ContractPose
-from cellc.contract.clock import ContractClock
-from cellc.contract.network import ContractNetwork
-from cellc.contract.simulated_joint import ContractSimulatedJoint
 from cellc.vocabulary import Behaviour, Distro
 
 
@@ -34,6 +30,17 @@ class ContractCalibration(ContractModel):
 
     revision: int = Field(description="Counts up with every measurement.")
     owner: str = Field(description="Who answers for it.")
+
+
+class ContractClock(ContractModel):
+    """A clock that stamps are made on: of a host, or of a device with one of its own."""
+
+    domain: str = Field(description="Clock domain.")
+    synchronised_by: str | None = Field(None, description="What disciplines it.")
+    max_offset_s: float | None = Field(None, description="Bound of its offset; null where nothing bounds it.")
+    simulated: bool = Field(False, description="Time comes from /clock.")
+    offset_s: float = Field(0.0, description="Offset that the mock gives it.")
+    drift: float = Field(0.0, description="Seconds that the mock lets it gain in a second, until the bound.")
 
 
 class ContractFrame(ContractModel):
@@ -77,6 +84,15 @@ class ContractEndpoint(ContractModel):
         ("mock", "real"), description="Targets on which it stands there."
     )
     qos: ContractQos = Field(description="Its profile.")
+
+
+class ContractNetwork(ContractModel):
+    """What the mock's network does to each sample of a topic."""
+
+    latency_s: float = Field(0.0, description="Shortest time from publishing to arrival.")
+    jitter_s: float = Field(0.0, description="Up to so much more.")
+    loss: float = Field(0.0, description="Share of samples lost on their way, 0 to 1.")
+    reordering: float = Field(0.0, description="Share of samples overtaken by the next one, 0 to 1.")
 
 
 class ContractInterface(ContractModel):
@@ -190,6 +206,22 @@ class ContractDevice(ContractModel):
     camera: ContractCamera | None = Field(None, description="What a camera adds.")
 
 
+class ContractAdapter(ContractModel):
+    """A device that its vendor's library drives behind an adapter, where no controller does."""
+
+    joints: tuple[str, ...] = Field(description="Joints in the order of states and commands.")
+    units: tuple[Literal["rad", "m"], ...] = Field(description="Unit of each joint's position.")
+    action: str = Field(description="Full name of the action that takes its trajectories.")
+    state_topic: str = Field(description="Full name of the topic of its stamped state.")
+    client: str | None = Field(None, description="Name of the one node that may command it.")
+    command_period_s: float = Field(description="Time from one command to the next.", gt=0.0)
+    command_timeout_s: float = Field(description="Watchdog: silence after which it stops.", gt=0.0)
+    stop_time_s: float = Field(description="Longest time from a hold to standstill.", gt=0.0)
+    goal_time_s: float = Field(description="Time past the end of a trajectory within which it stands still.", gt=0.0)
+    path_tolerance: float = Field(description="Distance from the command that ends a goal, rad or m.", gt=0.0)
+    start_positions: tuple[float, ...] = Field(description="Where the mock's joints stand at first, rad or m.")
+
+
 class ContractJointLimits(ContractModel):
     """Limits of the cell for one joint; rad or m."""
 
@@ -198,6 +230,14 @@ class ContractJointLimits(ContractModel):
     velocity: float = Field(description="Largest speed.")
     acceleration: float = Field(description="Largest acceleration.")
     jerk: float = Field(description="Largest jerk.")
+
+
+class ContractSimulatedJoint(ContractModel):
+    """A joint that lags, saturates or is measured with noise; rad and rad/s, or m and m/s."""
+
+    lag_s: float = Field(0.0, description="Time constant of a first-order lag; 0 is none.")
+    noise: float = Field(0.0, description="Largest error of the measured position; 0 is none.")
+    max_velocity: float | None = Field(None, description="Speed at which it saturates; null where it does not.")
 
 
 class ContractGroup(ContractModel):

@@ -10,7 +10,7 @@ from cellc.contract.base import ContractModel
 
 
 class ConfigurationInputs(ContractModel):
-    """What the configuration id is taken over (chapter 4, TF and time acceptance gate 6)."""
+    """What the configuration id is taken over."""
 
     calibrations: dict[str, int] = Field(description="Revision of each calibration.")
     tf_publishers: dict[str, str] = Field(description="Authority of each frame.")

@@ -29,7 +29,7 @@ from cellc.mock.task_status import ActionStatus, Milestones, TaskRequests
 from cellc.mock.tf.buffer import DEFAULT_BUFFER_S, TransformBuffer
 from cellc.mock.tf.sources import SampledSource
 from cellc.mock.world.joint_states import JOINT_STATE_TYPE
-from cellc.mock.world.objects import World
+from cellc.mock.world.world import World
 from cellc.transforms import Pose
 
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import ceil
 
-from cellc.contract.clock import ContractClock
+from cellc.contract.contract import ContractClock
 
 
 @dataclass(frozen=True, slots=True)

@@ -19,7 +19,7 @@ from cellc.mock.nodes.robot_state_publisher import JointStateFeed, RobotStatePub
 from cellc.mock.stops import Stops
 from cellc.mock.task_status import ActionStatus, Milestones, TaskRequests
 from cellc.mock.tf.buffer import TransformBuffer
-from cellc.mock.world.objects import World
+from cellc.mock.world.world import World
 
 
 @dataclass(frozen=True, slots=True)

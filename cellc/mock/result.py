@@ -15,7 +15,7 @@ from cellc.vocabulary import AttemptOutcome, Term
 
 
 class PacketStep(str, Enum):
-    """The eight steps of one packet, from the observation to its result (chapter 4, section 10)."""
+    """The eight steps of one packet, from the observation to its result."""
 
     OBSERVED = "1 object pose published with image stamp"
     TRANSFORMED = "2 goal transformed into base"

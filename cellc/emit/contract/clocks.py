@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from cellc.cell.cell import Cell
 from cellc.cell.device import Device
 from cellc.cell.site import UNKNOWN, Clock
-from cellc.contract.clock import ContractClock
+from cellc.contract.contract import ContractClock
 
 SIM = "sim"
 

@@ -20,10 +20,10 @@ from cellc.contract.contract import (
     ContractFiles,
     ContractInterface,
     ContractKpis,
+    ContractNetwork,
     ContractQos,
     ContractSafety,
 )
-from cellc.contract.network import ContractNetwork
 from cellc.deploy.configuration import version_tuple
 from cellc.deploy.files import REHEARSALS, controllers_file, description_file, semantic_file
 from cellc.emit.contract.clocks import clock_of, clocks

@@ -8,9 +8,14 @@ from cellc.cell.cell import Cell
 from cellc.cell.device import Adapter, Device, SimulatedJoint
 from cellc.cell.interface import Interface, InterfaceKind
 from cellc.cell.site import UNKNOWN
-from cellc.contract.adapter import ContractAdapter
-from cellc.contract.contract import ContractCamera, ContractDevice, ContractDriver, ContractGripper
-from cellc.contract.simulated_joint import ContractSimulatedJoint
+from cellc.contract.contract import (
+    ContractAdapter,
+    ContractCamera,
+    ContractDevice,
+    ContractDriver,
+    ContractGripper,
+    ContractSimulatedJoint,
+)
 from cellc.formats.urdf.robot import start_positions
 from cellc.graph.claims import AdaptedDevice, adapted_devices
 

@@ -21,8 +21,7 @@ from cellc.adapter import (
     Waypoint,
     check_command,
 )
-from cellc.contract.adapter import ContractAdapter
-from cellc.contract.contract import ContractJointLimits
+from cellc.contract.contract import ContractAdapter, ContractJointLimits
 from cellc.mock.adapter.simulated import AdapterDisturbances, SimulatedAdapter
 from cellc.mock.control import (
     CancelResponse,

@@ -1,4 +1,4 @@
-"""The key figures of one rehearsal against the targets of the contract (chapter 4, manufacturing cell checkpoint)."""
+"""The key figures of one rehearsal against the targets of the contract."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Kpi:
 
 
 def kpis(targets: ContractKpis, result: RehearsalResult, trace: TraceResult, max_state_age_s: float) -> tuple[Kpi, ...]:
-    """Return the seven figures of the chapter.
+    """Return the seven figures.
 
     Args:
         max_state_age_s: how old a joint state may be.

@@ -7,6 +7,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
 
+from cellc.vocabulary import GateCode
+
 _TOLD = 3
 """Pieces of evidence that a line names; the number of the rest is told."""
 
@@ -38,13 +40,13 @@ class GateResult:
     """A gate as far as the mock can judge it.
 
     Attributes:
-        gate: its name in the chapter: L6, G1, G2, or S2 for the interface checklist of section 2.
+        gate: L6, G1, G2, or S2 for the interface checklist.
         state: state of the robot that the gate is for.
         configuration_id: configuration that was judged.
         seed: of the runs that are the evidence.
     """
 
-    gate: str
+    gate: GateCode
     title: str
     state: str
     configuration_id: str
@@ -63,7 +65,7 @@ class GateResult:
     @property
     def signature(self) -> str:
         """A digest over everything the result says: another line, run or configuration gives another one."""
-        text = repr((self.gate, self.title, self.state, self.configuration_id, self.seed, self.checks))
+        text = repr((self.gate.value, self.title, self.state, self.configuration_id, self.seed, self.checks))
         return f"sha256:{hashlib.sha256(text.encode()).hexdigest()}"
 
 

@@ -10,13 +10,14 @@ from cellc.mock.gates.gate import GateCheck, GateResult
 from cellc.mock.gates.interaction import interaction_checks
 from cellc.mock.gates.model import model_checks
 from cellc.mock.gates.runs import GateEvidence, JudgedRun
+from cellc.vocabulary import GateCode
 
-# Name, title and state of the robot as in sections 2, 5 and 11 of chapter 4.
-_GATES: tuple[tuple[str, str, str, Callable[[GateEvidence], Iterator[GateCheck]]], ...] = (
-    ("S2", "Interface selection checklist", "no hardware connected", interaction_checks),
-    ("L6", "Command path", "mock, or drives off", command_path_checks),
-    ("G1", "Model", "offline", model_checks),
-    ("G2", "Mock", "no hardware connected", mock_run_checks),
+# Name, title and state of the robot.
+_GATES: tuple[tuple[GateCode, str, str, Callable[[GateEvidence], Iterator[GateCheck]]], ...] = (
+    (GateCode.S2, "Interface selection checklist", "no hardware connected", interaction_checks),
+    (GateCode.L6, "Command path", "mock, or drives off", command_path_checks),
+    (GateCode.G1, "Model", "offline", model_checks),
+    (GateCode.G2, "Mock", "no hardware connected", mock_run_checks),
 )
 
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from cellc.contract.contract import Contract, ContractGroup, ContractJointLimits
 from cellc.description.model import Description
 from cellc.mock.errors import MockError
-from cellc.mock.world.links import LinkTree, link_tree
+from cellc.mock.world.world import LinkTree, link_tree
 from cellc.planning import (
     CollisionScene,
     JointLimits,

@@ -13,7 +13,7 @@ from cellc.mock.bus.topic import Topic
 from cellc.mock.clocks import Clock
 from cellc.mock.engine.simulation import Simulation
 from cellc.mock.tf.sources import DeferredPose, SampledSource
-from cellc.mock.world.objects import World
+from cellc.mock.world.world import World
 from cellc.transforms import Pose
 
 DEFAULT_TRANSPORT_S = 0.005

@@ -13,7 +13,7 @@ from cellc.mock.tf.buffer import TransformBuffer
 from cellc.mock.tf.messages import TfWarnings
 from cellc.mock.tf.sources import StaticSource, TimeCache
 from cellc.mock.world.joint_states import JointStateHistory
-from cellc.mock.world.links import LinkJoint, LinkTree
+from cellc.mock.world.world import LinkJoint, LinkTree
 from cellc.transforms import Pose
 
 

@@ -172,7 +172,7 @@ UNPROVEN = (
     ("Contact", "grasp force, slip, collisions with what the model does not hold, cables and hoses"),
     ("People", "guards, the area, the observer and the procedure"),
 )
-"""After the limits that chapter 4 states of mock hardware (sections 8 and 13)."""
+"""What mock hardware leaves out, each with its own gate on the real cell."""
 _MARKS = {Verdict.PASSED: "✓", Verdict.FAILED: "✗", Verdict.UNKNOWN: "?"}
 _CLASSES = {Verdict.PASSED: "good", Verdict.FAILED: "bad", Verdict.UNKNOWN: "unknown"}
 

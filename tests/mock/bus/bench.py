@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from cellc.contract.contract import ContractEndpoint, ContractInterface, ContractQos
-from cellc.contract.network import ContractNetwork
+from cellc.contract.contract import ContractEndpoint, ContractInterface, ContractNetwork, ContractQos
 from cellc.mock.bus.edge import Subscription
 from cellc.mock.bus.network import Network, QosEventKind
 from cellc.mock.bus.qos import DDS, Middleware

@@ -11,8 +11,7 @@ from random import Random
 
 import pytest
 
-from cellc.contract.contract import ContractQos
-from cellc.contract.network import ContractNetwork
+from cellc.contract.contract import ContractNetwork, ContractQos
 from cellc.mock.bus.network import SEVERED, EdgeBehaviour, QosEventKind, edge_random
 from tests.mock.bus.bench import MS, TOPIC, Bench, qos
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from cellc.contract.network import ContractNetwork
+from cellc.contract.contract import ContractNetwork
 from cellc.mock.bus.network import QosEventKind
 from cellc.mock.bus.qos import incompatibilities
 from tests.mock.bus.bench import Bench, qos

@@ -7,8 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from cellc.contract.contract import ContractInterface, ContractQos
-from cellc.contract.network import ContractNetwork
+from cellc.contract.contract import ContractInterface, ContractNetwork, ContractQos
 from cellc.mock.bus.network import SEVERED, EdgeName, Network
 from cellc.mock.bus.stream import NEVER_NS, IntArray, StreamEdge
 from tests.mock.bus.bench import MS, TOPIC, StepClock, qos

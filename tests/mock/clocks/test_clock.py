@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cellc.contract.clock import ContractClock
+from cellc.contract.contract import ContractClock
 from cellc.mock.clocks import Clock, Clocks, Segment, TimeJump, build_clocks, clock_from
 
 MS = 1_000_000

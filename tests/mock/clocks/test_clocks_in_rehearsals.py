@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from cellc.contract.clock import ContractClock
+from cellc.contract.contract import ContractClock
 from cellc.mock import MockCell, RehearsalResult
 from cellc.mock.clocks import clock_from
 from cellc.mock.plant import Plant

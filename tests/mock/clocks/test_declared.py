@@ -6,9 +6,7 @@ import json
 
 import pytest
 
-from cellc.contract.clock import ContractClock
-from cellc.contract.contract import Contract
-from cellc.contract.network import ContractNetwork
+from cellc.contract.contract import Contract, ContractClock, ContractNetwork
 from tests.cells import CORPUS, compiled
 
 

@@ -137,7 +137,7 @@ def test_mock_runs_without_the_rest_of_the_compiler(built_folder: Path, tmp_path
     package = tmp_path / "cellc"
     for part in ("mock", "planning", "description", "diagnostics", "contract", "adapter"):
         shutil.copytree(ROOT / "cellc" / part, package / part, ignore=shutil.ignore_patterns("__pycache__"))
-    for name in ("__init__.py", "transforms.py"):
+    for name in ("__init__.py", "transforms.py", "vocabulary.py"):
         shutil.copy(ROOT / "cellc" / name, package)
     done = subprocess.run(
         [sys.executable, "-P", "-m", "cellc.mock", str(built_folder), "--json"]

@@ -18,8 +18,7 @@ from cellc.mock.tf.buffer import Transform, TransformBuffer
 from cellc.mock.tf.messages import TfWarnings
 from cellc.mock.tf.sources import DeferredPose, SampledSource
 from cellc.mock.world.joint_states import JointStateHistory, LateArrival
-from cellc.mock.world.links import LinkTree, link_tree
-from cellc.mock.world.objects import World
+from cellc.mock.world.world import LinkTree, World, link_tree
 from cellc.planning import RobotModel
 from cellc.transforms import Pose, from_xyz_rpy, identity
 
