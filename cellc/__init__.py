@@ -1,3 +1,78 @@
-"""cellc: a declarative compiler for robot cells."""
+"""cellc: a declarative compiler for robot cells.
 
-__version__ = "0.1.0"
+What a program calls is here: ``check`` a spec, ``build`` its ROS 2 package, ``load_mock`` to execute that package.
+
+    import cellc
+
+    report = cellc.build("cells/bench/cell.yaml", "generated")
+    if report.value is not None:
+        result = cellc.load_mock("generated/bench").run("pick_and_place")
+        print(result.outcome)
+
+Importing the package loads no stage; each function loads what it needs.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from cellc.version import __version__
+
+if TYPE_CHECKING:
+    from cellc.diagnostics import Outcome
+    from cellc.mock import MockCell
+    from cellc.output.write import WriteReport
+    from cellc.pipeline import Checked
+
+__all__ = ["__version__", "build", "check", "load_mock"]
+
+
+def check(spec: str | Path) -> Checked:
+    """Read, link and check a cell; nothing is written.
+
+    Args:
+        spec: the cell's YAML file.
+
+    Returns:
+        Its diagnostics, and the linked cell where nothing hides it. A file that cannot be read is a diagnostic too.
+    """
+    from cellc.pipeline import check as check_cell
+
+    return check_cell(spec)
+
+
+def build(spec: str | Path, output: str | Path = "generated", *, force: bool = False) -> Outcome[WriteReport]:
+    """Check a cell and write its ROS 2 package to a folder of the cell's name in ``output``.
+
+    Args:
+        spec: the cell's YAML file.
+        output: folder that holds a folder for each cell.
+        force: discard edits that were made by hand in generated files.
+
+    Returns:
+        What was written, and the diagnostics of all stages. There is no value where an error stopped the build.
+    """
+    from cellc.diagnostics import Outcome
+    from cellc.output.write import write
+    from cellc.pipeline import check as check_cell
+    from cellc.pipeline import compile_cell
+
+    checked = check_cell(spec)
+    compiled = compile_cell(checked)
+    found = (*checked.diagnostics, *compiled.diagnostics)
+    if checked.graph is None or compiled.value is None or not compiled.ok:
+        return Outcome(None, found)
+    written = write(compiled.value, Path(output) / checked.graph.cell.name, force=force)
+    return Outcome(written.value, (*found, *written.diagnostics))
+
+
+def load_mock(folder: str | Path) -> MockCell:
+    """Load a generated folder, whose rehearsals ``run(name)`` executes.
+
+    Raises:
+        cellc.mock.MockError: the folder cannot be executed; the message names the file and the reason.
+    """
+    from cellc.mock import load
+
+    return load(Path(folder))

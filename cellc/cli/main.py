@@ -11,7 +11,7 @@ from importlib import import_module
 
 import click
 
-from cellc import __version__
+from cellc.version import __version__
 
 # Command → module; the function in it has the command's name.
 _COMMANDS = {

@@ -19,7 +19,6 @@ from xml.dom import minidom
 
 import xacro
 
-import cellc
 from cellc.description.xacro_confinement import Confinement, place_of
 from cellc.description.xacro_expression import ExpressionError
 from cellc.description.xacro_files import XacroRefusedError
@@ -156,7 +155,7 @@ def expand_xacro(
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
             # `-m` puts the current folder first on the import path: it must not be one that a stranger filled.
-            cwd=Path(cellc.__file__).resolve().parents[1],
+            cwd=Path(__file__).resolve().parents[2],
             env={**os.environ, "PYTHONHASHSEED": "0"},
             timeout=wall_seconds,
             check=False,

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from cellc import __version__
 from cellc.artifact import Artifact
 from cellc.contract.manifest import ConfigurationInputs, Manifest
 from cellc.formats.json_text import render
 from cellc.output.plan import MANIFEST, sha256
+from cellc.version import __version__
 
 
 def with_manifest(

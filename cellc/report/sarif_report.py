@@ -11,12 +11,12 @@ import json
 from collections.abc import Iterable
 from pathlib import PurePath
 
-from cellc import __version__
 from cellc.diagnostics import Diagnostic, Severity, Span, format_path
 from cellc.diagnostics.page import CodePage
 from cellc.report.github_report import file_uri
 from cellc.report.pages import all_pages, family_of, render_page
 from cellc.report.terminal import escape
+from cellc.version import __version__
 
 _SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 _LEVELS = {

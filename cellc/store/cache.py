@@ -18,7 +18,7 @@ from typing import TypeVar
 
 from pydantic import TypeAdapter, ValidationError
 
-from cellc import __version__
+from cellc.version import __version__
 
 OFF = "CELLC_NO_CACHE"
 MAX_BYTES = 10_000_000
