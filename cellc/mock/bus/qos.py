@@ -1,8 +1,6 @@
 """Whether two endpoints match by their QoS, under the rules of the pinned middleware.
 
-The table is that of rmw_dds_common `qos_profile_check_compatible` and of the ROS 2 page "About Quality of Service
-settings": a profile offers what it promises to do, and requests what it relies on. History, depth and lifespan are
-never compared.
+DDS compares by the table of ``contract.qos``; with Zenoh any two endpoints of a topic match.
 """
 
 from __future__ import annotations
@@ -11,48 +9,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 from cellc.contract.contract import Contract, ContractEndpoint, ContractQos
-
-
-@dataclass(frozen=True, slots=True)
-class Incompatibility:
-    """One policy on which a publisher offers less than a subscription requests."""
-
-    policy: str
-    offered: str
-    requested: str
-
-    def __str__(self) -> str:
-        return f"{self.policy}: offered {self.offered}, requested {self.requested}"
-
-
-def incompatibilities(offered: ContractQos, requested: ContractQos) -> tuple[Incompatibility, ...]:
-    """Return every policy that keeps two endpoints from being matched; none where they connect."""
-    return tuple(_compare(offered, requested))
-
-
-def _compare(offered: ContractQos, requested: ContractQos) -> Iterator[Incompatibility]:
-    if offered.reliability == "best_effort" and requested.reliability == "reliable":
-        yield Incompatibility("reliability", offered.reliability, requested.reliability)
-    if offered.durability == "volatile" and requested.durability == "transient_local":
-        yield Incompatibility("durability", offered.durability, requested.durability)
-    if _longer(offered.deadline_s, requested.deadline_s):
-        yield Incompatibility("deadline", _seconds(offered.deadline_s), _seconds(requested.deadline_s))
-    if offered.liveliness == "automatic" and requested.liveliness == "manual_by_topic":
-        yield Incompatibility("liveliness", offered.liveliness, requested.liveliness)
-    if _longer(offered.lease_duration_s, requested.lease_duration_s):
-        yield Incompatibility(
-            "lease_duration", _seconds(offered.lease_duration_s), _seconds(requested.lease_duration_s)
-        )
-
-
-def _longer(offered: float | None, requested: float | None) -> bool:
-    """Tell whether an offered duration exceeds the requested one; None is infinite."""
-    return requested is not None and (offered is None or offered > requested)
-
-
-def _seconds(duration: float | None) -> str:
-    return "infinite" if duration is None else f"{duration:g} s"
-
+from cellc.contract.qos import Incompatibility, incompatibilities
 
 ZENOH_PREFIX = "rmw_zenoh"
 

@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 
 from cellc.contract.contract import ContractNetwork
+from cellc.contract.qos import incompatibilities
 from cellc.mock.bus.network import QosEventKind
-from cellc.mock.bus.qos import incompatibilities
 from tests.mock.bus.bench import Bench, qos
 
 TABLE = [

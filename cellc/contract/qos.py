@@ -1,0 +1,77 @@
+"""The table of DDS: on which QoS policies a publisher offers less than a subscription requests.
+
+Rules ask it before a cell is built, the mock when two endpoints meet. A profile offers what it promises to do, and
+requests what it relies on. History, depth and lifespan are never compared. The rows are those of
+`qos_profile_check_compatible` in rmw_dds_common and of the ROS 2 page "About Quality of Service settings".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Protocol
+
+
+class QosProfile(Protocol):
+    """What is compared of a profile; None is an infinite duration."""
+
+    @property
+    def reliability(self) -> str:
+        """`reliable` or `best_effort`."""
+
+    @property
+    def durability(self) -> str:
+        """`volatile` or `transient_local`."""
+
+    @property
+    def deadline_s(self) -> float | None:
+        """Longest time between samples."""
+
+    @property
+    def liveliness(self) -> str:
+        """`automatic` or `manual_by_topic`."""
+
+    @property
+    def lease_duration_s(self) -> float | None:
+        """Longest time between assertions of liveliness."""
+
+
+@dataclass(frozen=True, slots=True)
+class Incompatibility:
+    """One policy on which a publisher offers less than a subscription requests."""
+
+    policy: str
+    offered: str
+    requested: str
+
+    def __str__(self) -> str:
+        return f"{self.policy}: offered {self.offered}, requested {self.requested}"
+
+
+def incompatibilities(offered: QosProfile, requested: QosProfile) -> tuple[Incompatibility, ...]:
+    """Return every policy that keeps two endpoints from being matched; none where they connect."""
+    return tuple(_compare(offered, requested))
+
+
+def _compare(offered: QosProfile, requested: QosProfile) -> Iterator[Incompatibility]:
+    if offered.reliability == "best_effort" and requested.reliability == "reliable":
+        yield Incompatibility("reliability", offered.reliability, requested.reliability)
+    if offered.durability == "volatile" and requested.durability == "transient_local":
+        yield Incompatibility("durability", offered.durability, requested.durability)
+    if _longer(offered.deadline_s, requested.deadline_s):
+        yield Incompatibility("deadline", _seconds(offered.deadline_s), _seconds(requested.deadline_s))
+    if offered.liveliness == "automatic" and requested.liveliness == "manual_by_topic":
+        yield Incompatibility("liveliness", offered.liveliness, requested.liveliness)
+    if _longer(offered.lease_duration_s, requested.lease_duration_s):
+        yield Incompatibility(
+            "lease_duration", _seconds(offered.lease_duration_s), _seconds(requested.lease_duration_s)
+        )
+
+
+def _longer(offered: float | None, requested: float | None) -> bool:
+    """Tell whether an offered duration exceeds the requested one; None is infinite."""
+    return requested is not None and (offered is None or offered > requested)
+
+
+def _seconds(duration: float | None) -> str:
+    return "infinite" if duration is None else f"{duration:g} s"
