@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from cellc.cell.control import Controller, ControllerManager
 from cellc.cell.device import Device
@@ -12,6 +12,7 @@ from cellc.cell.frame import Frame, SceneBox
 from cellc.cell.interface import Interface, Node
 from cellc.cell.motion import CartesianGoal, NamedPose, PlanningGroup, Rehearsal
 from cellc.cell.site import (
+    TARGET_DEFAULTS,
     Bringup,
     Calibration,
     Host,
@@ -40,28 +41,28 @@ class Cell:
     name: str
     places: Places
     distro: Distro
-    summary: str
     versions: Versions
-    hosts: Mapping[str, Host]
-    network: Network
-    calibrations: Mapping[str, Calibration]
-    owners: Owners
-    safety: Safety
-    bringup: Bringup
-    kpis: Kpis
-    recording: Recording
-    targets: Mapping[str, Target]
-    devices: tuple[Device, ...]
-    frames: tuple[Frame, ...]
-    scene: tuple[SceneBox, ...]
-    nodes: tuple[Node, ...]
-    interfaces: tuple[Interface, ...]
-    managers: tuple[ControllerManager, ...]
-    groups: tuple[PlanningGroup, ...]
-    poses: tuple[NamedPose, ...]
-    goals: tuple[CartesianGoal, ...]
-    rehearsals: tuple[Rehearsal, ...]
-    behaviours: Mapping[str, Behaviour]
+    summary: str = ""
+    hosts: Mapping[str, Host] = field(default_factory=dict)
+    network: Network = field(default_factory=Network)
+    calibrations: Mapping[str, Calibration] = field(default_factory=dict)
+    owners: Owners = field(default_factory=Owners)
+    safety: Safety = field(default_factory=Safety)
+    bringup: Bringup = field(default_factory=Bringup)
+    kpis: Kpis = field(default_factory=Kpis)
+    recording: Recording = field(default_factory=Recording)
+    targets: Mapping[str, Target] = field(default_factory=lambda: dict(TARGET_DEFAULTS))
+    devices: tuple[Device, ...] = ()
+    frames: tuple[Frame, ...] = ()
+    scene: tuple[SceneBox, ...] = ()
+    nodes: tuple[Node, ...] = ()
+    interfaces: tuple[Interface, ...] = ()
+    managers: tuple[ControllerManager, ...] = ()
+    groups: tuple[PlanningGroup, ...] = ()
+    poses: tuple[NamedPose, ...] = ()
+    goals: tuple[CartesianGoal, ...] = ()
+    rehearsals: tuple[Rehearsal, ...] = ()
+    behaviours: Mapping[str, Behaviour] = field(default_factory=dict)
 
     def locate(self, *path: str | int) -> Span:
         """Return the place of a YAML path, or of its nearest ancestor that the user wrote.

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from cellc.catalog.controller_kind import ControllerKind
 from cellc.cell.entity import Entity
-from cellc.cell.interface import ParameterValue
+from cellc.cell.interface import TARGETS, ParameterValue
 from cellc.vocabulary import Behaviour
 
 
@@ -44,31 +44,31 @@ class Controller(Entity):
     """
 
     manager: str
-    namespace: str
     label: str
-    targets: tuple[str, ...]
-    stand_in: StandIn | None
     kind: str
     behaviour: Behaviour
     plugin: str
+    namespace: str = ""
+    targets: tuple[str, ...] = TARGETS
+    stand_in: StandIn | None = None
     package: str = ""
     declared: ControllerKind | None = None
     plugin_parameters: frozenset[str] = frozenset()
-    device: str | None
-    joints: tuple[str, ...]
-    command_interfaces: tuple[str, ...]
-    state_interfaces: tuple[str, ...]
-    parameters: Mapping[str, ParameterValue]
+    device: str | None = None
+    joints: tuple[str, ...] = ()
+    command_interfaces: tuple[str, ...] = ()
+    state_interfaces: tuple[str, ...] = ()
+    parameters: Mapping[str, ParameterValue] = field(default_factory=dict)
     written_parameters: Mapping[str, ParameterValue] = field(default_factory=dict)
-    active: bool
-    client: str | None
-    action: str | None
-    action_type: str | None
-    goal_time_s: float | None
-    path_tolerance: float | None
-    goal_tolerance: float | None
-    on_violation: str
-    update_rate_hz: float | None
+    active: bool = True
+    client: str | None = None
+    action: str | None = None
+    action_type: str | None = None
+    goal_time_s: float | None = None
+    path_tolerance: float | None = None
+    goal_tolerance: float | None = None
+    on_violation: str = "abort_and_hold"
+    update_rate_hz: float | None = None
 
     @property
     def full_name(self) -> str:
@@ -80,20 +80,20 @@ class Controller(Entity):
 class ControllerSwitch(Entity):
     """A switch that the cell may make: deactivate, then activate."""
 
-    activate: tuple[str, ...]
-    deactivate: tuple[str, ...]
+    activate: tuple[str, ...] = ()
+    deactivate: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ControllerManager(Entity):
     """One update loop; ``name`` is the key in the spec, its node is ``<namespace>/controller_manager``."""
 
-    namespace: str
     update_rate_hz: float
-    host: str | None
-    devices: tuple[str, ...]
-    controllers: tuple[Controller, ...]
-    switches: tuple[ControllerSwitch, ...]
+    namespace: str = ""
+    host: str | None = None
+    devices: tuple[str, ...] = ()
+    controllers: tuple[Controller, ...] = ()
+    switches: tuple[ControllerSwitch, ...] = ()
 
     @property
     def node(self) -> str:

@@ -7,10 +7,11 @@ from dataclasses import dataclass, field
 
 from cellc.catalog.device_model import VersionRow
 from cellc.cell.entity import Entity
+from cellc.cell.frame import WORLD
 from cellc.cell.interface import InterfaceKind
 from cellc.cell.site import UNKNOWN, Clock, JointFigure
 from cellc.description.model import Description
-from cellc.transforms import Pose, Vector3
+from cellc.transforms import Pose, Vector3, identity
 
 EVERY_JOINT = "*"
 """Name of what the mock adds to every joint that is commanded."""
@@ -266,17 +267,17 @@ class Device(Entity):
     model: str
     vendor: str
     kind: str
-    architecture: str = "ros2"
-    prefix: str
     description: Description
     root_link: str
-    parent_frame: str
-    transform_root_to_parent: Pose
-    frames: Mapping[str, str]
-    joints: tuple[DeviceJoint, ...]
-    hardware: HardwareComponent | None
-    driver: DeviceDriver | None
-    tool_frame: str | None
+    prefix: str = ""
+    parent_frame: str = WORLD
+    transform_root_to_parent: Pose = field(default_factory=identity)
+    frames: Mapping[str, str] = field(default_factory=dict)
+    joints: tuple[DeviceJoint, ...] = ()
+    hardware: HardwareComponent | None = None
+    driver: DeviceDriver | None = None
+    tool_frame: str | None = None
+    architecture: str = "ros2"
     carries: tuple[str, ...] = ()
     versions: DeviceVersions = field(default_factory=DeviceVersions)
     connection: Connection | None = None

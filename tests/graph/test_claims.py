@@ -16,27 +16,12 @@ def controller(name: str, *claims: str, active: bool = False) -> Controller:
         path=("control", "controllers", name),
         span=SPAN,
         manager="control",
-        namespace="",
         label=name,
-        targets=("mock", "real"),
-        stand_in=None,
         kind="forward_command",
         behaviour=Behaviour.FORWARD_COMMAND,
         plugin="any/Plugin",
-        device=None,
-        joints=(),
         command_interfaces=claims,
-        state_interfaces=(),
-        parameters={},
         active=active,
-        client=None,
-        action=None,
-        action_type=None,
-        goal_time_s=None,
-        path_tolerance=None,
-        goal_tolerance=None,
-        on_violation="abort_and_hold",
-        update_rate_hz=None,
     )
 
 
@@ -46,15 +31,7 @@ def switch(name: str, activate: tuple[str, ...] = (), deactivate: tuple[str, ...
 
 def graph(controllers: tuple[Controller, ...], switches: tuple[ControllerSwitch, ...] = ()) -> ClaimGraph:
     manager = ControllerManager(
-        name="control",
-        path=("control",),
-        span=SPAN,
-        namespace="",
-        update_rate_hz=500.0,
-        host=None,
-        devices=(),
-        controllers=controllers,
-        switches=switches,
+        name="control", path=("control",), span=SPAN, update_rate_hz=500.0, controllers=controllers, switches=switches
     )
     return ClaimGraph(tuple(explore(manager)))
 
