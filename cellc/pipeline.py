@@ -12,8 +12,7 @@ from pathlib import Path
 
 from cellc.artifact import Artifact
 from cellc.diagnostics import Diagnostic, Outcome
-from cellc.diagnostics.findings import Findings
-from cellc.diagnostics.page import CodePage
+from cellc.diagnostics.diagnostic import CodePage, Findings
 from cellc.graph.cell_graph import CellGraph, build_graph
 from cellc.link.link import link
 from cellc.rules.ignores import apply_ignores, ignore_comments, misused_ignores

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from cellc.description.xml_tree import MAX_BYTES, MAX_DEPTH, MAX_ELEMENTS, MAX_INCLUDE_DEPTH, MAX_MACRO_DEPTH
 from cellc.diagnostics import Severity
-from cellc.diagnostics.page import CodePage
+from cellc.diagnostics.diagnostic import CodePage
 
 
 def _page(code: str, title: str, why: str, fix: str, severity: Severity = Severity.ERROR) -> CodePage:

@@ -11,7 +11,7 @@ from functools import partial
 from typing import Literal
 
 from cellc.artifact import Artifact
-from cellc.diagnostics.findings import Findings
+from cellc.diagnostics.diagnostic import Findings
 from cellc.rules.shared_domain import Presence, presence_of, shared_domains
 
 Kind = Literal["check", "compile"]

@@ -21,7 +21,7 @@ from cellc.cli.findings import (
     show_findings,
 )
 from cellc.diagnostics import Span
-from cellc.diagnostics.findings import Findings
+from cellc.diagnostics.diagnostic import Findings
 from cellc.output.codes import shared_output
 from cellc.output.compare import Difference, compare
 from cellc.output.write import WriteReport, write

@@ -11,7 +11,7 @@ from pathlib import Path
 import click
 
 from cellc.diagnostics import Diagnostic, Severity
-from cellc.diagnostics.findings import Findings
+from cellc.diagnostics.diagnostic import Findings
 from cellc.report.selection import Selection, UnknownSelectionError, selection
 from cellc.report.terminal import wants_colour
 from cellc.report.text_report import render_text, summary

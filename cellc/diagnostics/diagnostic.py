@@ -1,11 +1,43 @@
-"""The one value in which every stage reports to the user."""
+"""What the compiler says to its user: places in files, diagnostics, outcomes of stages, and the page behind a code."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
 from enum import Enum
+from typing import Generic, TypeVar, Union
 
-from cellc.diagnostics.span import Span, YamlPath
+T = TypeVar("T")
+YamlPath = tuple[Union[str, int], ...]
+"""Keys and list indices from the root of a YAML document to one of its nodes."""
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class Span:
+    """A half-open range of text; lines and columns count from 1, columns count characters.
+
+    ``file`` is the path as the user named it, with forward slashes, so that output is the same on every machine.
+    """
+
+    file: str
+    line: int
+    column: int
+    end_line: int
+    end_column: int
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.line}:{self.column}"
+
+
+def format_path(path: YamlPath) -> str:
+    """Write a YAML path as ``devices.arm.mount`` or ``steps[2].move``."""
+    text = ""
+    for part in path:
+        if isinstance(part, int):
+            text += f"[{part}]"
+        else:
+            text += f".{part}" if text else part
+    return text
 
 
 class Severity(str, Enum):
@@ -53,3 +85,57 @@ class Diagnostic:
     def sort_key(self) -> tuple[Span, str, str]:
         """Order by place, then code, then message, so that output never depends on the order of checks."""
         return (self.span, self.code, self.message)
+
+
+@dataclass(frozen=True, slots=True)
+class CodePage:
+    """What ``cellc explain CODE`` prints.
+
+    Args:
+        code: stable kebab-case name of the defect, such as ``duplicate-key``.
+        title: what is wrong, as a phrase that ends without a full stop.
+        why: one paragraph on what would happen if it passed unreported.
+        fix: what to do, beginning with a verb; also the help of a finding that knows nothing more precise.
+    """
+
+    code: str
+    severity: Severity
+    title: str
+    why: str
+    fix: str
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome(Generic[T]):
+    """What a stage returns: its value where it could make one, and every diagnostic that it has to tell."""
+
+    value: T | None
+    diagnostics: tuple[Diagnostic, ...] = ()
+
+    @property
+    def ok(self) -> bool:
+        """Whether the next stage may go on: there is a value and no error."""
+        return self.value is not None and not any(d.severity is Severity.ERROR for d in self.diagnostics)
+
+
+@dataclass(frozen=True, slots=True)
+class Findings:
+    """The findings of all stages, sorted by place.
+
+    Args:
+        file: the spec as the user named it.
+        texts: every file that was read, by the name that spans carry.
+    """
+
+    file: str
+    texts: Mapping[str, str]
+    diagnostics: tuple[Diagnostic, ...]
+
+    @property
+    def ok(self) -> bool:
+        """Whether nothing was found that stops artifacts."""
+        return all(found.severity is not Severity.ERROR for found in self.diagnostics)
+
+    def with_more(self, found: Iterable[Diagnostic]) -> Findings:
+        """Add findings of a later stage."""
+        return replace(self, diagnostics=tuple(sorted((*self.diagnostics, *found), key=Diagnostic.sort_key)))

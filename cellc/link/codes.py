@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from cellc.diagnostics import Severity
-from cellc.diagnostics.page import CodePage
+from cellc.diagnostics.diagnostic import CodePage
 
 
 def _page(code: str, title: str, why: str, fix: str) -> CodePage:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from cellc.diagnostics import Diagnostic, Related, Severity, Span
-from cellc.diagnostics.page import CodePage
+from cellc.diagnostics.diagnostic import CodePage
 
 
 def _page(code: str, title: str, why: str, fix: str) -> CodePage:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from importlib import import_module
 
 from cellc.catalog.codes import CODES as CATALOG_CODES
-from cellc.diagnostics.page import CodePage
+from cellc.diagnostics.diagnostic import CodePage
 from cellc.link.codes import CODES as LINK_CODES
 from cellc.output.codes import CODES as OUTPUT_CODES
 from cellc.rules.ignores import CODES as IGNORE_CODES

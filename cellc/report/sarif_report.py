@@ -12,7 +12,7 @@ from collections.abc import Iterable
 from pathlib import PurePath
 
 from cellc.diagnostics import Diagnostic, Severity, Span, format_path
-from cellc.diagnostics.page import CodePage
+from cellc.diagnostics.diagnostic import CodePage
 from cellc.report.github_report import file_uri
 from cellc.report.pages import all_pages, family_of, render_page
 from cellc.report.terminal import escape

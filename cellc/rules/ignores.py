@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from cellc.diagnostics import Diagnostic, Severity, Span, did_you_mean
-from cellc.diagnostics.page import CodePage
+from cellc.diagnostics.diagnostic import CodePage
 from cellc.link.codes import CODES as LINK_CODES
 from cellc.rules.run import ALL_RULES
 from cellc.source.events import Comment, comments

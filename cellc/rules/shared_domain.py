@@ -8,7 +8,7 @@ from ipaddress import IPv4Interface
 from typing import TYPE_CHECKING
 
 from cellc.diagnostics import Diagnostic, Related, Severity, Span
-from cellc.diagnostics.page import CodePage
+from cellc.diagnostics.diagnostic import CodePage
 
 if TYPE_CHECKING:
     from cellc.graph.cell_graph import CellGraph

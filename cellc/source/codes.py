@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from cellc.diagnostics import Diagnostic, Related, Severity, Span, YamlPath
-from cellc.diagnostics.page import CodePage
+from cellc.diagnostics.diagnostic import CodePage
 from cellc.source.document import MAX_DEPTH, MAX_FILE_BYTES, MAX_FILES, MAX_NODES
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from cellc.diagnostics import Diagnostic, Severity, Span
-from cellc.diagnostics.page import CodePage
+from cellc.diagnostics.diagnostic import CodePage
 
 _FIX = "report it with the spec; nothing in the spec has to be changed"
 
