@@ -46,6 +46,8 @@ JOINT_TYPES = ("revolute", "continuous", "prismatic", "fixed", "floating", "plan
 Origins = Mapping[tuple[str, str], Span]
 """Where a ``("link", name)`` or ``("joint", name)`` was written, for text that was expanded from xacro."""
 
+Rgba = tuple[float, float, float, float]
+
 _T = TypeVar("_T")
 
 
@@ -72,7 +74,7 @@ def read_urdf(text: str, file: str, origins: Origins | None = None) -> Outcome[D
     name = _read_each([root], lambda element: required(element, "name"), found)
     colours = _read_each(root.all("material"), _read_colour, found)
     known = {material: rgba for material, rgba in colours if rgba is not None}
-    links: list[Link] = _read_each(root.all("link"), lambda element: read_link(element, known), found)
+    links: list[Link] = _read_each(root.all("link"), lambda element: _read_link(element, known), found)
     joints = _read_each(root.all("joint"), _read_joint, found)
     found.extend(_left_from_xacro(root))
     if found:
@@ -117,7 +119,7 @@ def _left_from_xacro(root: XmlElement) -> Iterable[Diagnostic]:
             return
 
 
-def _read_colour(element: XmlElement) -> tuple[str, tuple[float, float, float, float] | None]:
+def _read_colour(element: XmlElement) -> tuple[str, Rgba | None]:
     colour = element.first("color")
     name = required(element, "name")
     if colour is None:
@@ -176,10 +178,7 @@ def _read_safety(element: XmlElement) -> SafetyController:
     )
 
 
-Rgba = tuple[float, float, float, float]
-
-
-def read_link(element: XmlElement, colours: Mapping[str, Rgba]) -> Link:
+def _read_link(element: XmlElement, colours: Mapping[str, Rgba]) -> Link:
     """Read one ``<link>``; ``colours`` are the materials that the robot names at its top level."""
     inertial = element.first("inertial")
     return Link(

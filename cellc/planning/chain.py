@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 import pinocchio
 
-from cellc.planning.model import Mimic, PinShape, PinTransform, RobotModel
+from cellc.planning.model import MimicJoint, PinShape, PinTransform, RobotModel
 from cellc.planning.problem import Array, PlanningGroup
 from cellc.planning.scene import CollisionScene
 
@@ -35,7 +35,7 @@ class _DrivenJoint:
 def _driven_joints(model: RobotModel, group: PlanningGroup) -> list[_DrivenJoint]:
     """List the joints that a group moves: its own, and those that mimic them."""
     columns = {joint: column for column, joint in enumerate(group.joints)}
-    leads = [Mimic(joint, joint, 1.0, 0.0) for joint in group.joints if model.joint_of(joint)]
+    leads = [MimicJoint(joint, joint, 1.0, 0.0) for joint in group.joints if model.joint_of(joint)]
     found: list[_DrivenJoint] = []
     for lead in (*leads, *(mimic for mimic in model.mimics if mimic.leader in columns)):
         index = model.kinematics.getJointId(lead.joint)
@@ -144,7 +144,7 @@ def sweep_rates(model: RobotModel, joints: tuple[str, ...], shapes: Iterable[Pin
         Metres for each rad or metre of a joint, shape (shapes, joints).
     """
     columns = {joint: column for column, joint in enumerate(joints)}
-    factors = {mimic.joint: mimic for mimic in (*(Mimic(name, name, 1.0, 0.0) for name in joints), *model.mimics)}
+    factors = {mimic.joint: mimic for mimic in (*(MimicJoint(name, name, 1.0, 0.0) for name in joints), *model.mimics)}
     subspaces = _subspaces(model)
     rows = []
     for shape in shapes:
@@ -195,7 +195,7 @@ def _rates(
 def _range(model: RobotModel, joint: int) -> tuple[float, float]:
     """Return the positions of a prismatic joint in metres; a follower goes where its leader's limits send it."""
     name = str(model.kinematics.names[joint])
-    mimic = next((mimic for mimic in model.mimics if mimic.joint == name), Mimic(name, name, 1.0, 0.0))
+    mimic = next((mimic for mimic in model.mimics if mimic.joint == name), MimicJoint(name, name, 1.0, 0.0))
     at = model.kinematics.idx_qs[model.kinematics.getJointId(mimic.leader)]
     lower, upper = model.kinematics.lowerPositionLimit[at], model.kinematics.upperPositionLimit[at]
     ends = (mimic.multiplier * float(lower) + mimic.offset, mimic.multiplier * float(upper) + mimic.offset)

@@ -44,7 +44,7 @@ class RobotModel:
     geometry: PinGeometry
     joints: tuple[str, ...]
     links: tuple[str, ...]
-    mimics: tuple[Mimic, ...]
+    mimics: tuple[MimicJoint, ...]
 
     @classmethod
     def from_urdf(
@@ -61,8 +61,8 @@ class RobotModel:
             ModelError: the text is no robot description, with the reason that the parser would print to stderr only.
         """
         described = _described(text) if description is None else description
-        check_description(described)
-        mimics = resolve_mimics(described)
+        _check_description(described)
+        mimics = _resolve_mimics(described)
         try:
             model = pinocchio.buildModelFromXML(text)
             geometry = pinocchio.buildGeomFromUrdfString(
@@ -139,7 +139,7 @@ def _described(text: str) -> Description:
     return read.value
 
 
-def check_description(description: Description) -> None:
+def _check_description(description: Description) -> None:
     """Raise ModelError with the first reason for which links and joints are no robot."""
     links = [link.name for link in description.links]
     if not links:
@@ -188,7 +188,7 @@ def _check_tree(description: Description) -> None:
 
 
 @dataclass(frozen=True, slots=True)
-class Mimic:
+class MimicJoint:
     """A joint that stands at ``multiplier * leader + offset``; the leader itself follows nothing."""
 
     joint: str
@@ -197,7 +197,7 @@ class Mimic:
     offset: float
 
 
-def resolve_mimics(description: Description) -> tuple[Mimic, ...]:
+def _resolve_mimics(description: Description) -> tuple[MimicJoint, ...]:
     """Return the mimic joints in the order of the file; a mimic of a mimic is led by the joint at the end.
 
     Raises:
@@ -205,7 +205,7 @@ def resolve_mimics(description: Description) -> tuple[Mimic, ...]:
     """
     types = {joint.name: joint.type for joint in description.joints}
     direct = {
-        joint.name: Mimic(joint.name, joint.mimic.joint, joint.mimic.multiplier, joint.mimic.offset)
+        joint.name: MimicJoint(joint.name, joint.mimic.joint, joint.mimic.multiplier, joint.mimic.offset)
         for joint in description.joints
         if joint.mimic is not None
     }
@@ -214,20 +214,20 @@ def resolve_mimics(description: Description) -> tuple[Mimic, ...]:
             raise ModelError(f"joint `{mimic.joint}` mimics `{mimic.leader}`, which does not exist")
         if types[mimic.leader] == "fixed":
             raise ModelError(f"joint `{mimic.joint}` mimics `{mimic.leader}`, which is fixed")
-    return tuple(_resolve(mimic, direct) for mimic in direct.values())
+    return tuple(_resolve_chain(mimic, direct) for mimic in direct.values())
 
 
-def _resolve(mimic: Mimic, direct: dict[str, Mimic]) -> Mimic:
+def _resolve_chain(mimic: MimicJoint, direct: dict[str, MimicJoint]) -> MimicJoint:
     multiplier, offset, leader = mimic.multiplier, mimic.offset, mimic.leader
     for _ in direct:
         above = direct.get(leader)
         if above is None:
-            return Mimic(mimic.joint, leader, multiplier, offset)
+            return MimicJoint(mimic.joint, leader, multiplier, offset)
         offset += multiplier * above.offset
         multiplier *= above.multiplier
         leader = above.leader
     if leader not in direct:
-        return Mimic(mimic.joint, leader, multiplier, offset)
+        return MimicJoint(mimic.joint, leader, multiplier, offset)
     raise ModelError(f"joint `{mimic.joint}` mimics itself over `{mimic.leader}`")
 
 

@@ -1,4 +1,4 @@
-"""What a plan is asked for and what it is: planning groups, joint limits, paths, and why there is none."""
+"""What the planner takes and gives: planning groups and joint limits, paths, and the reasons why there is none."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 Array = npt.NDArray[np.float64]
+Configuration = tuple[float, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,9 +74,6 @@ class JointLimits:
             if not lower <= value <= upper:
                 return f"joint `{joint}` at {value:.6g} is outside {lower:.6g} to {upper:.6g}"
         return ""
-
-
-Configuration = tuple[float, ...]
 
 
 @dataclass(frozen=True, slots=True)

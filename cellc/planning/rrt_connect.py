@@ -1,4 +1,4 @@
-"""RRT-Connect (Kuffner and LaValle, ICRA 2000) with a told seed and a bounded number of iterations.
+"""RRT-Connect (Kuffner and LaValle, ICRA 2000) with a given seed and a bounded number of iterations.
 
 The path is a chain of straight edges in joint space, checked for collision at a bounded resolution, and shortened
 afterwards: every corner that remains costs a standstill.
