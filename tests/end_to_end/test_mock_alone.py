@@ -13,16 +13,20 @@ from tests.cells import ROOT
 
 # The mock, the format between it and the compiler, the reader of URDF and the mathematics that both use.
 NEEDED = ("mock", "contract", "planning", "description", "diagnostics", "adapter")
-MODULES = ("__init__.py", "transforms.py")
+MODULES = ("__init__.py", "transforms.py", "version.py", "vocabulary.py")
 
 
-def test_mock_runs_a_folder_where_the_compiler_is_absent(pick: Path, tmp_path: Path) -> None:
-    package = tmp_path / "cellc"
+def copy_the_mock(package: Path) -> None:
+    """Copy what the mock needs of the package, and nothing else."""
     package.mkdir()
     for name in MODULES:
         shutil.copy(ROOT / "cellc" / name, package)
     for name in NEEDED:
         shutil.copytree(ROOT / "cellc" / name, package / name, ignore=shutil.ignore_patterns("__pycache__"))
+
+
+def test_mock_runs_a_folder_where_the_compiler_is_absent(pick: Path, tmp_path: Path) -> None:
+    copy_the_mock(tmp_path / "cellc")
     shutil.copytree(pick, tmp_path / "folder")
     # The working directory comes first in the search path, so the installed package does not fill in what is absent.
     assert _python(tmp_path, "-c", "import cellc.spec").returncode == 1

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-import shutil
 import subprocess
 import sys
 from collections.abc import Callable
@@ -15,6 +14,7 @@ import pytest
 
 from cellc.mock import MockCell, MockError, load
 from tests.cells import ROOT
+from tests.end_to_end.test_mock_alone import copy_the_mock
 from tests.mock.engine.conftest import LoadWith, fault
 
 Edit = Callable[[Callable[[Any], None]], MockCell]
@@ -134,11 +134,7 @@ def test_command_says_what_is_wrong_and_ends_with_two(tmp_path: Path) -> None:
 
 
 def test_mock_runs_without_the_rest_of_the_compiler(built_folder: Path, tmp_path: Path) -> None:
-    package = tmp_path / "cellc"
-    for part in ("mock", "planning", "description", "diagnostics", "contract", "adapter"):
-        shutil.copytree(ROOT / "cellc" / part, package / part, ignore=shutil.ignore_patterns("__pycache__"))
-    for name in ("__init__.py", "transforms.py", "vocabulary.py"):
-        shutil.copy(ROOT / "cellc" / name, package)
+    copy_the_mock(tmp_path / "cellc")
     done = subprocess.run(
         [sys.executable, "-P", "-m", "cellc.mock", str(built_folder), "--json"]
         if sys.version_info >= (3, 11)
