@@ -100,11 +100,11 @@ def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int) -> Plant:
     horizon_s = max([DEFAULT_BUFFER_S, *(frame.buffer_s or 0.0 for frame in contract.frames.values())])
     control = ControlStack(_managers(folder, seed), contract.managers, horizon_s, _adapters(contract))
     simulation = Simulation(control)
-    task = task_node(contract)
     clocks = build_clocks(contract.clocks, contract.clock_of, lambda: simulation.now_ns)
     network = Network(contract.interfaces, simulation, seed, middleware_of(contract))
+    task = _task_node(contract, control, network)
     feeds = joint_state_feeds(contract, control, network, ROBOT_STATE_PUBLISHER)
-    tf_edge = stream_edge(contract, network, TF, ROBOT_STATE_PUBLISHER, task)
+    tf_edge = stream_edge(contract, network, TF, ROBOT_STATE_PUBLISHER, task.name)
     published = RobotStatePublisher(memory.model.links, feeds, PUBLISH_FREQUENCY_HZ, horizon_s, clocks, tf_edge)
     plant = Plant(
         contract=contract,
@@ -118,23 +118,21 @@ def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int) -> Plant:
         perceptions={},
         robot_state_publisher=published,
         planner=MotionPlanner(memory, seed),
-        task=TaskNode(
-            name=task,
-            buffer=TransformBuffer(),
-            feeds=joint_state_feeds(contract, control, network, task),
-            observations={},
-            requests=TaskRequests(),
-            actions=ActionStatus(),
-            milestones=Milestones(),
-        ),
+        task=task,
     )
     clocks.listen(partial(_note_jump, plant))
     images = _add_cameras(plant)
-    tf = TfBroadcast(contract.interfaces.get(TF), task, network, simulation)
+    tf = TfBroadcast(contract.interfaces.get(TF), task.name, network, simulation)
     for name, frame in contract.frames.items():
         if frame.kind == "dynamic" and frame.simulated_parent is not None:
             _add_object(plant, name, frame, images, tf)
     return plant
+
+
+def _task_node(contract: Contract, control: ControlStack, network: Network) -> TaskNode:
+    name = task_node(contract)
+    feeds = joint_state_feeds(contract, control, network, name)
+    return TaskNode(name, TransformBuffer(), feeds, {}, TaskRequests(), ActionStatus(), Milestones())
 
 
 def _note_jump(plant: Plant, jump: TimeJump) -> None:

@@ -56,6 +56,17 @@ def rehearse(
     plant.simulation.run_process(bringup.run())
     if not bringup.passed:
         return _not_up(rehearsal, tuple(bringup.evidence), _findings(plant))
+    return _run_task(plant, rehearsal, seed, injections, tuple(bringup.evidence))
+
+
+def _run_task(
+    plant: Plant,
+    rehearsal: RehearsalEntry,
+    seed: int,
+    injections: Sequence[Injection],
+    evidence: tuple[StageEvidence, ...],
+) -> RehearsalResult:
+    """Inject the faults at their times, and run the task to its named end."""
     begun_ns = plant.now_ns
     ports = fault_ports(plant)
     for injection in injections:
@@ -71,7 +82,7 @@ def rehearse(
         response_s=_response_s(injections, task.records),
         within_s=rehearsal.within_s,
         attempts=tuple(task.records),
-        bringup=tuple(bringup.evidence),
+        bringup=evidence,
         findings=(*_findings(plant), *absent),
         vacuous=bool(absent) and (len(absent) == len(injections) or task.outcome is AttemptOutcome.SUCCEEDED),
     )

@@ -32,6 +32,21 @@ class Kpi:
     basis: str
 
 
+_MEASURED = {
+    "plan_to_execute_s": ("s", "plan ready (step 3) to first motion (step 7), longest"),
+    "cancel_s": ("s", "cancel requested to all joints standing still, longest"),
+    "missed_cycles": ("cycles", "joint states that were due"),
+    "stale_state_rejection": ("share", "attempts that stale data ended, of those it met"),
+    "protective_stops": ("stops", "hardware components that left active"),
+    "recovery_time_s": ("s", "hardware left active until it was active again, longest"),
+    "wrong_owner_events": (
+        "events",
+        "claims that the contract does not state, and attempts that another commander ended",
+    ),
+}
+"""Unit of each figure, and what was measured."""
+
+
 def kpis(targets: ContractKpis, result: RehearsalResult, trace: TraceResult, max_state_age_s: float) -> tuple[Kpi, ...]:
     """Return the seven figures.
 
@@ -40,43 +55,17 @@ def kpis(targets: ContractKpis, result: RehearsalResult, trace: TraceResult, max
     """
     attempts = [record for record in result.attempts if record.trace or record.outcome != AttemptOutcome.SUCCEEDED]
     stops = [change for change in trace.changes if change.kind == "hardware component"]
-    latencies = [record.cancel.latency_s for record in attempts if record.cancel is not None]
-    never_held = any(latency is None for latency in latencies)
-    held = [latency for latency in latencies if latency is not None]
-    stopped = _worst(held)
+    left_active = sum(change.state != "active" for change in stops)
+    wrong_owners = sum(not claim.by_contract for claim in trace.claims)
+    wrong_owners += sum(record.outcome == AttemptOutcome.WRONG_OWNER for record in attempts)
     return (
-        _at_most(
-            "plan_to_execute_s",
-            "s",
-            _worst(_plan_to_execute(attempts)),
-            targets.plan_to_execute_s,
-            "plan ready (step 3) to first motion (step 7), longest",
-        ),
-        _cancel(stopped, never_held, targets.cancel_s),
-        _at_most("missed_cycles", "cycles", trace.missed_cycles, targets.missed_cycles, "joint states that were due"),
+        _at_most("plan_to_execute_s", _worst(_plan_to_execute(attempts)), targets.plan_to_execute_s),
+        _cancel(attempts, targets.cancel_s),
+        _at_most("missed_cycles", trace.missed_cycles, targets.missed_cycles),
         _rejection(attempts, targets.stale_state_rejection, max_state_age_s),
-        _at_most(
-            "protective_stops",
-            "stops",
-            sum(change.state != "active" for change in stops),
-            targets.protective_stops,
-            "hardware components that left active",
-        ),
-        _at_most(
-            "recovery_time_s",
-            "s",
-            _worst(_recoveries(stops)),
-            targets.recovery_time_s,
-            "hardware left active until it was active again, longest",
-        ),
-        _at_most(
-            "wrong_owner_events",
-            "events",
-            sum(not claim.by_contract for claim in trace.claims)
-            + sum(record.outcome == AttemptOutcome.WRONG_OWNER for record in attempts),
-            targets.wrong_owner_events,
-            "claims that the contract does not state, and attempts that another commander ended",
-        ),
+        _at_most("protective_stops", left_active, targets.protective_stops),
+        _at_most("recovery_time_s", _worst(_recoveries(stops)), targets.recovery_time_s),
+        _at_most("wrong_owner_events", wrong_owners, targets.wrong_owner_events),
     )
 
 
@@ -93,16 +82,19 @@ def to_kpi_json(entry: RehearsalEntry, result: RehearsalResult, figures: Sequenc
     return json.dumps(content, ensure_ascii=False, allow_nan=False, indent=2) + "\n"
 
 
-def _at_most(name: str, unit: str, value: float | None, target: float | None, basis: str) -> Kpi:
+def _at_most(name: str, value: float | None, target: float | None) -> Kpi:
+    unit, basis = _MEASURED[name]
     met = None if value is None or target is None else value <= target
     return Kpi(name, unit, value, target, met, basis)
 
 
-def _cancel(worst_s: float | None, never_held: bool, target_s: float | None) -> Kpi:
-    basis = "cancel requested to all joints standing still, longest"
-    if never_held:
-        return Kpi("cancel_s", "s", None, target_s, False, f"{basis}; the joints of one did not stand still in time")
-    return _at_most("cancel_s", "s", worst_s, target_s, basis)
+def _cancel(attempts: Sequence[AttemptRecord], target_s: float | None) -> Kpi:
+    latencies = [record.cancel.latency_s for record in attempts if record.cancel is not None]
+    held = [latency for latency in latencies if latency is not None]
+    if len(held) == len(latencies):
+        return _at_most("cancel_s", _worst(held), target_s)
+    unit, basis = _MEASURED["cancel_s"]
+    return Kpi("cancel_s", unit, None, target_s, False, f"{basis}; the joints of one did not stand still in time")
 
 
 def _rejection(attempts: Sequence[AttemptRecord], target: float | None, max_age_s: float) -> Kpi:
@@ -112,9 +104,10 @@ def _rejection(attempts: Sequence[AttemptRecord], target: float | None, max_age_
         record.joint_state_age is not None and record.joint_state_age > max_age_s and record.action_goal_id is not None
         for record in attempts
     )
+    unit, basis = _MEASURED["stale_state_rejection"]
     share = rejected / (rejected + used) if rejected + used else None
     met = None if share is None or target is None else share >= target
-    return Kpi("stale_state_rejection", "share", share, target, met, "attempts that stale data ended, of those it met")
+    return Kpi("stale_state_rejection", unit, share, target, met, basis)
 
 
 def _plan_to_execute(attempts: Sequence[AttemptRecord]) -> Iterator[float]:
