@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from cellc.cell.control import Controller, ControllerManager
+from cellc.cell.control import AdaptedDevice, Controller, ControllerManager
 from cellc.cell.device import Device
 from cellc.cell.entity import Places
 from cellc.cell.frame import Frame, SceneBox
@@ -58,6 +58,7 @@ class Cell:
     nodes: tuple[Node, ...] = ()
     interfaces: tuple[Interface, ...] = ()
     managers: tuple[ControllerManager, ...] = ()
+    adapters: tuple[AdaptedDevice, ...] = ()
     groups: tuple[PlanningGroup, ...] = ()
     poses: tuple[NamedPose, ...] = ()
     goals: tuple[CartesianGoal, ...] = ()

@@ -1,4 +1,4 @@
-"""Controller managers, controllers and what they claim."""
+"""Controller managers, controllers and what they claim; and devices that an adapter drives in their place."""
 
 from __future__ import annotations
 
@@ -99,3 +99,26 @@ class ControllerManager(Entity):
     def node(self) -> str:
         """Fully qualified name of its node, with a leading slash."""
         return f"{self.namespace}/controller_manager"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AdaptedDevice:
+    """A direct-SDK device that no controller drives and whose adapter takes trajectories.
+
+    Args:
+        action: full name of the action that takes them.
+        state_topic: full name of the topic of its stamped state.
+        client: the one node that may command it.
+        path_tolerance: distance of a joint from its command that ends a goal, rad or m.
+    """
+
+    device: str
+    joints: tuple[str, ...]
+    action: str
+    state_topic: str
+    client: str | None
+    command_period_s: float
+    command_timeout_s: float
+    stop_time_s: float
+    goal_time_s: float
+    path_tolerance: float

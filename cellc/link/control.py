@@ -1,12 +1,16 @@
-"""Binds controller managers: their hosts, hardware and switches; each controller is bound apart."""
+"""Binds controller managers with their hosts, hardware and switches, and devices that an adapter drives instead."""
 
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterable, Iterator
 
-from cellc.cell.control import Controller, ControllerManager, ControllerSwitch
+from cellc.cell.control import AdaptedDevice, Controller, ControllerManager, ControllerSwitch
+from cellc.cell.device import Adapter, Device
+from cellc.cell.interface import Interface, InterfaceKind
 from cellc.diagnostics import Diagnostic, Outcome, YamlPath
 from cellc.link.controller import ControlContext, ControllerPlace, link_controller
+from cellc.link.derived import JOINT_STATE_TYPE
 from cellc.link.names import unknown_name
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
@@ -94,3 +98,64 @@ def _unknown_switch_members(path: YamlPath, written: ManagerSpec, document: Sour
         for at, name in enumerate(names)
         if name not in written.controllers
     ]
+
+
+TRAJECTORY_ACTION = "control_msgs/action/FollowJointTrajectory"
+
+DEFAULT_RATE_HZ = 100.0
+"""Of a state topic without a rate; a rule asks for one."""
+DEFAULT_TIMEOUT_PERIODS = 10.0
+"""Watchdog of an adapter that states none, in command periods."""
+DEFAULT_STOP_S = 0.1
+"""Time to standstill of an adapter that states none."""
+DEFAULT_GOAL_TIME_S = 0.5
+"""Time past the end of a trajectory within which the joints stand still, where the adapter states none."""
+DEFAULT_PATH_TOLERANCE = 0.05
+"""rad or m by which a joint may be away from its command, where the adapter states nothing."""
+
+
+def bind_adapters(
+    devices: Iterable[Device], controllers: Iterable[Controller], interfaces: tuple[Interface, ...]
+) -> Iterator[AdaptedDevice]:
+    """Yield the direct-SDK devices that no controller drives and whose adapter takes trajectories."""
+    driven = {joint for controller in controllers for joint in controller.joints}
+    for device in devices:
+        joints = tuple(joint.name for joint in device.actuated_joints)
+        if device.architecture != "direct_sdk" or not joints or not driven.isdisjoint(joints):
+            continue
+        action = _of_source(interfaces, device, InterfaceKind.ACTION, TRAJECTORY_ACTION)
+        state = _of_source(interfaces, device, InterfaceKind.TOPIC, JOINT_STATE_TYPE)
+        if action is not None and state is not None:
+            yield _adapted(device, joints, action, state)
+
+
+def _adapted(device: Device, joints: tuple[str, ...], action: Interface, state: Interface) -> AdaptedDevice:
+    stated = device.adapter or Adapter()
+    period_s = 1.0 / (state.rate_hz or DEFAULT_RATE_HZ)
+    return AdaptedDevice(
+        device=device.name,
+        joints=joints,
+        action=action.name,
+        state_topic=state.name,
+        client=next((sink.node for sink in action.sinks), None),
+        command_period_s=period_s,
+        command_timeout_s=_or(stated.command_timeout_s, DEFAULT_TIMEOUT_PERIODS * period_s),
+        stop_time_s=_or(stated.stop_time_s, DEFAULT_STOP_S),
+        goal_time_s=_or(stated.goal_time_s, DEFAULT_GOAL_TIME_S),
+        path_tolerance=_or(stated.path_tolerance, DEFAULT_PATH_TOLERANCE),
+    )
+
+
+def _or(stated: float | None, default: float) -> float:
+    return default if stated is None else stated
+
+
+def _of_source(
+    interfaces: tuple[Interface, ...], device: Device, kind: InterfaceKind, message_type: str
+) -> Interface | None:
+    for interface in interfaces:
+        if any(source.node == device.name for source in interface.sources) and (
+            (interface.kind, interface.type) == (kind, message_type)
+        ):
+            return interface
+    return None

@@ -6,7 +6,7 @@ from cellc.catalog.load import load_qos_profiles
 from cellc.catalog.tables import RMWS, Rmw
 from cellc.cell.cell import Cell
 from cellc.diagnostics import Diagnostic, Outcome, Severity, did_you_mean
-from cellc.link.control import link_managers
+from cellc.link.control import bind_adapters, link_managers
 from cellc.link.controller import ControlContext
 from cellc.link.derived import Derivation, derive_interfaces
 from cellc.link.devices import BoundDevice, link_devices
@@ -93,6 +93,7 @@ def _link_with_devices(
         nodes=all_nodes,
         interfaces=(*written, *derived),
         managers=loops,
+        adapters=tuple(bind_adapters(devices, controllers, (*written, *derived))),
         groups=groups.value or (),
         poses=poses.value or (),
         goals=goals.value or (),

@@ -111,6 +111,7 @@ def test_linking_fills_every_section_that_some_spec_states() -> None:
         COMPLETE,
         spec_of("ur5e_pick"),
         CORPUS / "valid" / "every_target.yaml",
+        CORPUS / "valid" / "direct_sdk_arm.yaml",
         CORPUS / "valid" / "more_fields.yaml",
     ):
         cell = linked(path)

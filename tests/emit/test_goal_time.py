@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import json
 import shutil
 from pathlib import Path
 
 import pytest
 
+from cellc.contract.contract import Contract
 from cellc.mock import MockCell, load
 from cellc.mock.task.bounds import goal_timeout_s
 from tests.cells import CORPUS, build_into, built
@@ -32,11 +32,11 @@ def test_picture_says_how_late_a_trajectory_may_end() -> None:
 
 
 def test_contract_keeps_goal_time_and_timeout_apart() -> None:
-    contract = json.loads(built("ur5e_pick").texts["contract.json"])
-    interface = contract["interfaces"][ACTION]
-    assert (interface["timeout_s"], interface["on_timeout"]) == (None, None)
-    assert contract["managers"]["control"]["controllers"]["arm_trajectory"]["goal_time_s"] == 1.0
-    assert contract["interfaces"]["/move_action"]["timeout_s"] == 20.0
+    contract = Contract.model_validate_json(built("ur5e_pick").texts["contract.json"])
+    interface = contract.interfaces[ACTION]
+    assert (interface.timeout_s, interface.on_timeout) == (None, None)
+    assert contract.managers["control"].controllers["arm_trajectory"].goal_time_s == 1.0
+    assert contract.interfaces["/move_action"].timeout_s == 20.0
 
 
 def direct(folder: Path, adapter: str, rehearsals: str = "rehearsals:\n") -> MockCell:

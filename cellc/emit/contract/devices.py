@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from cellc.cell.cell import Cell
-from cellc.cell.device import Adapter, Device, SimulatedJoint
+from cellc.cell.control import AdaptedDevice
+from cellc.cell.device import Device, SimulatedJoint
 from cellc.cell.interface import Interface, InterfaceKind
 from cellc.cell.site import UNKNOWN
 from cellc.contract.contract import (
@@ -17,7 +18,6 @@ from cellc.contract.contract import (
     ContractSimulatedJoint,
 )
 from cellc.formats.urdf.robot import start_positions
-from cellc.graph.claims import AdaptedDevice, adapted_devices
 
 
 def devices(cell: Cell) -> dict[str, ContractDevice]:
@@ -42,7 +42,7 @@ def _device(cell: Cell, device: Device) -> ContractDevice:
 
 def _adapted(cell: Cell, device: Device) -> bool:
     """Tell whether an adapter drives a device, so that no controller manager ever loads its hardware."""
-    return any(adapted.device.name == device.name for adapted in adapted_devices(cell))
+    return any(adapted.device == device.name for adapted in cell.adapters)
 
 
 def _driver(device: Device) -> ContractDriver | None:
@@ -96,45 +96,29 @@ def _used_stream(cell: Cell, device: Device, types: tuple[str, ...]) -> Interfac
     )
 
 
-DEFAULT_RATE_HZ = 100.0
-"""Of a state topic without a rate; a rule asks for one."""
-DEFAULT_TIMEOUT_PERIODS = 10.0
-"""Watchdog of an adapter that states none, in command periods."""
-DEFAULT_STOP_S = 0.1
-DEFAULT_GOAL_TIME_S = 0.5
-DEFAULT_PATH_TOLERANCE = 0.05
-"""Time to standstill of an adapter that states none."""
-
-
 def adapters(cell: Cell) -> dict[str, ContractAdapter]:
     """Return every adapted device by its name."""
     start = start_positions(cell)
-    return {adapted.device.name: _adapter(adapted, start) for adapted in adapted_devices(cell)}
+    return {adapted.device: _adapter(cell.device(adapted.device), adapted, start) for adapted in cell.adapters}
 
 
-def _adapter(adapted: AdaptedDevice, start: dict[str, float]) -> ContractAdapter:
-    joints = adapted.device.actuated_joints
-    stated = adapted.device.adapter or Adapter()
-    period_s = 1.0 / (adapted.state.rate_hz or DEFAULT_RATE_HZ)
+def _adapter(device: Device, adapted: AdaptedDevice, start: dict[str, float]) -> ContractAdapter:
+    joints = device.actuated_joints
     return ContractAdapter.model_validate(
         {
-            "joints": tuple(joint.name for joint in joints),
+            "joints": adapted.joints,
             "units": tuple("m" if joint.type == "prismatic" else "rad" for joint in joints),
-            "action": adapted.action.name,
-            "state_topic": adapted.state.name,
-            "client": next((sink.node for sink in adapted.action.sinks), None),
-            "command_period_s": period_s,
-            "command_timeout_s": _or(stated.command_timeout_s, DEFAULT_TIMEOUT_PERIODS * period_s),
-            "stop_time_s": _or(stated.stop_time_s, DEFAULT_STOP_S),
-            "goal_time_s": _or(stated.goal_time_s, DEFAULT_GOAL_TIME_S),
-            "path_tolerance": _or(stated.path_tolerance, DEFAULT_PATH_TOLERANCE),
+            "action": adapted.action,
+            "state_topic": adapted.state_topic,
+            "client": adapted.client,
+            "command_period_s": adapted.command_period_s,
+            "command_timeout_s": adapted.command_timeout_s,
+            "stop_time_s": adapted.stop_time_s,
+            "goal_time_s": adapted.goal_time_s,
+            "path_tolerance": adapted.path_tolerance,
             "start_positions": tuple(start.get(joint.name, 0.0) for joint in joints),
         }
     )
-
-
-def _or(stated: float | None, default: float) -> float:
-    return default if stated is None else stated
 
 
 def simulated_joints(cell: Cell) -> dict[str, ContractSimulatedJoint]:

@@ -83,7 +83,7 @@ def _group(cell: Cell, group: PlanningGroup) -> ContractGroup:
         base_link=group.base_link,
         tip_frame=group.tip_frame,
         joints=group.joints,
-        controller=next(active, None if adapted is None else adapted.device.name),
+        controller=next(active, None if adapted is None else adapted.device),
     )
 
 
