@@ -1,4 +1,10 @@
-"""The deterministic planner: inverse kinematics, collision-free paths, and jerk-limited trajectories."""
+"""The deterministic planner: inverse kinematics, collision-free paths, and jerk-limited trajectories.
+
+Read in this order: ``problem`` holds what is taken and given; ``model`` and ``scene`` the robot and what it may touch;
+``chain`` one group of it. On these stand ``inverse_kinematics``, ``rrt_connect`` and ``cartesian``, which ``planner``
+joins; ``splines``, ``motion_law`` and ``trajectory`` give a path its times; ``pair_sampling`` and ``collision_matrix``
+find the pairs of links that need no check.
+"""
 
 from cellc.planning.collision_matrix import DisabledPair, DisabledReason, decided_collisions, disabled_collisions
 from cellc.planning.inverse_kinematics import IkSolution
