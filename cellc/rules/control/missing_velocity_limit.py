@@ -1,6 +1,6 @@
 """A driven joint has no velocity limit.
 
-Neither the description nor the catalog says how fast the joint may move, so nothing can be planned in time.
+Neither the description nor the catalog says how fast the joint may move, so no trajectory can be timed.
 
 Example that is reported:
 

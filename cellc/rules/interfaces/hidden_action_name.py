@@ -1,7 +1,7 @@
 """An interface takes a name inside an action.
 
 Below `/_action/` live the five entities of an action server. A topic of that name mixes with them, and a client that
-talks to one of them goes round the goal states.
+talks to one of them bypasses the goal states.
 
 Example that is reported:
 

@@ -1,7 +1,7 @@
 """Shapes cannot be read, so that collisions are not checked.
 
-The kinematics refuses the robot description, most often because it names a mesh that is not here. Poses and goals are
-then not checked, the semantic description lists neighbors alone, and the mock does not plan.
+The kinematics refuses the robot description, most often because it names a mesh that cannot be found. Poses and goals
+are then not checked, the semantic description lists neighbors alone, and the mock does not plan.
 
 Example that is reported:
 
