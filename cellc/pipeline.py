@@ -67,19 +67,18 @@ def compile_cell(checked: Checked) -> Outcome[tuple[Artifact, ...]]:
     if checked.graph is None or not checked.ok:
         return Outcome(None)
     # Emitters and foreign parsers are imported here: a check does not pay for them.
-    from cellc.deploy.configuration import configuration_id, configuration_inputs, version_tuple
+    from cellc.deploy.deployment import plan_deployment
     from cellc.emit.emit_all import emit_all
     from cellc.output.manifest import with_manifest
     from cellc.verify.verify import verify
 
-    cell = checked.graph.cell
-    inputs = configuration_inputs(cell)
+    plan = plan_deployment(checked.graph)
     artifacts = with_manifest(
-        emit_all(checked.graph),
-        cell=cell.name,
-        configuration_id=configuration_id(inputs),
-        configuration_inputs=inputs,
-        version_tuple=version_tuple(cell),
+        emit_all(checked.graph, plan),
+        cell=checked.graph.cell.name,
+        configuration_id=plan.configuration_id,
+        configuration_inputs=plan.configuration_inputs,
+        version_tuple=plan.versions,
     )
     return Outcome(artifacts, verify(artifacts, checked.graph))
 

@@ -20,10 +20,8 @@ def audit(file: str) -> None:
     if checked.graph is None:
         show_findings([checked.findings], "text")
         raise click.exceptions.Exit(1)
-    from cellc.deploy.configuration import configuration_id, configuration_inputs, header_of
+    from cellc.deploy.deployment import plan_deployment
     from cellc.emit.audit.audit import emit
 
-    cell = checked.graph.cell
-    header = header_of(cell, configuration_id(configuration_inputs(cell)))
-    for artifact in emit(checked.graph, header):
+    for artifact in emit(checked.graph, plan_deployment(checked.graph)):
         click.echo(artifact.text, nl=False)

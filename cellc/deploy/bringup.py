@@ -13,7 +13,7 @@ from cellc.cell.cell import Cell
 from cellc.cell.control import Controller, ControllerManager
 from cellc.cell.frame import WORLD, FrameKind
 from cellc.cell.interface import TARGETS, InterfaceKind, Node
-from cellc.deploy.processes import described_by, host_of, host_of_manager, is_mover, movers
+from cellc.deploy.processes import asks_for_motion, described_by, host_of, host_of_manager, motion_clients
 from cellc.link.derived import JOINT_STATE_TYPE
 
 MOVE = "move"
@@ -47,7 +47,7 @@ def steps(cell: Cell) -> tuple[Step, ...]:
     return (
         *(_configure(cell, node) for node in managed),
         *(_observe(cell, manager, one) for manager, one in spawned if one.observing),
-        *(_activate(cell, node) for node in managed if not is_mover(cell, node)),
+        *(_activate(cell, node) for node in managed if not asks_for_motion(cell, node)),
         *(_claim(cell, manager, one) for manager, one in spawned if one.claiming),
     )
 
@@ -57,7 +57,7 @@ def ready_to_move(cell: Cell, target: str) -> tuple[str, ...]:
 
     For the mock that no manager runs anything but the mock: a target is a word, and the description is what moves.
     """
-    asking = {node.name for node in movers(cell)}
+    asking = {node.name for node in motion_clients(cell)}
     claimed = (
         f"controller {_node(manager)} {name} active"
         for manager in cell.managers
@@ -136,7 +136,7 @@ def _joint_states(cell: Cell, manager: ControllerManager) -> Iterator[str]:
 
 def _states(cell: Cell) -> Iterator[str]:
     for node in cell.nodes:
-        if node.lifecycle and not is_mover(cell, node):
+        if node.lifecycle and not asks_for_motion(cell, node):
             yield f"lifecycle {node.full_name} active"
 
 

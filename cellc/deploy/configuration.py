@@ -1,4 +1,4 @@
-"""Which configuration this is: its id, the header that says so, the version tuple, and what nobody has answered."""
+"""Which configuration this is: its id, the version tuple, what nobody has answered, and the header of its files."""
 
 from __future__ import annotations
 
@@ -87,10 +87,10 @@ def _safety(cell: Cell) -> Iterator[OpenQuestion]:
             yield OpenQuestion(f"stop {name}", ("safety", "stop", name))
 
 
-def header_of(cell: Cell, configuration_id: str) -> Header:
+def header_of(cell: Cell) -> Header:
     """Build the header of a cell's files.
 
     The user may have named the spec from anywhere, so that the command names it from where cells are kept.
     """
     file = cell.places.file_name
-    return Header(cell.name, configuration_id, f"cellc build cells/{cell.name}/{file}")
+    return Header(cell.name, f"cellc build cells/{cell.name}/{file}")

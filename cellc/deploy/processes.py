@@ -49,7 +49,7 @@ def _node(cell: Cell, manager: ControllerManager) -> str:
     return f"/{ROBOT_STATE_PUBLISHER}"
 
 
-def is_mover(cell: Cell, node: Node) -> bool:
+def asks_for_motion(cell: Cell, node: Node) -> bool:
     """Tell whether a node of the spec sends goals or commands without being asked.
 
     One that serves an action itself, such as a planner, acts when it is told to; one with neither moves nothing.
@@ -65,12 +65,12 @@ def is_mover(cell: Cell, node: Node) -> bool:
 
 def started_by_a_person(cell: Cell, node: Node) -> bool:
     """Tell whether a node runs only from the gate before motion on; a managed mover runs earlier, unactivated."""
-    return is_mover(cell, node) and not node.lifecycle
+    return asks_for_motion(cell, node) and not node.lifecycle
 
 
-def movers(cell: Cell) -> tuple[Node, ...]:
+def motion_clients(cell: Cell) -> tuple[Node, ...]:
     """Return the nodes that a person starts or activates before anything moves."""
-    return tuple(node for node in cell.nodes if is_mover(cell, node))
+    return tuple(node for node in cell.nodes if asks_for_motion(cell, node))
 
 
 def enclave_of(cell: Cell, node: Node) -> str:

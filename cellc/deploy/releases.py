@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from cellc.cell.cell import Cell
 from cellc.deploy.bringup import activation
-from cellc.deploy.processes import launch_hosts, movers, started_by_a_person
+from cellc.deploy.processes import launch_hosts, motion_clients, started_by_a_person
 
 CONFIRMATION = "I_HAVE_PASSED_GATES_G0_TO_G2"
 """Releases the real target: connecting, reading, claiming."""
@@ -33,9 +33,9 @@ def move_real(cell: Cell) -> tuple[str, ...]:
     """Return what a person starts or activates before motion, on each host."""
     command = f"ros2 launch {cell.name} move.launch.xml target:=real confirm_motion:={MOTION_CONFIRMATION}"
     launched = tuple(f"{command} host:={host}" for host in launch_hosts(cell)) or (command,)
-    managed = tuple(activation(node) for node in movers(cell) if node.lifecycle)
+    managed = tuple(activation(node) for node in motion_clients(cell) if node.lifecycle)
     return (*(launched if _launched(cell) else ()), *managed)
 
 
 def _launched(cell: Cell) -> bool:
-    return any(started_by_a_person(cell, node) for node in movers(cell))
+    return any(started_by_a_person(cell, node) for node in motion_clients(cell))

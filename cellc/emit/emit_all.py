@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 from cellc.artifact import Artifact
-from cellc.deploy.configuration import configuration_id, configuration_inputs, header_of
+from cellc.deploy.deployment import Deployment
 from cellc.emit import (
     frames,
     gates,
@@ -13,6 +13,7 @@ from cellc.emit import (
     package,
     parameters,
     picture,
+    readme,
     recording,
     rehearsals,
     responsibility_graph,
@@ -23,12 +24,10 @@ from cellc.emit.audit import audit
 from cellc.emit.contract import contract
 from cellc.emit.launch import launch
 from cellc.emit.middleware import middleware
-from cellc.emit.readme import readme
 from cellc.emit.security import policy
-from cellc.formats.header import Header
 from cellc.graph.cell_graph import CellGraph
 
-EMITTERS: tuple[Callable[[CellGraph, Header], Iterator[Artifact]], ...] = (
+EMITTERS: tuple[Callable[[CellGraph, Deployment], Iterator[Artifact]], ...] = (
     package.emit,
     urdf.emit,
     srdf.emit,
@@ -50,11 +49,10 @@ EMITTERS: tuple[Callable[[CellGraph, Header], Iterator[Artifact]], ...] = (
 """Every emitter; a new one is one file and one line here."""
 
 
-def emit_all(graph: CellGraph) -> tuple[Artifact, ...]:
+def emit_all(graph: CellGraph, plan: Deployment) -> tuple[Artifact, ...]:
     """Emit every artifact of a checked cell but the manifest, which is taken over them.
 
     Returns:
         Artifacts in the order of the emitters; their paths are relative to the generated package and differ.
     """
-    header = header_of(graph.cell, configuration_id(configuration_inputs(graph.cell)))
-    return tuple(artifact for emit in EMITTERS for artifact in emit(graph, header))
+    return tuple(artifact for emit in EMITTERS for artifact in emit(graph, plan))

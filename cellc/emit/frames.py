@@ -11,13 +11,13 @@ from collections.abc import Iterator
 from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
 from cellc.cell.frame import Frame
-from cellc.formats.header import Header
+from cellc.deploy.deployment import Deployment
 from cellc.formats.numbers import settled
 from cellc.formats.yaml_text import Tree, render
 from cellc.graph.cell_graph import CellGraph
 
 
-def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
+def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     """Yield the frame tree."""
     calibrations: Tree = {"calibrations": {name: _calibration(graph.cell, name) for name in graph.cell.calibrations}}
     frames: Tree = {"frames": {frame.name: _frame(frame) for frame in graph.cell.frames}}
@@ -27,7 +27,7 @@ def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
         "\n# frames, devices with their mounts, scene\n",
         render(frames),
     )
-    yield Artifact("config/frames.yaml", header.commented("#") + "".join(sections))
+    yield Artifact("config/frames.yaml", plan.header.commented("#") + "".join(sections))
 
 
 def _calibration(cell: Cell, name: str) -> Tree:

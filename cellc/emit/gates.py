@@ -10,8 +10,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cellc.artifact import Artifact
-from cellc.deploy.gates import Check, Gate, promotion_gates
-from cellc.deploy.network_gates import network_gates
+from cellc.deploy.deployment import Deployment
+from cellc.deploy.files import NETWORK_GATES, PROMOTION_GATES
+from cellc.deploy.gates import Check, Gate
 from cellc.formats.header import Header
 from cellc.graph.cell_graph import CellGraph
 
@@ -23,45 +24,48 @@ _NETWORK = (
     "Layers are passed from the cable up, with drives disabled. A layer that fails is mended at that layer: no "
     "firewall, watchdog or limit is weakened to pass one."
 )
+_WHERE = (
+    "Commands run in the folder that holds `cells/` and `generated/`, in a shell that is set up as `README.md` says, "
+    "with `E` set to the folder of the attempt. What starts something needs a shell that stays open."
+)
 
 
-def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
+def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     """Yield both checklists."""
-    cell = graph.cell
-    for name, title, text, gates in (
-        ("promotion", "From the manifest to a trajectory", _PROMOTION, promotion_gates(cell, header)),
-        ("network", "From the cable to the command path", _NETWORK, network_gates(graph)),
-    ):
-        yield Artifact(f"gates/{name}.md", _page(header, f"{cell.name}: {title}", text, gates))
+    name = graph.cell.name
+    promotion = _page(plan.header, f"{name}: From the manifest to a trajectory", _PROMOTION, plan.promotion)
+    network = _page(plan.header, f"{name}: From the cable to the command path", _NETWORK, plan.network)
+    yield Artifact(PROMOTION_GATES, promotion)
+    yield Artifact(NETWORK_GATES, network)
 
 
 def _page(header: Header, title: str, text: str, gates: tuple[Gate, ...]) -> str:
-    where = (
-        "Commands run in the folder that holds `cells/` and `generated/`, with `E` set to the folder of the attempt; "
-        "`README.md` leads through the gates."
-    )
-    blocks = [f"<!--\n{header.text}\n-->", f"# {title}", f"{text} {where}", *map(_gate, gates)]
+    blocks = [f"<!--\n{header.text}\n-->", f"# {title}", f"{text} {_WHERE}", *(_gate(gate) for gate in gates)]
     return "\n\n".join(blocks) + "\n"
 
 
 def _gate(gate: Gate) -> str:
-    lines = [
-        f"## {gate.code} {gate.title}",
-        "",
-        f"State: {gate.state}. Signed by: {gate.owner}. Evidence: `evidence/<attempt_id>/{gate.evidence}`.",
-        "",
-        *(line for check in gate.checks for line in _check(check)),
-        *([""] if gate.checks and not gate.checks[-1].commands else []),
-        f"**Stop, and do not go on, on:** {'; '.join(gate.stop)}.",
-    ]
-    return "\n".join(lines)
+    passed = f"*{gate.state[0].upper()}{gate.state[1:]}.* Passed when {gate.shows}."
+    signed = f"Evidence `{gate.evidence}`, signed by {gate.owner}. **Stop on:** {'; '.join(gate.stop)}."
+    checks = "\n".join(line for check in gate.checks for line in _check(check, gate.evidence)).rstrip("\n")
+    return "\n\n".join((f"## {gate.code} {gate.title}", passed, checks, signed))
 
 
-def _check(check: Check) -> Iterator[str]:
+def _check(check: Check, evidence: str) -> Iterator[str]:
     yield f"- [ ] {check.text}"
     if check.commands:
+        lines = [line for command in check.commands for line in command.splitlines()]
         yield ""
         yield "  ```sh"
-        yield from (f"  {line}" for command in check.commands for line in command.splitlines())
+        yield from (f"  {line}" for line in (lines if check.starts else _kept(lines, evidence)))
         yield "  ```"
         yield ""
+
+
+def _kept(lines: list[str], evidence: str) -> Iterator[str]:
+    """Write what is read into the evidence of the gate as well."""
+    into = f'2>&1 | tee -a "$E/{evidence}"'
+    if len(lines) == 1:
+        yield f"{{ {lines[0]}; }} {into}" if "|" in lines[0] else f"{lines[0]} {into}"
+        return
+    yield from ("{", *(f"  {line}" for line in lines), f"}} {into}")

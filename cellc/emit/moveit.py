@@ -16,6 +16,7 @@ from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
 from cellc.cell.device import DeviceJoint
 from cellc.cell.interface import TARGETS, ParameterValue
+from cellc.deploy.deployment import Deployment
 from cellc.deploy.files import JOINT_LIMITS, is_planner, moveit_controllers_file, plans
 from cellc.diagnostics import YamlPath
 from cellc.formats.header import Header
@@ -74,12 +75,12 @@ class _Called:
     joints: tuple[str, ...]
 
 
-def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
+def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     """Yield the parameter files."""
     cell = graph.cell
     if not plans(cell):
         return
-    yield _joint_limits(cell, header)
+    yield _joint_limits(cell, plan.header)
     for name, origin, parameters in (
         ("kinematics", _GROUPS, _kinematics(cell)),
         ("cartesian_limits", ("motion",), _cartesian_limits()),
@@ -88,10 +89,10 @@ def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
         ("planning_scene", ("scene",), _planning_scene()),
     ):
         section = NodeParameters(ANY_NODE, origin, parameters)
-        yield Artifact(f"config/moveit/{name}.yaml", parameter_file(header, [section]))
+        yield Artifact(f"config/moveit/{name}.yaml", parameter_file(plan.header, [section]))
     for file, target in {moveit_controllers_file(cell, target): target for target in TARGETS}.items():
         section = NodeParameters(ANY_NODE, _CONTROL, _controllers(cell, target))
-        yield Artifact(file, parameter_file(header, [section]))
+        yield Artifact(file, parameter_file(plan.header, [section]))
 
 
 def _joint_limits(cell: Cell, header: Header) -> Artifact:

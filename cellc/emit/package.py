@@ -13,8 +13,8 @@ from xml.etree.ElementTree import Element
 
 from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
+from cellc.deploy.deployment import Deployment
 from cellc.deploy.files import plans
-from cellc.formats.header import Header
 from cellc.formats.urdf.hardware import share_folders
 from cellc.formats.xml_text import comment, element, render
 from cellc.graph.cell_graph import CellGraph
@@ -35,10 +35,10 @@ _FILES = ("contract.json", "manifest.json", "rehearsals.json")
 _EMAIL = "maintainer@unset.invalid"
 
 
-def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
+def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     """Yield the package manifest and the build file."""
-    yield Artifact("package.xml", render(_package(graph.cell), header.text))
-    yield Artifact("CMakeLists.txt", header.commented("#") + "\n".join(_build_file(graph.cell)) + "\n")
+    yield Artifact("package.xml", render(_package(graph.cell), plan.header.text))
+    yield Artifact("CMakeLists.txt", plan.header.commented("#") + "\n".join(_build_file(graph.cell)) + "\n")
 
 
 def _package(cell: Cell) -> Element:

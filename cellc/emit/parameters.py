@@ -16,17 +16,18 @@ from collections.abc import Iterator
 from cellc.artifact import Artifact
 from cellc.cell.control import Controller, ControllerManager
 from cellc.cell.interface import NodeSource, ParameterValue
+from cellc.deploy.deployment import Deployment
 from cellc.deploy.files import QOS_OVERRIDES, controllers_file, node_file
 from cellc.formats.header import Header
 from cellc.formats.parameter_file import NodeParameters, parameter_file, qos_parameters
 from cellc.graph.cell_graph import CellGraph
 
 
-def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
+def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     """Yield the files of controller managers, of nodes, and of QoS overrides."""
-    yield from _of_managers(graph, header)
-    yield from _of_nodes(graph, header)
-    yield from _qos_overrides(graph, header)
+    yield from _of_managers(graph, plan.header)
+    yield from _of_nodes(graph, plan.header)
+    yield from _qos_overrides(graph, plan.header)
 
 
 def _of_managers(graph: CellGraph, header: Header) -> Iterator[Artifact]:

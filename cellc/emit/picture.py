@@ -18,8 +18,8 @@ from xml.etree.ElementTree import Element
 from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
 from cellc.cell.interface import Interface, InterfaceKind
+from cellc.deploy.deployment import Deployment
 from cellc.deploy.labels import claim_facts, driver_facts, interface_facts, stop_facts
-from cellc.formats.header import Header
 from cellc.formats.xml_text import element, render
 from cellc.graph.cell_graph import CellGraph
 
@@ -36,9 +36,9 @@ _UNIT = re.compile(r"(?<=\d) (s|Hz)\b")
 _HELD = "\N{NO-BREAK SPACE}"
 
 
-def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
+def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     """Yield the picture."""
-    yield Artifact("graph/responsibility.svg", render(_sheet(_bands(graph.cell)), header.text))
+    yield Artifact("graph/responsibility.svg", render(_sheet(_bands(graph.cell)), plan.header.text))
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,21 +11,20 @@ from collections.abc import Iterator
 
 from cellc.artifact import Artifact
 from cellc.cell.interface import Qos
+from cellc.deploy.deployment import Deployment
 from cellc.deploy.files import RECORDING
-from cellc.deploy.recording import record_command, recorded_topics
-from cellc.formats.header import Header
+from cellc.deploy.recording import record_command
 from cellc.formats.yaml_text import Tree, render
 from cellc.graph.cell_graph import CellGraph
 
 
-def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
+def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     """Yield the override file."""
     # As a comment, so that the override file says what it is used with; E is the folder of the attempt.
     command = "# " + " \\\n#   ".join(record_command(graph.cell, "bag")) + "\n\n"
-    topics = recorded_topics(graph.cell)
-    text = render({name: _profile(qos) for name, qos in topics.items()})
+    text = render({name: _profile(qos) for name, qos in plan.recorded.items()})
     origin = "# interfaces, control.controllers, recording.topics\n"
-    yield Artifact(RECORDING, header.commented("#") + command + origin + text)
+    yield Artifact(RECORDING, plan.header.commented("#") + command + origin + text)
 
 
 def _profile(qos: Qos) -> Tree:

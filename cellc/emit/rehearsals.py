@@ -11,13 +11,13 @@ from collections.abc import Iterator
 from cellc.artifact import Artifact
 from cellc.cell.motion import Fault, Rehearsal, Step
 from cellc.contract.rehearsals import FaultEntry, RehearsalEntry, Rehearsals, StepEntry
+from cellc.deploy.deployment import Deployment
 from cellc.deploy.files import REHEARSALS
-from cellc.formats.header import Header
 from cellc.formats.json_text import render
 from cellc.graph.cell_graph import CellGraph
 
 
-def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
+def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     """Yield the rehearsals."""
     entries = tuple(map(_rehearsal, graph.cell.rehearsals))
     model = Rehearsals(format=2, rehearsals=entries)

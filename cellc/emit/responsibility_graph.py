@@ -14,17 +14,17 @@ from collections.abc import Iterator
 from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
 from cellc.cell.interface import Endpoint, Interface, InterfaceKind
+from cellc.deploy.deployment import Deployment
 from cellc.deploy.labels import claim_facts, driver_facts, interface_facts, stop_facts
-from cellc.formats.header import Header
 from cellc.graph.cell_graph import CellGraph
 
 _BOLD = "stroke-width:5px,stroke:#000,fill:none"
 
 
-def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
+def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     """Yield the diagram."""
     lines = ["flowchart LR", *(f"  {line}" for line in _diagram(graph.cell))]
-    yield Artifact("graph/responsibility.mmd", header.commented("%%") + "\n".join(lines) + "\n")
+    yield Artifact("graph/responsibility.mmd", plan.header.commented("%%") + "\n".join(lines) + "\n")
 
 
 def _diagram(cell: Cell) -> Iterator[str]:

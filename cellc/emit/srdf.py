@@ -13,20 +13,20 @@ from xml.etree.ElementTree import Element
 from cellc.artifact import Artifact
 from cellc.cell.device import Device
 from cellc.cell.motion import NamedPose
+from cellc.deploy.deployment import Deployment
 from cellc.deploy.files import semantic_file
 from cellc.feasibility import MARGIN_M, RNG_SEED, disabled_links
-from cellc.formats.header import Header
 from cellc.formats.numbers import shortest
 from cellc.formats.xml_text import comment, element, render
 from cellc.graph.cell_graph import CellGraph
 
 
-def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
+def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     """Yield the semantic description of a cell with planning groups."""
     cell = graph.cell
     if cell.groups:
         root = element("robot", {"name": cell.name}, _parts(graph))
-        yield Artifact(semantic_file(cell), render(root, header.text))
+        yield Artifact(semantic_file(cell), render(root, plan.header.text))
 
 
 def _parts(graph: CellGraph) -> Iterator[Element]:

@@ -12,18 +12,18 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cellc.artifact import Artifact
+from cellc.deploy.deployment import Deployment
 from cellc.deploy.files import description_file, manager_description_file
-from cellc.formats.header import Header
 from cellc.formats.urdf.robot import manager_description, robot_description
 from cellc.formats.xml_text import render
 from cellc.graph.cell_graph import CellGraph
 
 
-def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
+def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     """Yield the description for each target."""
     cell = graph.cell
     for target in ("mock", "real"):
-        yield Artifact(description_file(cell, target), render(robot_description(cell, target), header.text))
+        yield Artifact(description_file(cell, target), render(robot_description(cell, target), plan.header.text))
         for manager in cell.managers if len(cell.managers) > 1 else ():
             own = manager_description(cell, target, manager.devices)
-            yield Artifact(manager_description_file(cell, manager, target), render(own, header.text))
+            yield Artifact(manager_description_file(cell, manager, target), render(own, plan.header.text))

@@ -1,4 +1,4 @@
-"""What every generated file begins with: the configuration id and the command that makes it again."""
+"""What every generated file begins with: the cell and the command that makes the file again."""
 
 from __future__ import annotations
 
@@ -7,16 +7,17 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Header:
-    """Names the cell, its configuration and its spec; the same on every host, wherever the checkout lies.
+    """Names the cell and its spec; the same on every host, wherever the checkout lies.
+
+    The configuration id stands in ``manifest.json``, ``contract.json`` and ``README.md`` alone: a change of one value
+    changes the files that hold it, not every file.
 
     Args:
         cell: name of the cell, which is the name of the generated package.
-        configuration_id: id over calibrations, TF publishers and URDF.
         command: what makes the file again, from the folder that holds ``cells/`` and ``generated/``.
     """
 
     cell: str
-    configuration_id: str
     command: str
 
     @property

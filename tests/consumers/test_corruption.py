@@ -16,9 +16,8 @@ from tempfile import TemporaryDirectory, mkdtemp
 import pytest
 
 from cellc.artifact import Artifact
-from cellc.deploy.configuration import configuration_id, configuration_inputs, header_of
+from cellc.deploy.deployment import Deployment, plan_deployment
 from cellc.emit.emit_all import EMITTERS
-from cellc.formats.header import Header
 from cellc.graph.cell_graph import CellGraph
 from cellc.output.compare import compare
 from cellc.output.write import write
@@ -100,11 +99,11 @@ _CHECKS: tuple[Callable[[str, str], None], ...] = (
     test_bring_up.test_script_is_bash_and_launching_starts_every_step,
     test_bring_up.test_conditions_name_what_the_cell_has,
     test_bring_up.test_everything_is_activated_once_and_alternates_never,
-    test_walk.test_walk_has_every_gate_once_and_in_order,
+    test_walk.test_pages_and_table_have_every_gate_once_and_in_order,
     test_walk.test_table_says_what_the_sections_say_and_leads_to_them,
     test_walk.test_every_gate_leaves_evidence_of_its_own,
-    test_walk.test_checklists_hold_the_commands_of_the_walk,
-    test_walk.test_checklists_tick_what_the_walk_says,
+    test_walk.test_what_is_read_is_kept_and_what_is_started_is_not,
+    test_walk.test_a_gate_stands_once,
     test_walk.test_blocks_are_what_a_shell_takes,
     test_walk.test_commands_name_what_the_cell_has,
     test_walk.test_files_that_commands_read_are_in_the_package,
@@ -205,10 +204,9 @@ def test_most_faults_in_single_lines_are_seen_without_a_golden_record(capsys: py
 
 
 @pytest.mark.parametrize("emitter", EMITTERS, ids=lambda emitter: emitter.__module__.rpartition(".")[2])
-def test_emitter_that_is_left_out_is_missed(emitter: Callable[[CellGraph, Header], Iterator[Artifact]]) -> None:
+def test_emitter_that_is_left_out_is_missed(emitter: Callable[[CellGraph, Deployment], Iterator[Artifact]]) -> None:
     built = build(_CELL, _DISTRO)
-    header = header_of(built.graph.cell, configuration_id(configuration_inputs(built.graph.cell)))
-    gone = {artifact.path for artifact in emitter(built.graph, header)}
+    gone = {artifact.path for artifact in emitter(built.graph, plan_deployment(built.graph))}
     assert gone
     assert gone <= set(built.texts)
     kept = tuple(_without(artifact, gone) for artifact in built.artifacts if artifact.path not in gone)

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from cellc.contract.contract import Contract
+from cellc.deploy.deployment import plan_deployment
 from cellc.emit.emit_all import emit_all
 from cellc.graph.cell_graph import CellGraph
 from tests.cells import graph_of, spec_text, written
@@ -17,7 +18,7 @@ CELLS = ("ur5e_pick", "minimal")
 
 def emitted_graph(graph: CellGraph) -> dict[str, str]:
     """Return the text of every artifact of a graph by path."""
-    artifacts = emit_all(graph)
+    artifacts = emit_all(graph, plan_deployment(graph))
     assert len({artifact.path for artifact in artifacts}) == len(artifacts)
     return {artifact.path: artifact.text for artifact in artifacts}
 

@@ -46,18 +46,17 @@ def test_gates_stand_in_order_with_evidence_and_stop(page: str, letter: str, num
     assert [section.split()[0] for section in sections] == [f"{letter}{number}" for number in numbers]
     for section in sections:
         assert "- [ ] " in section
-        assert re.search(rf"Evidence: `evidence/<attempt_id>/{section.split()[0]}-[\w.-]+`", section)
-        assert re.search(r"\*\*Stop, and do not go on, on:\*\* \S", section)
+        assert re.search(rf"Evidence `{section.split()[0]}-[\w.-]+`, signed by ", section)
+        assert re.search(r"\*\*Stop on:\*\* \S", section)
 
 
 @pytest.mark.parametrize("cell", CELLS)
-@pytest.mark.parametrize("page", ["gates/promotion.md", "gates/network.md", "README.md"])
+@pytest.mark.parametrize("page", ["gates/promotion.md", "gates/network.md"])
 def test_commands_only_read(page: str, cell: str) -> None:
-    text = artifacts_of(cell)[page].rpartition("## The walk")[2]
-    blocks = re.findall(r"```sh\n(.*?)```", text, flags=re.DOTALL)
+    blocks = re.findall(r"```sh\n(.*?)```", artifacts_of(cell)[page], flags=re.DOTALL)
     lines = "\n".join(blocks).replace("\\\n", " ").splitlines()
-    commands = [line.strip() for line in lines if line.strip() and not re.match(r"\s*(#|\{|\})", line)]
-    assert commands
+    commands = [line.strip().removeprefix("{ ") for line in lines if not re.match(r"\s*(\{|\}.*)?$", line)]
+    assert len(commands) > 10
     for command in commands:
         assert re.sub(r"^timeout \d+ ", "", command).startswith(_ALLOWED), command
 
@@ -66,13 +65,13 @@ def test_commands_only_read(page: str, cell: str) -> None:
 def test_command_path_is_shown_by_runs_that_cancel_and_violate(cell: str) -> None:
     # Declared rehearsals need not do either; the campaign behind --gates does both to every controller.
     section = artifacts_of(cell)["gates/network.md"].split("## L6")[1]
-    assert f"cellc mock generated/{cell} --gates\n" in section
+    assert f"cellc mock generated/{cell} --gates 2>&1" in section
 
 
 def test_first_motion_is_said_with_all_its_bounds() -> None:
     text = artifacts_of("ur5e_pick")["gates/promotion.md"]
     assert "joint arm/wrist_3_joint, direction +, at most 5 deg, 5 deg/s, ends within 5 s" in text
-    assert "on:** wrong direction; overshoot; unexpected sound." in text
+    assert "Stop on:** wrong direction; overshoot; unexpected sound." in text
 
 
 def test_every_unknown_of_the_spec_stands_in_audit_and_readme() -> None:

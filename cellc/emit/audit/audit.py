@@ -13,7 +13,8 @@ from cellc.cell.cell import Cell
 from cellc.cell.device import Device
 from cellc.cell.interface import InterfaceKind
 from cellc.cell.site import UNKNOWN
-from cellc.deploy.configuration import OpenQuestion, open_questions
+from cellc.deploy.configuration import OpenQuestion
+from cellc.deploy.deployment import Deployment
 from cellc.emit.audit.tables import (
     command_section,
     drivers_section,
@@ -23,17 +24,16 @@ from cellc.emit.audit.tables import (
     table,
     tf_section,
 )
-from cellc.formats.header import Header
 from cellc.formats.parameter_file import spec_path
 from cellc.graph.cell_graph import CellGraph
 from cellc.graph.versions import Answer, Judgement, compatibility
 
 
-def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
+def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     """Yield the audit."""
     cell = graph.cell
     sections = {
-        "Open questions": questions_section(graph),
+        "Open questions": questions_section(graph, plan),
         "Version tuple": version_section(cell),
         "Command owners": owners_section(graph),
         "Command paths": command_section(graph),
@@ -48,7 +48,7 @@ def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
         "Recovery": "\n".join(recovery(cell)),
         "What the mock cannot prove": "\n".join(not_provable(cell)),
     }
-    blocks = [f"<!--\n{header.text}\n-->", f"# {cell.name}: audit"]
+    blocks = [f"<!--\n{plan.header.text}\n-->", f"# {cell.name}: audit"]
     blocks += [f"## {title}\n\n{text}" for title, text in sections.items()]
     yield Artifact("audit.md", "\n\n".join(blocks) + "\n")
 
@@ -105,13 +105,13 @@ _SPEC_AUTHOR = "author of the spec"
 _READ_ON_THE_DEVICE = ("revision", "serial", "firmware")
 
 
-def questions_section(graph: CellGraph) -> str:
+def questions_section(graph: CellGraph, plan: Deployment) -> str:
     """Write every UNKNOWN of the spec, and every part that no matrix covers."""
-    return table(("asked of", "question", "answered in the spec at"), [*_open(graph), *_untested(graph.cell)])
+    return table(("asked of", "question", "answered in the spec at"), [*_open(graph, plan), *_untested(graph.cell)])
 
 
-def _open(graph: CellGraph) -> Iterator[tuple[str, ...]]:
-    for question in open_questions(graph):
+def _open(graph: CellGraph, plan: Deployment) -> Iterator[tuple[str, ...]]:
+    for question in plan.questions:
         asked, text = _asked(graph.cell, question)
         yield asked, text, f"`{spec_path(question.path)}`"
 

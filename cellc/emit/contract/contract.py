@@ -24,7 +24,7 @@ from cellc.contract.contract import (
     ContractQos,
     ContractSafety,
 )
-from cellc.deploy.configuration import version_tuple
+from cellc.deploy.deployment import Deployment
 from cellc.deploy.files import REHEARSALS, controllers_file, description_file, semantic_file
 from cellc.emit.contract.clocks import clock_of, clocks
 from cellc.emit.contract.devices import adapters, devices, simulated_joints
@@ -37,25 +37,24 @@ from cellc.emit.contract.motion import (
     managers,
     poses,
 )
-from cellc.formats.header import Header
 from cellc.formats.json_text import render
 from cellc.graph.cell_graph import CellGraph
 
 
-def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
+def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     """Yield the contract."""
-    yield Artifact("contract.json", render(_contract(graph, header.configuration_id)))
+    yield Artifact("contract.json", render(_contract(graph, plan)))
 
 
-def _contract(graph: CellGraph, configuration_id: str) -> Contract:
+def _contract(graph: CellGraph, plan: Deployment) -> Contract:
     cell = graph.cell
     return Contract(
         format=2,
         cell=cell.name,
         summary=cell.summary,
-        configuration_id=configuration_id,
+        configuration_id=plan.configuration_id,
         distro=cell.distro,
-        version_tuple=version_tuple(cell),
+        version_tuple=dict(plan.versions),
         files=_files(cell),
         root_frame=WORLD,
         calibrations=calibrations(cell),

@@ -14,7 +14,8 @@ from xml.etree.ElementTree import Element
 
 from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
-from cellc.deploy.processes import launch_hosts, movers, started_by_a_person
+from cellc.deploy.deployment import Deployment
+from cellc.deploy.processes import started_by_a_person
 from cellc.deploy.releases import CONFIRMATION, MOTION_CONFIRMATION
 from cellc.emit.launch.processes import HOST, ON_REAL, TARGET, moving_node, on_host, share
 from cellc.emit.launch.stages import bring_up, stages
@@ -29,20 +30,38 @@ _REAL_GATE = "launch/real_gate.launch.xml"
 _MOVE = "launch/move.launch.xml"
 _MOVE_GATE = "launch/move_gate.launch.xml"
 
+EVERYWHERE = "all"
+"""The choice of ``host`` that starts the whole cell on one computer, which only the mock allows."""
 
-def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
+_NOT_YET = "no"
+CONFIRM_REAL = "confirm_real"
+CONFIRM_MOTION = "confirm_motion"
+_RELEASES = {
+    CONFIRM_REAL: (
+        CONFIRMATION,
+        "Stated by the person who releases the real target: gates G0 to G2 have their evidence, drives are disabled.",
+    ),
+    CONFIRM_MOTION: (
+        MOTION_CONFIRMATION,
+        "Stated by the person who releases motion on the real target: gates G0 to G6 have their evidence, the "
+        "observer stands at the stop.",
+    ),
+}
+
+
+def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     """Yield the launch files, the gates before their real targets, and what their steps wait for."""
     cell = graph.cell
-    hosts = launch_hosts(cell)
-    yield _file(header, _CELL, _by_host(cell, hosts) if hosts else _whole(cell))
-    for host in hosts:
-        yield _file(header, _host_file(host), [*_arguments(cell), *_gate(cell, {"host": host}), *stages(cell, host)])
-    demanded = [stated_host_argument(hosts)] if hosts else []
-    yield _file(header, _REAL_GATE, [gate_argument(CONFIRM_REAL), *demanded])
-    yield bring_up(cell, header)
-    if movers(cell):
-        yield _file(header, _MOVE, _moving(cell))
-        yield _file(header, _MOVE_GATE, [gate_argument(CONFIRM_MOTION)])
+    yield _file(plan.header, _CELL, _by_host(cell, plan.hosts) if plan.hosts else _whole(cell, plan))
+    for host in plan.hosts:
+        actions = [*_arguments(cell), *_gate(cell, {"host": host}), *stages(cell, plan, host)]
+        yield _file(plan.header, _host_file(host), actions)
+    demanded = [stated_host_argument(plan.hosts)] if plan.hosts else []
+    yield _file(plan.header, _REAL_GATE, [gate_argument(CONFIRM_REAL), *demanded])
+    yield bring_up(cell, plan)
+    if plan.motion_clients:
+        yield _file(plan.header, _MOVE, _moving(cell, plan))
+        yield _file(plan.header, _MOVE_GATE, [gate_argument(CONFIRM_MOTION)])
 
 
 def _file(header: Header, path: str, actions: Iterator[Element] | list[Element]) -> Artifact:
@@ -64,10 +83,10 @@ def _gate(cell: Cell, more: dict[str, str]) -> Iterator[Element]:
     yield _include(cell, _REAL_GATE, {CONFIRM_REAL: f"$(var {CONFIRM_REAL})"} | more, {"if": ON_REAL})
 
 
-def _whole(cell: Cell) -> Iterator[Element]:
+def _whole(cell: Cell, plan: Deployment) -> Iterator[Element]:
     yield from _arguments(cell)
     yield from _gate(cell, {})
-    yield from stages(cell, None)
+    yield from stages(cell, plan, None)
 
 
 def _by_host(cell: Cell, hosts: tuple[str, ...]) -> Iterator[Element]:
@@ -86,38 +105,18 @@ def _include(cell: Cell, path: str, arguments: dict[str, str], condition: dict[s
     return element("include", {"file": share(cell, path), **condition}, given)
 
 
-def _moving(cell: Cell) -> Iterator[Element]:
-    hosts = launch_hosts(cell)
+def _moving(cell: Cell, plan: Deployment) -> Iterator[Element]:
     yield target_argument()
     yield release_argument(CONFIRM_MOTION)
-    if hosts:
-        yield host_argument(hosts)
+    if plan.hosts:
+        yield host_argument(plan.hosts)
     yield comment("the gate before motion on real hardware: unless a person opens it nothing below is started")
     yield _include(cell, _MOVE_GATE, {CONFIRM_MOTION: f"$(var {CONFIRM_MOTION})"}, {"if": ON_REAL})
     yield comment("what asks for motion; each waits for claims, actions and states, on the mock for the mock itself")
-    for node in movers(cell):
+    for node in plan.motion_clients:
         if started_by_a_person(cell, node):
             yield comment(spec_path(node.path))
-            yield moving_node(cell, node, f"bash {share(cell, 'launch/bring_up.bash')} move_{TARGET}")
-
-
-EVERYWHERE = "all"
-"""The choice of ``host`` that starts the whole cell on one computer, which only the mock allows."""
-
-_NOT_YET = "no"
-CONFIRM_REAL = "confirm_real"
-CONFIRM_MOTION = "confirm_motion"
-_RELEASES = {
-    CONFIRM_REAL: (
-        CONFIRMATION,
-        "Stated by the person who releases the real target: gates G0 to G2 have their evidence, drives are disabled.",
-    ),
-    CONFIRM_MOTION: (
-        MOTION_CONFIRMATION,
-        "Stated by the person who releases motion on the real target: gates G0 to G6 have their evidence, the "
-        "observer stands at the stop.",
-    ),
-}
+            yield moving_node(cell, node, plan.hosts, f"bash {share(cell, 'launch/bring_up.bash')} move_{TARGET}")
 
 
 def target_argument() -> Element:

@@ -25,7 +25,7 @@ from cellc.deploy.files import (
     semantic_file,
 )
 from cellc.deploy.labels import TF_RATE_HZ
-from cellc.deploy.processes import enclave_of, host_of, launch_hosts, manager_enclave, spawner_enclave
+from cellc.deploy.processes import enclave_of, host_of, manager_enclave, spawner_enclave
 from cellc.formats.numbers import decimal
 from cellc.formats.parameter_file import qos_parameters
 from cellc.formats.xml_text import element
@@ -116,9 +116,8 @@ def driver_node(cell: Cell, node: Node) -> Element:
     return element("node", identity(cell, node) | condition, _parameters(cell, node))
 
 
-def moving_node(cell: Cell, node: Node, prefix: str) -> Element:
+def moving_node(cell: Cell, node: Node, hosts: tuple[str, ...], prefix: str) -> Element:
     """Return a node that asks for motion, behind a prefix that waits until everything is ready for it."""
-    hosts = launch_hosts(cell)
     place = {"if": on_host(host_of(cell, node))} if hosts else {}
     return element("node", identity(cell, node) | {"launch-prefix": prefix} | place, _parameters(cell, node))
 

@@ -17,14 +17,17 @@ from xml.etree.ElementTree import Element
 from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
 from cellc.cell.interface import Node, NodeSource
-from cellc.deploy.bringup import MOVE, Step, ready_to_move, steps
-from cellc.deploy.processes import bring_up_enclave, host_of, host_of_manager, movers, started_by_a_person
+from cellc.deploy.bringup import MOVE, Step, ready_to_move
+from cellc.deploy.deployment import Deployment
+from cellc.deploy.processes import bring_up_enclave, host_of, host_of_manager, started_by_a_person
 from cellc.emit.launch.processes import cell_node, control, driver_node, only_on, robot_state_publisher, share, spawners
-from cellc.formats.header import Header
 from cellc.formats.parameter_file import spec_path
 from cellc.formats.xml_text import comment, element
 from cellc.link.frames import ROBOT_STATE_PUBLISHER
 
+FILE = "launch/bring_up.bash"
+_TARGETS = ("mock", "real")
+_CONDITIONS = Path(__file__).with_name("readiness.bash")
 _ABOUT = {
     "configure": "every controller is loaded and configured, none is active; managed nodes likewise",
     "observe": "states are published and looked at; nothing is claimed",
@@ -32,12 +35,12 @@ _ABOUT = {
 }
 
 
-def stages(cell: Cell, host: str | None) -> Iterator[Element]:
+def stages(cell: Cell, plan: Deployment, host: str | None) -> Iterator[Element]:
     """Yield the actions of one host, or of all of them."""
     yield comment("discover: processes come up in any order; what follows waits for proof, not for them")
     yield from _discover(cell, host)
     for stage, about in _ABOUT.items():
-        actions = [*(_spawners(cell, host) if stage == "configure" else ()), *_steps(cell, host, stage)]
+        actions = [*(_spawners(cell, host) if stage == "configure" else ()), *_steps(cell, plan, host, stage)]
         if actions:
             yield comment(f"{stage}: {about}")
             yield from actions
@@ -76,8 +79,8 @@ def _spawners(cell: Cell, host: str | None) -> Iterator[Element]:
             yield from spawners(cell, manager)
 
 
-def _steps(cell: Cell, host: str | None, stage: str) -> Iterator[Element]:
-    return (_step(cell, one) for one in steps(cell) if one.stage == stage and _here(host, one.host))
+def _steps(cell: Cell, plan: Deployment, host: str | None, stage: str) -> Iterator[Element]:
+    return (_step(cell, one) for one in plan.steps if one.stage == stage and _here(host, one.host))
 
 
 def _step(cell: Cell, step: Step) -> Element:
@@ -89,24 +92,19 @@ def _here(host: str | None, of: str) -> bool:
     return host is None or host == of
 
 
-FILE = "launch/bring_up.bash"
-_TARGETS = ("mock", "real")
-_CONDITIONS = Path(__file__).with_name("readiness.bash")
-
-
-def bring_up(cell: Cell, header: Header) -> Artifact:
+def bring_up(cell: Cell, plan: Deployment) -> Artifact:
     """Return the script of a cell."""
     parts = [
-        header.commented("#").rstrip("\n"),
+        plan.header.commented("#").rstrip("\n"),
         "set -eu",
-        f'step="${{1:?which step: {", ".join(_names(cell))}}}"',
+        f'step="${{1:?which step: {", ".join(_names(plan))}}}"',
         f'enclave="{bring_up_enclave(cell)}" # of what is asked here, where security is on',
         "",
         _CONDITIONS.read_text(encoding="utf-8").rstrip("\n"),
         "",
         'case "$step" in',
-        *(line for step in steps(cell) for line in _case(step)),
-        *_move(cell),
+        *(line for step in plan.steps for line in _case(step)),
+        *_move(cell, plan),
         "  *)",
         '    echo "there is no step $step" >&2',
         "    exit 2",
@@ -116,9 +114,9 @@ def bring_up(cell: Cell, header: Header) -> Artifact:
     return Artifact(FILE, "\n".join(parts) + "\n")
 
 
-def _names(cell: Cell) -> Iterator[str]:
-    yield from (step.name for step in steps(cell))
-    if movers(cell):
+def _names(plan: Deployment) -> Iterator[str]:
+    yield from (step.name for step in plan.steps)
+    if plan.motion_clients:
         yield from (f"{MOVE}_{target}" for target in _TARGETS)
 
 
@@ -129,8 +127,8 @@ def _case(step: Step) -> Iterator[str]:
     yield "    ;;"
 
 
-def _move(cell: Cell) -> Iterator[str]:
-    if movers(cell):
+def _move(cell: Cell, plan: Deployment) -> Iterator[str]:
+    if plan.motion_clients:
         for target in _TARGETS:
             yield f"  {MOVE}_{target}) # by a person; what stands behind the step is started then"
             yield from (f"    needs {condition}" for condition in ready_to_move(cell, target))

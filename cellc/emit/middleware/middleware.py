@@ -11,6 +11,7 @@ from collections.abc import Iterator
 
 from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
+from cellc.deploy.deployment import Deployment
 from cellc.emit.middleware.profiles import (
     Binding,
     bindings,
@@ -26,12 +27,12 @@ from cellc.graph.cell_graph import CellGraph
 from cellc.vocabulary import Feature, features
 
 
-def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
+def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     """Yield environment and profiles."""
     for binding in bindings(graph):
-        profiles = tuple(_profiles(graph, header, binding))
+        profiles = tuple(_profiles(graph, plan.header, binding))
         names = tuple(artifact.path for artifact in profiles)
-        yield Artifact(f"middleware/{binding.host}.sh", environment(graph.cell, header, binding, names))
+        yield Artifact(f"middleware/{binding.host}.sh", environment(graph.cell, plan.header, binding, names))
         yield from profiles
 
 

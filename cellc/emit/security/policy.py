@@ -16,6 +16,7 @@ from cellc.cell.cell import Cell
 from cellc.cell.control import ControllerManager
 from cellc.cell.interface import NodeSource
 from cellc.deploy.bringup import spawnings
+from cellc.deploy.deployment import Deployment
 from cellc.deploy.processes import bring_up_enclave, enclave_of, manager_enclave, spawner_enclave
 from cellc.emit.security.rights import (
     Profile,
@@ -25,17 +26,16 @@ from cellc.emit.security.rights import (
     node_profile,
     profile_element,
 )
-from cellc.formats.header import Header
 from cellc.formats.xml_text import element, render
 from cellc.graph.cell_graph import CellGraph
 
 _VERSION = {"version": "0.2.0"}
 
 
-def emit(graph: CellGraph, header: Header) -> Iterator[Artifact]:
+def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     """Yield the policy."""
     enclaves = element("enclaves", children=_enclaves(graph.cell))
-    yield Artifact("security/policy.xml", render(element("policy", _VERSION, [enclaves]), header.text))
+    yield Artifact("security/policy.xml", render(element("policy", _VERSION, [enclaves]), plan.header.text))
 
 
 def _enclaves(cell: Cell) -> Iterator[Element]:

@@ -1,0 +1,206 @@
+"""``README.md`` of the generated package: the way from power-off to a trajectory, and what stands in the folder.
+
+Markdown for people who see the cell for the first time. The gates come first, because they are what everybody needs;
+each stands once, in ``gates/``, and is linked from here. Left out: what another file of the package says better; the
+page names that file.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from cellc.artifact import Artifact
+from cellc.cell.cell import Cell
+from cellc.cell.control import Controller
+from cellc.cell.frame import FrameKind
+from cellc.cell.interface import Interface, InterfaceKind
+from cellc.deploy.configuration import OpenQuestion
+from cellc.deploy.deployment import Deployment
+from cellc.deploy.files import NETWORK_GATES, PROMOTION_GATES, plans
+from cellc.deploy.gates import Gate
+from cellc.deploy.labels import real_mover
+from cellc.deploy.releases import start_mock
+from cellc.formats.parameter_file import spec_path
+from cellc.graph.cell_graph import CellGraph
+
+_OPEN = "Before real hardware"
+_ANCHOR = "before-real-hardware"
+_HEAD = ("gate", "what it shows", "first command", "signed by")
+_NO_PLANNER = (
+    "No node of this cell plans, so that no configuration of MoveIt but the SRDF is here; a `move_group` among the "
+    "nodes of the spec brings it."
+)
+_FILES = (
+    ("urdf/", "the description for the mock and for real hardware"),
+    ("config/", "parameters of controller managers and nodes, the frame tree with its calibrations"),
+    ("config/moveit/", "the SRDF, and what move_group is told beyond it, with `config/joint_limits.yaml`"),
+    ("middleware/", "environment and profile for each host, sourced before anything is started there"),
+    ("security/policy.xml", "who may publish, serve and call; everything else is denied"),
+    ("launch/cell.launch.xml", "starts the cell; on real hardware it stops where a person takes over"),
+    ("launch/move.launch.xml", "starts what asks for motion; on real hardware only after a person releases it"),
+    ("launch/bring_up.bash", "what each step of the bring-up waits for before it acts"),
+    ("contract.json", "what the interfaces promise: type, QoS, rate, age, owner, failure behaviour"),
+    ("rehearsals.json", "what the mock executes, and the outcome that each run must end in"),
+    ("graph/responsibility.svg", "who tells what to whom, and who answers for it; `.mmd` says the same"),
+    ("gates/promotion.md", "gates G0 to G7 as a checklist for one attempt; `gates/network.md` holds L1 to L6"),
+    ("audit.md", "open questions, version tuple, every command path, what the running cell must show, owners"),
+    ("config/recording_qos.yaml", "what an attempt records, and the command that does it"),
+    ("manifest.json", "version tuple, hash of every file, configuration id"),
+)
+
+
+def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
+    """Yield the page."""
+    cell = graph.cell
+    blocks = [
+        f"<!--\n{plan.header.text}\n-->",
+        f"# {cell.name}",
+        cell.summary,
+        f"Configuration `{plan.configuration_id}`, ROS 2 {cell.distro}. This folder is a ROS 2 package; the spec is "
+        "its only source, so that a change is made there.",
+        *_gates(plan),
+        "## Every shell, once",
+        "From the folder that holds `cells/` and `generated/`, with ROS 2 sourced:",
+        _shell_of(cell),
+        "To try it on the mock, in three commands:",
+        _fenced((plan.header.command, f"cellc mock generated/{cell.name}", start_mock(cell))),
+        *_questions(plan.questions),
+        "## The cell in one sentence",
+        _sentence(cell),
+        f"![Every arrow of {cell.name} with its owner](graph/responsibility.svg)",
+        "What the mock cannot prove, by device and vendor, stands in `audit.md`: the gates show it, or nothing does.",
+        "## What is here",
+        "\n".join(f"- `{name}`: {text}" for name, text in _FILES if _present(cell, plan, name)),
+        "" if plans(cell) else _NO_PLANNER,
+    ]
+    yield Artifact("README.md", "\n\n".join(block for block in blocks if block) + "\n")
+
+
+def _gates(plan: Deployment) -> Iterator[str]:
+    yield "## From power-off to a trajectory"
+    yield (
+        "Gates are passed from top to bottom, each with its evidence and a signature; one that stops is begun again. "
+        "Enabling drives (G5) and moving (G6, G7) are steps of people at the cell: no file here takes them. After a "
+        "stop, the section Recovery of `audit.md` has the way back."
+    )
+    yield _table(PROMOTION_GATES, plan.promotion)
+    yield "G3 is passed layer by layer, from the cable to the command path:"
+    yield _table(NETWORK_GATES, plan.network)
+    number = len(plan.questions)
+    if number:
+        yield f"**{number} answers are missing in the spec**, and each blocks the real target: [{_OPEN}](#{_ANCHOR})."
+
+
+def _table(file: str, gates: tuple[Gate, ...]) -> str:
+    rows = (_HEAD, ("---",) * len(_HEAD), *(_row(file, gate) for gate in gates))
+    return "\n".join(f"| {' | '.join(cells)} |" for cells in rows)
+
+
+def _row(file: str, gate: Gate) -> tuple[str, ...]:
+    anchor = f"{gate.code} {gate.title}".lower().replace(",", "").replace(" ", "-")
+    # Up to a pipe, whose bar would end the cell.
+    command = f"`{gate.key_command.partition(' | ')[0]}`" if gate.key_command else "by people"
+    return f"[{gate.code}]({file}#{anchor}) {gate.title}", gate.shows, command, gate.owner
+
+
+def _shell_of(cell: Cell) -> str:
+    """Return what every shell needs once: the built package, the host's environment, the folder of the attempt."""
+    environments = [f"source generated/{cell.name}/middleware/{host}.sh  # on {host}" for host in cell.hosts]
+    return _fenced(
+        (
+            f"colcon build --base-paths generated --packages-select {cell.name}  # once",
+            "source install/setup.bash",
+            *environments,
+            'export E=evidence/attempt-001 && mkdir -p "$E"  # a new folder for each attempt',
+        )
+    )
+
+
+def _fenced(lines: Iterable[str]) -> str:
+    return "\n".join(["```sh", *lines, "```"])
+
+
+def _questions(questions: tuple[OpenQuestion, ...]) -> Iterator[str]:
+    if questions:
+        yield f"## {_OPEN}"
+        yield "Each of these is answered in the spec, where it stands; `audit.md` says whom to ask:"
+        yield "\n".join(f"- {question.subject} (`{spec_path(question.path)}`)" for question in questions)
+
+
+def _present(cell: Cell, plan: Deployment, name: str) -> bool:
+    if name == "config/moveit/":
+        return bool(cell.groups)
+    if name == "middleware/":
+        return bool(cell.hosts)
+    return name != "launch/move.launch.xml" or bool(plan.motion_clients)
+
+
+def _sentence(cell: Cell) -> str:
+    """Return who tells what to whom, from the sensors to the drives and back to the stop."""
+    clauses = [
+        *_streams(cell),
+        *_dynamic_frames(cell),
+        *_actions(cell),
+        *_managers(cell),
+        *_drives(cell),
+        _stop(cell),
+    ]
+    text = "; ".join(clauses)
+    return text[0].upper() + text[1:] + "."
+
+
+def _written(cell: Cell, kind: InterfaceKind) -> Iterator[Interface]:
+    return (interface for interface in cell.interfaces if interface.kind is kind and not interface.derived)
+
+
+def _streams(cell: Cell) -> Iterator[str]:
+    for topic in _written(cell, InterfaceKind.TOPIC):
+        frame = f" in {topic.frame}" if topic.frame else ""
+        yield f"{_names(topic, 'sources')} publishes `{topic.name}`{frame} to {_names(topic, 'sinks')}"
+
+
+def _dynamic_frames(cell: Cell) -> Iterator[str]:
+    for frame in cell.frames:
+        if frame.kind is FrameKind.DYNAMIC:
+            yield f"{frame.authority} says where {frame.name} is in {frame.parent}, at the stamp of its observation"
+
+
+def _actions(cell: Cell) -> Iterator[str]:
+    for action in _written(cell, InterfaceKind.ACTION):
+        yield f"{_names(action, 'sinks')} asks {_names(action, 'sources')} through `{action.name}`"
+    for controller in cell.controllers:
+        if controller.action is not None:
+            client = controller.client or "a client that the spec does not name"
+            yield f"{client} sends goals to {controller.label} through `{controller.action}`{_instead(controller)}"
+
+
+def _instead(controller: Controller) -> str:
+    """Return where the goals go on real hardware, for a controller that is not there."""
+    other = controller.stand_in
+    return "" if other is None else f", on real hardware to {other.node} through `{other.action}`"
+
+
+def _managers(cell: Cell) -> Iterator[str]:
+    for manager in cell.managers:
+        for device in map(cell.device, manager.devices):
+            through = real_mover(device)
+            if device.hardware is not None and "real" in device.hardware.targets:
+                yield f"controller manager {manager.name} writes to {device.name} through {through}"
+            else:
+                yield f"no controller manager writes to {device.name} on real hardware, where {through} moves it"
+
+
+def _drives(cell: Cell) -> Iterator[str]:
+    for device in cell.devices:
+        if device.hardware is not None:
+            yield f"the vendor controller of {device.name} decides what reaches the drives"
+
+
+def _stop(cell: Cell) -> str:
+    stop = cell.safety.stop
+    return f"{stop.authority} stops the cell by a path ({stop.path}) that no software is part of"
+
+
+def _names(interface: Interface, side: str) -> str:
+    ends = interface.sources if side == "sources" else interface.sinks
+    return " and ".join(end.node for end in ends) or "nobody"

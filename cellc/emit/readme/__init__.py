@@ -1,1 +1,0 @@
-"""The generated package's own page, part by part."""
