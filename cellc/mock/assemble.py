@@ -53,7 +53,7 @@ def joint_state_feeds(
 def watch_deadlines(contract: Contract, control: ControlStack, network: Network) -> None:
     """Watch the deadlines that the ends of joint state topics promise or rely on; none costs nothing."""
     for name, interface in contract.interfaces.items():
-        if interface.type != JOINT_STATE_TYPE or not network.middleware.tells:
+        if interface.type != JOINT_STATE_TYPE or not network.middleware.reports_events:
             continue
         for source in interface.sources:
             for (_, broadcaster), history in control.histories.items():

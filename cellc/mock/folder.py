@@ -109,7 +109,7 @@ def _check_rehearsals(file: str, rehearsals: Rehearsals) -> None:
     known: set[str] = set()
     for entry in rehearsals.rehearsals:
         if not entry.name.isprintable() or entry.name in known:
-            raise MockError(file, f"has a second rehearsal or an unprintable one of the name {entry.name!a}")
+            raise MockError(file, f"has two rehearsals of the name {entry.name!a}, or an unprintable name")
         known.add(entry.name)
         if any(abs(time_s) > LONGEST_S for time_s in _times(entry)):
             raise MockError(file, f"states a time of more than {LONGEST_S:g} s in rehearsal `{entry.name}`")
@@ -157,12 +157,13 @@ def _inside(folder: Path, name: str) -> Path:
 
 
 def _notes(folder: Path, contract: Contract, manifest: Manifest) -> Iterator[str]:
-    if manifest.configuration_id != contract.configuration_id:
-        yield f"`{MANIFEST_FILE}` is of configuration `{manifest.configuration_id}`, not `{contract.configuration_id}`"
+    own, of_manifest = contract.configuration_id, manifest.configuration_id
+    if of_manifest != own:
+        yield f"`{MANIFEST_FILE}` belongs to configuration `{of_manifest}`, not `{own}`"
     for name, expected in sorted(manifest.files.items()):
         path = _inside(folder, name)
         if not path.is_file():
-            yield f"`{name}` stands in the manifest and is missing"
+            yield f"`{name}` is listed in the manifest and missing"
         elif hashlib.sha256(path.read_bytes()).hexdigest() != expected.removeprefix("sha256:"):
             yield f"`{name}` differs from the manifest: it was edited after it was generated"
 

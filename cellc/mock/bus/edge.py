@@ -181,7 +181,7 @@ class Reader(Generic[Sample]):
         self._network = network
         self._alive = 0
         self._not_alive = 0
-        deadline_s = self.endpoint.qos.deadline_s if network.middleware.tells else None
+        deadline_s = self.endpoint.qos.deadline_s if network.middleware.reports_events else None
         self._deadline = None if deadline_s is None else DeadlineWatch(deadline_s, network.timers, self._missed)
 
     def deliver(self, sample: Sample, expires_ns: int | None) -> None:

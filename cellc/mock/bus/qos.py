@@ -20,19 +20,19 @@ class Middleware:
 
     Attributes:
         compare: returns every policy that keeps an offering and a requesting endpoint apart.
-        tells: it tells of missed deadlines and lost liveliness.
+        reports_events: it reports missed deadlines and lost liveliness.
     """
 
     compare: Callable[[ContractQos, ContractQos], tuple[Incompatibility, ...]]
-    tells: bool
+    reports_events: bool
 
 
 def _any_two_match(offered: ContractQos, requested: ContractQos) -> tuple[Incompatibility, ...]:
     return ()
 
 
-DDS = Middleware(incompatibilities, tells=True)
-ZENOH = Middleware(_any_two_match, tells=False)
+DDS = Middleware(incompatibilities, reports_events=True)
+ZENOH = Middleware(_any_two_match, reports_events=False)
 """Endpoints on one key always match; rmw_zenoh_cpp has no events for deadlines and leases."""
 
 

@@ -22,7 +22,7 @@ class Match(Generic[Sample]):
         self._reader = reader
         self._manual = source.qos.liveliness == "manual_by_topic"
         self._was_alive = False
-        lease_s = sink.qos.lease_duration_s if network.middleware.tells else None
+        lease_s = sink.qos.lease_duration_s if network.middleware.reports_events else None
         self._lease = None if lease_s is None else Lease(lease_s, network.timers, self._note_liveliness)
         self._edge = Edge[Sample](
             reliable=(source.qos.reliability, sink.qos.reliability) == ("reliable", "reliable"),
@@ -88,11 +88,15 @@ class Writer(Generic[Sample]):
             self._latched = deque(maxlen=depth)
         self._lifespan_ns = None if qos.lifespan_s is None else round(qos.lifespan_s * 1e9)
         self._deadline: DeadlineWatch | None = None
-        if qos.deadline_s is not None and network.middleware.tells:
+        if qos.deadline_s is not None and network.middleware.reports_events:
             self._deadline = DeadlineWatch(qos.deadline_s, network.timers, self._missed)
         # An automatic publisher loses its liveliness with its process alone, and then there is nobody to tell.
         self._lease: Lease | None = None
-        if qos.liveliness == "manual_by_topic" and qos.lease_duration_s is not None and network.middleware.tells:
+        if (
+            qos.liveliness == "manual_by_topic"
+            and qos.lease_duration_s is not None
+            and network.middleware.reports_events
+        ):
             self._lease = Lease(qos.lease_duration_s, network.timers, self._note_liveliness)
 
     def publish(self, sample: Sample) -> None:

@@ -197,7 +197,7 @@ def _size(step: CommandStep) -> float:
 
 def campaign_json(campaign: Campaign, notes: Sequence[str], replay: ReplayCommand) -> str:
     """Return the campaign as JSON: every run with its outcome, bound, limits and digest."""
-    told = {
+    content = {
         "configuration_id": campaign.configuration_id,
         "seed": campaign.seed,
         "passed": campaign.passed,
@@ -205,7 +205,7 @@ def campaign_json(campaign: Campaign, notes: Sequence[str], replay: ReplayComman
         "limits": _limits(campaign.limits),
         "notes": list(notes),
     }
-    return json.dumps(told, ensure_ascii=False, indent=2)
+    return json.dumps(content, ensure_ascii=False, indent=2)
 
 
 def _run(end: RunEnd, replay: ReplayCommand) -> dict[str, object]:

@@ -24,13 +24,14 @@ def contradiction(
     asked = [option for option, given in modes.items() if given]
     alone = [option for option in asked if option != "--campaign"]
     if rehearsals and asked:
-        return "--rehearsal runs declared rehearsals; it does not go with the options of the campaign"
+        return "--rehearsal does not go with the options of the campaign"
     if len(alone) > 1:
         return f"{alone[0]} does not go with {alone[1]}"
     if (pairs or jobs) and not asked:
-        return f"{'--pairs' if pairs else '--jobs'} is of a campaign; add --campaign"
-    if "--list" in alone and any(path is not None for path in paths.values()):
-        return f"{next(option for option, path in paths.items() if path is not None)} is of runs; --list runs none"
+        return f"{'--pairs' if pairs else '--jobs'} needs --campaign"
+    written = [option for option, path in paths.items() if path is not None]
+    if "--list" in alone and written:
+        return f"{written[0]} does not go with --list, which runs nothing"
     empty = [option for option, path in paths.items() if path == ""]
     return f"{empty[0]} cannot be written: its path is empty" if empty else ""
 

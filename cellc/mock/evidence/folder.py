@@ -57,7 +57,7 @@ class EvidenceFolder:
         self._staging = staging_of(folder)
         self._names: list[str] = []
         if folder.is_symlink() or (folder.exists() and not folder.is_dir()):
-            raise MockError(folder.as_posix(), "is no folder that evidence can be written to")
+            raise MockError(folder.as_posix(), "is not a folder that evidence can be written to")
         self._stale = others(folder)
         if any(is_alive(staging) for staging in self._stale):
             raise MockError(folder.as_posix(), "another run is writing its evidence there")
@@ -109,7 +109,7 @@ class EvidenceFolder:
         for name in sorted({*names, *(name for hashes in known for name in hashes)} - {INDEX}):
             path = self._folder / name
             if path.is_symlink() or (path.exists() and not path.is_file()):
-                raise MockError(path.as_posix(), "stands where a file of the evidence is due")
+                raise MockError(path.as_posix(), "must be a file: evidence is written there")
             if path.exists() and all(hashes.get(name) != _sha256(path) for hashes in known):
                 raise MockError(path.as_posix(), "is not as cellc wrote it; move it away, or name another folder")
 

@@ -9,8 +9,8 @@ from enum import Enum
 
 from cellc.vocabulary import GateCode
 
-_TOLD = 3
-"""Pieces of evidence that a line names; the number of the rest is told."""
+_SHOWN = 3
+"""Pieces of evidence that a line names; the rest is counted."""
 
 
 class Verdict(str, Enum):
@@ -92,8 +92,8 @@ def judged(text: str, good: Sequence[str], bad: Sequence[str], needed: str) -> G
 
 
 def _shortened(evidence: tuple[str, ...]) -> tuple[str, ...]:
-    rest = len(evidence) - _TOLD
-    return evidence if rest <= 1 else (*evidence[:_TOLD], f"and {rest} more")
+    rest = len(evidence) - _SHOWN
+    return evidence if rest <= 1 else (*evidence[:_SHOWN], f"and {rest} more")
 
 
 _LABELS = {Verdict.PASSED: "passed ", Verdict.FAILED: "FAILED ", Verdict.UNKNOWN: "UNKNOWN"}

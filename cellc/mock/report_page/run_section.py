@@ -91,13 +91,13 @@ def _steps(record: AttemptRecord) -> Iterator[Element]:
             continue
         # An image is older than the attempt that uses it.
         delta_s = (stamp_ns - before_ns) / 1e9
-        told = f"{'+' if delta_s >= 0.0 else '−'}{seconds(abs(delta_s))}"
-        yield _step(number, words, told, "made", f"step {step.value}: at {stamp_ns / 1e9:.6f} s")
+        elapsed = f"{'+' if delta_s >= 0.0 else '−'}{seconds(abs(delta_s))}"
+        yield _step(number, words, elapsed, "made", f"step {step.value}: at {stamp_ns / 1e9:.6f} s")
         before_ns = max(before_ns, stamp_ns)
 
 
-def _step(number: int, words: str, told: str, state: str, hint: str) -> Element:
-    return tag("li", tag("i", str(number)), tag("span", words), tag("b", told), class_=state, title=hint)
+def _step(number: int, words: str, elapsed: str, state: str, hint: str) -> Element:
+    return tag("li", tag("i", str(number)), tag("span", words), tag("b", elapsed), class_=state, title=hint)
 
 
 def attempts(records: Sequence[AttemptRecord], time: TimeAxis) -> Element:

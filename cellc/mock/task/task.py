@@ -71,10 +71,10 @@ def acknowledge(context: TaskContext, attempt: Attempt, role: str) -> Waiting[No
 
 
 def _require_role(plant: Plant, role: str) -> None:
-    due = plant.contract.safety.acknowledge
-    if role != due:
+    authorized = plant.contract.safety.acknowledge
+    if role != authorized:
         stop = plant.stops.present()[0]
-        raise AttemptError(OUTCOME_OF_STOP[stop.state], f"{role} may not acknowledge, {due} has to")
+        raise AttemptError(OUTCOME_OF_STOP[stop.state], f"{role} may not acknowledge, {authorized} must")
 
 
 def _until_over(context: TaskContext) -> Waiting[None]:

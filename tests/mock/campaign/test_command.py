@@ -181,9 +181,9 @@ def test_report_shows_the_matrix_and_judges_gates_by_it(option: str, folders: di
     [
         (("--list", "--gates"), "--list does not go with --gates"),
         (("--replay", "x", "--gates"), "--replay does not go with --gates"),
-        (("--jobs", "2"), "--jobs is of a campaign; add --campaign"),
-        (("--pairs", "2"), "--pairs is of a campaign; add --campaign"),
-        (("--list", "--records", "all.jsonl"), "--records is of runs; --list runs none"),
+        (("--jobs", "2"), "--jobs needs --campaign"),
+        (("--pairs", "2"), "--pairs needs --campaign"),
+        (("--list", "--records", "all.jsonl"), "--records does not go with --list, which runs nothing"),
         (("--evidence", ""), "--evidence cannot be written: its path is empty"),
     ],
 )

@@ -53,7 +53,7 @@ def test_spoilt_json_is_refused(folder: Path, name: str, content: bytes) -> None
 @pytest.mark.parametrize(
     ("changes", "reason"),
     [
-        ({"name": "a\n\x1b[31mb"}, "an unprintable one of the name 'a\\n\\x1b[31mb'"),
+        ({"name": "a\n\x1b[31mb"}, "of the name 'a\\n\\x1b[31mb'"),
         ({"timeout_s": 1e300}, "a time of more than 1e+09 s in rehearsal `faulty`"),
         ({"steps": [{"kind": "wait", "target": "", "duration_s": 1e10}]}, "a time of more than 1e+09 s"),
     ],
@@ -68,7 +68,7 @@ def test_two_rehearsals_of_one_name_are_refused(folder: Path) -> None:
     told = json.loads(file.read_text())
     told["rehearsals"].append(told["rehearsals"][0])
     file.write_text(json.dumps(told))
-    assert "a second rehearsal" in refusal(folder).reason
+    assert "two rehearsals" in refusal(folder).reason
 
 
 @pytest.mark.parametrize("content", ["", "<robot", "<sdf/>", "<robot name='empty'/>"])
@@ -121,7 +121,7 @@ def test_edit_by_hand_is_a_note(folder: Path) -> None:
 def test_manifest_of_another_configuration_is_a_note(folder: Path) -> None:
     path = folder / "manifest.json"
     path.write_text(json.dumps(json.loads(path.read_text()) | {"configuration_id": "cfg-other"}))
-    assert any("is of configuration `cfg-other`" in note for note in load(folder).notes)
+    assert any("belongs to configuration `cfg-other`" in note for note in load(folder).notes)
 
 
 def test_command_says_what_is_wrong_and_ends_with_two(tmp_path: Path) -> None:
