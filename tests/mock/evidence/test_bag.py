@@ -190,12 +190,12 @@ def _position(frame: str, edges: dict[str, Any]) -> list[float]:
 
 
 def test_object_pose_is_seen_where_the_cell_puts_the_object(written: Written, cell: MockCell) -> None:
-    """While the arm stands at home: camera in the world by the bag's own transforms, object by the contract."""
+    """While the arm stands at home: camera in the world by the bag's own transforms, object by the folder."""
     frame = cell.contract.frames["object"]
-    fixture = cell.contract.frames[frame.simulated_parent or ""]
-    assert fixture.pose is not None
+    joints = cell.folder.description.joints
+    fixture = next(joint.pose for joint in joints if joint.child == frame.simulated_parent)
     assert frame.simulated_pose is not None
-    object_z = fixture.pose.xyz[2] + frame.simulated_pose.xyz[2]
+    object_z = fixture.position[2] + frame.simulated_pose.xyz[2]
     edges = _edges(written, at_ns=messages(written, "/tf")[0].log_ns)
     seen = messages(written, "/object_pose")[0].message
     assert seen.header.frame_id == frame.parent
