@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Protocol
 
 from cellc.contract.contract import ContractFrame
@@ -19,11 +19,8 @@ from cellc.mock.stops import Stops
 from cellc.mock.task_status import ActionStatus, ForeignGoal, Milestones, TaskRequests
 from cellc.mock.tf.buffer import DEFAULT_BUFFER_S, TransformBuffer
 from cellc.mock.tf.sources import SampledSource
-from cellc.mock.world.joint_states import JointStateHistory, LateArrival
+from cellc.mock.world.joint_states import NEVER_NS, JointStateHistory
 from cellc.transforms import Pose
-
-NEVER_NS = 10**15
-"""Later than any rehearsal ends."""
 
 
 class Schedule(Protocol):
@@ -166,7 +163,7 @@ class SamplePort:
     def freeze_camera(self, device: str, *, frozen: bool) -> None:
         """Let a camera repeat its last image, or stream again; nothing for another device."""
         if device in self.cameras:
-            self.cameras[device].frozen = frozen
+            self.cameras[device].freeze(frozen)
 
     def camera_node(self, device: str) -> str:
         """Return the node that publishes the images of a camera."""
@@ -183,15 +180,12 @@ class SamplePort:
     def hold_back(self, histories: Collection[JointStateHistory], delay_ns: int = NEVER_NS) -> None:
         """Let joint states that are stamped from now on arrive late."""
         for history in histories:
-            history.late.append(LateArrival(self.schedule.now_ns, None, delay_ns))
+            history.hold_back(self.schedule.now_ns, delay_ns)
 
     def release(self, histories: Collection[JointStateHistory], delay_ns: int = NEVER_NS) -> None:
         """Let joint states that are stamped from now on arrive without a delay that began before."""
         for history in histories:
-            for index, late in enumerate(history.late):
-                if late.until_ns is None and late.delay_ns == delay_ns:
-                    history.late[index] = replace(late, until_ns=self.schedule.now_ns)
-                    break
+            history.release(self.schedule.now_ns, delay_ns)
 
 
 @dataclass(frozen=True, slots=True)
@@ -207,14 +201,14 @@ class TransformPort:
     def drop(self, frame: str) -> None:
         """Stop publishing a frame."""
         if frame in self.perceptions:
-            self.perceptions[frame].publishes_transform = False
+            self.perceptions[frame].publish_transform(False)
         else:
             self.publisher.drop(frame, self.schedule.now_ns)
 
     def resume(self, frame: str) -> None:
         """Publish a frame again."""
         if frame in self.perceptions:
-            self.perceptions[frame].publishes_transform = True
+            self.perceptions[frame].publish_transform(True)
         else:
             self.publisher.resume(frame, self.schedule.now_ns)
 

@@ -39,7 +39,6 @@ class Camera:
     """Publishes one stream; a frozen camera repeats its last image with its old stamp.
 
     Attributes:
-        frozen: set by a fault.
         last: the image delivered last.
     """
 
@@ -54,7 +53,7 @@ class Camera:
     ) -> None:
         """Bind the camera to its topic; ``transport_s`` is the time from readout to arrival."""
         self.device = device
-        self.frozen = False
+        self._frozen = False
         self.last: Image | None = None
         self._facts = facts
         self._topic = topic
@@ -62,6 +61,10 @@ class Camera:
         self._simulation = simulation
         transport = DEFAULT_TRANSPORT_S if transport_s is None else transport_s
         self._latency_ns = round((facts.exposure_s + transport) * 1e9)
+
+    def freeze(self, frozen: bool) -> None:
+        """Repeat the last image with its old stamp from now on, or stream again."""
+        self._frozen = frozen
 
     def start(self) -> None:
         """Stream from now on."""
@@ -75,7 +78,7 @@ class Camera:
         self._simulation.every(begun_ns + self._latency_ns, rate_hz, deliver)
 
     def _deliver(self, image: Image) -> None:
-        if not self.frozen or self.last is None:
+        if not self._frozen or self.last is None:
             self.last = image
         self._topic.publish(self.device, self.last)
 
@@ -168,7 +171,6 @@ class Perception:
     """Finds one object in the images of one camera.
 
     Attributes:
-        publishes_transform: cleared by a fault; the pose topic goes on.
         rejected: images that were too old when their turn came, or stamped as far in the future.
     """
 
@@ -189,7 +191,7 @@ class Perception:
         Args:
             clock: on which the node measures how old an image is.
         """
-        self.publishes_transform = True
+        self._publishes_transform = True
         self.rejected = 0
         self._name = name
         self._frame = frame
@@ -205,6 +207,10 @@ class Perception:
     def listen(self, listener: PoseListener) -> None:
         """Call ``listener`` with every pose that is published, and whether its transform is too."""
         self._listeners.append(listener)
+
+    def publish_transform(self, publish: bool) -> None:
+        """Publish poses as transforms too from now on, or no more; the pose topic goes on."""
+        self._publishes_transform = publish
 
     def start(self, rate_hz: float) -> None:
         """Take an image at every tick from now on."""
@@ -225,9 +231,9 @@ class Perception:
     def _publish(self, image: Image) -> None:
         """Publish where the object was, seen from the camera, when the image was taken."""
         seen = self._world.sight(image.frame, self._name, image.taken_ns)
-        if self.publishes_transform:
+        if self._publishes_transform:
             self._transform.insert(image.stamp_ns, seen)
         published = ObjectPose(image.stamp_ns, self._frame.parent, seen)
         self._publish_pose(published)
         for listener in self._listeners:
-            listener(published, self.publishes_transform)
+            listener(published, self._publishes_transform)

@@ -56,7 +56,7 @@ class JointStateFeed:
         """Return the places in the history of all messages that have arrived, rising."""
         stamps = self.history.stamps
         if self._edge is None or self._edge.ideal:
-            if not self.history.late:
+            if not self.history.is_delayed:
                 return np.arange(self.history.arrived(now_ns), dtype=np.int64)
             return np.flatnonzero(self.history.arrivals(stamps) <= now_ns)
         delayed = self.history.arrivals(stamps) - stamps

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -10,6 +10,9 @@ import numpy.typing as npt
 from cellc.mock.control import JointStateBlock
 
 JOINT_STATE_TYPE = "sensor_msgs/msg/JointState"
+
+NEVER_NS = 10**15
+"""A delay that is longer than any rehearsal."""
 
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int64]
@@ -29,7 +32,6 @@ class JointStateHistory:
 
     Attributes:
         names: joints in the order of the columns; empty before the first message.
-        late: samples that arrive later than they are stamped.
         subscribed: somebody collects the messages of the broadcaster.
         silent: the broadcaster is not active, so that messages which stay away are no missed cycles.
     """
@@ -47,7 +49,7 @@ class JointStateHistory:
         """
         self.broadcaster = broadcaster
         self.names: tuple[str, ...] = ()
-        self.late: list[LateArrival] = []
+        self._late: list[LateArrival] = []
         self.subscribed = False
         self.silent = False
         self._keep = int(horizon_s * 1e9 / period_ns) + 2
@@ -92,7 +94,7 @@ class JointStateHistory:
 
     def arrived(self, now_ns: int) -> int:
         """Return how many of the kept messages have arrived by ``now_ns``, late ones not counted."""
-        if not self.late:
+        if not self._late:
             return int(np.searchsorted(self.stamps, now_ns, side="right"))
         here = np.flatnonzero(self.arrivals(self.stamps) <= now_ns)
         return int(here[-1]) + 1 if here.size else 0
@@ -100,7 +102,7 @@ class JointStateHistory:
     def arrivals(self, stamps_ns: IntArray) -> IntArray:
         """Return when messages arrive that were published at ``stamps_ns``."""
         arrivals: IntArray = stamps_ns.copy()
-        for late in self.late:
+        for late in self._late:
             until = np.iinfo(np.int64).max if late.until_ns is None else late.until_ns
             arrivals[(stamps_ns >= late.from_ns) & (stamps_ns < until)] += late.delay_ns
         return arrivals
@@ -110,6 +112,22 @@ class JointStateHistory:
         if self._spacing_ns is None or self.silent or self._resumed:
             return self._missed
         return self._missed + max(0, (now_ns - int(self.stamps[-1])) // self._spacing_ns - 1)
+
+    def hold_back(self, from_ns: int, delay_ns: int = NEVER_NS) -> None:
+        """Let messages that are stamped from an instant on arrive late."""
+        self._late.append(LateArrival(from_ns, None, delay_ns))
+
+    def release(self, until_ns: int, delay_ns: int = NEVER_NS) -> None:
+        """Let messages that are stamped from an instant on arrive without a delay that began before."""
+        for index, late in enumerate(self._late):
+            if late.until_ns is None and late.delay_ns == delay_ns:
+                self._late[index] = replace(late, until_ns=until_ns)
+                return
+
+    @property
+    def is_delayed(self) -> bool:
+        """Tell whether some messages arrive later than they are stamped."""
+        return bool(self._late)
 
     def note_active(self, active: bool) -> None:
         """Take note that the broadcaster was activated or deactivated."""

@@ -17,7 +17,7 @@ from cellc.mock.nodes.robot_state_publisher import JointStateFeed, RobotStatePub
 from cellc.mock.tf.buffer import Transform, TransformBuffer
 from cellc.mock.tf.messages import TfWarnings
 from cellc.mock.tf.sources import DeferredPose, SampledSource
-from cellc.mock.world.joint_states import JointStateHistory, LateArrival
+from cellc.mock.world.joint_states import JointStateHistory
 from cellc.mock.world.world import LinkTree, World, link_tree
 from cellc.planning import RobotModel
 from cellc.transforms import Pose, from_xyz_rpy, identity
@@ -93,7 +93,7 @@ def test_cycles_that_are_being_missed_are_counted_too() -> None:
 
 def test_late_joint_states_are_not_known_before_they_arrive() -> None:
     history = history_of([float(index) for index in range(20)])
-    history.late.append(LateArrival(10 * MS, None, 20 * MS))
+    history.hold_back(10 * MS, 20 * MS)
     assert history.arrived(8 * MS) == 5
     assert history.arrived(29 * MS) == 5
     assert history.arrived(30 * MS) == 6
