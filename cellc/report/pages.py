@@ -31,7 +31,7 @@ STAGES: dict[str, tuple[CodePage, ...]] = {
 """Stage → its codes, in the order in which a cell passes the stages."""
 _MARK = re.compile(r"^(?:#|<!--) expect.*\n|  (?:#|<!--) expect.*$", re.MULTILINE)
 """In the examples of a rule, what tells the tests where the finding is expected."""
-_OWN_PAGE = re.compile(r"\bdocs/(\w+\.md)(#[\w-]+)?")
+_OWN_PAGE = re.compile(r"(?<!/)\bdocs/(\w+\.md)(#[\w-]+)?")  # not at the end of an address
 _WRITTEN = (
     "Written by `cellc explain --all -o docs/rules`; not to be edited. `cellc explain CODE` prints one of these pages."
 )

@@ -1,0 +1,24 @@
+"""The documentation is a whole site: every page in its place, every link with a target."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.cells import ROOT
+from tests.docs.import_graph import PICTURE, picture
+
+
+def test_site_is_built_without_a_warning(tmp_path: Path) -> None:
+    pytest.importorskip("mkdocs", reason="the site is an extra: pip install '.[docs]'")
+    command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--site-dir", str(tmp_path / "site")]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+
+
+def test_picture_of_the_imports_is_that_of_the_code() -> None:
+    # Drawn by `python -m tests.docs.import_graph`.
+    assert PICTURE.read_text(encoding="utf-8") == picture()
