@@ -216,6 +216,9 @@ def _interfaces(joints: tuple[str, ...], written: ControllerSpec, chosen: _Chose
         # It drives no joint, and names what it takes in full.
         fill = bound.names.fill
         return _Interfaces((), (), (), tuple(map(fill, own.claims)), tuple(map(fill, own.reads)))
+    if kind.kind is Behaviour.GPIO_COMMAND:
+        command, state = (_of_gpios(written, which, bound) for which in ("command", "state"))
+        return _Interfaces((), (), (), command, state)
     claims = (
         written.command_interfaces or (own.command_interfaces if own is not None else ()) or kind.command_interfaces
     )
@@ -223,6 +226,18 @@ def _interfaces(joints: tuple[str, ...], written: ControllerSpec, chosen: _Chose
     command = tuple(f"{joint}/{claim}" for joint in joints for claim in claims)
     state = tuple(f"{joint}/{read}" for joint in joints for read in reads)
     return _Interfaces(joints, claims, reads, command, state)
+
+
+def _of_gpios(written: ControllerSpec, which: str, bound: BoundDevice | None) -> tuple[str, ...]:
+    """Return the interfaces of gpios that the parameters name, in full; ``which`` is command or state."""
+    gpios, named = written.parameters.get("gpios", ()), written.parameters
+    names = (
+        f"{gpio}/{interface}"
+        for gpio in (gpios if isinstance(gpios, tuple) else ())
+        if isinstance(interfaces := named.get(f"{which}_interfaces.{gpio}.interfaces"), tuple)
+        for interface in interfaces
+    )
+    return tuple(names if bound is None else map(bound.names.fill, names))
 
 
 def _no_device(place: ControllerPlace, written: ControllerSpec, context: ControlContext) -> Diagnostic:
@@ -255,7 +270,8 @@ def _joints(
 def _default_joints(kind: ControllerKind, device: Device) -> tuple[str, ...]:
     if kind.single_joint and device.gripper is not None:
         return (device.gripper.joint,)
-    return tuple(joint.name for joint in device.actuated_joints)
+    joints = tuple(joint.name for joint in device.actuated_joints)
+    return joints[:1] if kind.single_joint else joints
 
 
 def _read(kind: ControllerKind, joints: tuple[str, ...], device: Device | None) -> tuple[str, ...]:

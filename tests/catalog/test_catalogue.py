@@ -37,7 +37,11 @@ DECLARATIONS = {
     "forward_command": "forward_command_controller__forward_command_controller_parameters",
     "force_torque_sensor_broadcaster": ("force_torque_sensor_broadcaster__force_torque_sensor_broadcaster_parameters"),
     "gpio_command": "gpio_controllers__gpio_command_controller_parameters",
+    "multi_interface_forward_command": (
+        "forward_command_controller__multi_interface_forward_command_controller_parameters"
+    ),
     "parallel_gripper": "parallel_gripper_controller__gripper_action_controller_parameters",
+    "pid": "pid_controller__pid_controller",
 }
 
 

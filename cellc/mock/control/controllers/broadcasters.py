@@ -74,14 +74,6 @@ class ForceTorqueBroadcaster(QuietController):
         )
 
 
-class PassiveBroadcaster(QuietController):
-    """A broadcaster that claims nothing and whose messages come from elsewhere.
-
-    Args:
-        context: what the manager gives.
-    """
-
-
 class DeclaredController(QuietController):
     """A vendor's broadcaster or server: it takes what the cell declares of it, and commands nothing by itself.
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
-from cellc.mock.control.controllers.base import Context, Cycle, QuietController
+from cellc.mock.control.controllers.base import Context, Cycle, QuietController, claimed_names
 from cellc.mock.control.errors import UpdateError
 from cellc.mock.control.interfaces import Block
 from cellc.mock.control.parameters import Parameter
@@ -13,41 +13,31 @@ from cellc.mock.control.parameters.declaration import longer_than_zero, not_empt
 
 
 class ForwardCommandController(QuietController):
-    """A forward command controller.
+    """A forward command controller: one kind of interface of several joints.
 
     Args:
         context: what the manager gives.
-        kind: kind of the command interfaces where the type fixes it, "" where the parameter `interface_name` tells it,
-            "multi" where the parameters name one joint with several interfaces.
 
     Raises:
         ParameterError: from the declaration of the parameters.
     """
 
-    def __init__(self, context: Context, kind: str) -> None:
+    def __init__(self, context: Context) -> None:
         super().__init__(context)
-        self._kind = kind
-        many = Parameter("joints", "string_array", None, (not_empty,), True)
-        declared = [many]
-        if kind == "":
-            declared.append(Parameter("interface_name", "string", None, (not_empty,), True))
-        if kind == "multi":
-            declared = [
-                Parameter("joint", "string", None, (not_empty,), True),
-                Parameter("interface_names", "string_array", None, (not_empty,), True),
-            ]
-        context.parameters.declare(declared)
+        context.parameters.declare(self._declared())
         self._data: tuple[float, ...] | None = None
         self.active = False
+
+    def _declared(self) -> tuple[Parameter, ...]:
+        return (
+            Parameter("joints", "string_array", None, (not_empty,), True),
+            Parameter("interface_name", "string", None, (not_empty,), True),
+        )
 
     def command_interfaces(self) -> tuple[str, ...]:
         """The commanded interfaces, in the order of the values."""
         parameters = self.context.parameters
-        if self._kind == "multi":
-            joint = parameters.text("joint")
-            return tuple(f"{joint}/{name}" for name in parameters.texts("interface_names"))
-        kind = self._kind or parameters.text("interface_name")
-        return tuple(f"{joint}/{kind}" for joint in parameters.texts("joints"))
+        return claimed_names(parameters.texts("joints"), (parameters.text("interface_name"),))
 
     def activate(self, now_ns: int) -> None:
         """Command nothing before the first message."""
@@ -89,6 +79,21 @@ class ForwardCommandController(QuietController):
             return 0
         block.command[:, self._columns] = self._data
         return len(block)
+
+
+class MultiInterfaceForwardCommandController(ForwardCommandController):
+    """A forward command controller: several interfaces of one joint or gpio."""
+
+    def _declared(self) -> tuple[Parameter, ...]:
+        return (
+            Parameter("joint", "string", None, (not_empty,), True),
+            Parameter("interface_names", "string_array", None, (not_empty,), True),
+        )
+
+    def command_interfaces(self) -> tuple[str, ...]:
+        """The commanded interfaces, in the order of the values."""
+        parameters = self.context.parameters
+        return claimed_names((parameters.text("joint"),), parameters.texts("interface_names"))
 
 
 class GpioCommandController(QuietController):

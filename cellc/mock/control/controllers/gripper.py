@@ -24,19 +24,16 @@ class GripperKind:
     """What tells the gripper controllers apart.
 
     Attributes:
-        command: kind of the command interface.
         single_position: whether a goal must have exactly one position.
         max_effort: default of the parameter of that name (N).
     """
 
-    command: str
     single_position: bool
     max_effort: float
 
 
-PARALLEL = GripperKind("position", True, 10.0)
-POSITION = GripperKind("position", False, 0.0)
-EFFORT = GripperKind("effort", False, 0.0)
+PARALLEL = GripperKind(True, 10.0)
+POSITION = GripperKind(False, 0.0)
 
 
 def _parameters(kind: GripperKind) -> tuple[Parameter, ...]:
@@ -89,7 +86,7 @@ class GripperController(QuietController):
 
     def command_interfaces(self) -> tuple[str, ...]:
         """The joint's command, and those of largest effort and velocity where they are configured."""
-        return (f"{self._joint}/{self._kind.command}", *self._extra().values())
+        return (f"{self._joint}/position", *self._extra().values())
 
     def _extra(self) -> dict[str, str]:
         parameters = self.context.parameters
@@ -103,7 +100,7 @@ class GripperController(QuietController):
     def activate(self, now_ns: int) -> None:
         """Hold the measured position."""
         table, parameters = self.context.table, self.context.parameters
-        self._column = table.command_column(f"{self._joint}/{self._kind.command}")
+        self._column = table.command_column(f"{self._joint}/position")
         self._position_column = table.state_column(f"{self._joint}/position")
         self._velocity_column = table.state_column(f"{self._joint}/velocity")
         self._extra_columns = {kind: table.command_column(name) for kind, name in self._extra().items()}
@@ -189,8 +186,7 @@ class GripperController(QuietController):
         position = float(state[self._position_column])
         if self._goal is not None:
             self._check(cycle.time_ns, position, float(state[self._velocity_column]))
-        value = self._limits["effort"] if self._kind.command == "effort" else self._position
-        self.context.command(self._column, value)
+        self.context.command(self._column, self._position)
         for kind, column in self._extra_columns.items():
             self.context.command(column, self._limits[kind])
 
@@ -205,8 +201,7 @@ class GripperController(QuietController):
 
     def preview(self, block: Block) -> int:
         """The command stays the same in all cycles."""
-        value = self._limits["effort"] if self._kind.command == "effort" else self._position
-        block.command[:, self._column] = value
+        block.command[:, self._column] = self._position
         for kind, column in self._extra_columns.items():
             block.command[:, column] = self._limits[kind]
         return len(block)

@@ -1,0 +1,154 @@
+"""Every kind of controller of the catalogue runs on the mock, in every distribution, on every device that offers it.
+
+A device offers a kind where its mock has what the kind takes: interfaces of joints, a force and torque sensor, a gpio.
+Kinds that only one device has are offered by that device alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+from cellc.catalog.controller_kind import ControllerKind
+from cellc.catalog.device_interfaces import GroupInterfaces
+from cellc.catalog.device_model import DeviceModel
+from cellc.catalog.load import CatalogDevice, controller_kinds, device_names, load_controller_kind, load_device
+from cellc.mock import load
+from cellc.vocabulary import PASSIVE, TRAJECTORIES, Behaviour, Distro
+from tests.cells import build_into, written
+
+SIMULATED = (("position",), ("velocity",))
+"""What moves a joint of GenericSystem: one of these alone; it refuses effort and two at once, as was observed."""
+GRIPPERS = (Behaviour.PARALLEL_GRIPPER, Behaviour.POSITION_GRIPPER)
+
+
+@dataclass(frozen=True, slots=True)
+class Offer:
+    """A type of controller on a device, what the spec has to say of it, and what the mock is expected to run."""
+
+    type: str
+    device: str
+    behaviour: Behaviour
+    distros: tuple[Distro, ...]
+    written: str = ""
+
+    def __str__(self) -> str:
+        return f"{self.type}-{self.device}"
+
+
+def _device(name: str) -> CatalogDevice:
+    loaded = load_device(name).value
+    assert loaded is not None
+    return loaded
+
+
+def _kind(name: str) -> ControllerKind:
+    loaded = load_controller_kind(name).value
+    assert loaded is not None
+    return loaded
+
+
+def _simulated(groups: dict[str, GroupInterfaces]) -> dict[str, GroupInterfaces]:
+    return {name: group for name, group in groups.items() if not group.real_only}
+
+
+def _combinations(kind: ControllerKind, device: DeviceModel) -> Iterator[tuple[str, ...]]:
+    """Yield the combinations of command interfaces that all joints of a device have and that move them on the mock."""
+    control = device.control
+    if control is None or (kind.action is not None and kind.single_joint and device.gripper is None):
+        return
+    for wanted in kind.command_combinations:
+        if wanted in SIMULATED and all(set(wanted) <= set(joint.command) for joint in control.joints.values()):
+            yield wanted
+
+
+def _written(kind: ControllerKind, device: DeviceModel) -> Iterator[str]:
+    """Yield what the spec says of a neutral kind on a device that offers it, once for each way of offering it."""
+    control = device.control
+    if control is None:
+        return
+    if kind.scope == "manager":
+        yield ""
+    for wanted in _combinations(kind, device):
+        yield f", command_interfaces: [{', '.join(wanted)}]"
+    if kind.kind is Behaviour.FORCE_TORQUE_SENSOR_BROADCASTER:
+        for name, group in _simulated(control.sensors).items():
+            if set(kind.state_interfaces) <= set(group.state):
+                yield f', parameters: {{sensor_name: "{{prefix}}{name}", frame_id: tool}}'
+    if kind.kind is Behaviour.GPIO_COMMAND:
+        for name, group in _simulated(control.gpios).items():
+            gpio, taken = f"{{prefix}}{name}", f"[{', '.join(group.command)}]"
+            yield f', parameters: {{gpios: ["{gpio}"], "command_interfaces.{gpio}.interfaces": {taken}}}'
+
+
+def _offers() -> Iterator[Offer]:
+    for name in device_names():
+        device = _device(name)
+        for kind in map(_kind, controller_kinds()):
+            for text in _written(kind, device.model):
+                yield Offer(kind.kind.value, name, kind.kind, tuple(kind.plugins), text)
+        for own, facts in device.model.controllers.items():
+            moves = not facts.command_interfaces or facts.command_interfaces in SIMULATED
+            yield Offer(own, name, facts.behaviour, tuple(facts.plugins), "" if moves else ", active: false")
+
+
+OFFERS = tuple(_offers())
+
+
+def _spec(offer: Offer, distro: Distro) -> str:
+    device = _device(offer.device)
+    mount = "" if device.model.kind == "gripper" else ", mount: {parent: world, xyz: 0 0 0 m}"
+    bounds = ", goal_time: 1 s, path_tolerance: 0.2 rad, goal_tolerance: 0.01 rad"
+    tested = f"    tested: {{type: {offer.type}, device: dev{offer.written}{bounds if _follows(offer) else ''}}}\n"
+    if offer.behaviour is Behaviour.JOINT_STATE_BROADCASTER:
+        tested = ""
+    steps = "grip: close}, {grip: open" if offer.behaviour in GRIPPERS else "wait: 100 ms"
+    rates = () if device.model.control is None else device.model.control.update_rates
+    return (
+        f"format: 1\ncell: one\nsummary: one controller\nversions: {{ros: {distro}}}\n"
+        f"devices:\n  dev: {{model: {offer.device}{mount}}}\n"
+        f"control:\n  update_rate: {rates[0].text if rates else '100 Hz'}\n"
+        f"  controllers:\n    joints: {{type: joint_state_broadcaster}}\n{tested}"
+        f"rehearsals:\n  ready: {{steps: [{{{steps}}}]}}\n"
+    )
+
+
+def _follows(offer: Offer) -> bool:
+    return offer.behaviour in TRAJECTORIES
+
+
+@pytest.mark.parametrize("distro", Distro, ids=str)
+@pytest.mark.parametrize("offer", OFFERS, ids=str)
+def test_controller_of_the_catalogue_runs_on_the_mock(offer: Offer, distro: Distro, tmp_path: Path) -> None:
+    if distro not in offer.distros:
+        pytest.skip(f"{offer.type} does not exist in {distro}")
+    cell = load(build_into(tmp_path / "built", written(tmp_path, _spec(offer, distro))))
+    (manager,) = cell.contract.managers.values()
+    name = "joints" if offer.behaviour is Behaviour.JOINT_STATE_BROADCASTER else "tested"
+    controller = manager.controllers[name]
+    result = cell.run("ready")
+    assert result.outcome == "succeeded", result.bringup[-1]
+    assert cell.contract.plugin_behaviours[controller.plugin] is controller.behaviour
+    if "mock" in controller.targets:
+        assert controller.behaviour is _expected(offer, distro)
+
+
+def _expected(offer: Offer, distro: Distro) -> Behaviour:
+    """Return what the plugin of a distribution does, as ros2_controllers and the vendors' packages have it."""
+    if offer.behaviour is Behaviour.PARALLEL_GRIPPER and distro is Distro.HUMBLE:
+        return Behaviour.POSITION_GRIPPER
+    if offer.type == "scaled_joint_trajectory" and distro is not Distro.LYRICAL:
+        return Behaviour.SCALED_JOINT_TRAJECTORY
+    return offer.behaviour
+
+
+def test_every_kind_is_offered_by_a_device() -> None:
+    assert {offer.type for offer in OFFERS} >= set(controller_kinds())
+
+
+def test_every_behaviour_is_named_by_the_catalogue() -> None:
+    run = {_expected(offer, distro) for offer in OFFERS for distro in offer.distros}
+    assert run | PASSIVE == set(Behaviour)
