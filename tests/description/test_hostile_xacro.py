@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from cellc.description.xacro_expansion import expand_xacro
+from cellc.description.xacro_expansion import expand_here, expand_xacro
 from cellc.diagnostics import Diagnostic
 
 _HEAD = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="stranger">'
@@ -75,13 +75,17 @@ def test_hostile_description_ends_in_one_diagnostic(name: str, tmp_path: Path) -
     assert found.span.file.endswith("robot.urdf.xacro")
 
 
-def test_exponential_macros_are_counted(tmp_path: Path) -> None:
+def test_exponential_macros_are_counted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    # In this process and with a lower bound: fifty thousand elements take seconds.
+    monkeypatch.setattr("cellc.description.xacro_confinement.MAX_ELEMENTS", 1000)
     doubling = "".join(
         f'<xacro:macro name="m{i}"><xacro:m{i - 1}/><xacro:m{i - 1}/></xacro:macro>' for i in range(1, 40)
     )
     body = f'<xacro:macro name="m0"><a/></xacro:macro>{doubling}<xacro:m39/>'
-    (found,) = _reported(_write(tmp_path, f"{_HEAD}{body}</robot>"), tmp_path)
-    assert found.code == "xacro-too-large"
+    file = _write(tmp_path, f"{_HEAD}{body}</robot>")
+    outcome = expand_here(file.as_posix(), {}, tmp_path.as_posix())
+    assert [found.message for found in outcome.diagnostics] == ["the expansion has more than 1000 elements"]
+    assert outcome.diagnostics[0].code == "xacro-too-large"
 
 
 def test_entity_bomb_is_refused(tmp_path: Path) -> None:
