@@ -29,7 +29,7 @@ CODES: tuple[CodePage, ...] = (
     ),
     _page(
         "output-blocked",
-        "something that is no file stands where a file is due, or no folder where a folder is due",
+        "a folder stands in the place of a file, or a file in the place of a folder",
         "Replacing a folder by a file, or the other way round, would delete things that cellc did not make.",
         "move it away",
     ),

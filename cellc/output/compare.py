@@ -21,14 +21,14 @@ class Difference:
         kind: ``missing``: not there. ``outdated``: as an earlier build wrote it. ``edited``: as no build wrote it.
             ``unexpected``: made by an earlier build, and this one makes none.
         line: first line that differs, counted from 1; 0 where lines were not compared.
-        due: that line as a build writes it, or None past its end.
+        expected: that line as a build writes it, or None past its end.
         found: that line as it stands, or None past its end.
     """
 
     path: str
     kind: Literal["missing", "outdated", "edited", "unexpected"]
     line: int = 0
-    due: str | None = None
+    expected: str | None = None
     found: str | None = None
 
 
@@ -51,14 +51,14 @@ def _differences(artifacts: Sequence[Artifact], folder: Path) -> Iterator[Differ
             yield Difference(artifact.path, "missing")
             continue
         found = content.decode("utf-8", errors="replace")
-        line, due, actual = _first_difference(artifact.text, found)
+        line, expected, actual = _first_difference(artifact.text, found)
         is_edited = artifact.path in planned.edited and artifact.path != MANIFEST
-        yield Difference(artifact.path, "edited" if is_edited else "outdated", line, due, actual)
+        yield Difference(artifact.path, "edited" if is_edited else "outdated", line, expected, actual)
 
 
-def _first_difference(due: str, found: str) -> tuple[int, str | None, str | None]:
+def _first_difference(expected: str, found: str) -> tuple[int, str | None, str | None]:
     # Split at line feeds alone: a carriage return is a difference, not a line end.
-    pairs = zip_longest(due.split("\n"), found.split("\n"))
+    pairs = zip_longest(expected.split("\n"), found.split("\n"))
     for number, (wanted, actual) in enumerate(pairs, start=1):
         if wanted != actual:
             return number, wanted, actual

@@ -74,7 +74,7 @@ def content_of(path: Path) -> bytes | None:
 
 
 def check_places(artifacts: Sequence[Artifact], folder: Path) -> Iterator[Diagnostic]:
-    """Yield a diagnostic for each link, file or folder that stands where something else is due."""
+    """Yield a diagnostic for each link, file or folder that stands in the place of something else."""
     if folder.is_symlink():
         yield finding("output-symlink", f"`{folder.as_posix()}` is a symbolic link", folder)
         return
@@ -88,8 +88,9 @@ def check_places(artifacts: Sequence[Artifact], folder: Path) -> Iterator[Diagno
         if path.is_symlink():
             yield finding("output-symlink", f"`{path.as_posix()}` is a symbolic link", path)
         elif path.exists() and (path.is_dir() if relative in files else not path.is_dir()):
-            due = "a file" if relative in files else "a folder"
-            yield finding("output-blocked", f"`{path.as_posix()}` stands where {due} is due", path)
+            expected, actual = ("a file", "a folder") if relative in files else ("a folder", "a file")
+            message = f"expected {expected} at `{path.as_posix()}`, got {actual}"
+            yield finding("output-blocked", message, path)
 
 
 def _is_ours(path: str, content: bytes, known: Sequence[Mapping[str, str]]) -> bool:

@@ -93,7 +93,7 @@ def render_difference(difference: Difference, folder: Path) -> str:
     text = f"{path}: {_WHY[difference.kind]}"
     if difference.line:
         text = f"{path}:{difference.line}: {_WHY[difference.kind]}"
-        text += f"\n  - {_line(difference.found)}\n  + {_line(difference.due)}"
+        text += f"\n  - {_line(difference.found)}\n  + {_line(difference.expected)}"
     return text
 
 

@@ -41,21 +41,21 @@ def check_description(
 
 
 def _joint_reasons(pinocchio: Reading, yourdfpy: Reading, joints: Sequence[DeviceJoint]) -> Iterator[str]:
-    due = {joint.name: joint for joint in joints}
+    stated = {joint.name: joint for joint in joints}
     for reader, reading in (("pinocchio", pinocchio), ("yourdfpy", yourdfpy)):
-        for name in sorted(set(due) - set(reading.joints)):
+        for name in sorted(set(stated) - set(reading.joints)):
             yield f"{reader} finds no joint `{name}`"
-        for name in sorted(set(reading.joints) - set(due)):
+        for name in sorted(set(reading.joints) - set(stated)):
             yield f"{reader} finds a joint `{name}` that the cell does not have"
-        for name in sorted(set(reading.joints) & set(due)):
-            yield from _limit_reasons(reader, reading.joints[name], due[name])
+        for name in sorted(set(reading.joints) & set(stated)):
+            yield from _limit_reasons(reader, reading.joints[name], stated[name])
 
 
-def _limit_reasons(reader: str, read: JointReading, due: DeviceJoint) -> Iterator[str]:
+def _limit_reasons(reader: str, read: JointReading, stated: DeviceJoint) -> Iterator[str]:
     for limit in _LIMITS:
-        ours, theirs = getattr(due, limit), getattr(read, limit)
+        ours, theirs = getattr(stated, limit), getattr(read, limit)
         if ours is not None and not math.isclose(ours, theirs, rel_tol=_TOLERANCE, abs_tol=_TOLERANCE):
-            yield f"the {limit} limit of joint `{due.name}` is {ours} in the cell and {theirs} for {reader}"
+            yield f"the {limit} limit of joint `{stated.name}` is {ours} in the cell and {theirs} for {reader}"
 
 
 def _frame_reasons(pinocchio: Reading, yourdfpy: Reading, frames: Mapping[str, Pose]) -> Iterator[str]:
