@@ -40,7 +40,7 @@ class Frame(Entity):
         transform_to_parent: pose in the parent, at joint position zero for links; None for a dynamic frame.
         authority: node that publishes the edge: ``robot_state_publisher`` or another.
         calibration: id of the calibration that measured the edge.
-        designed: the edge is by design, no calibration is due.
+        designed: the edge is by design, no calibration is needed.
         moving: the edge moves with a joint.
     """
 

@@ -84,9 +84,9 @@ CODES: tuple[CodePage, ...] = (
     ),
     _page(
         "unknown-controller-kind",
-        "a controller is of a kind that neither the catalogue nor its device has",
+        "a controller is of a kind that neither the catalog nor its device has",
         "The plugin, the claims and the action follow from the kind.",
-        "use a kind that the catalogue or the device lists",
+        "use a kind that the catalog or the device lists",
     ),
     _page(
         "unknown-distro",

@@ -91,7 +91,7 @@ def _catalogue_entry(name: str, written: DeviceSpec, document: SourceDocument) -
         problem = Diagnostic(
             code="unknown-model",
             severity=Severity.ERROR,
-            message=f"the catalogue has no model `{written.model}`",
+            message=f"the catalog has no model `{written.model}`",
             span=document.locate(path),
             yaml_path=path,
             help=did_you_mean(written.model, device_names(), "models of the catalogue, or a folder with a device.yaml"),
@@ -307,7 +307,7 @@ def local_device(model: str, place: Span, path: YamlPath) -> Outcome[CatalogDevi
     root = Path(place.file).parent
     folder = root / model
     if not os.path.exists(folder / "device.yaml"):
-        problem = "holds no `device.yaml`" if os.path.isdir(folder) else "is no folder"
+        problem = "holds no `device.yaml`" if os.path.isdir(folder) else "is not a folder"
         shown = folder.as_posix()
         advice = "write the folder with its `device.yaml`, or name a model of the catalogue"
         missing = Diagnostic("unknown-model", Severity.ERROR, f"`{shown}` {problem}", place, path, advice)

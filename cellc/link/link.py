@@ -118,7 +118,7 @@ def _distro(spec: CellSpec, document: SourceDocument) -> Outcome[Distro]:
     problem = Diagnostic(
         code="unknown-distro",
         severity=Severity.ERROR,
-        message=f"cellc knows no ROS 2 distribution `{spec.versions.ros}`",
+        message=f"`{spec.versions.ros}` is not a ROS 2 distribution that cellc knows",
         span=document.locate(path),
         yaml_path=path,
         help=did_you_mean(spec.versions.ros, tuple(Distro), "distributions"),

@@ -238,7 +238,7 @@ def _misplaced(
     if event is None or not steps:
         return ()
     if event.step > len(steps):
-        message = f"there is no step {event.step}, the rehearsal has {len(steps)}"
+        message = f"there is no step {event.step}: the rehearsal has {len(steps)}"
         return (_never(message, f"write a step from 1 to {len(steps)}", document, (*path, "step")),)
     step = steps[event.step - 1]
     if event.when == "started" or step.kind in SENDS_GOALS:

@@ -135,39 +135,39 @@ def apply_ignores(
             matches = {one for one in found if one.code == ignored.code and _is_on_line(one.span, comment.span)}
             excused |= matches
             if not matches and not _may_be_hidden(ignored.code, reported):
-                unused.append(_complaint("unused-ignore", _unused(ignored), ignored.span))
+                unused.append(_misuse("unused-ignore", _unused(ignored), ignored.span))
     return (*(one for one in found if one not in excused), *misused_ignores(ignores, pages), *unused)
 
 
 def misused_ignores(ignores: tuple[IgnoreComment, ...], pages: Mapping[str, CodePage]) -> tuple[Diagnostic, ...]:
     """Return what is wrong with comments whatever the rules find: no code, no reason, or a code that stays."""
-    complaints: list[Diagnostic] = []
+    problems: list[Diagnostic] = []
     for comment in ignores:
-        complaints += _shape_complaints(comment)
-        complaints += (refusal for ignored in comment.codes if (refusal := _refusal(ignored, pages)) is not None)
-    return tuple(complaints)
+        problems += _shape_problems(comment)
+        problems += (refusal for ignored in comment.codes if (refusal := _refusal(ignored, pages)) is not None)
+    return tuple(problems)
 
 
-def _shape_complaints(comment: IgnoreComment) -> Iterator[Diagnostic]:
+def _shape_problems(comment: IgnoreComment) -> Iterator[Diagnostic]:
     if not comment.codes:
-        yield _complaint("unknown-ignored-code", "the comment names no code to ignore", comment.span)
+        yield _misuse("unknown-ignored-code", "the comment names no code to ignore", comment.span)
     elif not comment.reason:
         codes = ", ".join(f"`{ignored.code}`" for ignored in comment.codes)
-        yield _complaint("ignore-without-reason", f"{codes} is ignored without a reason", comment.span)
+        yield _misuse("ignore-without-reason", f"{codes} is ignored without a reason", comment.span)
 
 
 def _refusal(ignored: IgnoredCode, pages: Mapping[str, CodePage]) -> Diagnostic | None:
     page, rule = pages.get(ignored.code), _RULES.get(ignored.code)
     if page is None:
         known = did_you_mean(ignored.code, pages, "codes that `cellc explain` lists")
-        return _complaint("unknown-ignored-code", f"there is no code `{ignored.code}`", ignored.span, known)
+        return _misuse("unknown-ignored-code", f"there is no code `{ignored.code}`", ignored.span, known)
     if (rule is None or ignored.code in _LINK_CODES) and page.severity is Severity.ERROR:
         reason = "without it the cell is not known"
     elif rule is not None and rule.family in _PROTECTED_FAMILIES and rule.severity in _STOPPING:
         reason = f"it is {_article(rule.severity)} of family {rule.family}"
     else:
         return None
-    return _complaint("ignore-refused", f"`{ignored.code}` cannot be ignored: {reason}", ignored.span)
+    return _misuse("ignore-refused", f"`{ignored.code}` cannot be ignored: {reason}", ignored.span)
 
 
 def _article(severity: Severity) -> str:
@@ -187,6 +187,6 @@ def _unused(ignored: IgnoredCode) -> str:
     return f"`{ignored.code}` is not reported on this line"
 
 
-def _complaint(code: str, message: str, span: Span, advice: str = "") -> Diagnostic:
+def _misuse(code: str, message: str, span: Span, advice: str = "") -> Diagnostic:
     page = _PAGES[code]
     return Diagnostic(code, page.severity, message, span, help=advice or page.fix)

@@ -64,7 +64,7 @@ def _read_bytes(path: Path, name: str, place: Span) -> bytes | Diagnostic:
         return finding("file-unreadable", f"`{name}` cannot be read: {reason}", place)
     except ValueError:
         # A zero character in the name: no system call takes it.
-        return finding("file-unreadable", f"`{name}` is no file name", place, advice="correct the path")
+        return finding("file-unreadable", f"`{name}` is not a file name", place, advice="correct the path")
     return content if len(content) <= MAX_FILE_BYTES else _too_large(name, "larger", place)
 
 

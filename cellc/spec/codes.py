@@ -13,7 +13,7 @@ def _page(code: str, title: str, why: str, fix: str) -> CodePage:
 CODES: tuple[CodePage, ...] = (
     _page(
         "bad-name",
-        "a name holds characters that it cannot have",
+        "a name holds characters that are not legal in it",
         "Names of devices, nodes, frames and controllers become ROS graph names, package names and links, where a "
         "dash, a space or a leading digit is illegal or silently rewritten.",
         "use letters, digits and `_`, beginning with a letter; a package name in lower case",
@@ -47,26 +47,26 @@ CODES: tuple[CodePage, ...] = (
     _page(
         "missing-unit",
         "a quantity is a bare number",
-        "Degrees read as radians and millimetres read as metres move a robot by a factor of 57 or 1000. The unit "
+        "Degrees read as radians and millimeters read as meters move a robot by a factor of 57 or 1000. The unit "
         "stands in the text, so that the reviewer and the compiler read the same value.",
         "write the unit after the number",
     ),
     _page(
         "not-a-choice",
-        "a value is none of those that the key allows",
+        "a value is not one of the choices of its key",
         "The key takes one of a few words; another would be ignored or mean something else to the next reader.",
         "write one of the choices",
     ),
     _page(
         "not-a-quantity",
-        "a value is no number with a unit",
+        "a value is not a number with a unit",
         "A quantity is one number, or several, followed by one unit: `500 Hz`, `0 0 162 mm`. Expressions, several "
         "units and other text are not evaluated.",
         "write a number and its unit",
     ),
     _page(
         "out-of-range",
-        "a count, a number or a length is outside what is allowed",
+        "a count, a number or a length is out of range",
         "The bound is part of the meaning of the key: a queue holds at least one sample, a cell at least one device.",
         "write a value within the bound of the message",
     ),
@@ -98,7 +98,7 @@ CODES: tuple[CodePage, ...] = (
     _page(
         "wrong-type",
         "a value is of another kind than the key takes",
-        "A list where a mapping is due, or a number where text is due: `4.10` as a number is 4.1, "
+        "A list in place of a mapping, or a number in place of text: `4.10` as a number is 4.1, "
         "which is another version.",
         "write the kind of value that the message asks for; put text that looks like a number in quotes",
     ),

@@ -37,7 +37,7 @@ _TYPES: Mapping[str, str] = {
 
 
 @dataclass(frozen=True, slots=True)
-class Complaint:
+class Problem:
     """What is wrong in one place, before it has a span."""
 
     code: str
@@ -45,61 +45,61 @@ class Complaint:
     help: str
 
 
-_Writer: TypeAlias = Callable[[ErrorDetails, Place, SourceDocument], Complaint]
+_Writer: TypeAlias = Callable[[ErrorDetails, Place, SourceDocument], Problem]
 
 
-def complain(error: ErrorDetails, place: Place, document: SourceDocument) -> Complaint:
-    """Write the complaint; a kind of error that no writer knows is told as a value of the wrong type."""
+def problem_of(error: ErrorDetails, place: Place, document: SourceDocument) -> Problem:
+    """Say what is wrong; a kind of error that no writer knows is told as a value of the wrong type."""
     if error["type"] in _TYPES:
         return _wrong_type(_TYPES[error["type"]], place, document)
     return _WRITERS.get(error["type"], _other)(error, place, document)
 
 
-def _missing(error: ErrorDetails, place: Place, document: SourceDocument) -> Complaint:
+def _missing(error: ErrorDetails, place: Place, document: SourceDocument) -> Problem:
     key = str(place.path[-1])
     message = f"{quote_path(place.path[:-1])} has no `{key}`"
-    return Complaint("missing-key", message, f"add `{key}`: {_meaning(place.field)}")
+    return Problem("missing-key", message, f"add `{key}`: {_meaning(place.field)}")
 
 
-def _unknown_key(error: ErrorDetails, place: Place, document: SourceDocument) -> Complaint:
+def _unknown_key(error: ErrorDetails, place: Place, document: SourceDocument) -> Problem:
     key = str(place.path[-1])
     message = f"{quote_path(place.path[:-1])} has no key {quote(key)}"
-    return Complaint("unknown-key", message, help_for_unknown_key(key, place))
+    return Problem("unknown-key", message, help_for_unknown_key(key, place))
 
 
-def _wrong_type(expected: str, place: Place, document: SourceDocument) -> Complaint:
+def _wrong_type(expected: str, place: Place, document: SourceDocument) -> Problem:
     value = value_at(document.data, place.path)
     written = document.text_at(place.path)
-    message = f"{quote_path(place.path)} is {describe(value, written)} where {expected} is due"
+    message = f"expected {expected} for {quote_path(place.path)}, got {describe(value, written)}"
     if expected == "text" and isinstance(value, (int, float)):
-        return Complaint("wrong-type", message, f'put it in quotes: `"{written}"`')
-    return Complaint("wrong-type", message, f"write {expected}{_example(place.field)}")
+        return Problem("wrong-type", message, f'put it in quotes: `"{written}"`')
+    return Problem("wrong-type", message, f"write {expected}{_example(place.field)}")
 
 
-def _other(error: ErrorDetails, place: Place, document: SourceDocument) -> Complaint:
+def _other(error: ErrorDetails, place: Place, document: SourceDocument) -> Problem:
     return _wrong_type("another kind of value", place, document)
 
 
-def _no_branch(error: ErrorDetails, place: Place, document: SourceDocument) -> Complaint:
+def _no_branch(error: ErrorDetails, place: Place, document: SourceDocument) -> Problem:
     return _wrong_type(error["msg"], place, document)
 
 
-def _not_a_choice(error: ErrorDetails, place: Place, document: SourceDocument) -> Complaint:
+def _not_a_choice(error: ErrorDetails, place: Place, document: SourceDocument) -> Problem:
     if place.is_key:
         return _key_not_a_choice(place)
     value = value_at(document.data, place.path)
     choices = [str(choice) for choice in literals(place.expected)]
     written = value if isinstance(value, str) else ""
-    message = f"{quote_path(place.path)} is {describe(value)}, which is none of its choices"
-    return Complaint("not-a-choice", message, did_you_mean(written, choices, "choices"))
+    message = f"{quote_path(place.path)} must be one of its choices, got {describe(value)}"
+    return Problem("not-a-choice", message, did_you_mean(written, choices, "choices"))
 
 
-def _key_not_a_choice(place: Place) -> Complaint:
+def _key_not_a_choice(place: Place) -> Problem:
     key, holder = str(place.path[-1]), place.path[:-1]
     model_path, model = place.models[-1]
     keys = bare(dict_keys(model, str(holder[-1]))) if len(holder) == len(model_path) + 1 else object
     help_ = did_you_mean(key, [str(choice) for choice in literals(keys)], "keys that are allowed")
-    return Complaint("unknown-key", f"{quote_path(holder)} has no key {quote(key)}", help_)
+    return Problem("unknown-key", f"{quote_path(holder)} has no key {quote(key)}", help_)
 
 
 def dict_keys(model: type, key: str) -> object:
@@ -118,22 +118,22 @@ def literals(annotation: object) -> tuple[object, ...]:
     return get_args(annotation) if get_origin(annotation) is Literal else ()
 
 
-def _bad_name(error: ErrorDetails, place: Place, document: SourceDocument) -> Complaint:
+def _bad_name(error: ErrorDetails, place: Place, document: SourceDocument) -> Problem:
     written = str(place.path[-1]) if place.is_key else str(value_at(document.data, place.path))
     where = f"in {quote_path(place.path[:-1])}" if place.is_key else f"as {quote_path(place.path)}"
     pattern = str(error.get("ctx", {}).get("pattern", ""))
-    return Complaint("bad-name", f"{quote(written)} cannot be used {where}", help_for_bad_name(written, pattern))
+    return Problem("bad-name", f"{quote(written)} cannot be used {where}", help_for_bad_name(written, pattern))
 
 
-def _number_out_of_range(error: ErrorDetails, place: Place, document: SourceDocument) -> Complaint:
+def _number_out_of_range(error: ErrorDetails, place: Place, document: SourceDocument) -> Problem:
     context = error.get("ctx", {})
     bound = f"at least {context['ge']}" if "ge" in context else f"at most {context.get('le')}"
     value = scalar_text(value_at(document.data, place.path))
-    message = f"{quote_path(place.path)} is {quote(value)} where {bound} is allowed"
-    return Complaint("out-of-range", message, f"write a number of {bound}{_example(place.field)}")
+    message = f"{quote_path(place.path)} must be {bound}, got {quote(value)}"
+    return Problem("out-of-range", message, f"write a number of {bound}{_example(place.field)}")
 
 
-def _length_out_of_range(error: ErrorDetails, place: Place, document: SourceDocument) -> Complaint:
+def _length_out_of_range(error: ErrorDetails, place: Place, document: SourceDocument) -> Problem:
     context = error.get("ctx", {})
     unit = "characters" if error["type"].startswith("string") else "entries"
     fewest, most = context.get("min_length"), context.get("max_length")
@@ -141,33 +141,33 @@ def _length_out_of_range(error: ErrorDetails, place: Place, document: SourceDocu
     written = str(place.path[-1]) if place.is_key else value_at(document.data, place.path)
     actual = len(written) if isinstance(written, (str, list, dict)) else 0
     where = f"key {quote(str(place.path[-1]))}" if place.is_key else quote_path(place.path)
-    message = f"{where} has {actual} {unit} where {bound} are due"
-    return Complaint("out-of-range", message, f"write {bound} {unit}{_example(place.field)}")
+    message = f"{where} must have {bound} {unit}, got {actual}"
+    return Problem("out-of-range", message, f"write {bound} {unit}{_example(place.field)}")
 
 
-def _missing_unit(error: ErrorDetails, place: Place, document: SourceDocument) -> Complaint:
+def _missing_unit(error: ErrorDetails, place: Place, document: SourceDocument) -> Problem:
     context = error["ctx"]
     written = document.text_at(place.path) or str(context["text"])
-    message = f"{quote(written)} carries no unit where {context['what']} is due"
-    return Complaint("missing-unit", message, _units_help(error))
+    message = f"expected {context['what']} with its unit, got {quote(written)}"
+    return Problem("missing-unit", message, _units_help(error))
 
 
-def _wrong_unit(error: ErrorDetails, place: Place, document: SourceDocument) -> Complaint:
+def _wrong_unit(error: ErrorDetails, place: Place, document: SourceDocument) -> Problem:
     context = error["ctx"]
     message = f"{quote(str(context['unit']))} is not a unit of {context['what']}"
-    return Complaint("wrong-unit", message, _units_help(error))
+    return Problem("wrong-unit", message, _units_help(error))
 
 
-def _not_a_quantity(error: ErrorDetails, place: Place, document: SourceDocument) -> Complaint:
+def _not_a_quantity(error: ErrorDetails, place: Place, document: SourceDocument) -> Problem:
     value = value_at(document.data, place.path)
-    message = f"{quote_path(place.path)} is {describe(value)} where {error['ctx']['what']} is due"
-    return Complaint("not-a-quantity", message, _units_help(error))
+    message = f"expected {error['ctx']['what']} for {quote_path(place.path)}, got {describe(value)}"
+    return Problem("not-a-quantity", message, _units_help(error))
 
 
-def _wrong_count(error: ErrorDetails, place: Place, document: SourceDocument) -> Complaint:
+def _wrong_count(error: ErrorDetails, place: Place, document: SourceDocument) -> Problem:
     context = error["ctx"]
-    message = f"{quote_path(place.path)} has {context['actual']} numbers where {context['size']} are due"
-    return Complaint("wrong-count", message, f"write {context['size']} numbers and their unit: `{context['example']}`")
+    message = f"{quote_path(place.path)} must have {context['size']} numbers, got {context['actual']}"
+    return Problem("wrong-count", message, f"write {context['size']} numbers and their unit: `{context['example']}`")
 
 
 def _units_help(error: ErrorDetails) -> str:
@@ -176,7 +176,7 @@ def _units_help(error: ErrorDetails) -> str:
     return f"write a number and the unit {listed}, such as `{error['ctx']['example']}`"
 
 
-def _kind_missing(error: ErrorDetails, place: Place, document: SourceDocument) -> Complaint:
+def _kind_missing(error: ErrorDetails, place: Place, document: SourceDocument) -> Problem:
     value = value_at(document.data, place.path)
     if not isinstance(value, dict):
         return _wrong_type("a mapping", place, document)
@@ -187,7 +187,7 @@ def _kind_missing(error: ErrorDetails, place: Place, document: SourceDocument) -
     if misspelt:
         key, kind = misspelt[0]
         help_ = f"did you mean `{kind}` where {quote(key)} stands?"
-    return Complaint(error["type"], f"{quote_path(place.path)} has none of the keys {listed}", help_)
+    return Problem(error["type"], f"{quote_path(place.path)} has none of the keys {listed}", help_)
 
 
 def _meaning(field: FieldInfo | None) -> str:

@@ -41,11 +41,14 @@ class FrameSpec(SpecModel):
     calibration: Name | None = Field(None, description="Calibration that measured it.", examples=["tcp_2f"])
     designed: bool = Field(
         False,
-        description="The transform is by design (a drawing), not measured: no calibration is due.",
+        description="The transform is by design (a drawing), not measured: no calibration is needed.",
         examples=[True],
     )
     reference_points: int = Field(
-        0, description="Known points of a fixture that validate direction and scale; three are due.", examples=[3], ge=0
+        0,
+        description="Known points of a fixture that validate direction and scale; at least three are needed.",
+        examples=[3],
+        ge=0,
     )
     dynamic: bool = Field(False, description="Changes while the cell runs.", examples=[True])
     published_by: Name | None = Field(

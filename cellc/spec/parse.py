@@ -10,7 +10,7 @@ from pydantic import ValidationError
 from cellc.diagnostics import Diagnostic, Outcome, Severity, YamlPath
 from cellc.source.document import MAX_FINDINGS, Plain, SourceDocument
 from cellc.spec.cell_spec import CellSpec
-from cellc.spec.errors import Complaint, complain
+from cellc.spec.errors import Problem, problem_of
 from cellc.spec.place import place_of
 from cellc.spec.wording import could_mean, describe, quote_path, value_at
 
@@ -43,9 +43,9 @@ def _unsupported_format(data: Plain, document: SourceDocument) -> Diagnostic | N
     value = data.get("format") if isinstance(data, dict) else None
     if value is None or (value in _FORMATS and type(value) is int):
         return None
-    message = f"`format` is {describe(value)} where `1` is due"
+    message = f"`format` must be `1`, got {describe(value)}"
     help_ = "write `format: 1`, or use the release of cellc that the spec was written for"
-    return _diagnostic(Complaint("unsupported-format", message, help_), ("format",), document, is_key=False)
+    return _diagnostic(Problem("unsupported-format", message, help_), ("format",), document, is_key=False)
 
 
 def _empty_values(data: Plain, path: YamlPath) -> Iterator[YamlPath]:
@@ -76,7 +76,7 @@ def _diagnostics(error: ValidationError, document: SourceDocument) -> Iterator[D
         if kind == "missing" and _is_misspelt(place.path, unknown):
             continue
         if is_key or kind == "missing" or value_at(document.data, place.path) is not None:
-            yield _diagnostic(complain(detail, place, document), place.path, document, is_key=is_key)
+            yield _diagnostic(problem_of(detail, place, document), place.path, document, is_key=is_key)
 
 
 def _is_misspelt(missing: YamlPath, unknown: list[YamlPath]) -> bool:
@@ -86,10 +86,10 @@ def _is_misspelt(missing: YamlPath, unknown: list[YamlPath]) -> bool:
 def _empty_diagnostics(empty: tuple[YamlPath, ...], document: SourceDocument) -> Iterator[Diagnostic]:
     for path in empty:
         help_ = "write a value, or delete the key" if isinstance(path[-1], str) else "write a value, or delete the dash"
-        complaint = Complaint("empty-value", f"{quote_path(path)} has no value", help_)
-        yield _diagnostic(complaint, path, document, is_key=True)
+        problem = Problem("empty-value", f"{quote_path(path)} has no value", help_)
+        yield _diagnostic(problem, path, document, is_key=True)
 
 
-def _diagnostic(complaint: Complaint, path: YamlPath, document: SourceDocument, *, is_key: bool) -> Diagnostic:
+def _diagnostic(problem: Problem, path: YamlPath, document: SourceDocument, *, is_key: bool) -> Diagnostic:
     span = document.locate_key(path) if is_key else document.locate(path)
-    return Diagnostic(complaint.code, Severity.ERROR, complaint.message, span, path, complaint.help)
+    return Diagnostic(problem.code, Severity.ERROR, problem.message, span, path, problem.help)

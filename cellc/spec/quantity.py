@@ -123,7 +123,7 @@ class QuantityType:
             raise PydanticCustomError("wrong-unit", "`{unit}` is not a unit of {what}", context)
         if self.size and len(numbers) != self.size:
             context = self._context() | {"actual": len(numbers), "size": self.size}
-            raise PydanticCustomError("wrong-count", "{actual} numbers where {size} are due", context)
+            raise PydanticCustomError("wrong-count", "expected {size} numbers, got {actual}", context)
         values = tuple(_scaled(number, factors[unit]) for number in numbers)
         if not all(math.isfinite(value) for value in values):
             context = self._context() | {"text": text[:60]}

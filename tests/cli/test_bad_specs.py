@@ -32,7 +32,7 @@ BAD = {
     "half a mapping": (b'{"a": 1', "not-yaml"),
     "two documents": (b"cell: a\n---\ncell: b\n", "several-documents"),
     "unknown model": (_TEXT.replace("model: ur5e", "model: ur5").encode(), "did you mean `ur5e`?"),
-    "missing device folder": (_TEXT.replace("model: ur5e", "model: ./my_robot").encode(), "my_robot` is no folder"),
+    "missing device folder": (_TEXT.replace("model: ur5e", "model: ./my_robot").encode(), "my_robot` is not a folder"),
 }
 
 

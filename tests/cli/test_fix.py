@@ -169,7 +169,7 @@ def test_unit_in_another_spelling_is_mended(right: str, wrong: str, tmp_path: Pa
     [
         ("update_rate: 500 Hz", "update_rate: 500"),  # no unit: 500 Hz or 500 kHz
         ("update_rate: 500 Hz", "update_rate: 500 mhz"),  # milli or mega
-        ("update_rate: 500 Hz", "update_rate: 500 sec"),  # a duration where a frequency is due
+        ("update_rate: 500 Hz", "update_rate: 500 sec"),  # a duration in place of a frequency
         ("goal_time: 1 s", "goal_time: 1 fortnight"),
     ],
 )

@@ -87,7 +87,7 @@ def test_acknowledge_step_names_who_acknowledges(tmp_path: Path) -> None:
         ),
         ("{wrong_payload: gripper, at: 1 s}", "unknown-device", "there is no arm `gripper`", ""),
         ("{switch: to_efort, at: 1 s}", "unknown-controller", "there is no switch or controller `to_efort`", ""),
-        ("{freeze: camera, at: {step: 8}}", "event-never-comes", "there is no step 8, the rehearsal has 7", "1 to 7"),
+        ("{freeze: camera, at: {step: 8}}", "event-never-comes", "there is no step 8: the rehearsal has 7", "1 to 7"),
         (
             "{freeze: camera, at: {step: 2, when: moving}}",
             "event-never-comes",
@@ -97,11 +97,11 @@ def test_acknowledge_step_names_who_acknowledges(tmp_path: Path) -> None:
         (
             "{freeze: camera, at: {step: 3, when: acepted}}",
             "not-a-choice",
-            "at.when` is the text `acepted`",
+            "at.when` must be one of its choices, got the text `acepted`",
             "`accepted`",
         ),
         ("{freeze: camera, at: {stp: 3}}", "unknown-key", "has no key `stp`", "`step`"),
-        ("{freeze: camera, at: 3}", "missing-unit", "carries no unit", "`s`"),
+        ("{freeze: camera, at: 3}", "missing-unit", "with its unit", "`s`"),
         ("{emergncy_stop: arm, at: 1 s}", "fault-kind-missing", "has none of the keys", "`emergency_stop`"),
         ("{slow: arm/elbow_joint, at: 1 s}", "missing-key", "has no `to`", "its speed"),
     ],
