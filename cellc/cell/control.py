@@ -86,11 +86,14 @@ class ControllerSwitch(Entity):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ControllerManager(Entity):
-    """One update loop; ``name`` is the key in the spec, its node is ``<namespace>/controller_manager``."""
+    """One update loop; ``name`` is the key in the spec, its node is ``<namespace>/controller_manager``.
+
+    ``host`` is the computer that runs it, empty where the cell names none.
+    """
 
     update_rate_hz: float
     namespace: str = ""
-    host: str | None = None
+    host: str = ""
     devices: tuple[str, ...] = ()
     controllers: tuple[Controller, ...] = ()
     switches: tuple[ControllerSwitch, ...] = ()

@@ -252,6 +252,7 @@ class Device(Entity):
         driver: what moves it on the real target where no component of ros2_control does.
         tool_frame: prefixed link where tools mount, for an arm.
         carries: devices mounted on this one, directly or on a frame of it.
+        host: the computer that runs its driver; empty where the cell names none.
         versions, connection, limit_shares, stamp, payload, adapter, simulated_joints: what the spec states of it.
         home: prefixed joint → position where the catalogue says a mock begins.
         optical_frames: short names of frames that look along z.
@@ -281,6 +282,7 @@ class Device(Entity):
     carries: tuple[str, ...] = ()
     versions: DeviceVersions = field(default_factory=DeviceVersions)
     connection: Connection | None = None
+    host: str = ""
     limit_shares: LimitShares = field(default_factory=LimitShares)
     stamp: Stamp | None = None
     payload: Payload | None = None

@@ -30,7 +30,8 @@ class NodeSource(str, Enum):
 class Node(Entity):
     """A node; ``name`` is its bare name, ``namespace`` empty or with a leading slash.
 
-    ``clock`` is ``wall``, ``sim`` or None for the target's; ``real_only`` nodes are not started on a mock. ``remaps``
+    ``clock`` is ``wall``, ``sim`` or None for the target's; ``real_only`` nodes are not started on a mock. ``host``
+    is the computer that runs it, empty where the cell names none. ``remaps``
     are topics as the node's program names them → the names that they have in the cell.
     """
 
@@ -38,7 +39,7 @@ class Node(Entity):
     package: str
     executable: str
     namespace: str = ""
-    host: str | None = None
+    host: str = ""
     lifecycle: bool = False
     owner: str = "UNKNOWN"
     language: str = "UNKNOWN"

@@ -13,7 +13,7 @@ from cellc.cell.cell import Cell
 from cellc.cell.control import Controller, ControllerManager
 from cellc.cell.frame import WORLD, FrameKind
 from cellc.cell.interface import TARGETS, InterfaceKind, Node
-from cellc.deploy.processes import asks_for_motion, described_by, host_of, host_of_manager, motion_clients
+from cellc.deploy.processes import asks_for_motion, described_by, motion_clients
 from cellc.link.derived import JOINT_STATE_TYPE
 
 MOVE = "move"
@@ -80,7 +80,7 @@ def activation(node: Node) -> str:
 
 def _configure(cell: Cell, node: Node) -> Step:
     command = _transition(node, "configure")
-    return Step("configure", f"configure_{node.name}", host_of(cell, node), (f"node {node.full_name}",), command)
+    return Step("configure", f"configure_{node.name}", node.host, (f"node {node.full_name}",), command)
 
 
 def _activate(cell: Cell, node: Node) -> Step:
@@ -88,7 +88,7 @@ def _activate(cell: Cell, node: Node) -> Step:
         frame.parent for frame in cell.frames if frame.kind is FrameKind.DYNAMIC and frame.authority == node.name
     )
     waits_for = (f"lifecycle {node.full_name} inactive", *(f"transform {WORLD} {parent}" for parent in parents))
-    return Step("observe", f"activate_{node.name}", host_of(cell, node), waits_for, _transition(node, "activate"))
+    return Step("observe", f"activate_{node.name}", node.host, waits_for, _transition(node, "activate"))
 
 
 def _transition(node: Node, transition: str) -> str:
@@ -124,7 +124,7 @@ def _switch(
 ) -> Step:
     # Strict: all of them or none, so that a cell is never half claimed.
     command = f"ros2 control switch_controllers --activate {' '.join(controllers)} --strict -c {_node(manager)}"
-    return Step(stage, name, host_of_manager(cell, manager), waits_for, command, only)
+    return Step(stage, name, manager.host, waits_for, command, only)
 
 
 def _joint_states(cell: Cell, manager: ControllerManager) -> Iterator[str]:

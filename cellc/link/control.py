@@ -11,7 +11,7 @@ from cellc.cell.interface import Interface, InterfaceKind
 from cellc.diagnostics import Diagnostic, Outcome, YamlPath
 from cellc.link.controller import ControlContext, ControllerPlace, link_controller
 from cellc.link.derived import JOINT_STATE_TYPE
-from cellc.link.names import unknown_name
+from cellc.link.names import home_host, unknown_name
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
 from cellc.spec.control import ManagerSpec
@@ -62,7 +62,7 @@ def _manager(
         span=document.locate(path),
         namespace=written.namespace,
         update_rate_hz=written.update_rate.si,
-        host=written.host,
+        host=written.host or home_host(context.spec),
         devices=_managed_devices(written, context),
         controllers=tuple(controllers),
         switches=tuple(

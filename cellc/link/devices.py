@@ -29,7 +29,7 @@ from cellc.link.device_facts import (
     bind_stamp,
     bind_vendor_safety,
 )
-from cellc.link.names import Placeholders, placeholders, unknown_name
+from cellc.link.names import Placeholders, home_host, placeholders, unknown_name
 from cellc.link.quantities import pose
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
@@ -167,6 +167,7 @@ def _device(
         architecture=written.architecture,
         versions=bind_device_versions(written),
         connection=bind_connection(written),
+        host=home_host(spec) if written.connection is None else written.connection.host,
         limit_shares=bind_limit_shares(written),
         stamp=bind_stamp(written),
         payload=bind_payload(written),

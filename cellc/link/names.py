@@ -33,6 +33,13 @@ def unknown_name(
     )
 
 
+def home_host(spec: CellSpec) -> str:
+    """Return the computer of what states none: that of the first controller manager, else the first; empty for none."""
+    managers = (*(() if spec.control is None else (spec.control,)), *spec.managers.values())
+    stated = (manager.host for manager in managers if manager.host is not None)
+    return next(stated, next(iter(spec.hosts), ""))
+
+
 _PLACEHOLDER = re.compile(r"\{(\w+)\}")  # `{share:PACKAGE}` stays: only an installed workspace knows the folder
 
 

@@ -11,7 +11,7 @@ from cellc.cell.interface import Node, NodeSource
 from cellc.diagnostics import Diagnostic, Outcome, Severity, Span, YamlPath
 from cellc.link.devices import BoundDevice
 from cellc.link.frames import ROBOT_STATE_PUBLISHER
-from cellc.link.names import unknown_name
+from cellc.link.names import home_host, unknown_name
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
 
@@ -46,7 +46,7 @@ def link_nodes(spec: CellSpec, document: SourceDocument, devices: tuple[BoundDev
                 package=package,
                 executable=executable,
                 namespace=written.namespace,
-                host=written.host or _only_host(spec),
+                host=written.host or home_host(spec),
                 lifecycle=written.lifecycle,
                 owner=written.owner,
                 language=written.language,
@@ -63,7 +63,7 @@ def standard_nodes(
 ) -> tuple[Node, ...]:
     """Return robot_state_publisher and one node for each controller manager, with what several of them need."""
     publisher = _description_publisher(
-        spec, ROBOT_STATE_PUBLISHER, ("devices",), document.locate(("devices",)), _only_host(spec)
+        spec, ROBOT_STATE_PUBLISHER, ("devices",), document.locate(("devices",)), home_host(spec)
     )
     return (
         publisher,
@@ -83,7 +83,7 @@ def _manager_node(spec: CellSpec, manager: ControllerManager) -> Node:
         package="controller_manager",
         executable="ros2_control_node",
         namespace=manager.namespace,
-        host=manager.host or _only_host(spec),
+        host=manager.host,
         owner=spec.owners.responsibilities.command,
         language="cpp",
         parameters={},
@@ -99,9 +99,7 @@ def _own_description(spec: CellSpec, manager: ControllerManager) -> Node:
     """
     home = description_home(manager)
     apart = {"/tf": "/tf", "/tf_static": "/tf_static", f"{home}{JOINT_STATES}": JOINT_STATES}
-    node = _description_publisher(
-        spec, DESCRIPTION_PUBLISHER, manager.path, manager.span, manager.host or _only_host(spec)
-    )
+    node = _description_publisher(spec, DESCRIPTION_PUBLISHER, manager.path, manager.span, manager.host)
     return replace(node, namespace=home, remaps={name: f"{home}/unused{topic}" for name, topic in apart.items()})
 
 
@@ -110,7 +108,7 @@ def description_home(manager: ControllerManager) -> str:
     return manager.namespace or f"/{manager.name}"
 
 
-def _description_publisher(spec: CellSpec, name: str, path: YamlPath, span: Span, host: str | None) -> Node:
+def _description_publisher(spec: CellSpec, name: str, path: YamlPath, span: Span, host: str) -> Node:
     return Node(
         name=name,
         path=path,
@@ -128,7 +126,6 @@ def _description_publisher(spec: CellSpec, name: str, path: YamlPath, span: Span
 def _driver_nodes(spec: CellSpec, devices: tuple[BoundDevice, ...]) -> Iterator[Node]:
     for bound in devices:
         device, known = bound.device, bound.names
-        connection = device.connection
         for entry in bound.facts.nodes:
             namespace, _, name = f"/{known.fill(entry.name)}".rpartition("/")
             yield Node(
@@ -139,7 +136,7 @@ def _driver_nodes(spec: CellSpec, devices: tuple[BoundDevice, ...]) -> Iterator[
                 package=entry.package,
                 executable=entry.executable,
                 namespace=namespace,
-                host=connection.host if connection is not None else _only_host(spec),
+                host=device.host,
                 owner=spec.owners.responsibilities.vendor_safety,
                 language="cpp",
                 real_only=entry.provides == "real",
@@ -155,10 +152,6 @@ def _joined(device: Device, node: str) -> dict[str, str]:
     if driver is None or driver.joint_states is None or driver.node != node:
         return {}
     return {driver.joint_states: JOINT_STATES}
-
-
-def _only_host(spec: CellSpec) -> str | None:
-    return next(iter(spec.hosts)) if len(spec.hosts) == 1 else None
 
 
 def _not_a_run(run: str, document: SourceDocument, path: tuple[str, ...]) -> Diagnostic:

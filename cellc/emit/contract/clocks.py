@@ -25,22 +25,18 @@ def clocks(cell: Cell) -> dict[str, ContractClock]:
 
 def clock_of(cell: Cell) -> dict[str, str]:
     """Return the name of the clock that each node, controller and device stamps and ages with."""
-    return {name: clock for name, clock in _clock_of(cell) if clock is not None}
+    return {name: clock for name, clock in _clock_of(cell) if clock}
 
 
-def _clock_of(cell: Cell) -> Iterator[tuple[str, str | None]]:
-    hosts = cell.hosts
-    only_host = next(iter(hosts)) if len(hosts) == 1 else None
+def _clock_of(cell: Cell) -> Iterator[tuple[str, str]]:
     for node in cell.nodes:
         yield node.name, SIM if node.clock == SIM else node.host
     for manager in cell.managers:
         for controller in manager.controllers:
-            yield controller.name, manager.host or only_host
-            yield controller.label, manager.host or only_host
+            yield controller.name, manager.host
+            yield controller.label, manager.host
     for device in cell.devices:
-        connection = device.connection
-        host = only_host if connection is None else connection.host
-        yield device.name, _clock_name(cell, device) if _own_clock(cell, device) is not None else host
+        yield device.name, _clock_name(cell, device) if _own_clock(cell, device) is not None else device.host
 
 
 def _own_clock(cell: Cell, device: Device) -> Clock | None:

@@ -25,7 +25,7 @@ from cellc.deploy.files import (
     semantic_file,
 )
 from cellc.deploy.labels import TF_RATE_HZ
-from cellc.deploy.processes import enclave_of, host_of, manager_enclave, spawner_enclave
+from cellc.deploy.processes import enclave_of, manager_enclave, spawner_enclave
 from cellc.formats.numbers import decimal
 from cellc.formats.parameter_file import qos_parameters
 from cellc.formats.xml_text import element
@@ -118,7 +118,7 @@ def driver_node(cell: Cell, node: Node) -> Element:
 
 def moving_node(cell: Cell, node: Node, hosts: tuple[str, ...], prefix: str) -> Element:
     """Return a node that asks for motion, behind a prefix that waits until everything is ready for it."""
-    place = {"if": on_host(host_of(cell, node))} if hosts else {}
+    place = {"if": on_host(node.host)} if hosts else {}
     return element("node", identity(cell, node) | {"launch-prefix": prefix} | place, _parameters(cell, node))
 
 

@@ -19,7 +19,7 @@ from cellc.cell.cell import Cell
 from cellc.cell.interface import Node, NodeSource
 from cellc.deploy.bringup import MOVE, Step, ready_to_move
 from cellc.deploy.deployment import Deployment
-from cellc.deploy.processes import bring_up_enclave, host_of, host_of_manager, started_by_a_person
+from cellc.deploy.processes import bring_up_enclave, started_by_a_person
 from cellc.emit.launch.processes import cell_node, control, driver_node, only_on, robot_state_publisher, share, spawners
 from cellc.formats.parameter_file import spec_path
 from cellc.formats.xml_text import comment, element
@@ -49,18 +49,14 @@ def stages(cell: Cell, plan: Deployment, host: str | None) -> Iterator[Element]:
 
 def _discover(cell: Cell, host: str | None) -> Iterator[Element]:
     for node in cell.nodes:
-        if (
-            node.source is NodeSource.STANDARD
-            and node.name == ROBOT_STATE_PUBLISHER
-            and _here(host, host_of(cell, node))
-        ):
+        if node.source is NodeSource.STANDARD and node.name == ROBOT_STATE_PUBLISHER and _here(host, node.host):
             yield robot_state_publisher(cell, node)
     for manager in cell.managers:
-        if _here(host, host_of_manager(cell, manager)):
+        if _here(host, manager.host):
             yield comment(spec_path(manager.path))
             yield from control(cell, manager)
     for node in cell.nodes:
-        if _here(host, host_of(cell, node)):
+        if _here(host, node.host):
             yield from _node(cell, node)
 
 
@@ -75,7 +71,7 @@ def _node(cell: Cell, node: Node) -> Iterator[Element]:
 
 def _spawners(cell: Cell, host: str | None) -> Iterator[Element]:
     for manager in cell.managers:
-        if _here(host, host_of_manager(cell, manager)):
+        if _here(host, manager.host):
             yield from spawners(cell, manager)
 
 
