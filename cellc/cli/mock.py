@@ -39,30 +39,23 @@ def mock(
     seed: int,
 ) -> None:
     """Execute the rehearsals of the generated FOLDER; exit 1 where one does not end as it should."""
-    # Planning libraries load only for this command.
-    from cellc.mock.command.campaign import CampaignOptions, list_runs, replay_runs, run_campaign
-    from cellc.mock.command.gates import run_gates
-    from cellc.mock.command.options import contradiction
-    from cellc.mock.command.rehearsals import run_command
+    from cellc.mock.command.options import MockOptions, run_mock
 
-    problem = contradiction(
-        rehearsals=bool(names),
-        modes={"--campaign": campaign, "--list": list_only, "--replay": bool(replayed), "--gates": gates},
-        pairs=pairs != 0,
-        jobs=jobs is not None,
-        paths={"--evidence": evidence, "--records": records},
+    options = MockOptions(
+        folder=folder,
+        rehearsals=names,
+        campaign=campaign,
+        list_only=list_only,
+        replay=replayed,
+        gates=gates,
+        pairs=pairs,
+        jobs=jobs,
+        as_json=as_json,
+        records=records,
+        evidence=evidence,
+        seed=seed,
     )
+    problem = options.contradiction()
     if problem:
         raise click.UsageError(f"{problem}.")
-    options = CampaignOptions(seed=seed, jobs=jobs, pairs=pairs, as_json=as_json, records=records, evidence=evidence)
-    if list_only:
-        code = list_runs(folder, options)
-    elif replayed:
-        code = replay_runs(folder, replayed, options)
-    elif gates:
-        code = run_gates(folder, options)
-    elif campaign:
-        code = run_campaign(folder, options)
-    else:
-        code = run_command(folder, names=names, as_json=as_json, records=records, evidence=evidence, seed=seed)
-    raise click.exceptions.Exit(code)
+    raise click.exceptions.Exit(run_mock(options))

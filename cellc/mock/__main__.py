@@ -7,7 +7,7 @@ import contextlib
 import os
 import sys
 
-from cellc.mock.command.options import contradiction
+from cellc.mock.command.options import MockOptions, run_mock
 
 
 def main() -> int:
@@ -31,60 +31,26 @@ def main() -> int:
     parser.add_argument("--records", metavar="FILE", help="write the attempt records as JSON lines")
     parser.add_argument("--evidence", metavar="FOLDER", help="write bags, records, key figures and a report")
     parser.add_argument("--seed", type=int, default=0, help="seed of everything drawn (default 0)")
-    options = parser.parse_args()
-    modes = {
-        "--campaign": options.campaign,
-        "--list": options.list,
-        "--replay": bool(options.replay),
-        "--gates": options.gates,
-    }
-    problem = contradiction(
-        rehearsals=bool(options.rehearsal),
-        modes=modes,
-        pairs=options.pairs != 0,
-        jobs=options.jobs is not None,
-        paths={"--evidence": options.evidence, "--records": options.records},
+    given = parser.parse_args()
+    options = MockOptions(
+        folder=given.folder,
+        program="python -m cellc.mock",
+        rehearsals=tuple(given.rehearsal),
+        campaign=given.campaign,
+        list_only=given.list,
+        replay=tuple(given.replay),
+        gates=given.gates,
+        pairs=given.pairs,
+        jobs=given.jobs,
+        as_json=given.json,
+        records=given.records,
+        evidence=given.evidence,
+        seed=given.seed,
     )
+    problem = options.contradiction()
     if problem:
         parser.error(problem)
-    # Imported by these, so that Ctrl-C while the planning libraries load ends without a traceback too.
-    return _run_campaign(options) if any(modes.values()) else _run_rehearsals(options)
-
-
-def _run_rehearsals(options: argparse.Namespace) -> int:
-    from cellc.mock.command.rehearsals import run_command
-
-    return run_command(
-        options.folder,
-        names=options.rehearsal,
-        as_json=options.json,
-        records=options.records,
-        evidence=options.evidence,
-        seed=options.seed,
-    )
-
-
-def _run_campaign(options: argparse.Namespace) -> int:
-    from cellc.mock.command.campaign import CampaignOptions, list_runs, replay_runs, run_campaign
-
-    asked = CampaignOptions(
-        program="python -m cellc.mock",
-        seed=options.seed,
-        jobs=options.jobs,
-        pairs=options.pairs,
-        as_json=options.json,
-        records=options.records,
-        evidence=options.evidence,
-    )
-    if options.gates:
-        from cellc.mock.command.gates import run_gates
-
-        return run_gates(options.folder, asked)
-    if options.list:
-        return list_runs(options.folder, asked)
-    if options.replay:
-        return replay_runs(options.folder, options.replay, asked)
-    return run_campaign(options.folder, asked)
+    return run_mock(options)
 
 
 def _discard_output() -> None:

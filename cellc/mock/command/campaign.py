@@ -5,7 +5,7 @@ from __future__ import annotations
 import shlex
 import sys
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from time import perf_counter
@@ -16,39 +16,16 @@ from cellc.mock.campaign.execute import usable_cores
 from cellc.mock.campaign.plan import CampaignPlan, CampaignRun
 from cellc.mock.campaign.summary import campaign_json, campaign_lines, end_lines
 from cellc.mock.cell import MockCell, cell_of, load
-from cellc.mock.command.options import write_text
+from cellc.mock.command.options import MockOptions, write_text
 from cellc.mock.command.rehearsals import begin_evidence
 from cellc.mock.errors import MockError
 from cellc.mock.faults.registry import possible_faults
 from cellc.mock.result import to_json_lines
 
-
-@dataclass(frozen=True, slots=True)
-class CampaignOptions:
-    """What the command line asks for.
-
-    Attributes:
-        program: how the command was called, for the commands that replay a run.
-        seed: of planning, of seeded faults, and of the choice of pairs.
-        jobs: processes; None for as many as there are cores.
-        pairs: number of runs with two faults.
-        records: file that the attempt records of all runs are written to, as JSON lines.
-        evidence: folder that bags and the report are written to, of replayed runs or of the declared rehearsals.
-    """
-
-    program: str = "cellc mock"
-    seed: int = 0
-    jobs: int | None = None
-    pairs: int = 0
-    as_json: bool = False
-    records: str | None = None
-    evidence: str | None = None
-
-
 Choice = Callable[[CampaignPlan], Sequence[CampaignRun]]
 
 
-def run_campaign(folder: str, options: CampaignOptions) -> int:
+def run_campaign(options: MockOptions) -> int:
     """Run every fault at every step, and pairs; print the matrix.
 
     Returns:
@@ -57,12 +34,12 @@ def run_campaign(folder: str, options: CampaignOptions) -> int:
     """
 
     try:
-        cell = load_checked(folder, options)
+        cell = load_checked(options)
         campaign = conduct_all(cell, options)
         keep_evidence_of(cell, campaign, options)
     except (MockError, KeyboardInterrupt) as stop:
         return stopped(stop)
-    replay = partial(_replay_command, folder, options)
+    replay = partial(_replay_command, options)
     if options.as_json:
         print(campaign_json(campaign, cell.notes, replay))
     else:
@@ -70,20 +47,20 @@ def run_campaign(folder: str, options: CampaignOptions) -> int:
     return 0 if campaign.passed else 1
 
 
-def replay_runs(folder: str, identifiers: Sequence[str], options: CampaignOptions) -> int:
+def replay_runs(options: MockOptions) -> int:
     """Run some runs of a campaign alone; they end as they did in it, to the last bit."""
 
     def named_runs(plan: CampaignPlan) -> Sequence[CampaignRun]:
-        return [_found(plan, identifier) for identifier in dict.fromkeys(identifiers)]
+        return [_found(plan, identifier) for identifier in dict.fromkeys(options.replay)]
 
     try:
-        cell = load_checked(folder, options)
+        cell = load_checked(options)
         campaign = _conduct(cell, named_runs, replace(options, jobs=1))
         if options.evidence is not None:
             _keep_evidence(cell, campaign, Path(options.evidence))
     except (MockError, KeyboardInterrupt) as stop:
         return stopped(stop)
-    replay = partial(_replay_command, folder, options)
+    replay = partial(_replay_command, options)
     if options.as_json:
         print(campaign_json(replace(campaign, baselines=()), cell.notes, replay))
     else:
@@ -91,7 +68,7 @@ def replay_runs(folder: str, identifiers: Sequence[str], options: CampaignOption
     return 0 if all(end.passed for end in campaign.ends) else 1
 
 
-def keep_evidence_of(cell: MockCell, campaign: Campaign, options: CampaignOptions) -> None:
+def keep_evidence_of(cell: MockCell, campaign: Campaign, options: MockOptions) -> None:
     """Write bags of the declared rehearsals and a report over them and the campaign, where evidence is asked for."""
     if options.evidence is None:
         return
@@ -115,10 +92,10 @@ def _keep_evidence(cell: MockCell, campaign: Campaign, folder: Path) -> None:
         collector.settle()
 
 
-def list_runs(folder: str, options: CampaignOptions) -> int:
+def list_runs(options: MockOptions) -> int:
     """Print the identifiers of the runs of a campaign; only the rehearsals without faults are run."""
     try:
-        cell = load_checked(folder, options)
+        cell = load_checked(options)
         plan, _ = make_plan(cell, possible_faults(cell.contract), options.seed)
     except (MockError, KeyboardInterrupt) as stop:
         return stopped(stop)
@@ -127,7 +104,7 @@ def list_runs(folder: str, options: CampaignOptions) -> int:
     return 0
 
 
-def load_checked(folder: str, options: CampaignOptions) -> MockCell:
+def load_checked(options: MockOptions) -> MockCell:
     """Load a folder, and check the numbers of the options; raise MockError where either cannot be used."""
     for name, value, least in (
         ("seed", options.seed, 0),
@@ -136,10 +113,10 @@ def load_checked(folder: str, options: CampaignOptions) -> MockCell:
     ):
         if value is not None and value < least:
             raise MockError("", f"the {name} is {value}; it must be {least} or greater")
-    return load(Path(folder))
+    return load(Path(options.folder))
 
 
-def conduct_all(cell: MockCell, options: CampaignOptions) -> Campaign:
+def conduct_all(cell: MockCell, options: MockOptions) -> Campaign:
     """Conduct the whole campaign; raise MockError where a run cannot be executed."""
 
     def all_runs(plan: CampaignPlan) -> Sequence[CampaignRun]:
@@ -148,7 +125,7 @@ def conduct_all(cell: MockCell, options: CampaignOptions) -> Campaign:
     return _conduct(cell, all_runs, options)
 
 
-def _conduct(cell: MockCell, choose: Choice, options: CampaignOptions) -> Campaign:
+def _conduct(cell: MockCell, choose: Choice, options: MockOptions) -> Campaign:
     begun = perf_counter()
     plan, baselines = make_plan(cell, possible_faults(cell.contract), options.seed)
     runs = choose(plan)
@@ -171,9 +148,9 @@ def _found(plan: CampaignPlan, identifier: str) -> CampaignRun:
     raise MockError("", f"there is no run `{identifier}`{hint}")
 
 
-def _replay_command(folder: str, options: CampaignOptions, identifier: str) -> str:
+def _replay_command(options: MockOptions, identifier: str) -> str:
     seed = f" --seed {options.seed}" if options.seed else ""
-    return f"{options.program} {shlex.quote(folder)} --replay {shlex.quote(identifier)}{seed}"
+    return f"{options.program} {shlex.quote(options.folder)} --replay {shlex.quote(identifier)}{seed}"
 
 
 def _tell_progress(done: int, total: int, failed: int) -> None:

@@ -4,21 +4,22 @@ from __future__ import annotations
 
 import json
 
-from cellc.mock.command.campaign import CampaignOptions, conduct_all, keep_evidence_of, load_checked, stopped
+from cellc.mock.command.campaign import conduct_all, keep_evidence_of, load_checked, stopped
+from cellc.mock.command.options import MockOptions
 from cellc.mock.errors import MockError
 from cellc.mock.gates.gate import GateResult, Verdict, gate_lines, gates_as_data
 from cellc.mock.gates.runs import judged_campaign, judged_rehearsals
 from cellc.mock.gates.sign import sign_gates
 
 
-def run_gates(folder: str, options: CampaignOptions) -> int:
+def run_gates(options: MockOptions) -> int:
     """Run everything that is evidence, and print each gate with its lines.
 
     Returns:
         0 where no line failed, UNKNOWN ones among them; 1 where one did; 2 where the folder or an option is unusable.
     """
     try:
-        cell = load_checked(folder, options)
+        cell = load_checked(options)
         results = [cell.run(name, seed=options.seed) for name in cell.rehearsals]
         campaign = conduct_all(cell, options)
         keep_evidence_of(cell, campaign, options)

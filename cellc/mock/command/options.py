@@ -1,39 +1,94 @@
-"""What the options of the command ask for, which of them contradict each other, and files that a run writes."""
+"""What the command line asks of the mock, which options contradict each other, and files that a run writes."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
 from cellc.mock.errors import MockError
 
 
-def contradiction(
-    *, rehearsals: bool, modes: Mapping[str, bool], pairs: bool, jobs: bool, paths: Mapping[str, str | None]
-) -> str:
-    """Say which options do not go together; empty where all do.
+@dataclass(frozen=True, slots=True)
+class MockOptions:
+    """What the command line asks for, the same for `cellc mock` and `python -m cellc.mock`.
 
-    Args:
-        rehearsals: declared rehearsals were named.
-        modes: what else to do than to run rehearsals, by option, and whether it was asked for.
-        pairs: runs with two faults were asked for.
-        jobs: a number of processes was asked for.
-        paths: files and folders to write, by option.
+    Attributes:
+        program: how the command was called, for the commands that replay a run.
+        rehearsals: to run; all of the folder where there are none.
+        campaign: run every fault at every step.
+        list_only: print the runs of a campaign, and run none.
+        replay: runs of a campaign to run alone.
+        gates: judge the gates by rehearsals and campaign.
+        pairs: number of runs with two faults.
+        jobs: processes; None for as many as there are cores.
+        records: file that attempt records are written to, as JSON lines.
+        evidence: folder that bags, records, figures and a report are written to.
+        seed: of everything that is drawn.
     """
-    asked = [option for option, given in modes.items() if given]
-    alone = [option for option in asked if option != "--campaign"]
-    if rehearsals and asked:
-        return "--rehearsal does not go with the options of the campaign"
-    if len(alone) > 1:
-        return f"{alone[0]} does not go with {alone[1]}"
-    if (pairs or jobs) and not asked:
-        return f"{'--pairs' if pairs else '--jobs'} needs --campaign"
-    written = [option for option, path in paths.items() if path is not None]
-    if "--list" in alone and written:
-        return f"{written[0]} does not go with --list, which runs nothing"
-    empty = [option for option, path in paths.items() if path == ""]
-    return f"{empty[0]} cannot be written: its path is empty" if empty else ""
+
+    folder: str
+    program: str = "cellc mock"
+    rehearsals: tuple[str, ...] = ()
+    campaign: bool = False
+    list_only: bool = False
+    replay: tuple[str, ...] = ()
+    gates: bool = False
+    pairs: int = 0
+    jobs: int | None = None
+    as_json: bool = False
+    records: str | None = None
+    evidence: str | None = None
+    seed: int = 0
+
+    def modes(self) -> list[str]:
+        """Return the options that ask for something else than rehearsals."""
+        given = {
+            "--campaign": self.campaign,
+            "--list": self.list_only,
+            "--replay": bool(self.replay),
+            "--gates": self.gates,
+        }
+        return [option for option, asked in given.items() if asked]
+
+    def contradiction(self) -> str:
+        """Say which options do not go together; empty where all do."""
+        modes = self.modes()
+        alone = [option for option in modes if option != "--campaign"]
+        if self.rehearsals and modes:
+            return "--rehearsal does not go with the options of the campaign"
+        if len(alone) > 1:
+            return f"{alone[0]} does not go with {alone[1]}"
+        if (self.pairs != 0 or self.jobs is not None) and not modes:
+            return f"{'--pairs' if self.pairs else '--jobs'} needs --campaign"
+        paths = {"--evidence": self.evidence, "--records": self.records}
+        written = [option for option, path in paths.items() if path is not None]
+        if "--list" in alone and written:
+            return f"{written[0]} does not go with --list, which runs nothing"
+        empty = [option for option in written if paths[option] == ""]
+        return f"{empty[0]} cannot be written: its path is empty" if empty else ""
+
+
+def run_mock(options: MockOptions) -> int:
+    """Do what the options ask for; they do not contradict each other.
+
+    Returns:
+        0 where all is as it must be, 1 where something is not, 2 where the folder or an option is unusable.
+    """
+    # Imported here: planning libraries load for as long as a rehearsal runs, and Ctrl-C meanwhile ends in one line.
+    if not options.modes():
+        from cellc.mock.command.rehearsals import run_rehearsals
+
+        return run_rehearsals(options)
+    if options.gates:
+        from cellc.mock.command.gates import run_gates
+
+        return run_gates(options)
+    from cellc.mock.command.campaign import list_runs, replay_runs, run_campaign
+
+    if options.list_only:
+        return list_runs(options)
+    return replay_runs(options) if options.replay else run_campaign(options)
 
 
 def write_text(path: Path, text: str) -> None:

@@ -11,7 +11,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from cellc.mock.cell import MockCell, load
-from cellc.mock.command.options import write_text
+from cellc.mock.command.options import MockOptions, write_text
 from cellc.mock.errors import MockError
 from cellc.mock.result import RehearsalResult, to_json_lines
 
@@ -69,54 +69,37 @@ def to_lines(timed: Sequence[TimedResult], notes: Sequence[str]) -> Iterator[str
             yield f"        finding: {finding}"
 
 
-def run_command(
-    folder: str,
-    *,
-    names: Sequence[str] = (),
-    as_json: bool = False,
-    records: str | None = None,
-    evidence: str | None = None,
-    seed: int = 0,
-) -> int:
+def run_rehearsals(options: MockOptions) -> int:
     """Run rehearsals of a folder and print the results.
-
-    Args:
-        names: rehearsals to run; all where there are none.
-        as_json: print a JSON summary in place of lines for people.
-        records: file that the attempt records are written to, as JSON lines.
-        evidence: folder that bags, records, figures and a report are written to.
-        seed: of everything that is drawn.
 
     Returns:
         0 where every rehearsal passed, 1 where one did not or there is none, 2 where the folder or a name is unusable.
     """
     try:
-        if seed < 0:
-            raise MockError("", f"the seed is {seed}; it must be 0 or greater")
-        cell = load(Path(folder))
-        chosen = tuple(dict.fromkeys(names)) or cell.rehearsals
-        timed = _run(cell, chosen, seed) if evidence is None else _run_with_evidence(cell, chosen, seed, Path(evidence))
-        if records is not None:
-            write_text(Path(records), to_json_lines(record for each in timed for record in each.result.attempts))
+        if options.seed < 0:
+            raise MockError("", f"the seed is {options.seed}; it must be 0 or greater")
+        cell = load(Path(options.folder))
+        timed = _run(cell, tuple(dict.fromkeys(options.rehearsals)) or cell.rehearsals, options)
+        if options.records is not None:
+            records = (record for each in timed for record in each.result.attempts)
+            write_text(Path(options.records), to_json_lines(records))
     except MockError as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
         print("error: interrupted; nothing was written", file=sys.stderr)
         return 2
-    if as_json:
+    if options.as_json:
         print(to_summary_json(cell.contract.configuration_id, timed, cell.notes))
     else:
         print("\n".join(to_lines(timed, cell.notes)))
     return 0 if timed and all(each.result.passed for each in timed) else 1
 
 
-def _run(cell: MockCell, names: Sequence[str], seed: int) -> list[TimedResult]:
-    return _timed(names, lambda name: cell.run(name, seed=seed))
-
-
-def _run_with_evidence(cell: MockCell, names: Sequence[str], seed: int, folder: Path) -> list[TimedResult]:
-    with begin_evidence(cell, folder, names, seed) as collector:
+def _run(cell: MockCell, names: Sequence[str], options: MockOptions) -> list[TimedResult]:
+    if options.evidence is None:
+        return _timed(names, lambda name: cell.run(name, seed=options.seed))
+    with begin_evidence(cell, Path(options.evidence), names, options.seed) as collector:
         timed = _timed(names, collector.run)
         collector.settle()
     return timed

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
+from cellc.contract.contract import Contract
 from cellc.mock.control import ControlEvent, ControllerChanged, GripperEnded, TrajectoryEnded
+from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.engine.process import Signal, Wait, Waiting
-from cellc.mock.plant import Plant
+from cellc.mock.plant import Plant, TaskNode
 from cellc.mock.stops import EMERGENCY_STOP, FAULT, PROTECTIVE_STOP
 from cellc.mock.task.bounds import joint_state_age_s
 from cellc.transforms import Pose
@@ -110,6 +112,21 @@ class TaskContext:
     deactivated_ns: dict[str, int] = field(default_factory=dict)
 
     @property
+    def contract(self) -> Contract:
+        """The contract of the cell."""
+        return self.plant.contract
+
+    @property
+    def control(self) -> ControlStack:
+        """The controllers that take the goals of the task."""
+        return self.plant.control
+
+    @property
+    def node(self) -> TaskNode:
+        """The node that the task stands for."""
+        return self.plant.task
+
+    @property
     def now_ns(self) -> int:
         """The simulated time."""
         return self.plant.simulation.now_ns
@@ -129,12 +146,12 @@ class TaskContext:
             AttemptError: the cell stopped, missed cycles, or the rehearsal's time is over.
         """
         until_ns = min(until_ns, self.deadline_ns, self.now_ns + round(WATCH_S * 1e9), self._observed_until_ns())
-        yield Wait(until_ns, (self.plant.control.changed, *signals))
+        yield Wait(until_ns, (self.control.changed, *signals))
         self.check_cell()
 
     def let_take_effect(self) -> Waiting[None]:
         """Wait until what was asked of controller managers and adapters at this instant has been carried out."""
-        until_ns = self.now_ns + self.plant.control.longest_period_ns
+        until_ns = self.now_ns + self.control.longest_period_ns
         while self.now_ns < until_ns:
             yield Wait(until_ns)
 
@@ -165,18 +182,18 @@ class TaskContext:
 
     def _check_owner(self) -> None:
         """Raise AttemptError where another client commands: the status of an action names every goal that it has."""
-        for goal in self.plant.task.actions.foreign:
+        for goal in self.node.actions.foreign:
             raise AttemptError(AttemptOutcome.WRONG_OWNER, f"{goal.client} sent a goal to {goal.controller}")
 
     def _check_cycles(self) -> None:
-        missed = sum(history.missed_until(self.now_ns) for history in self.plant.control.histories.values())
-        allowed = self.plant.contract.kpis.missed_cycles
+        missed = sum(history.missed_until(self.now_ns) for history in self.control.histories.values())
+        allowed = self.contract.kpis.missed_cycles
         if allowed is not None and missed > allowed:
             raise AttemptError(AttemptOutcome.MISSED_CYCLE, f"{missed} update cycles missed, {allowed} allowed")
 
     def _check_states(self) -> None:
         """Raise AttemptError where a goal executes and nobody would see where the arm goes."""
-        if self.plant.task.actions.is_executing():
+        if self.node.actions.is_executing():
             current_state(self.plant)
 
     def _check_time(self) -> None:
@@ -185,7 +202,7 @@ class TaskContext:
 
     def _observed_until_ns(self) -> int:
         """Return when the observation that is acted on turns stale; the deadline where none is."""
-        inbox = None if self.acting_on is None else self.plant.task.observations.get(self.acting_on)
+        inbox = None if self.acting_on is None else self.node.observations.get(self.acting_on)
         if inbox is None or inbox.newest is None or inbox.on_stale == "continue":
             return self.deadline_ns
         return max(self.now_ns + 1, inbox.stale_from_ns(inbox.newest.stamp_ns))  # time goes on, however a clock rounds
@@ -193,7 +210,7 @@ class TaskContext:
     def _check_observation(self) -> None:
         """Raise AttemptError where the frame that is acted on is no longer observed: a frozen camera stops the arm."""
         self.check_authorities(() if self.acting_on is None else (self.acting_on,))
-        inbox = None if self.acting_on is None else self.plant.task.observations.get(self.acting_on)
+        inbox = None if self.acting_on is None else self.node.observations.get(self.acting_on)
         if inbox is None or (inbox.newest is not None and not inbox.is_stale(inbox.newest.stamp_ns)):
             return
         raise AttemptError(AttemptOutcome.STALE_STATE, inbox.describe(self.acting_on or ""))
@@ -201,6 +218,6 @@ class TaskContext:
     def check_authorities(self, frames: Iterable[str]) -> None:
         """Raise AttemptError where two nodes publish one of the frames: lookups would jump from one to the other."""
         for frame in frames:
-            if (authorities := self.plant.task.buffer.authorities(frame))[1:]:
+            if (authorities := self.node.buffer.authorities(frame))[1:]:
                 names = " and ".join(authorities)
                 raise AttemptError(AttemptOutcome.TF_FAILURE, f"frame {frame} is published by {names}")

@@ -136,8 +136,8 @@ def execute(
     context.deactivated_ns.pop(controller, None)
     goal_id = yield from _send(context, attempt, controller, goal)
     sent = SentGoal(controller, goal_id, _joints(context.plant, controller), context.now_ns)
-    context.plant.task.actions.note_started(controller)
-    context.plant.task.milestones.announce("accepted")
+    context.node.actions.note_started(controller)
+    context.node.milestones.announce("accepted")
     try:
         yield from _result(context, kind, sent, timeout_s)
     except AttemptError as failure:
@@ -149,8 +149,8 @@ def execute(
         raise
     finally:
         _note_result(context, attempt, sent)
-        context.plant.task.requests.withdraw_cancel(kind)
-        context.plant.task.actions.note_ended(controller)
+        context.node.requests.withdraw_cancel(kind)
+        context.node.actions.note_ended(controller)
     return context.ended[(controller, goal_id)]
 
 
@@ -170,13 +170,13 @@ def require_success(ended: GoalEnded, context: TaskContext) -> None:
 
 
 def _send(context: TaskContext, attempt: Attempt, controller: str, goal: TrajectoryGoal | GripperGoal) -> Waiting[int]:
-    manager = context.plant.control.server_of(controller)
+    manager = context.control.server_of(controller)
     attempt.controller_name = controller
     attempt.speed_scaling = _speed_scaling(context.plant, controller)
     attempt.mark(PacketStep.GOAL_SENT, context.now_ns)
     attempt.action_goal_id = _goal_uuid(context.seed, attempt.attempt_id)
     yield from await_response(context, controller)
-    response = context.plant.control.send_goal(controller, goal)
+    response = context.control.send_goal(controller, goal)
     if not response.accepted:
         raise AttemptError(AttemptOutcome.GOAL_REJECTION, response.log_reason)
     attempt.mark(PacketStep.ACCEPTED, context.now_ns)
@@ -189,7 +189,7 @@ def _result(context: TaskContext, kind: str, goal: SentGoal, timeout_s: float) -
     """Wait for the result of an accepted goal; raise AttemptError where it has to be cancelled instead."""
     until_ns = context.now_ns + round(timeout_s * 1e9)
     while (goal.controller, goal.goal_id) not in context.ended:
-        if context.plant.task.requests.is_cancel_asked(kind):
+        if context.node.requests.is_cancel_asked(kind):
             raise AttemptError(AttemptOutcome.CANCELLED, "")
         if context.now_ns >= until_ns:
             raise AttemptError(AttemptOutcome.TIMEOUT, f"no result of {goal.controller} within {timeout_s:g} s")
@@ -198,17 +198,17 @@ def _result(context: TaskContext, kind: str, goal: SentGoal, timeout_s: float) -
         if context.now_ns >= given_up_ns:
             raise AttemptError(AttemptOutcome.WRONG_OWNER, f"{goal.controller} was deactivated while its goal executed")
         look_ns = _look_for_motion(context, goal)
-        signals = (context.plant.task.requests.changed, context.plant.task.actions.changed)
+        signals = (context.node.requests.changed, context.node.actions.changed)
         yield from context.pause(min(until_ns, given_up_ns, look_ns), *signals)
 
 
 def _look_for_motion(context: TaskContext, goal: SentGoal) -> int:
     """Announce the first motion of a goal where somebody waits for it; return when to look again."""
-    if not context.plant.task.milestones.is_expected("moving"):
+    if not context.node.milestones.is_expected("moving"):
         return context.deadline_ns
     if _driven_ns(context.plant, goal.joints, goal.sent_ns) is not None:
-        context.plant.task.milestones.announce("moving")
-    return context.now_ns + context.plant.control.server_of(goal.controller).period_ns
+        context.node.milestones.announce("moving")
+    return context.now_ns + context.control.server_of(goal.controller).period_ns
 
 
 def _note_result(context: TaskContext, attempt: Attempt, goal: SentGoal) -> None:

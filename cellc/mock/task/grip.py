@@ -23,7 +23,7 @@ GRASP_TOLERANCE_M = 0.03
 
 def grip(context: TaskContext, attempt: Attempt, device: str, command: str) -> Waiting[None]:
     """Open or close a gripper; raise AttemptError where it does not get there."""
-    facts = context.plant.contract.devices[device].gripper
+    facts = context.contract.devices[device].gripper
     if facts is None or facts.controller is None:
         raise AttemptError(AttemptOutcome.GOAL_REJECTION, f"no controller drives gripper {device}")
     between = _object_between(context, device) if command == "close" else None
@@ -50,7 +50,7 @@ def _require_arrival(state: CurrentState, facts: ContractGripper, expected: floa
 
 def _goal(context: TaskContext, facts: ContractGripper, position: float) -> GripperGoal:
     """Return the goal; GripperCommand has a field for effort, ParallelGripperCommand needs an interface for it."""
-    for manager in context.plant.contract.managers.values():
+    for manager in context.contract.managers.values():
         controller = manager.controllers.get(facts.controller or "")
         if controller is not None and controller.behaviour is Behaviour.POSITION_GRIPPER:
             return GripperGoal(position=(position,), effort=(facts.max_effort,))
@@ -74,7 +74,7 @@ def _object_between(context: TaskContext, device: str) -> str | None:
 
 def _tip_link(context: TaskContext, device: str) -> str | None:
     """Return the tip frame of the group whose chain goes through the gripper."""
-    contract = context.plant.contract
+    contract = context.contract
     root = contract.devices[device].root_link
     for group in contract.groups.values():
         frame = group.tip_frame
@@ -99,5 +99,5 @@ def _take(context: TaskContext, device: str, name: str) -> None:
 def _release(context: TaskContext, device: str) -> None:
     name = context.held.pop(device, None)
     if name is not None:
-        context.plant.world.move(name, context.plant.contract.root_frame, context.plant.now_ns)
+        context.plant.world.move(name, context.contract.root_frame, context.plant.now_ns)
         context.plant.planner.detach(name)

@@ -39,7 +39,7 @@ def locate_goal(context: TaskContext, attempt: Attempt, name: str, state_stamp_n
     Raises:
         AttemptError: stale_state or tf_failure.
     """
-    contract = context.plant.contract
+    contract = context.contract
     entry = contract.goals[name]
     base = contract.groups[entry.group].base_link
     observed_frame = dynamic_ancestor(contract, entry.frame)
@@ -49,9 +49,9 @@ def locate_goal(context: TaskContext, attempt: Attempt, name: str, state_stamp_n
     if observed_frame is not None:
         attempt.mark(PacketStep.OBSERVED, stamp_ns)
     transform = yield from _lookup(context, base, entry.frame, stamp_ns)
-    attempt.tf_lookup_age = context.plant.clocks.age_ns(context.plant.task.name, stamp_ns) / 1e9
+    attempt.tf_lookup_age = context.plant.clocks.age_ns(context.node.name, stamp_ns) / 1e9
     attempt.mark(PacketStep.TRANSFORMED, context.now_ns)
-    displaced = Pose(context.plant.task.requests.displacement(name), (0.0, 0.0, 0.0, 1.0)) @ Pose(
+    displaced = Pose(context.node.requests.displacement(name), (0.0, 0.0, 0.0, 1.0)) @ Pose(
         entry.pose.xyz, entry.pose.quaternion
     )
     return LocatedGoal(GoalPose(transform.pose @ displaced, entry.approach), observed_frame)
@@ -73,10 +73,10 @@ def _stamp(
     context: TaskContext, entry: ContractGoal, base: str, observed_frame: str | None, state_stamp_ns: int
 ) -> int:
     if entry.transform_at == "latest":
-        latest = context.plant.task.buffer.latest_ns(base, entry.frame)
+        latest = context.node.buffer.latest_ns(base, entry.frame)
         return state_stamp_ns if latest is None else latest
     if observed_frame is None:
-        latest = context.plant.task.buffer.latest_ns(base, entry.frame)
+        latest = context.node.buffer.latest_ns(base, entry.frame)
         return state_stamp_ns if latest is None else min(latest, state_stamp_ns)
     if observed_frame not in context.observed:
         raise AttemptError(AttemptOutcome.STALE_STATE, f"frame {observed_frame} was never observed")
@@ -91,7 +91,7 @@ def check_observation(context: TaskContext, frame: str, stamp_ns: int, allowance
     Args:
         allowance_s: time that planning has taken since the observation was checked first.
     """
-    inbox = context.plant.task.observations.get(frame)
+    inbox = context.node.observations.get(frame)
     if inbox is not None and inbox.is_stale(stamp_ns, allowance_s):
         text = f"observation of {frame} is {inbox.age_s(stamp_ns):.3f} s old, {inbox.max_age_s:g} s allowed"
         raise AttemptError(AttemptOutcome.STALE_STATE, text)
@@ -102,8 +102,8 @@ def _lookup(context: TaskContext, target: str, source: str, stamp_ns: int) -> Wa
     until_ns = context.now_ns + round(TF_TIMEOUT_S * 1e9)
     while True:
         context.plant.robot_state_publisher.catch_up(context.now_ns)
-        context.check_authorities(context.plant.task.buffer.path(target, source))
-        answer = context.plant.task.buffer.lookup(target, source, stamp_ns)
+        context.check_authorities(context.node.buffer.path(target, source))
+        answer = context.node.buffer.lookup(target, source, stamp_ns)
         if isinstance(answer, Transform):
             return answer
         if not answer.kind.may_pass or context.now_ns >= until_ns:
@@ -114,10 +114,10 @@ def _lookup(context: TaskContext, target: str, source: str, stamp_ns: int) -> Wa
 
 def _calibrations(context: TaskContext, base: str, entry: ContractGoal) -> tuple[str, ...]:
     """Return the calibrations, with revision, of every edge between base and goal, and between base and tip."""
-    contract = context.plant.contract
+    contract = context.contract
     edges = {
-        *context.plant.task.buffer.path(base, entry.frame),
-        *context.plant.task.buffer.path(base, contract.groups[entry.group].tip_frame),
+        *context.node.buffer.path(base, entry.frame),
+        *context.node.buffer.path(base, contract.groups[entry.group].tip_frame),
     }
     ids = {contract.frames[edge].calibration for edge in edges if edge in contract.frames}
     return tuple(
@@ -145,7 +145,7 @@ MARGIN_S = 10.0
 
 def move(context: TaskContext, attempt: Attempt, target: str) -> Waiting[None]:
     """Move to a named pose, group after group, or to a goal; raise AttemptError where it does not get there."""
-    contract = context.plant.contract
+    contract = context.contract
     if target in contract.poses:
         for pose in contract.poses[target]:
             yield from _move_to_pose(context, attempt, pose)
@@ -165,7 +165,7 @@ def _move_to_pose(context: TaskContext, attempt: Attempt, pose: ContractPoseTarg
 
 
 def _move_to_goal(context: TaskContext, attempt: Attempt, name: str) -> Waiting[None]:
-    group = context.plant.contract.goals[name].group
+    group = context.contract.goals[name].group
     before = current_state(context.plant)
     located = yield from locate_goal(context, attempt, name, before.stamp_ns)
     state = current_state(context.plant)
@@ -183,7 +183,7 @@ def _planning_time(
     context: TaskContext, attempt: Attempt, planned: PlannedMotion | PlanFailure
 ) -> Waiting[PlannedMotion]:
     """Let the simulated time of planning pass, then answer."""
-    yield from await_response(context, planning_server(context.plant.contract))
+    yield from await_response(context, planning_server(context.contract))
     until_ns = context.now_ns + round(PLANNING_LATENCY_S * 1e9)
     while context.now_ns < until_ns:
         yield from context.pause(until_ns)
@@ -200,7 +200,7 @@ def _drive(
 ) -> Waiting[None]:
     """Check the state once more and execute; the arm stands at a goal afterwards, or no longer at one."""
     current_state(context.plant)
-    controller = context.plant.contract.groups[group].controller
+    controller = context.contract.groups[group].controller
     if controller is None:
         raise AttemptError(AttemptOutcome.GOAL_REJECTION, f"no controller moves group {group}")
     context.retreats.pop(group, None)
@@ -242,5 +242,5 @@ def _trajectory_goal(trajectory: TimedTrajectory) -> TrajectoryGoal:
 
 
 def _timeout_s(context: TaskContext, controller: str, duration_s: float) -> float:
-    stated_s = goal_timeout_s(context.plant.contract, controller)
+    stated_s = goal_timeout_s(context.contract, controller)
     return 2.0 * duration_s + MARGIN_S if stated_s is None else stated_s

@@ -26,8 +26,8 @@ def detect(context: TaskContext, attempt: Attempt, frame: str) -> Waiting[None]:
     Raises:
         AttemptError: stale_state, where none is after ten periods.
     """
-    inbox = context.plant.task.observations.get(frame)
-    entry = context.plant.contract.frames.get(frame)
+    inbox = context.node.observations.get(frame)
+    entry = context.contract.frames.get(frame)
     if inbox is None or entry is None:
         raise AttemptError(AttemptOutcome.TF_FAILURE, f"nobody observes frame {frame}")
     attempt.goal_frame = frame
@@ -79,13 +79,13 @@ def _require_role(plant: Plant, role: str) -> None:
 
 def _until_over(context: TaskContext) -> Waiting[None]:
     """Wait until what stopped the cell is over."""
-    bound_s = context.plant.contract.kpis.recovery_time_s or RECOVERY_S
+    bound_s = context.contract.kpis.recovery_time_s or RECOVERY_S
     until_ns = min(context.now_ns + round(bound_s * 1e9), context.deadline_ns)
     while lasting := context.plant.stops.lasting():
         if context.now_ns >= until_ns:
             text = f"{lasting[0].component} is still in {lasting[0].state} {bound_s:g} s after it was to be recovered"
             raise AttemptError(OUTCOME_OF_STOP[lasting[0].state], text)
-        yield Wait(min(until_ns, context.now_ns + _LOOK_NS), (context.plant.control.changed,))
+        yield Wait(min(until_ns, context.now_ns + _LOOK_NS), (context.control.changed,))
 
 
 def _activate(plant: Plant) -> Waiting[tuple[str, ...]]:
@@ -111,20 +111,20 @@ class Task:
 
     def __init__(self, rehearsal: RehearsalEntry, context: TaskContext) -> None:
         """Bind the task; ``context.deadline_ns`` is the bound of the whole rehearsal."""
-        contract = context.plant.contract
+        contract = context.contract
         self.records: list[AttemptRecord] = []
         self.outcome = AttemptOutcome.SUCCEEDED
         self._rehearsal = rehearsal
         self._context = context
         self._identity = Identity(rehearsal.name, contract.configuration_id, contract.version_tuple)
-        context.plant.control.listen(context.hear)
+        context.control.listen(context.hear)
 
     def run(self) -> Waiting[None]:
         """Run the steps, up to the first failure; after a stop they go on, if the rehearsal has it acknowledged."""
         started_ns = self._context.now_ns
         failure: AttemptError | None = None
         for number, step in enumerate(self._rehearsal.steps, start=1):
-            self._context.plant.task.milestones.step = number
+            self._context.node.milestones.step = number
             attempt = Attempt(self._identity, number, _title(step), self._context.now_ns)
             failure = yield from self._attempt(attempt, step, failure)
             if failure is not None and not self._is_acknowledged_after(number):
@@ -143,7 +143,7 @@ class Task:
         return (failure or before) if step.kind != "acknowledge" else failure
 
     def _step(self, attempt: Attempt, step: StepEntry, *, stopped: bool) -> Waiting[None]:
-        if self._context.plant.task.milestones.announce("started"):
+        if self._context.node.milestones.announce("started"):
             yield from self._context.let_take_effect()
         if step.kind == "acknowledge":
             yield from acknowledge(self._context, attempt, step.target)
@@ -167,7 +167,7 @@ class Task:
 
     def _close(self, attempt: Attempt, failure: AttemptError | None) -> AttemptOutcome:
         safety_state = self._context.plant.stops.state()
-        role = self._context.plant.contract.safety.acknowledge
+        role = self._context.contract.safety.acknowledge
         due = "none" if safety_state == NORMAL else f"required: acknowledge by {role}"
         outcome = AttemptOutcome.SUCCEEDED if failure is None else failure.outcome
         fault_code = "" if failure is None else failure.fault_code

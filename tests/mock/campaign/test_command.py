@@ -75,8 +75,8 @@ def test_unknown_run_names_the_nearest(folders: dict[str, Path]) -> None:
         (["--campaign", "--jobs", "0"], "the number of jobs is 0; it must be 1 or greater"),
         (["--campaign", "--pairs", "-1"], "the number of pairs is -1; it must be 0 or greater"),
         (["--campaign", "--seed", "-1"], "the seed is -1; it must be 0 or greater"),
-        (["--campaign", "--rehearsal", "ready"], "--rehearsal runs declared rehearsals"),
-        (["--list", "--evidence", "nowhere"], "--list runs none"),
+        (["--campaign", "--rehearsal", "ready"], "--rehearsal does not go with"),
+        (["--list", "--evidence", "nowhere"], "--list, which runs nothing"),
     ],
 )
 def test_unusable_options_are_refused(folders: dict[str, Path], arguments: list[str], words: str) -> None:

@@ -7,23 +7,27 @@ from pathlib import Path
 
 import pytest
 
-from cellc.mock.command.rehearsals import run_command
+from cellc.mock.command.options import MockOptions, run_mock
+
+
+def evidence_of(generated: Path, tmp_path: Path, *rehearsals: str) -> int:
+    return run_mock(MockOptions(str(generated), rehearsals=rehearsals, evidence=str(tmp_path / "out")))
 
 
 def test_one_rehearsal_has_its_evidence_and_the_exit_code_of_its_outcome(
     generated: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert run_command(str(generated), names=["cancelled"], evidence=str(tmp_path / "out")) == 0
+    assert evidence_of(generated, tmp_path, "cancelled") == 0
     assert "passed  cancelled" in capsys.readouterr().out
     assert (tmp_path / "out" / "report.html").is_file()
 
 
 def test_same_rehearsal_twice_is_one(generated: Path, tmp_path: Path) -> None:
-    assert run_command(str(generated), names=["cancelled", "cancelled"], evidence=str(tmp_path / "out")) == 0
+    assert evidence_of(generated, tmp_path, "cancelled", "cancelled") == 0
 
 
 def test_unknown_rehearsal_leaves_nothing(generated: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run_command(str(generated), names=["missing"], evidence=str(tmp_path / "out")) == 2
+    assert evidence_of(generated, tmp_path, "missing") == 2
     assert "has no rehearsal `missing`" in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
 
@@ -35,7 +39,7 @@ def test_missing_package_is_told_with_what_to_install(
     for name in [name for name in sys.modules if name.startswith(loading)]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "mcap", None)
-    assert run_command(str(generated), names=["cancelled"], evidence=str(tmp_path / "out")) == 2
+    assert evidence_of(generated, tmp_path, "cancelled") == 2
     assert "pip install 'cellc[evidence]'" in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
 
@@ -44,8 +48,8 @@ def test_runs_without_evidence_load_nothing_of_it(generated: Path) -> None:
     import subprocess
 
     code = (
-        "import sys; from cellc.mock.command.rehearsals import run_command; "
-        f"run_command({str(generated)!r}, names=['cancelled'])"
+        "import sys; from cellc.mock.command.options import MockOptions, run_mock; "
+        f"run_mock(MockOptions({str(generated)!r}, rehearsals=('cancelled',)))"
     )
     told = "; print([name for name in sys.modules if name.split('.')[0] == 'mcap' or 'report_page' in name])"
     ran = subprocess.run([sys.executable, "-c", code + told], capture_output=True, text=True, check=True)
