@@ -1,8 +1,14 @@
-"""What all contract models share: frozen, strict, no unknown keys; SI, radians, full ROS names."""
+"""What all contract models share: frozen, strict, no unknown keys; SI, radians, full ROS names; and their schema."""
 
 from __future__ import annotations
 
+from typing import TypeAlias, Union
+
 from pydantic import BaseModel, ConfigDict, Field
+
+DIALECT = "https://json-schema.org/draft/2020-12/schema"
+
+Json: TypeAlias = Union[bool, int, float, str, list["Json"], dict[str, "Json"], None]
 
 
 class ContractModel(BaseModel):
@@ -16,3 +22,8 @@ class ContractPose(ContractModel):
 
     xyz: tuple[float, float, float] = Field(description="Position, m.")
     quaternion: tuple[float, float, float, float] = Field(description="Unit quaternion x, y, z, w.")
+
+
+def contract_schema(model: type[BaseModel]) -> dict[str, Json]:
+    """Return the JSON Schema (2020-12) of one of the files between compiler and mock."""
+    return {"$schema": DIALECT, **model.model_json_schema()}

@@ -1,4 +1,4 @@
-"""What the arrows of the cell's graph say: of an interface, of a claim, of a driver, of the physical stop."""
+"""What the arrows of the cell's graph say of an interface, a claim, a driver and the physical stop."""
 
 from __future__ import annotations
 
@@ -108,7 +108,7 @@ def claim_facts(cell: Cell, manager: ControllerManager, controller: Controller) 
     yield f"owner {owner}; on a violation: {controller.on_violation}; watchdog: {watchdog(cell, controller)}"
     if device is not None:
         state = "from start-up" if controller.active else "as an alternate, inactive at start-up"
-        through = f"through {real_mover(device)}" if "real" in controller.targets else "on the mock alone"
+        through = f"through {real_driver(device)}" if "real" in controller.targets else "on the mock alone"
         yield f"{through}; {state}; architecture: {device.architecture}"
 
 
@@ -152,7 +152,7 @@ def watchdog(cell: Cell, controller: Controller) -> str:
 _NOTHING = "nothing that the catalogue names"
 
 
-def real_mover(device: Device) -> str:
+def real_driver(device: Device) -> str:
     """Return the plugin that moves a device on the real target, or the node with its program."""
     plugin = None if device.hardware is None else device.hardware.plugins.get("real")
     if plugin is not None:

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from cellc.artifact import Artifact
 from cellc.deploy.deployment import Deployment
 from cellc.emit import (
+    description,
     frames,
     gates,
     moveit,
@@ -17,8 +18,6 @@ from cellc.emit import (
     recording,
     rehearsals,
     responsibility_graph,
-    srdf,
-    urdf,
 )
 from cellc.emit.audit import audit
 from cellc.emit.contract import contract
@@ -29,8 +28,7 @@ from cellc.graph.cell_graph import CellGraph
 
 EMITTERS: tuple[Callable[[CellGraph, Deployment], Iterator[Artifact]], ...] = (
     package.emit,
-    urdf.emit,
-    srdf.emit,
+    description.emit,
     moveit.emit,
     parameters.emit,
     frames.emit,

@@ -18,7 +18,7 @@ from cellc.deploy.configuration import OpenQuestion
 from cellc.deploy.deployment import Deployment
 from cellc.deploy.files import NETWORK_GATES, PROMOTION_GATES, plans
 from cellc.deploy.gates import Gate
-from cellc.deploy.labels import real_mover
+from cellc.deploy.labels import real_driver
 from cellc.deploy.releases import start_mock
 from cellc.formats.parameter_file import spec_path
 from cellc.graph.cell_graph import CellGraph
@@ -183,7 +183,7 @@ def _instead(controller: Controller) -> str:
 def _managers(cell: Cell) -> Iterator[str]:
     for manager in cell.managers:
         for device in map(cell.device, manager.devices):
-            through = real_mover(device)
+            through = real_driver(device)
             if device.hardware is not None and "real" in device.hardware.targets:
                 yield f"controller manager {manager.name} writes to {device.name} through {through}"
             else:

@@ -4,18 +4,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from typing import TypeAlias, Union
 
 from pydantic import BaseModel
 
+from cellc.contract.base import DIALECT, Json, contract_schema
 from cellc.contract.contract import Contract
 from cellc.contract.manifest import Manifest
 from cellc.contract.rehearsals import Rehearsals
 from cellc.spec.cell_spec import CellSpec
-
-DIALECT = "https://json-schema.org/draft/2020-12/schema"
-
-Json: TypeAlias = Union[bool, int, float, str, list["Json"], dict[str, "Json"], None]
 
 
 def cell_schema() -> dict[str, Json]:
@@ -47,11 +43,6 @@ def schema_files() -> Mapping[str, str]:
     made: dict[str, dict[str, Json]] = {"cell.schema.json": cell_schema()}
     made |= {f"{name}.schema.json": contract_schema(model) for name, model in contracts}
     return {name: json.dumps(schema, indent=2, ensure_ascii=False) + "\n" for name, schema in made.items()}
-
-
-def contract_schema(model: type[BaseModel]) -> dict[str, Json]:
-    """Return the JSON Schema (2020-12) of one of the files between compiler and mock."""
-    return {"$schema": DIALECT, **model.model_json_schema()}
 
 
 def _tidy(schema: Json) -> Json:

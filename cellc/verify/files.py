@@ -13,10 +13,10 @@ from jsonschema.exceptions import best_match
 from pydantic import BaseModel
 
 from cellc.artifact import Artifact
+from cellc.contract.base import contract_schema
 from cellc.contract.contract import Contract
 from cellc.contract.manifest import Manifest
 from cellc.contract.rehearsals import Rehearsals
-from cellc.spec.schema import contract_schema
 from cellc.verify.codes import Disagreement
 
 _XML = (".xml", ".urdf", ".srdf", ".xacro", ".svg")

@@ -1,8 +1,16 @@
-"""``config/moveit/<cell>.srdf``: groups, end effectors, named poses, and links that may touch.
+"""``urdf/<cell>.<target>.urdf`` and ``config/moveit/<cell>.srdf``: the robot description, and what goes with it.
 
-SRDF as srdfdom reads it; move_group takes it as ``robot_description_semantic``, the mock takes its pairs. Pairs without
-a check are found by sampling, as MoveIt's Setup Assistant does, with its reasons. Left out: virtual joints, because the
-description is rooted in the world.
+URDF 1.0 with ``<ros2_control>`` tags for ``mock`` and ``real``, as robot_state_publisher and ros2_control read it. The
+launch file passes it through xacro, which puts in the share folders of installed packages (``$(find …)`` in hardware
+parameters); nothing else in it needs xacro. A cell with several controller managers has one more for each,
+``urdf/<cell>.<manager>.<target>.urdf``: a manager takes all hardware that it reads of, and two that drive one robot are
+one too many. Left out: accelerations and jerks, which URDF cannot hold (``config/joint_limits.yaml`` has them), dynamic
+frames, and transmissions.
+
+SRDF as srdfdom reads it, for a cell with planning groups: groups, end effectors, named poses, and links that may touch.
+move_group takes it as ``robot_description_semantic``, the mock takes its pairs. Pairs without a check are found by
+sampling, as MoveIt's Setup Assistant does, with its reasons. Left out: virtual joints, because the description is
+rooted in the world.
 """
 
 from __future__ import annotations
@@ -14,22 +22,28 @@ from cellc.artifact import Artifact
 from cellc.cell.device import Device
 from cellc.cell.motion import NamedPose
 from cellc.deploy.deployment import Deployment
-from cellc.deploy.files import semantic_file
+from cellc.deploy.files import description_file, manager_description_file, semantic_file
 from cellc.feasibility import MARGIN_M, RNG_SEED, disabled_links
 from cellc.formats.numbers import shortest
+from cellc.formats.urdf.robot import manager_description, robot_description
 from cellc.formats.xml_text import comment, element, render
 from cellc.graph.cell_graph import CellGraph
 
 
 def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
-    """Yield the semantic description of a cell with planning groups."""
+    """Yield the description for each target, and the semantic one."""
     cell = graph.cell
+    for target in ("mock", "real"):
+        yield Artifact(description_file(cell, target), render(robot_description(cell, target), plan.header.text))
+        for manager in cell.managers if len(cell.managers) > 1 else ():
+            own = manager_description(cell, target, manager.devices)
+            yield Artifact(manager_description_file(cell, manager, target), render(own, plan.header.text))
     if cell.groups:
-        root = element("robot", {"name": cell.name}, _parts(graph))
+        root = element("robot", {"name": cell.name}, _semantic(graph))
         yield Artifact(semantic_file(cell), render(root, plan.header.text))
 
 
-def _parts(graph: CellGraph) -> Iterator[Element]:
+def _semantic(graph: CellGraph) -> Iterator[Element]:
     cell = graph.cell
     for group in cell.groups:
         yield comment(f"motion.groups.{group.name}")
