@@ -1,4 +1,4 @@
-"""Times one call that checks many cells: on one core and on all, with nothing kept, after edits, and once more.
+"""Times one call that checks many cells: on one core and on all, with and without kept geometry.
 
 Run it on a quiet machine: ``python benchmarks/many_cells.py [--cells 100]``. The cells are the three of ``cells/``
 over and over, each with a name and a size of its table of its own, so that those that have one differ in geometry.
@@ -45,11 +45,11 @@ def write_cells(folder: Path, count: int) -> list[str]:
     return names
 
 
-def measured(files: list[str], folder: Path, cores: int, forget: str, runs: int) -> tuple[float, float]:
+def measured(files: list[str], folder: Path, cores: int, is_first: bool, runs: int) -> tuple[float, float]:
     """Check all cells in one call, once without counting.
 
     Args:
-        forget: what is removed from the cache before each run.
+        is_first: whether the cache is emptied before each run.
 
     Returns:
         Medians of wall time and of time on all processors in s.
@@ -59,8 +59,8 @@ def measured(files: list[str], folder: Path, cores: int, forget: str, runs: int)
     environment |= {"XDG_CACHE_HOME": str(folder / "cache"), "PYTHONPATH": str(ROOT)}
     environment |= {"PYTHONPYCACHEPREFIX": str(folder / "modules")}  # compiled modules, as a user has them
     for run in range(runs + 1):
-        if forget:
-            shutil.rmtree(folder / "cache/cellc" / forget, ignore_errors=True)
+        if is_first:
+            shutil.rmtree(folder / "cache/cellc", ignore_errors=True)
         before, begin = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
         done = subprocess.run(
             [sys.executable, "-c", _BOUND, str(cores), "check", *files],
@@ -90,9 +90,9 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         files = write_cells(folder, options.cells)
-        for label, forget in (("nothing kept", "."), ("all edited, geometry kept", "check"), ("nothing changed", "")):
+        for label, is_first in (("nothing kept", True), ("geometry kept", False)):
             for cores in sorted({1, usable_cores()}):
-                wall, used = measured(files, folder, cores, forget, options.runs)
+                wall, used = measured(files, folder, cores, is_first, options.runs)
                 print(f"| {label} | {cores} | {wall:.2f} | {used:.2f} |", flush=True)
 
 
