@@ -13,7 +13,7 @@ def weak_offers(graph: CellGraph, policy: str) -> Findings:
         for row in incompatibilities(source.qos, sink.qos):
             if row.policy == policy:
                 message = (
-                    f"`{sink.node}` requests {policy} {row.requested} on `{pair.topic.name}`, "
-                    f"`{source.node}` offers {row.offered}"
+                    f"`{sink.node}` requests `{policy}: {row.requested}` on `{pair.topic.name}`, "
+                    f"`{source.node}` offers `{row.offered}`"
                 )
                 yield found(graph, sink.path, message, related=(Related("offered here", source.span),))

@@ -50,4 +50,4 @@ def check(graph: CellGraph) -> Findings:
             graph.cell.text("bringup", "first_motion", key) for key in ("max_delta", "velocity", "timeout")
         )
         message = f"{max_delta} at {velocity} takes {needed:.3g} s, but the timeout is {timeout}"
-        yield found(graph, ("bringup", "first_motion", "timeout"), message, f"allow more than {needed:.3g} s")
+        yield found(graph, ("bringup", "first_motion", "timeout"), message, f"allow at least {needed:.3g} s")

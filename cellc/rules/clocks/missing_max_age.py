@@ -43,5 +43,5 @@ def check(graph: CellGraph) -> Findings:
     for interface in unlimited:
         if interface.name in feeding:
             way = graph.data.way_to_motion(interface)
-            message = f"`{interface.name}` feeds motion, {way}, and has no `max_age`"
+            message = f"`{interface.name}` feeds motion ({way}) and has no `max_age`"
             yield found(graph, interface.path, message)

@@ -43,5 +43,7 @@ def check(graph: CellGraph) -> Findings:
             cycles = manager.update_rate_hz / rate
             if abs(cycles - round(cycles)) > 1e-6:
                 even = manager.update_rate_hz / math.ceil(cycles)
-                message = f"`{controller.name}` must run every whole number of manager cycles, got every {cycles:.4g}"
+                message = (
+                    f"`update_rate` of `{controller.name}` must divide {manager.update_rate_hz:g} Hz, got {rate:g} Hz"
+                )
                 yield found(graph, (*controller.path, "update_rate"), message, f"write {even:g} Hz")

@@ -42,4 +42,4 @@ def check(graph: CellGraph) -> Findings:
     for interface in without:
         if interface.name in feeding:
             way = graph.data.way_to_motion(interface)
-            yield found(graph, interface.path, f"`{interface.name}` feeds motion, {way}, and has no `rate`")
+            yield found(graph, interface.path, f"`{interface.name}` feeds motion ({way}) and has no `rate`")

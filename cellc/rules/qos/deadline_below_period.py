@@ -57,4 +57,4 @@ def check(graph: CellGraph) -> Findings:
                     f"got {deadline:g} ms"
                 )
                 path = (*end.path, "deadline")
-                yield found(graph, path, message, f"allow more than {period:.4g} ms")
+                yield found(graph, path, message, f"allow at least {period:.4g} ms")

@@ -32,7 +32,7 @@ interfaces:
     on_stale: reject_goal
 ```
 
-Fix: make `lifespan` longer than `max_age`, or leave it out.
+Fix: make `lifespan` at least as long as `max_age`, or leave it out.
 
 Source: docs/principles.md#delivery-contracts
 """

@@ -42,7 +42,7 @@ def check(graph: CellGraph) -> Findings:
     parts = {*cell.hosts, *(node.name for node in cell.nodes), *(c.name for c in cell.controllers)}
     for path, owner in _safety_owners(graph):
         if owner in parts or _SOFTWARE.search(owner):
-            message = f"`{path[-1]}` is answered for by `{owner}`, which is software"
+            message = f"`{owner}` answers for `{path[-1]}`, but is software"
             yield found(graph, path, message)
 
 
