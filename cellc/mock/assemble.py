@@ -20,7 +20,16 @@ from cellc.mock.engine.simulation import Simulation
 from cellc.mock.folder import GeneratedFolder
 from cellc.mock.nodes.motion_planner import MotionPlanner, PlanMemory
 from cellc.mock.nodes.observations import ObservationInbox
-from cellc.mock.nodes.perception import TF, Camera, Image, ObjectPose, Perception, TfBroadcast
+from cellc.mock.nodes.perception import (
+    DEFAULT_RATE_HZ,
+    POSE_TYPE,
+    TF,
+    Camera,
+    Image,
+    ObjectPose,
+    Perception,
+    TfBroadcast,
+)
 from cellc.mock.nodes.robot_state_publisher import NODE as ROBOT_STATE_PUBLISHER
 from cellc.mock.nodes.robot_state_publisher import PUBLISH_FREQUENCY_HZ, JointStateFeed, RobotStatePublisher
 from cellc.mock.plant import Plant, TaskNode
@@ -83,11 +92,6 @@ def stream_edge(contract: Contract, network: Network, topic: str, source: str, s
     if offered is None or requested is None:
         return None
     return StreamEdge(EdgeName(topic, source, sink), offered, requested, network)
-
-
-POSE_TYPE = "geometry_msgs/msg/PoseStamped"
-_DEFAULT_RATE_HZ = 10.0
-"""Of a dynamic frame whose rate is not stated."""
 
 
 def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int) -> Plant:
@@ -245,4 +249,4 @@ def start_nodes(plant: Plant) -> None:
     for camera in plant.cameras.values():
         camera.start()
     for name, perception in plant.perceptions.items():
-        perception.start(plant.contract.frames[name].rate_hz or _DEFAULT_RATE_HZ)
+        perception.start(plant.contract.frames[name].rate_hz or DEFAULT_RATE_HZ)

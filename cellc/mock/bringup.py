@@ -13,6 +13,13 @@ from cellc.mock.tf.buffer import Transform
 
 _LEVELS = ("WARN", "ERROR", "FATAL")
 
+_SETTLE_CYCLES = 5
+"""A controller that activates and throws in its first update is seen a few cycles later."""
+_PATIENCE_NS = 1_000_000_000
+_LOOK_NS = 20_000_000
+_WATCH_NS = 500_000_000
+"""How long states are watched before anything may move; afterwards the buffers hold what an observation needs."""
+
 
 class LogMark:
     """A place in the log of a manager."""
@@ -26,10 +33,6 @@ class LogMark:
         """Return the warnings and errors written since, joined to one line; empty where there are none."""
         lines = self._manager.log.lines()[self._length :]
         return "; ".join(" ".join(line.text.split()) for line in lines if line.level.value in _LEVELS)
-
-
-_SETTLE_CYCLES = 5
-"""A controller that activates and throws in its first update is seen a few cycles later."""
 
 
 def activate(plant: Plant, manager_name: str, controllers: tuple[str, ...]) -> Waiting[tuple[str, ...]]:
@@ -89,12 +92,6 @@ def configure(plant: Plant) -> Waiting[StageEvidence]:
     if not problems:
         plant.control.subscribe_joint_states()
     return StageEvidence("configure", tuple(facts), tuple(problems))
-
-
-_PATIENCE_NS = 1_000_000_000
-_LOOK_NS = 20_000_000
-_WATCH_NS = 500_000_000
-"""How long states are watched before anything may move; afterwards the buffers hold what an observation needs."""
 
 
 def observe(plant: Plant) -> Waiting[StageEvidence]:

@@ -9,6 +9,9 @@ from math import ceil
 
 from cellc.contract.contract import ContractClock
 
+DEFAULT = "ros"
+"""Name and domain of the clock of everything whose host the contract does not state."""
+
 
 @dataclass(frozen=True, slots=True)
 class Segment:
@@ -103,10 +106,6 @@ class Clock:
 def perfect_clock(name: str, domain: str, *, simulated: bool = False) -> Clock:
     """Return a clock that reads simulated time itself."""
     return Clock(name, domain, (Segment(0, 0, 1.0),), simulated=simulated)
-
-
-DEFAULT = "ros"
-"""Name and domain of the clock of everything whose host the contract does not state."""
 
 
 @dataclass(frozen=True, slots=True)

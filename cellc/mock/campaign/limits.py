@@ -29,6 +29,11 @@ from cellc.contract.contract import Contract, ContractJointLimits
 from cellc.mock.control.journal import Cause, CommandSamples, Interruption
 from cellc.vocabulary import TRAJECTORIES
 
+QUANTITIES = ("position", "velocity", "acceleration", "jerk")
+_ROUNDING = 16 * 2.0**-53
+_RELATIVE = 1e-9
+"""Of the limit itself, which the planner compares in floating point too."""
+
 
 @dataclass(frozen=True, slots=True)
 class LimitExcess:
@@ -105,11 +110,6 @@ def merge(reports: Iterable[LimitsReport]) -> LimitsReport:
         unchecked=tuple(sorted({name for report in known for name in report.unchecked})),
     )
 
-
-QUANTITIES = ("position", "velocity", "acceleration", "jerk")
-_ROUNDING = 16 * 2.0**-53
-_RELATIVE = 1e-9
-"""Of the limit itself, which the planner compares in floating point too."""
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]

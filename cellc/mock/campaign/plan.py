@@ -12,6 +12,8 @@ from cellc.mock.faults.case import FaultCase
 from cellc.mock.result import PacketStep, RehearsalResult
 from cellc.vocabulary import AttemptOutcome
 
+_JOINED = "+"
+
 
 @dataclass(frozen=True, slots=True)
 class Hit:
@@ -89,9 +91,6 @@ class RunEnd:
     def passed(self) -> bool:
         """Tell whether the run is as it must be."""
         return self.named and self.in_time and self.limits.held
-
-
-_JOINED = "+"
 
 
 class CampaignPlan:

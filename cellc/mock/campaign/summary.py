@@ -30,6 +30,14 @@ SHORT: dict[RunOutcome, str] = {
 }
 """Outcomes as the matrix has them; one that is not here stands in full."""
 
+_STEPS = {
+    "hold": "the command goes to where the joint is measured",
+    "deceleration": "a stop begins where the joint is measured",
+    "replaced": "a trajectory takes over from one that was moving",
+    "off_command": "a trajectory starts where the joint is measured, not where it was commanded",
+    "scaling": "the speed scaling changed",
+}
+
 
 @dataclass(frozen=True, slots=True)
 class Matrix:
@@ -93,14 +101,6 @@ def _label(end: RunEnd) -> str:
 def _padded(texts: Sequence[str], widths: Sequence[int]) -> list[str]:
     return [text.ljust(width) for text, width in zip(texts, widths, strict=True)]
 
-
-_STEPS = {
-    "hold": "the command goes to where the joint is measured",
-    "deceleration": "a stop begins where the joint is measured",
-    "replaced": "a trajectory takes over from one that was moving",
-    "off_command": "a trajectory starts where the joint is measured, not where it was commanded",
-    "scaling": "the speed scaling changed",
-}
 
 ReplayCommand = Callable[[str], str]
 """Returns the command line that runs one run again, by its identifier."""

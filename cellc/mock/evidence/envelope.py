@@ -17,6 +17,9 @@ _SLOTS = 1024
 FIRST_WIDTH_NS = 10_000_000
 """Length of a slot at first; what changes more slowly should be added as often."""
 
+_PIECE = 512
+"""Ages that are put into the envelope at once."""
+
 
 @dataclass(frozen=True, slots=True)
 class Envelope:
@@ -64,10 +67,6 @@ class EnvelopeBuilder:
         empty = np.full((_SLOTS // 2, self._lowest.shape[1]), np.nan)
         self._lowest = np.concatenate([np.fmin(self._lowest[0::2], self._lowest[1::2]), empty])
         self._highest = np.concatenate([np.fmax(self._highest[0::2], self._highest[1::2]), empty])
-
-
-_PIECE = 512
-"""Ages that are put into the envelope at once."""
 
 
 @dataclass(frozen=True, slots=True)

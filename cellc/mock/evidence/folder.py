@@ -15,6 +15,10 @@ from cellc.store.swap import Swap, discard, is_alive, others, staging_of
 
 _LONGEST = 100
 
+INDEX = "evidence.json"
+"""Names every file of the folder with its hash, by which the next call tells its own files from those of others."""
+_PIECE = 1 << 20
+
 
 def file_names(rehearsals: Iterable[str]) -> dict[str, str]:
     """Return the stem of the files of each rehearsal: its name where every file system takes it.
@@ -34,11 +38,6 @@ def file_names(rehearsals: Iterable[str]) -> dict[str, str]:
         taken.add(stem.casefold())
         stems[name] = stem
     return stems
-
-
-INDEX = "evidence.json"
-"""Names every file of the folder with its hash, by which the next call tells its own files from those of others."""
-_PIECE = 1 << 20
 
 
 class EvidenceFolder:

@@ -12,6 +12,20 @@ from cellc.mock.evidence.run_trace import StateChange, TraceResult
 from cellc.mock.result import AttemptRecord, PacketStep, RehearsalResult
 from cellc.vocabulary import AttemptOutcome
 
+_MEASURED = {
+    "plan_to_execute_s": ("s", "plan ready (step 3) to first motion (step 7), longest"),
+    "cancel_s": ("s", "cancel requested to all joints standing still, longest"),
+    "missed_cycles": ("cycles", "joint states that were due"),
+    "stale_state_rejection": ("share", "attempts that stale data ended, of those it met"),
+    "protective_stops": ("stops", "hardware components that left active"),
+    "recovery_time_s": ("s", "hardware left active until it was active again, longest"),
+    "wrong_owner_events": (
+        "events",
+        "claims that the contract does not state, and attempts that another commander ended",
+    ),
+}
+"""Unit of each figure, and what was measured."""
+
 
 @dataclass(frozen=True, slots=True)
 class Kpi:
@@ -30,21 +44,6 @@ class Kpi:
     target: float | None
     met: bool | None
     basis: str
-
-
-_MEASURED = {
-    "plan_to_execute_s": ("s", "plan ready (step 3) to first motion (step 7), longest"),
-    "cancel_s": ("s", "cancel requested to all joints standing still, longest"),
-    "missed_cycles": ("cycles", "joint states that were due"),
-    "stale_state_rejection": ("share", "attempts that stale data ended, of those it met"),
-    "protective_stops": ("stops", "hardware components that left active"),
-    "recovery_time_s": ("s", "hardware left active until it was active again, longest"),
-    "wrong_owner_events": (
-        "events",
-        "claims that the contract does not state, and attempts that another commander ended",
-    ),
-}
-"""Unit of each figure, and what was measured."""
 
 
 def kpis(targets: ContractKpis, result: RehearsalResult, trace: TraceResult, max_state_age_s: float) -> tuple[Kpi, ...]:

@@ -41,6 +41,15 @@ from cellc.vocabulary import TRAJECTORIES
 
 _OK, _WARN, _ERROR = 0, 1, 2
 
+_INTERVAL_NS = round(1e9 / PUBLISH_FREQUENCY_HZ)
+_FIELD_OF = {
+    "position": "positions",
+    "velocity": "velocities",
+    "acceleration": "accelerations",
+    "effort": "effort",
+}
+"""Field of a trajectory point by kind of interface."""
+
 
 def diagnose(plant: Plant, now_ns: int) -> tuple[DiagnosticStatus, ...]:
     """Return the present status of every controller manager and of its update loop."""
@@ -73,9 +82,6 @@ def _controllers(manager: ControllerManager) -> tuple[tuple[str, str], ...]:
 
 def _components(manager: ControllerManager) -> tuple[tuple[str, str], ...]:
     return tuple((component.name, component.state) for component in manager.list_hardware_components())
-
-
-_INTERVAL_NS = round(1e9 / PUBLISH_FREQUENCY_HZ)
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,15 +132,6 @@ def static_transforms(plant: Plant) -> tuple[StampedTransform, ...]:
     """Return the fixed edges of the robot description, stamped with the beginning of time."""
     joints = plant.robot_state_publisher.links.joints.values()
     return tuple(StampedTransform(0, joint.parent, joint.child, joint.origin) for joint in joints if not joint.moves)
-
-
-_FIELD_OF = {
-    "position": "positions",
-    "velocity": "velocities",
-    "acceleration": "accelerations",
-    "effort": "effort",
-}
-"""Field of a trajectory point by kind of interface."""
 
 
 class RunBag:

@@ -10,14 +10,14 @@ from cellc.mock.faults.case import BORNE, Ending, ends_in
 from cellc.mock.faults.cell_steps import CellStep
 from cellc.mock.nodes.motion_planner import PLANNING_LATENCY_S
 from cellc.mock.nodes.observations import DEFAULT_MAX_AGE_S as DEFAULT_OBSERVATION_AGE_S
+from cellc.mock.nodes.perception import DEFAULT_RATE_HZ, POSE_TYPE
 from cellc.mock.task.bounds import action_timeout_s, cancel_bound_s, goal_timeout_s, joint_state_age_s
 from cellc.mock.task.context import WATCH_S
 from cellc.mock.task.grip import GRIP_TIMEOUT_S
 from cellc.mock.task.move import TF_TIMEOUT_S
-from cellc.mock.task.task import DEFAULT_RATE_HZ, PATIENCE_PERIODS
+from cellc.mock.task.task import PATIENCE_PERIODS
 from cellc.vocabulary import AttemptOutcome
 
-POSE_TYPE = "geometry_msgs/msg/PoseStamped"
 MONITOR_S = 0.05
 """Result of an action at the default `action_monitor_rate` of 20 Hz: so much later than it was decided."""
 SETTLE_S = 0.02

@@ -12,15 +12,15 @@ from cellc.contract.rehearsals import FaultEntry
 from cellc.mock.bus.qos import served_actions
 from cellc.mock.faults.case import BORNE, Ending, FaultCase, ends_in, fault_case
 from cellc.mock.faults.cell_steps import CellStep, cameras, cell_steps, components, controllers, image_topic
-from cellc.mock.faults.endings import POSE_TYPE, Bounds, stateless, stopped, unobserved
+from cellc.mock.faults.endings import Bounds, stateless, stopped, unobserved
 from cellc.mock.faults.ports import FaultPorts
+from cellc.mock.nodes.perception import POSE_TYPE, TF
 from cellc.mock.stops import FAULT
 from cellc.mock.task.bounds import planning_actions, planning_server
 from cellc.mock.task.execute import RESPONSE_S
 from cellc.mock.world.joint_states import JOINT_STATE_TYPE
 from cellc.vocabulary import AttemptOutcome, FaultKind
 
-TF = "/tf"
 POLICY = "reliability"
 """What the endpoint offers less of than its peers request."""
 KEEP_ALIVE_S = 0.02

@@ -14,6 +14,9 @@ from cellc.vocabulary import AttemptOutcome
 
 _WHOLE = (PacketStep.GOAL_SENT, PacketStep.ACCEPTED, PacketStep.WRITTEN, PacketStep.DRIVEN, PacketStep.RETURNED)
 
+_MOCK_PACKAGE = "mock_components/"
+"""Package of ros2_control whose plugins have nothing behind them."""
+
 
 def commanded(evidence: GateEvidence) -> Iterator[tuple[str, ContractController]]:
     """Yield the controllers that are active and take goals, by name."""
@@ -76,10 +79,6 @@ def tolerance_trace(evidence: GateEvidence, controller: str) -> GateCheck:
         (good if run.passed else bad).append(line)
     text = f"A violated tolerance of {controller} ends in a named outcome within its bound"
     return judged(text, good, bad, "a run in which one of its joints does not follow")
-
-
-_MOCK_PACKAGE = "mock_components/"
-"""Package of ros2_control whose plugins have nothing behind them."""
 
 
 def command_path_checks(evidence: GateEvidence) -> Iterator[GateCheck]:

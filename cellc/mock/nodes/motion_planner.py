@@ -26,6 +26,12 @@ _IK_ATTEMPTS = 4
 """Configurations tried before a goal: the straight approach is not possible from every one."""
 _KEPT_SCENES = 4
 
+PLANNING_LATENCY_S = 0.05
+"""Simulated time charged for every plan, whatever the host needs, so that a run is the same on every machine."""
+OBJECT_EDGE_M = 0.02
+"""Edge of the box that stands for a grasped object in collision checks: the contract states no size."""
+_KEPT_PLANS = 256
+
 
 @dataclass(frozen=True, slots=True)
 class SceneState:
@@ -144,13 +150,6 @@ def _before(goal: GoalPose) -> Pose:
 
 def _link_pose(group: GroupModel, tip_in_base: Pose) -> Pose:
     return tip_in_base @ group.transform_tip_to_link.inverse()
-
-
-PLANNING_LATENCY_S = 0.05
-"""Simulated time charged for every plan, whatever the host needs, so that a run is the same on every machine."""
-OBJECT_EDGE_M = 0.02
-"""Edge of the box that stands for a grasped object in collision checks: the contract states no size."""
-_KEPT_PLANS = 256
 
 
 class PlanMemory:

@@ -19,6 +19,13 @@ from cellc.transforms import Pose
 DEFAULT_TRANSPORT_S = 0.005
 """Where the contract states no transport time: readout and copy of one image on a local bus."""
 
+TF = "/tf"
+POSE_TYPE = "geometry_msgs/msg/PoseStamped"
+DEFAULT_RATE_HZ = 10.0
+"""Of a dynamic frame whose rate is not stated."""
+PROCESSING_S = 0.02
+"""Simulated time from taking an image to knowing the pose in it; no field of the contract states one."""
+
 
 @dataclass(frozen=True, slots=True)
 class Image:
@@ -83,9 +90,6 @@ class Camera:
         self._topic.publish(self.device, self.last)
 
 
-TF = "/tf"
-
-
 class TransformSink(Protocol):
     """Takes the transforms of one frame."""
 
@@ -143,10 +147,6 @@ class _Sender:
     def insert(self, stamp_ns: int, pose: Pose | DeferredPose) -> None:
         """Send a transform."""
         self.topic.publish(self.node, StampedTransform(self.child, stamp_ns, pose))
-
-
-PROCESSING_S = 0.02
-"""Simulated time from taking an image to knowing the pose in it; no field of the contract states one."""
 
 
 @dataclass(frozen=True, slots=True)

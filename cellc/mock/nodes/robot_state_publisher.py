@@ -16,6 +16,10 @@ from cellc.mock.world.joint_states import JointStateHistory
 from cellc.mock.world.world import LinkJoint, LinkTree
 from cellc.transforms import Pose
 
+NODE = "robot_state_publisher"
+PUBLISH_FREQUENCY_HZ = 20.0
+"""Default of the parameter `publish_frequency`: /tf is slower than the joint states it comes from."""
+
 
 class JointStateFeed:
     """What has reached a node of the joint states that a broadcaster published."""
@@ -61,11 +65,6 @@ class JointStateFeed:
             return np.flatnonzero(self.history.arrivals(stamps) <= now_ns)
         delayed = self.history.arrivals(stamps) - stamps
         return np.flatnonzero(self._edge.arrivals(stamps) + delayed <= now_ns)
-
-
-NODE = "robot_state_publisher"
-PUBLISH_FREQUENCY_HZ = 20.0
-"""Default of the parameter `publish_frequency`: /tf is slower than the joint states it comes from."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,6 +10,8 @@ from xml.etree.ElementTree import Element
 from cellc.mock.evidence.envelope import Envelope
 from cellc.mock.report_page.html import tag
 
+WIDTH, LEFT, RIGHT = 420.0, 52.0, 402.0
+
 
 @dataclass(frozen=True, slots=True)
 class Scale:
@@ -107,9 +109,6 @@ def _without_stops(pieces: list[str]) -> Iterator[str]:
     for piece, following in zip(pieces, [*pieces[1:], ""], strict=True):
         if not (piece.startswith("H") and following.startswith("H")):
             yield piece
-
-
-WIDTH, LEFT, RIGHT = 420.0, 52.0, 402.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,6 +10,8 @@ Child = Element | str
 _UNPRINTABLE = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff\ufdd0-\ufdef\ufffe\uffff]")
 """Characters that HTML text must not hold."""
 
+_NONE = "–"
+
 
 def tag(name: str, *children: Child, **attributes: str) -> Element:
     """Return an element; a trailing underscore of an attribute is dropped, other underscores become hyphens."""
@@ -53,9 +55,6 @@ def to_page(title: str, style: str, body: Element) -> str:
 
 def _clean(text: str) -> str:
     return _UNPRINTABLE.sub("\ufffd", text)
-
-
-_NONE = "–"
 
 
 def seconds(value_s: float | None) -> str:

@@ -26,6 +26,23 @@ _NAMES = {
     "wrong_owner_events": "wrong-owner events",
 }
 
+UNPROVEN = (
+    (
+        "Motion of the real arm",
+        "friction, backlash, stiffness and tracking of the drives; the state follows the command",
+    ),
+    ("Payload", "mass, centre of mass and their effect on limits and stops"),
+    ("Stopping", "distance and time of a protective or an emergency stop, and the stop path itself"),
+    ("Vendor controller", "its modes, its safety functions, its own limits and the semantics of speed scaling"),
+    ("Timing of the host", "latency and jitter of network, kernel, executor and middleware under load"),
+    ("Perception", "calibration against the physical cell, exposure, lighting and recognition"),
+    ("Contact", "grasp force, slip, collisions with what the model does not hold, cables and hoses"),
+    ("People", "guards, the area, the observer and the procedure"),
+)
+"""What mock hardware leaves out, each with its own gate on the real cell."""
+_MARKS = {Verdict.PASSED: "✓", Verdict.FAILED: "✗", Verdict.UNKNOWN: "?"}
+_CLASSES = {Verdict.PASSED: "good", Verdict.FAILED: "bad", Verdict.UNKNOWN: "unknown"}
+
 
 def header(content: ReportContent) -> Element:
     """Return the title, the verdict and the identity of what was judged."""
@@ -157,24 +174,6 @@ def _cell(ends: Sequence[RunEnd]) -> Element:
     said = "; ".join(f"{end.run.identifier}: {end.result.outcome}" for end in ends)
     style = "bad" if not all(end.passed for end in ends) else "borne" if cell_text(ends) == "ok" else "ended"
     return tag("td", cell_text(ends), class_=style, title=said)
-
-
-UNPROVEN = (
-    (
-        "Motion of the real arm",
-        "friction, backlash, stiffness and tracking of the drives; the state follows the command",
-    ),
-    ("Payload", "mass, centre of mass and their effect on limits and stops"),
-    ("Stopping", "distance and time of a protective or an emergency stop, and the stop path itself"),
-    ("Vendor controller", "its modes, its safety functions, its own limits and the semantics of speed scaling"),
-    ("Timing of the host", "latency and jitter of network, kernel, executor and middleware under load"),
-    ("Perception", "calibration against the physical cell, exposure, lighting and recognition"),
-    ("Contact", "grasp force, slip, collisions with what the model does not hold, cables and hoses"),
-    ("People", "guards, the area, the observer and the procedure"),
-)
-"""What mock hardware leaves out, each with its own gate on the real cell."""
-_MARKS = {Verdict.PASSED: "✓", Verdict.FAILED: "✗", Verdict.UNKNOWN: "?"}
-_CLASSES = {Verdict.PASSED: "good", Verdict.FAILED: "bad", Verdict.UNKNOWN: "unknown"}
 
 
 def gate_section(gates: Sequence[GateResult]) -> Element:

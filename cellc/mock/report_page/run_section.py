@@ -16,6 +16,17 @@ from cellc.mock.report_page.plots import age_plot, joint_plot, state_plot
 from cellc.mock.result import AttemptRecord, PacketStep
 from cellc.vocabulary import AttemptOutcome
 
+_WORDS = {
+    PacketStep.OBSERVED: "observed",
+    PacketStep.TRANSFORMED: "transformed",
+    PacketStep.PLANNED: "planned",
+    PacketStep.GOAL_SENT: "goal sent",
+    PacketStep.ACCEPTED: "accepted",
+    PacketStep.WRITTEN: "written",
+    PacketStep.DRIVEN: "driven",
+    PacketStep.RETURNED: "returned",
+}
+
 
 @dataclass(frozen=True, slots=True)
 class Bar:
@@ -62,18 +73,6 @@ def _percent(at_s: float, time: TimeAxis) -> str:
 def _share(at_s: float, time: TimeAxis) -> float:
     share = (at_s - time.start_s) / (time.end_s - time.start_s)
     return 100.0 * min(1.0, max(0.0, share))
-
-
-_WORDS = {
-    PacketStep.OBSERVED: "observed",
-    PacketStep.TRANSFORMED: "transformed",
-    PacketStep.PLANNED: "planned",
-    PacketStep.GOAL_SENT: "goal sent",
-    PacketStep.ACCEPTED: "accepted",
-    PacketStep.WRITTEN: "written",
-    PacketStep.DRIVEN: "driven",
-    PacketStep.RETURNED: "returned",
-}
 
 
 def packet(record: AttemptRecord) -> Element:

@@ -15,6 +15,14 @@ from cellc.mock.task.bounds import joint_state_age_s
 from cellc.transforms import Pose
 from cellc.vocabulary import AttemptOutcome
 
+WATCH_S = 0.2
+"""The task looks at the state of the cell at least five times a second, whatever it waits for."""
+OUTCOME_OF_STOP = {
+    PROTECTIVE_STOP: AttemptOutcome.PROTECTIVE_STOP,
+    EMERGENCY_STOP: AttemptOutcome.EMERGENCY_STOP,
+    FAULT: AttemptOutcome.HARDWARE_FAULT,
+}
+
 
 class AttemptError(Exception):
     """Ends the attempt that is running; raised anywhere inside a step and caught by the task alone.
@@ -73,15 +81,6 @@ def current_state(plant: Plant) -> CurrentState:
         raise AttemptError(AttemptOutcome.STALE_STATE, f"joint state is stamped {-age_s:.3f} s in the future")
     return CurrentState(stamp_ns, taken_ns, age_s, positions)
 
-
-WATCH_S = 0.2
-"""The task looks at the state of the cell at least five times a second, whatever it waits for."""
-
-OUTCOME_OF_STOP = {
-    PROTECTIVE_STOP: AttemptOutcome.PROTECTIVE_STOP,
-    EMERGENCY_STOP: AttemptOutcome.EMERGENCY_STOP,
-    FAULT: AttemptOutcome.HARDWARE_FAULT,
-}
 
 GoalEnded = TrajectoryEnded | GripperEnded
 

@@ -21,6 +21,14 @@ from cellc.vocabulary import AttemptOutcome
 RESPONSE_S = 1.0
 """How long a goal request may stay unanswered; a server answers within milliseconds or not at all."""
 
+STANDSTILL = 1e-3
+"""rad/s or m/s below which a joint is held; far below what a person sees and above what rounding makes."""
+_LOOK_NS = 10_000_000
+RESULT_GRACE_NS = 100_000_000
+"""A controller that is deactivated sends the results of its goals at once, or never: nobody waits longer for them."""
+_MOVED = 1e-9
+"""rad or m: the least change of a joint that counts as having been driven."""
+
 
 def await_response(context: TaskContext, server: str) -> Waiting[None]:
     """Return at once where a server answers; raise AttemptError, timeout, where it does not within the bound."""
@@ -28,11 +36,6 @@ def await_response(context: TaskContext, server: str) -> Waiting[None]:
         return
     yield from context.rest(RESPONSE_S)
     raise AttemptError(AttemptOutcome.TIMEOUT, f"no answer of {server} within {RESPONSE_S:g} s")
-
-
-STANDSTILL = 1e-3
-"""rad/s or m/s below which a joint is held; far below what a person sees and above what rounding makes."""
-_LOOK_NS = 10_000_000
 
 
 def cancel_and_hold(
@@ -94,12 +97,6 @@ def _history_held_since(history: JointStateHistory, joints: list[str], since_ns:
     if settled >= len(seconds):
         return None
     return max(since_ns, int(stamps[settled]))
-
-
-RESULT_GRACE_NS = 100_000_000
-"""A controller that is deactivated sends the results of its goals at once, or never: nobody waits longer for them."""
-_MOVED = 1e-9
-"""rad or m: the least change of a joint that counts as having been driven."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,6 +21,12 @@ from cellc.vocabulary import AttemptOutcome
 TF_TIMEOUT_S = 0.2
 """How long a lookup waits for transforms that are on their way: four intervals of robot_state_publisher."""
 
+_LOOK_NS = 10_000_000
+ARRIVAL_TOLERANCE = 0.05
+"""rad or m by which a joint may miss the end of a trajectory that its controller calls a success."""
+MARGIN_S = 10.0
+"""Beyond twice the planned duration: the bound of an execution where no action of the contract states one."""
+
 
 @dataclass(frozen=True, slots=True)
 class LocatedGoal:
@@ -127,20 +133,11 @@ def _calibrations(context: TaskContext, base: str, entry: ContractGoal) -> tuple
     )
 
 
-_LOOK_NS = 10_000_000
-
-
 def state_since(context: TaskContext, instant_ns: int) -> Waiting[CurrentState]:
     """Wait for a joint state that is not older than an instant, as long as the newest one is not stale."""
     while (state := current_state(context.plant)).taken_ns < instant_ns:
         yield from context.pause(context.now_ns + _LOOK_NS)
     return state
-
-
-ARRIVAL_TOLERANCE = 0.05
-"""rad or m by which a joint may miss the end of a trajectory that its controller calls a success."""
-MARGIN_S = 10.0
-"""Beyond twice the planned duration: the bound of an execution where no action of the contract states one."""
 
 
 def move(context: TaskContext, attempt: Attempt, target: str) -> Waiting[None]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from cellc.contract.rehearsals import RehearsalEntry, StepEntry
 from cellc.mock.bringup import activate
 from cellc.mock.engine.process import Wait, Waiting
+from cellc.mock.nodes.perception import DEFAULT_RATE_HZ
 from cellc.mock.plant import Plant
 from cellc.mock.result import AttemptRecord, PacketStep
 from cellc.mock.stops import NORMAL
@@ -16,8 +17,13 @@ from cellc.vocabulary import AttemptOutcome
 
 PATIENCE_PERIODS = 10
 """An observation that stays away for ten of its periods does not come."""
-DEFAULT_RATE_HZ = 10.0
-"""Of a dynamic frame whose rate is not stated."""
+
+RECOVERY_S = 120.0
+"""Where no KPI bounds the time from a stop to a cell that is ready."""
+_LOOK_NS = 100_000_000
+_FRESH_NS = 100_000_000
+"""Joint states are watched that long before the cell is called ready."""
+END_STEP = "end"
 
 
 def detect(context: TaskContext, attempt: Attempt, frame: str) -> Waiting[None]:
@@ -40,13 +46,6 @@ def detect(context: TaskContext, attempt: Attempt, frame: str) -> Waiting[None]:
     context.observed[frame] = inbox.newest.stamp_ns
     attempt.goal_stamp = inbox.newest.stamp_ns
     attempt.mark(PacketStep.OBSERVED, inbox.newest.stamp_ns)
-
-
-RECOVERY_S = 120.0
-"""Where no KPI bounds the time from a stop to a cell that is ready."""
-_LOOK_NS = 100_000_000
-_FRESH_NS = 100_000_000
-"""Joint states are watched that long before the cell is called ready."""
 
 
 def acknowledge(context: TaskContext, attempt: Attempt, role: str) -> Waiting[None]:
@@ -96,9 +95,6 @@ def _activate(plant: Plant) -> Waiting[tuple[str, ...]]:
         waiting = tuple(each for each, facts in entry.controllers.items() if facts.active and states[each] != "active")
         problems += yield from activate(plant, name, waiting)
     return problems
-
-
-END_STEP = "end"
 
 
 class Task:

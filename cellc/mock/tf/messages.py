@@ -8,6 +8,9 @@ from enum import Enum
 
 from cellc.transforms import Pose
 
+QUATERNION_TOLERANCE = 10e-3
+"""tf2 QUATERNION_NORMALIZATION_TOLERANCE, on the squared length."""
+
 
 class TfFailureKind(str, Enum):
     """The exceptions of tf2; ExtrapolationException is told apart by what was asked of the buffer."""
@@ -113,10 +116,6 @@ def into_the_past(requested_ns: int, earliest_ns: int) -> Outside:
 def in_seconds(stamp_ns: int) -> str:
     """Return a stamp as tf2 prints it: seconds with six digits after the point, rounded."""
     return f"{stamp_ns // 1_000_000_000 + 1e-9 * (stamp_ns % 1_000_000_000):.6f}"
-
-
-QUATERNION_TOLERANCE = 10e-3
-"""tf2 QUATERNION_NORMALIZATION_TOLERANCE, on the squared length."""
 
 
 class TfWarnings:

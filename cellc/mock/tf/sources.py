@@ -15,6 +15,8 @@ LATEST = 0
 
 Value = TypeVar("Value")
 
+_UNIT = identity()
+
 
 class TimeCache(Generic[Value]):
     """Values by stamp, over a bounded time before the newest one.
@@ -101,9 +103,6 @@ class DeferredPose:
         if self._pose is None:
             self._pose = self._compute()
         return self._pose
-
-
-_UNIT = identity()
 
 
 class TransformSource(Protocol):

@@ -22,6 +22,32 @@ _PRIMITIVES = ("byte", "float64", "int32", "string", "uint32")
 _SEPARATOR = "=" * 80
 _FIELD = re.compile(r"([A-Za-z][\w/]*)(?:\[[^\]]*\])? +\w+")
 
+_INFINITE = {"sec": 9223372036, "nsec": 854775807}
+"""RMW_DURATION_INFINITE: the largest int64 of nanoseconds."""
+# Values of rmw_qos_*_policy_e in rmw/types.h.
+_HISTORY = {"keep_last": 1, "keep_all": 2}
+_RELIABILITY = {"reliable": 1, "best_effort": 2}
+_DURABILITY = {"transient_local": 1, "volatile": 2}
+_LIVELINESS = {"automatic": 1, "manual_by_topic": 3}
+DEFAULT = ContractQos(
+    reliability="reliable",
+    durability="volatile",
+    history="keep_last",
+    depth=10,
+    deadline_s=None,
+    lifespan_s=None,
+    liveliness="automatic",
+    lease_duration_s=None,
+)
+"""rmw_qos_profile_default."""
+LATCHED = DEFAULT.model_copy(update={"durability": "transient_local", "depth": 1})
+"""What robot_state_publisher offers for the description and for static transforms."""
+PROFILE = "ros2"
+LIBRARY = "cellc mock"
+"""In place of the name and version of the MCAP library, so that another version writes the same file."""
+_KEPT = 2000
+"""Messages that are put in the order of their arrival before they are written."""
+
 
 def schema(name: str, distro: str) -> str:
     """Return the definition of a message and of all messages in it, in the ros2msg encoding of MCAP.
@@ -57,29 +83,6 @@ def _text(name: str, distro: str) -> str:
     return (own if own.is_file() else folder / f"{name}.msg").read_text(encoding="utf-8")
 
 
-_INFINITE = {"sec": 9223372036, "nsec": 854775807}
-"""RMW_DURATION_INFINITE: the largest int64 of nanoseconds."""
-# Values of rmw_qos_*_policy_e in rmw/types.h.
-_HISTORY = {"keep_last": 1, "keep_all": 2}
-_RELIABILITY = {"reliable": 1, "best_effort": 2}
-_DURABILITY = {"transient_local": 1, "volatile": 2}
-_LIVELINESS = {"automatic": 1, "manual_by_topic": 3}
-
-DEFAULT = ContractQos(
-    reliability="reliable",
-    durability="volatile",
-    history="keep_last",
-    depth=10,
-    deadline_s=None,
-    lifespan_s=None,
-    liveliness="automatic",
-    lease_duration_s=None,
-)
-"""rmw_qos_profile_default."""
-LATCHED = DEFAULT.model_copy(update={"durability": "transient_local", "depth": 1})
-"""What robot_state_publisher offers for the description and for static transforms."""
-
-
 def offered_qos_profiles(qos: ContractQos) -> str:
     """Return the list of the one profile that is offered, as YAML.
 
@@ -104,13 +107,6 @@ def _duration(seconds: float | None) -> dict[str, int]:
         return dict(_INFINITE)
     nanoseconds = round(seconds * 1e9)
     return {"sec": nanoseconds // 1_000_000_000, "nsec": nanoseconds % 1_000_000_000}
-
-
-PROFILE = "ros2"
-LIBRARY = "cellc mock"
-"""In place of the name and version of the MCAP library, so that another version writes the same file."""
-_KEPT = 2000
-"""Messages that are put in the order of their arrival before they are written."""
 
 
 @dataclass(frozen=True, slots=True)

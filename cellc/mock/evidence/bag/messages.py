@@ -20,6 +20,12 @@ DIAGNOSTIC_ARRAY = "diagnostic_msgs/msg/DiagnosticArray"
 POSE_STAMPED = "geometry_msgs/msg/PoseStamped"
 STRING = "std_msgs/msg/String"
 
+CONTROLLER_STATE = "control_msgs/msg/JointTrajectoryControllerState"
+POINT_FIELDS = ("positions", "velocities", "accelerations", "effort")
+"""Sequences of a trajectory_msgs/JointTrajectoryPoint."""
+_MULTI_DOF_SEQUENCES = 3
+"""Sequences of a MultiDOFJointTrajectoryPoint: transforms, velocities, accelerations; no controller here has any."""
+
 
 @dataclass(frozen=True, slots=True)
 class StampedTransform:
@@ -110,12 +116,6 @@ def _header(writer: CdrWriter, stamp_ns: int, frame: str) -> None:
     writer.time(stamp_ns)
     writer.string(frame)
 
-
-CONTROLLER_STATE = "control_msgs/msg/JointTrajectoryControllerState"
-POINT_FIELDS = ("positions", "velocities", "accelerations", "effort")
-"""Sequences of a trajectory_msgs/JointTrajectoryPoint."""
-_MULTI_DOF_SEQUENCES = 3
-"""Sequences of a MultiDOFJointTrajectoryPoint: transforms, velocities, accelerations; no controller here has any."""
 
 Array = NDArray[np.float64]
 Point = Mapping[str, Array]
