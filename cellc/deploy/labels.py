@@ -31,7 +31,7 @@ _PLAIN_TEXT = "std_msgs/msg/String"
 
 
 def interface_facts(interface: Interface) -> Iterator[str]:
-    """Yield type, frame, unit, rate, time source, owner and failure behaviour; what is not stated says so."""
+    """Yield type, frame, unit, rate, time source, owner and failure behavior; what is not stated says so."""
     yield f"{interface.kind.value} {interface.type}, {_rate(interface)}"
     yield f"frame {frame_label(interface)}, unit {_unit(interface)}, time {_time(interface)}"
     yield f"owner {interface.owner or 'not stated'}; {', '.join(_failures(interface)) or 'failure not stated'}"
@@ -96,7 +96,7 @@ _UNITS = {
 
 
 def claim_facts(cell: Cell, manager: ControllerManager, controller: Controller) -> Iterator[str]:
-    """Yield interfaces, frame, unit, rate, time source, owner, failure behaviour and hardware of a claim."""
+    """Yield interfaces, frame, unit, rate, time source, owner, failure behavior and hardware of a claim."""
     device = cell.device(controller.device) if controller.device is not None else None
     rate = controller.update_rate_hz or manager.update_rate_hz
     yield ", ".join(controller.command_interfaces)
@@ -149,7 +149,7 @@ def watchdog(cell: Cell, controller: Controller) -> str:
     return stated or _NOT_STATED
 
 
-_NOTHING = "nothing that the catalogue names"
+_NOTHING = "nothing that the catalog names"
 
 
 def real_driver(device: Device) -> str:

@@ -1,6 +1,6 @@
 """``config/frames.yaml``: the frame tree for people and tools: parent, authority, calibration, transform.
 
-No ROS node reads it: static frames come from the URDF, dynamic ones from their publishers. Transforms are in metres and
+No ROS node reads it: static frames come from the URDF, dynamic ones from their publishers. Transforms are in meters and
 fixed-axis roll, pitch, yaw in radians; a frame that moves has the one at joint position zero, a dynamic one has none.
 """
 

@@ -3,7 +3,7 @@
 ROS parameter files for every node that is started with them, with the keys of MoveIt 2.5 on Humble and of 2.12 and
 later on the others. Only for a cell with planning groups and a node that reads them: a controller takes no limits from
 here. The controllers that it calls are a file for each target where a device's own node takes the goals on real
-hardware. Left out: limits of joints that follow another; ``sensors_3d``, because no sensor of the catalogue feeds an
+hardware. Left out: limits of joints that follow another; ``sensors_3d``, because no sensor of the catalog feeds an
 occupancy map; and servoing, which is no goal with a result.
 """
 

@@ -39,7 +39,7 @@ _FILES = (
     ("launch/cell.launch.xml", "starts the cell; on real hardware it stops where a person takes over"),
     ("launch/move.launch.xml", "starts what asks for motion; on real hardware only after a person releases it"),
     ("launch/bring_up.bash", "what each step of the bring-up waits for before it acts"),
-    ("contract.json", "what the interfaces promise: type, QoS, rate, age, owner, failure behaviour"),
+    ("contract.json", "what the interfaces promise: type, QoS, rate, age, owner, failure behavior"),
     ("rehearsals.json", "what the mock executes, and the outcome that each run must end in"),
     ("graph/responsibility.svg", "who tells what to whom, and who answers for it; `.mmd` says the same"),
     ("gates/promotion.md", "gates G0 to G7 as a checklist for one attempt; `gates/network.md` holds L1 to L6"),

@@ -1,7 +1,7 @@
 """``graph/responsibility.mmd``: who tells what to whom, and who answers for it, on one page (chapter 4, last section).
 
 Mermaid flowchart, for code hosts and editors that draw it. Every arrow carries type, frame, unit, rate, time source,
-owner and failure behaviour; an interface with several ends carries them once, in a box between its ends, whose arrows
+owner and failure behavior; an interface with several ends carries them once, in a box between its ends, whose arrows
 tell the QoS. Vendor control and physical safety are boundaries of their own, drawn bold. Left out: what every ROS node
 has anyway, such as parameter services and ``/rosout``.
 """

@@ -24,7 +24,7 @@ def decimal(value: float) -> str:
 
 
 def settled(value: float) -> float:
-    """Return a computed length or angle without its rounding noise: a picometre or picoradian is exact enough."""
+    """Return a computed length or angle without its rounding noise: a picometer or picoradian is exact enough."""
     return positive_zero(round(value, 12))
 
 

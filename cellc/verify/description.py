@@ -14,7 +14,7 @@ from cellc.verify.parsers import JointReading, Reading, RefusedError, read_by_pi
 
 _LIMITS = ("lower", "upper", "velocity", "effort")
 
-# Files write 12 significant digits; ten joints down a 10 m cell that is well below a nanometre and a nanoradian.
+# Files write 12 significant digits; ten joints down a 10 m cell that is well below a nanometer and a nanoradian.
 _TOLERANCE = 1e-8
 
 
@@ -70,19 +70,19 @@ def _pose_reasons(
         has, lacks = (first, second) if name in first_poses else (second, first)
         yield f"frame `{name}` of {has} does not exist for {lacks}"
     for name in sorted(set(first_poses) & set(second_poses)):
-        metres, radians = distance(first_poses[name], second_poses[name])
-        if max(metres, radians) > _TOLERANCE:
-            yield f"frame `{name}` lies {metres:.6g} m and {radians:.6g} rad apart for {first} and {second}"
+        meters, radians = distance(first_poses[name], second_poses[name])
+        if max(meters, radians) > _TOLERANCE:
+            yield f"frame `{name}` lies {meters:.6g} m and {radians:.6g} rad apart for {first} and {second}"
 
 
 def distance(first: Pose, second: Pose) -> tuple[float, float]:
     """Return how far two poses of one frame are apart, in m and rad."""
-    metres = math.dist(first.position, second.position)
+    meters = math.dist(first.position, second.position)
     cosine = abs(sum(a * b for a, b in zip(first.quaternion, second.quaternion, strict=True)))
     # Near zero the arc cosine loses half of the digits: take the chord, on the side of the sphere that is nearer.
     sign = math.copysign(1.0, sum(a * b for a, b in zip(first.quaternion, second.quaternion, strict=True)))
     chord = math.dist(first.quaternion, tuple(sign * part for part in second.quaternion))
-    return metres, 2.0 * math.acos(min(1.0, cosine)) if chord > 0.1 else 2.0 * chord
+    return meters, 2.0 * math.acos(min(1.0, cosine)) if chord > 0.1 else 2.0 * chord
 
 
 def cell_poses(frames: FrameTree) -> dict[str, Pose]:

@@ -140,7 +140,7 @@ _CHECKS_OF_TARGETS: tuple[Callable[[str, str, str], None], ...] = (
 
 def caught_by(built: Build) -> str:
     """Return the first check that fails on a build, empty where all of them pass."""
-    starting.processes.cache_clear()
+    _forget()
     try:
         with in_place(built):
             for check in _CHECKS:
@@ -151,11 +151,17 @@ def caught_by(built: Build) -> str:
                     if _fails(partial(check_of, _CELL, _DISTRO, target)):
                         return check_of.__name__
     finally:
-        starting.processes.cache_clear()
+        _forget()
     if built.texts.get(_SCRIPT) != build(_CELL, _DISTRO).texts[_SCRIPT] and _fails(partial(_brought_up, built)):
         return _brought_up.__name__
     found = verify(built.artifacts, built.graph)
     return found[0].code if found else ""
+
+
+def _forget() -> None:
+    """Forget what was launched from another build of the same cell."""
+    starting.processes.cache_clear()
+    starting.commands.cache_clear()
 
 
 def _brought_up(built: Build) -> None:

@@ -42,6 +42,8 @@ def test_fast_dds_uses_the_transports_that_it_describes(cell: str, distro: str) 
         described = [tag.text for tag in dds.findall(".//transport_descriptor/transport_id")]
         used = [tag.text for tag in dds.findall(".//userTransports/transport_id")]
         assert sorted(map(str, described)) == sorted(map(str, used))
+        kinds = [tag.findtext("type") for tag in dds.findall(".//transport_descriptor")]
+        assert sorted(map(str, kinds)) == ["SHM", "UDPv4"]
         assert dds.findtext(".//useBuiltinTransports") == "false"  # they would use every card
         assert dds.findall(".//interfaceWhiteList/*")
 

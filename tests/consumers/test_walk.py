@@ -91,6 +91,9 @@ def test_blocks_are_what_a_shell_takes(cell: str, distro: str) -> None:
     for block in blocks:
         subprocess.run(["bash", "-n"], input=block, text=True, check=True, capture_output=True)
     assert len(blocks) > 10
+    for page in pages:
+        fences = [line.strip() for line in page.splitlines() if line.lstrip().startswith("```")]
+        assert fences == ["```sh", "```"] * (len(fences) // 2)
 
 
 @every_build

@@ -94,7 +94,7 @@ def recovery(cell: Cell) -> Iterator[str]:
 
 
 def not_provable(cell: Cell) -> Iterator[str]:
-    """Yield what the catalogue says that no mock shows, by device and vendor."""
+    """Yield what the catalog says that no mock shows, by device and vendor."""
     for device in cell.devices:
         of = f"{device.name} ({device.vendor} {device.model})"
         yield from (f"- {of}: {text}" for text in device.mock_cannot_prove)

@@ -123,7 +123,7 @@ def interfaces_section(cell: Cell, kind: InterfaceKind) -> str:
 
 
 def drivers_section(cell: Cell) -> str:
-    """Write what the catalogue says that the devices' drivers offer beside what the spec names."""
+    """Write what the catalog says that the devices' drivers offer beside what the spec names."""
     return table(("name", "kind", "type", "device"), _of_drivers(cell))
 
 

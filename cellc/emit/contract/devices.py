@@ -67,7 +67,7 @@ def _gripper(cell: Cell, device: Device) -> ContractGripper | None:
 
 
 def _camera(cell: Cell, device: Device) -> ContractCamera | None:
-    """Return the stream that the spec uses, the catalogue's first where it names none."""
+    """Return the stream that the spec uses, the catalog's first where it names none."""
     if device.camera is None:
         return None
     streams = {stream.topic: stream for stream in device.camera.streams}

@@ -161,7 +161,7 @@ def _controller(controller: Controller) -> ContractController:
 
 
 def contract_pose(pose: Pose) -> ContractPose:
-    """Return metres and a unit quaternion x, y, z, w without rounding noise."""
+    """Return meters and a unit quaternion x, y, z, w without rounding noise."""
     x, y, z = (settled(value) for value in pose.position)
     qx, qy, qz, qw = (settled(value) for value in pose.quaternion)
     return ContractPose(xyz=(x, y, z), quaternion=(qx, qy, qz, qw))

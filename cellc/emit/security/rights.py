@@ -95,7 +95,7 @@ def node_profile(cell: Cell, node: Node) -> Profile:
 
 
 def _driver(cell: Cell, node: Node, granted: Profile) -> Profile:
-    """Add what the catalogue says that a driver's node offers: it fails where one of these is denied to it."""
+    """Add what the catalog says that a driver's node offers: it fails where one of these is denied to it."""
     device = cell.device(node.device or "")
 
     def own(kind: InterfaceKind) -> tuple[str, ...]:

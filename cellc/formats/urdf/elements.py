@@ -34,7 +34,7 @@ def numbers(values: Iterable[float]) -> str:
 
 
 def origin(pose: Pose) -> tuple[Element, ...]:
-    """Return ``<origin>`` in metres and fixed-axis roll, pitch, yaw, or nothing for the identity."""
+    """Return ``<origin>`` in meters and fixed-axis roll, pitch, yaw, or nothing for the identity."""
     xyz = tuple(settled(value) for value in pose.position)
     rpy = tuple(settled(value) for value in pose.rpy())
     attributes = {name: numbers(values) for name, values in (("xyz", xyz), ("rpy", rpy)) if any(values)}
@@ -54,7 +54,7 @@ def collision(shape: Collision) -> Element:
 
 
 def inertial(body: Inertial) -> Element:
-    """Return ``<inertial>``: kg and kg m^2 about the centre of mass."""
+    """Return ``<inertial>``: kg and kg m^2 about the center of mass."""
     tensor = {"ixx": body.ixx, "ixy": body.ixy, "ixz": body.ixz, "iyy": body.iyy, "iyz": body.iyz, "izz": body.izz}
     return element(
         "inertial",
@@ -82,22 +82,22 @@ def _shape(shape: Geometry) -> Element:
     return element("mesh", {"filename": shape.filename} | scale)
 
 
-Colour = tuple[float, float, float, float]
+Color = tuple[float, float, float, float]
 
 
 @dataclass(frozen=True, slots=True)
 class Palette:
-    """Name in the robot of each material and colour of one device."""
+    """Name in the robot of each material and color of one device."""
 
-    names: Mapping[tuple[str, Colour], str]
+    names: Mapping[tuple[str, Color], str]
 
     def definitions(self) -> Iterator[Element]:
-        """Yield each material with its colour."""
-        for (_, colour), name in self.names.items():
-            yield element("material", {"name": name}, [element("color", {"rgba": numbers(colour)})])
+        """Yield each material with its color."""
+        for (_, color), name in self.names.items():
+            yield element("material", {"name": name}, [element("color", {"rgba": numbers(color)})])
 
     def use(self, visual: Visual) -> tuple[Element, ...]:
-        """Return the reference of a shape to its material, or nothing for a shape without colour."""
+        """Return the reference of a shape to its material, or nothing for a shape without color."""
         if visual.rgba is None:
             return ()
         return (element("material", {"name": self.names[_key(visual, visual.rgba)]}),)
@@ -105,24 +105,24 @@ class Palette:
 
 def palette_of(device: Device) -> Palette:
     """Collect the materials of a device, in the order of first use."""
-    names: dict[tuple[str, Colour], str] = {}
+    names: dict[tuple[str, Color], str] = {}
     for visual in (visual for link in device.description.links for visual in link.visuals):
         if visual.rgba is not None:
             names.setdefault(_key(visual, visual.rgba), "")
     prefix = device.prefix or f"{device.name}_"
     taken: dict[str, int] = {}
-    for material, colour in names:
+    for material, color in names:
         taken[material] = taken.get(material, 0) + 1
         again = "" if taken[material] == 1 else f"_{taken[material]}"
-        names[material, colour] = f"{prefix}{material}{again}"
+        names[material, color] = f"{prefix}{material}{again}"
     return Palette(names)
 
 
-def _key(visual: Visual, colour: Colour) -> tuple[str, Colour]:
-    return (visual.material or "colour", colour)
+def _key(visual: Visual, color: Color) -> tuple[str, Color]:
+    return (visual.material or "color", color)
 
 
-_SCENE_COLOURS = {"fixture": (0.7, 0.7, 0.7, 1.0), "obstacle": (0.8, 0.5, 0.4, 1.0)}
+_SCENE_COLORS = {"fixture": (0.7, 0.7, 0.7, 1.0), "obstacle": (0.8, 0.5, 0.4, 1.0)}
 
 
 def frame_link(name: str) -> Element:
@@ -152,8 +152,8 @@ def scene_link(box: SceneBox) -> Element:
 def scene_materials(boxes: Iterable[SceneBox]) -> Iterator[Element]:
     """Yield the material of each kind of box that the scene has."""
     for kind in dict.fromkeys(box.kind for box in boxes):
-        colour = element("color", {"rgba": numbers(_SCENE_COLOURS[kind])})
-        yield element("material", {"name": _material(kind)}, [colour])
+        color = element("color", {"rgba": numbers(_SCENE_COLORS[kind])})
+        yield element("material", {"name": _material(kind)}, [color])
 
 
 def _material(kind: str) -> str:

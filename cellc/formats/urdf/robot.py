@@ -121,7 +121,7 @@ HOME = "home"
 def start_positions(cell: Cell) -> dict[str, float]:
     """Return a position for each joint that moves on its own, rad or m.
 
-    The pose ``home`` of the cell counts first, then the home of the catalogue, then zero. A value outside the limits is
+    The pose ``home`` of the cell counts first, then the home of the catalog, then zero. A value outside the limits is
     moved to the nearest limit: a trajectory controller whose joint begins outside them fails in its first update.
     """
     of_cell = {
