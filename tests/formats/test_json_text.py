@@ -1,0 +1,54 @@
+"""JSON files for review: what fits into a line stands in one, and what is at its default is left out."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+from pydantic import BaseModel, Field
+
+from cellc.formats.json_text import render
+from tests.cells import CELLS, built
+
+
+class Part(BaseModel):
+    """A part of a file."""
+
+    name: str
+    values: tuple[float, ...] = ()
+    note: str | None = None
+
+
+class Whole(BaseModel):
+    """A file."""
+
+    parts: dict[str, Part]
+    words: tuple[str, ...] = Field(default=())
+
+
+def test_short_parts_stand_in_a_line_and_defaults_are_left_out() -> None:
+    whole = Whole(parts={"a": Part(name="x", values=(0.5, -0.0)), "b": Part(name="y", note="z")})
+    assert render(whole) == (
+        "{\n"
+        '  "parts": {"a": {"name": "x", "values": [0.5, 0.0]}, "b": {"name": "y", "note": "z"}}\n'
+        "}\n"
+    )  # fmt: skip
+
+
+def test_what_does_not_fit_has_one_item_a_line() -> None:
+    text = render(Whole(parts={}, words=tuple("long" * 10 + str(number) for number in range(4))))
+    assert text.splitlines()[2:4] == ['  "words": [', '    "' + "long" * 10 + '0",']
+
+
+@pytest.mark.parametrize("cell", CELLS)
+def test_no_line_is_longer_than_a_screen_unless_one_value_is(cell: str) -> None:
+    for file in ("contract.json", "rehearsals.json", "manifest.json"):
+        text = built(cell).texts[file]
+        json.loads(text)
+        for line in text.splitlines():
+            assert len(line) <= 120 or line.count('"') <= 4, line
+
+
+@pytest.mark.parametrize("cell", CELLS)
+def test_contract_is_read_in_a_sitting(cell: str) -> None:
+    assert len(built(cell).texts["contract.json"].splitlines()) < 800
