@@ -1,8 +1,9 @@
-"""What the spec states of a device and the catalogue knows of it, in SI, prefixed, with placeholders filled."""
+"""What the spec states of a device and the catalog knows of it, in SI, prefixed, with placeholders filled."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from cellc.catalog.device_model import DeviceModel
 from cellc.cell.device import (
@@ -10,7 +11,7 @@ from cellc.cell.device import (
     Camera,
     CameraStream,
     Connection,
-    DeviceJoint,
+    Device,
     DeviceVersions,
     Gripper,
     LimitShares,
@@ -25,7 +26,6 @@ from cellc.cell.device import (
     VendorSafety,
 )
 from cellc.cell.interface import InterfaceKind
-from cellc.diagnostics import YamlPath
 from cellc.link.names import Placeholders
 from cellc.link.quantities import joint_figure, si, vector
 from cellc.link.site import bind_clock
@@ -33,7 +33,44 @@ from cellc.source.document import SourceDocument
 from cellc.spec.devices import EVERY_JOINT, DeviceSpec
 
 
-def bind_device_versions(written: DeviceSpec) -> DeviceVersions:
+def with_statements(device: Device, written: DeviceSpec, document: SourceDocument) -> Device:
+    """Return a device with what the spec states of it: versions, connection, shares of limits, stamp, payload."""
+    return replace(
+        device,
+        architecture=written.architecture,
+        versions=_versions(written),
+        connection=_connection(written),
+        limit_shares=limit_shares(written),
+        stamp=_stamp(written),
+        payload=_payload(written),
+        adapter=_adapter(written),
+        simulated_joints=_simulated_joints(written, device, document),
+    )
+
+
+def with_catalog(device: Device, facts: DeviceModel, written: DeviceSpec, known: Placeholders) -> Device:
+    """Return a device with what the catalog knows of it: what it offers, asks of its cell, and cannot prove."""
+    prefix, limits, control = device.prefix, facts.limits, facts.control
+    return replace(
+        device,
+        home={prefix + joint: position.si for joint, position in (facts.home or {}).items()},
+        optical_frames=facts.optical_frames,
+        payload_limit_kg=None if limits.payload is None else limits.payload.value.si,
+        update_rates_hz=() if control is None else tuple(rate.si for rate in control.update_rates),
+        controller_kinds=tuple(facts.controllers),
+        speed_scaling=None if facts.speed_scaling is None else known.fill(facts.speed_scaling.state_interface),
+        gripper=_gripper(facts, prefix),
+        camera=_camera(facts, written, known, prefix),
+        offers=tuple(_offers(facts, known)),
+        network=_network_needs(facts),
+        safety=_vendor_safety(facts),
+        packages=_packages(facts),
+        version_rows=facts.versions,
+        mock_cannot_prove=facts.mock_cannot_prove,
+    )
+
+
+def _versions(written: DeviceSpec) -> DeviceVersions:
     """Return the parts of the version tuple that the device adds."""
     return DeviceVersions(
         revision=written.revision,
@@ -45,13 +82,13 @@ def bind_device_versions(written: DeviceSpec) -> DeviceVersions:
     )
 
 
-def bind_connection(written: DeviceSpec) -> Connection | None:
+def _connection(written: DeviceSpec) -> Connection | None:
     """Return how the real device is reached."""
     one = written.connection
     return None if one is None else Connection(host=one.host, nic=one.nic, address=one.address, port=one.port)
 
 
-def bind_limit_shares(written: DeviceSpec) -> LimitShares:
+def limit_shares(written: DeviceSpec) -> LimitShares:
     """Return the shares of the device's own limits; whole where nothing is written."""
     limits = written.limits
     if limits is None:
@@ -62,7 +99,7 @@ def bind_limit_shares(written: DeviceSpec) -> LimitShares:
     )
 
 
-def bind_stamp(written: DeviceSpec) -> Stamp | None:
+def _stamp(written: DeviceSpec) -> Stamp | None:
     """Return what a sensor stamps."""
     stamp = written.stamp
     if stamp is None:
@@ -70,7 +107,7 @@ def bind_stamp(written: DeviceSpec) -> Stamp | None:
     return Stamp(source=stamp.source, clock=bind_clock(stamp, stamp.clock), exposure_s=si(stamp.exposure))
 
 
-def bind_payload(written: DeviceSpec) -> Payload | None:
+def _payload(written: DeviceSpec) -> Payload | None:
     """Return the load that the arm is told of."""
     payload = written.payload
     if payload is None:
@@ -78,7 +115,7 @@ def bind_payload(written: DeviceSpec) -> Payload | None:
     return Payload(mass_kg=payload.mass.si, center_of_mass=vector(payload.center_of_mass))
 
 
-def bind_adapter(written: DeviceSpec) -> Adapter | None:
+def _adapter(written: DeviceSpec) -> Adapter | None:
     """Return the watchdog of a direct SDK."""
     adapter = written.adapter
     if adapter is None:
@@ -91,17 +128,15 @@ def bind_adapter(written: DeviceSpec) -> Adapter | None:
     )
 
 
-def bind_simulated_joints(
-    written: DeviceSpec, path: YamlPath, document: SourceDocument, joints: tuple[DeviceJoint, ...]
-) -> tuple[SimulatedJoint, ...]:
+def _simulated_joints(written: DeviceSpec, device: Device, document: SourceDocument) -> tuple[SimulatedJoint, ...]:
     """Return what the mock adds to joints, with the commanded joints that each key means."""
-    driven = [joint for joint in joints if joint.command_interfaces]
+    path = (*device.path, "simulated_joints")
     return tuple(
         SimulatedJoint(
             name=key,
-            path=(*path, "simulated_joints", key),
-            span=document.locate((*path, "simulated_joints", key)),
-            joints=tuple(joint.name for joint in driven if key in (EVERY_JOINT, joint.local_name)),
+            path=(*path, key),
+            span=document.locate((*path, key)),
+            joints=tuple(joint.name for joint in device.actuated_joints if key in (EVERY_JOINT, joint.local_name)),
             lag_s=si(one.lag),
             noise=None if one.noise is None else joint_figure(one.noise),
             velocity=None if one.velocity is None else joint_figure(one.velocity),
@@ -110,7 +145,7 @@ def bind_simulated_joints(
     )
 
 
-def bind_gripper(facts: DeviceModel, prefix: str) -> Gripper | None:
+def _gripper(facts: DeviceModel, prefix: str) -> Gripper | None:
     """Return the gripper that the device is."""
     one = facts.gripper
     if one is None:
@@ -124,7 +159,7 @@ def bind_gripper(facts: DeviceModel, prefix: str) -> Gripper | None:
     )
 
 
-def bind_camera(facts: DeviceModel, written: DeviceSpec, known: Placeholders, prefix: str) -> Camera | None:
+def _camera(facts: DeviceModel, written: DeviceSpec, known: Placeholders, prefix: str) -> Camera | None:
     """Return the camera that the device is; an exposure of the spec counts before the catalogue's."""
     camera = facts.camera
     if camera is None:
@@ -146,7 +181,7 @@ def bind_camera(facts: DeviceModel, written: DeviceSpec, known: Placeholders, pr
     )
 
 
-def bind_offers(facts: DeviceModel, known: Placeholders) -> Iterator[OfferedInterface]:
+def _offers(facts: DeviceModel, known: Placeholders) -> Iterator[OfferedInterface]:
     """Yield what the driver offers, topics first, then services and actions."""
     offered = (
         *((InterfaceKind.TOPIC, topic.name, topic.type, topic.publisher) for topic in facts.topics),
@@ -157,7 +192,7 @@ def bind_offers(facts: DeviceModel, known: Placeholders) -> Iterator[OfferedInte
         yield OfferedInterface(kind=kind, name=known.fill(name), type=type_, node="/" + known.fill(node))
 
 
-def bind_network_needs(facts: DeviceModel) -> NetworkNeeds | None:
+def _network_needs(facts: DeviceModel) -> NetworkNeeds | None:
     """Return what the device asks of its network."""
     network = facts.network
     if network is None:
@@ -165,7 +200,7 @@ def bind_network_needs(facts: DeviceModel) -> NetworkNeeds | None:
     return NetworkNeeds(dedicated_link=network.dedicated_link, realtime=network.realtime)
 
 
-def bind_vendor_safety(facts: DeviceModel) -> VendorSafety:
+def _vendor_safety(facts: DeviceModel) -> VendorSafety:
     """Return the vendor's safety boundary; empty where the catalogue has none."""
     safety = facts.safety
     if safety is None:
@@ -178,7 +213,7 @@ def bind_vendor_safety(facts: DeviceModel) -> VendorSafety:
     )
 
 
-def bind_packages(facts: DeviceModel) -> Packages:
+def _packages(facts: DeviceModel) -> Packages:
     """Return the vendor's packages and libraries."""
     one = facts.packages
     return Packages(driver=one.driver, sdk=one.sdk, description=one.description)

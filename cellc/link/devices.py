@@ -14,21 +14,7 @@ from cellc.cell.device import EVERY_JOINT, Device, DeviceDriver, DeviceJoint, Ha
 from cellc.cell.frame import WORLD
 from cellc.description.model import Description, Joint
 from cellc.diagnostics import Diagnostic, Outcome, Related, Severity, Span, YamlPath, did_you_mean
-from cellc.link.device_facts import (
-    bind_adapter,
-    bind_camera,
-    bind_connection,
-    bind_device_versions,
-    bind_gripper,
-    bind_limit_shares,
-    bind_network_needs,
-    bind_offers,
-    bind_packages,
-    bind_payload,
-    bind_simulated_joints,
-    bind_stamp,
-    bind_vendor_safety,
-)
+from cellc.link.device_facts import limit_shares, with_catalog, with_statements
 from cellc.link.names import Placeholders, home_host, placeholders, unknown_name
 from cellc.link.quantities import pose
 from cellc.source.document import SourceDocument
@@ -145,49 +131,27 @@ def _device(
     facts = entry.model
     mount = written.mount
     known = placeholders(name, prefix, written, spec)
-    joints = _joints(name, written, document, facts, entry.description, prefix)
     device = Device(
         name=name,
         path=path,
         span=document.locate(path),
+        model=facts.model,
+        vendor=facts.vendor,
+        kind=facts.kind,
         prefix=prefix,
         description=entry.description.renamed(prefix),
         root_link=prefix + facts.base,
         parent_frame=parent,
         transform_root_to_parent=identity() if mount is None else pose(mount.xyz, mount.rpy),
         frames={short: prefix + link for short, link in _frame_names(entry).items()},
-        joints=joints,
+        joints=_joints(name, written, document, facts, entry.description, prefix),
         hardware=_hardware(facts, known, prefix),
         driver=_driver(facts, known),
+        host=home_host(spec) if written.connection is None else written.connection.host,
         tool_frame=None if facts.tool_frame is None else prefix + facts.frames.get(facts.tool_frame, facts.tool_frame),
         carries=_carried(name, spec),
-        model=facts.model,
-        vendor=facts.vendor,
-        kind=facts.kind,
-        architecture=written.architecture,
-        versions=bind_device_versions(written),
-        connection=bind_connection(written),
-        host=home_host(spec) if written.connection is None else written.connection.host,
-        limit_shares=bind_limit_shares(written),
-        stamp=bind_stamp(written),
-        payload=bind_payload(written),
-        adapter=bind_adapter(written),
-        simulated_joints=bind_simulated_joints(written, path, document, joints),
-        home={prefix + joint: position.si for joint, position in (facts.home or {}).items()},
-        optical_frames=facts.optical_frames,
-        payload_limit_kg=None if facts.limits.payload is None else facts.limits.payload.value.si,
-        update_rates_hz=() if facts.control is None else tuple(rate.si for rate in facts.control.update_rates),
-        controller_kinds=tuple(facts.controllers),
-        speed_scaling=None if facts.speed_scaling is None else known.fill(facts.speed_scaling.state_interface),
-        gripper=bind_gripper(facts, prefix),
-        camera=bind_camera(facts, written, known, prefix),
-        offers=tuple(bind_offers(facts, known)),
-        network=bind_network_needs(facts),
-        safety=bind_vendor_safety(facts),
-        packages=bind_packages(facts),
-        version_rows=facts.versions,
-        mock_cannot_prove=facts.mock_cannot_prove,
     )
+    device = with_catalog(with_statements(device, written, document), facts, written, known)
     return BoundDevice(device, facts, known)
 
 
@@ -209,7 +173,7 @@ def _joints(
     prefix: str,
 ) -> tuple[DeviceJoint, ...]:
     path = ("devices", device)
-    shares = bind_limit_shares(written)
+    shares = limit_shares(written)
     return tuple(
         DeviceJoint(
             name=prefix + joint.name,

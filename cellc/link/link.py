@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from cellc.catalog.load import load_qos_profiles
 from cellc.catalog.tables import RMWS, Rmw
 from cellc.cell.cell import Cell
@@ -71,22 +73,8 @@ def _link_with_devices(
     poses = link_poses(spec, document, groups.value or ())
     goals = link_goals(spec, document, groups.value or (), names)
     rehearsals = link_rehearsals(spec, document, devices, loops, (*written, *derived), names)
-    places = bind_places(document)
-    cell = Cell(
-        name=spec.cell,
-        places=places,
-        distro=distro,
-        summary=spec.summary,
-        versions=bind_versions(spec),
-        hosts=bind_hosts(spec, places),
-        network=bind_network(spec),
-        calibrations=bind_calibrations(spec, places),
-        owners=bind_owners(spec),
-        safety=bind_safety(spec),
-        bringup=bind_bringup(spec),
-        kpis=bind_kpis(spec),
-        recording=bind_recording(spec),
-        targets=bind_targets(spec),
+    cell = replace(
+        _surroundings(spec, document, distro),
         devices=devices,
         frames=all_frames,
         scene=scene.value or (),
@@ -102,6 +90,27 @@ def _link_with_devices(
     )
     parts = (linked_devices, scene, frames, nodes, managers, interfaces, groups, poses, goals, rehearsals)
     return Outcome(cell, tuple(problem for part in parts for problem in part.diagnostics))
+
+
+def _surroundings(spec: CellSpec, document: SourceDocument, distro: Distro) -> Cell:
+    """Return the cell before anything stands in it: its hosts, network, owners, safety, figures, and all places."""
+    places = bind_places(document)
+    return Cell(
+        name=spec.cell,
+        places=places,
+        distro=distro,
+        summary=spec.summary,
+        versions=bind_versions(spec),
+        hosts=bind_hosts(spec, places),
+        network=bind_network(spec),
+        calibrations=bind_calibrations(spec, places),
+        owners=bind_owners(spec),
+        safety=bind_safety(spec),
+        bringup=bind_bringup(spec),
+        kpis=bind_kpis(spec),
+        recording=bind_recording(spec),
+        targets=bind_targets(spec),
+    )
 
 
 def _qos_resolver(spec: CellSpec) -> QosResolver:
