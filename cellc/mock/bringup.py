@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from cellc.contract.contract import ContractManager
-from cellc.mock.bus.qos import hears, task_node, unmatched_pairs
+from cellc.mock.bus.qos import hears, unmatched_pairs
 from cellc.mock.control import ControllerManager
 from cellc.mock.engine.process import Wait, Waiting
 from cellc.mock.nodes.robot_state_publisher import NODE
@@ -114,7 +114,7 @@ def observe(plant: Plant) -> Waiting[StageEvidence]:
     watched_until_ns = plant.now_ns + _WATCH_NS
     while plant.now_ns < watched_until_ns:
         yield Wait(watched_until_ns)
-    task = task_node(plant.contract)
+    task = plant.task.name
     plant.robot_state_publisher.announce(
         plant.task.buffer,
         hears_static=hears(plant.contract, "/tf_static", NODE, task),
