@@ -12,12 +12,10 @@ from cellc.mock.bringup import Bringup
 from cellc.mock.bus.qos import unmatched_pairs
 from cellc.mock.control import ManagerAbortedError
 from cellc.mock.errors import MockError
-from cellc.mock.faults.fault import Injection
 from cellc.mock.faults.ports import fault_ports
-from cellc.mock.faults.registry import build_fault
+from cellc.mock.faults.registry import Injection, build_fault
 from cellc.mock.folder import GeneratedFolder, read_folder
-from cellc.mock.nodes.motion_model import build_motion_model
-from cellc.mock.nodes.motion_planner import PlanMemory
+from cellc.mock.nodes.motion_planner import PlanMemory, build_motion_model
 from cellc.mock.plant import Plant
 from cellc.mock.result import AttemptRecord, RehearsalResult, RunFailure, StageEvidence
 from cellc.mock.task.context import TaskContext

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from cellc.contract.rehearsals import RehearsalEntry
 from cellc.mock.campaign.limits import LimitsReport
-from cellc.mock.faults.case import FaultCase
+from cellc.mock.faults.cases import FaultCase
 from cellc.mock.result import PacketStep, RehearsalResult
 from cellc.vocabulary import AttemptOutcome
 

@@ -1,7 +1,8 @@
-"""The command behind `--campaign`, `--list` and `--replay`: plan, run, report, and say how it went."""
+"""The commands behind `--campaign`, `--list`, `--replay` and `--gates`: plan, run, report, and say how it went."""
 
 from __future__ import annotations
 
+import json
 import shlex
 import sys
 from collections.abc import Callable, Sequence
@@ -11,8 +12,7 @@ from pathlib import Path
 from time import perf_counter
 
 from cellc.diagnostics import nearest
-from cellc.mock.campaign.campaign import Campaign, conduct, make_plan
-from cellc.mock.campaign.execute import usable_cores
+from cellc.mock.campaign.campaign import Campaign, conduct, make_plan, usable_cores
 from cellc.mock.campaign.plan import CampaignPlan, CampaignRun
 from cellc.mock.campaign.summary import campaign_json, campaign_lines, end_lines
 from cellc.mock.cell import MockCell, cell_of, load
@@ -20,6 +20,9 @@ from cellc.mock.command.options import MockOptions, write_text
 from cellc.mock.command.rehearsals import begin_evidence
 from cellc.mock.errors import MockError
 from cellc.mock.faults.registry import possible_faults
+from cellc.mock.gates.gate import GateResult, Verdict, gate_lines, gates_as_data
+from cellc.mock.gates.runs import judged_campaign, judged_rehearsals
+from cellc.mock.gates.sign import sign_gates
 from cellc.mock.result import to_json_lines
 
 Choice = Callable[[CampaignPlan], Sequence[CampaignRun]]
@@ -170,3 +173,29 @@ def stopped(stop: BaseException) -> int:
     _end_progress("")
     print(f"error: {text}", file=sys.stderr)
     return 2
+
+
+def run_gates(options: MockOptions) -> int:
+    """Run everything that is evidence, and print each gate with its lines.
+
+    Returns:
+        0 where no line failed, UNKNOWN ones among them; 1 where one did; 2 where the folder or an option is unusable.
+    """
+    try:
+        cell = load_checked(options)
+        results = [cell.run(name, seed=options.seed) for name in cell.rehearsals]
+        campaign = conduct_all(cell, options)
+        keep_evidence_of(cell, campaign, options)
+    except (MockError, KeyboardInterrupt) as stop:
+        return stopped(stop)
+    runs = (*judged_rehearsals(cell.entries, results), *judged_campaign(campaign))
+    gates = sign_gates(cell.folder, runs, options.seed)
+    if options.as_json:
+        print(json.dumps({"gates": gates_as_data(gates), "notes": list(cell.notes)}, ensure_ascii=False, indent=2))
+    else:
+        print("\n".join(gate_lines(gates)).rstrip())
+    return 1 if any(_failed(gate) for gate in gates) else 0
+
+
+def _failed(gate: GateResult) -> bool:
+    return gate.verdict is Verdict.FAILED

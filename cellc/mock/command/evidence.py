@@ -18,8 +18,8 @@ from cellc.mock.evidence.run_trace import RunTrace, TraceResult
 from cellc.mock.folder import path_tolerances
 from cellc.mock.gates import judged_campaign, judged_rehearsals, sign_gates
 from cellc.mock.plant import Plant
-from cellc.mock.report_page.content import ReportContent, RunEvidence
-from cellc.mock.report_page.page import to_report
+from cellc.mock.report_page.page import ReportContent, to_report
+from cellc.mock.report_page.run_section import RunEvidence
 from cellc.mock.result import RehearsalResult, to_json_lines
 from cellc.mock.task.bounds import joint_state_age_s
 

@@ -81,7 +81,7 @@ def run_mock(options: MockOptions) -> int:
 
         return run_rehearsals(options)
     if options.gates:
-        from cellc.mock.command.gates import run_gates
+        from cellc.mock.command.campaign import run_gates
 
         return run_gates(options)
     from cellc.mock.command.campaign import list_runs, replay_runs, run_campaign

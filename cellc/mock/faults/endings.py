@@ -6,8 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from cellc.contract.contract import Contract
-from cellc.mock.faults.case import BORNE, Ending, ends_in
-from cellc.mock.faults.cell_steps import CellStep
+from cellc.mock.faults.cases import BORNE, CellStep, Ending, ends_in
 from cellc.mock.nodes.motion_planner import PLANNING_LATENCY_S
 from cellc.mock.nodes.observations import DEFAULT_MAX_AGE_S as DEFAULT_OBSERVATION_AGE_S
 from cellc.mock.nodes.perception import DEFAULT_RATE_HZ, POSE_TYPE

@@ -9,8 +9,7 @@ from typing import ClassVar
 
 from cellc.contract.contract import Contract, ContractFrame
 from cellc.contract.rehearsals import FaultEntry
-from cellc.mock.faults.case import BORNE, Ending, FaultCase, ends_in, fault_case
-from cellc.mock.faults.cell_steps import CellStep, published_frames
+from cellc.mock.faults.cases import BORNE, CellStep, Ending, FaultCase, ends_in, fault_case, published_frames
 from cellc.mock.faults.endings import Bounds
 from cellc.mock.faults.ports import FaultPorts
 from cellc.mock.tf.sources import SampledSource

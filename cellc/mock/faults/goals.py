@@ -10,8 +10,7 @@ from typing import ClassVar
 from cellc.contract.contract import Contract, ContractController
 from cellc.contract.rehearsals import FaultEntry
 from cellc.mock.control import GripperGoal, TrajectoryGoal, TrajectoryPoint
-from cellc.mock.faults.case import BORNE, Ending, FaultCase, ends_in, fault_case
-from cellc.mock.faults.cell_steps import CellStep, cell_steps, controllers
+from cellc.mock.faults.cases import BORNE, CellStep, Ending, FaultCase, cell_steps, controllers, ends_in, fault_case
 from cellc.mock.faults.endings import Bounds
 from cellc.mock.faults.ports import FaultPorts
 from cellc.mock.task.bounds import cancel_bound_s

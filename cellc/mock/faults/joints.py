@@ -9,8 +9,17 @@ from typing import ClassVar
 
 from cellc.contract.contract import Contract
 from cellc.contract.rehearsals import FaultEntry
-from cellc.mock.faults.case import BORNE, Ending, FaultCase, ends_in, fault_case
-from cellc.mock.faults.cell_steps import CellStep, controllers, driven_joints, first_joints
+from cellc.mock.faults.cases import (
+    BORNE,
+    CellStep,
+    Ending,
+    FaultCase,
+    controllers,
+    driven_joints,
+    ends_in,
+    fault_case,
+    first_joints,
+)
 from cellc.mock.faults.endings import Bounds, off_track
 from cellc.mock.faults.ports import FaultPorts
 from cellc.vocabulary import AttemptOutcome, Behaviour, FaultKind

@@ -10,8 +10,19 @@ from typing import ClassVar
 from cellc.contract.contract import Contract, ContractInterface
 from cellc.contract.rehearsals import FaultEntry
 from cellc.mock.bus.qos import served_actions
-from cellc.mock.faults.case import BORNE, Ending, FaultCase, ends_in, fault_case
-from cellc.mock.faults.cell_steps import CellStep, cameras, cell_steps, components, controllers, image_topic
+from cellc.mock.faults.cases import (
+    BORNE,
+    CellStep,
+    Ending,
+    FaultCase,
+    cameras,
+    cell_steps,
+    components,
+    controllers,
+    ends_in,
+    fault_case,
+    image_topic,
+)
 from cellc.mock.faults.endings import Bounds, stateless, stopped, unobserved
 from cellc.mock.faults.ports import FaultPorts
 from cellc.mock.nodes.perception import POSE_TYPE, TF

@@ -9,8 +9,16 @@ from typing import ClassVar
 from cellc.contract.contract import Contract
 from cellc.contract.rehearsals import FaultEntry
 from cellc.mock.bus.network import EdgeBehaviour
-from cellc.mock.faults.case import Ending, FaultCase, ends_in, fault_case
-from cellc.mock.faults.cell_steps import CellStep, cameras, image_topic, joints_of_device
+from cellc.mock.faults.cases import (
+    CellStep,
+    Ending,
+    FaultCase,
+    cameras,
+    ends_in,
+    fault_case,
+    image_topic,
+    joints_of_device,
+)
 from cellc.mock.faults.endings import Bounds, StepEnding, stateless, unobserved
 from cellc.mock.faults.ports import FaultPorts
 from cellc.mock.task.bounds import joint_state_age_s

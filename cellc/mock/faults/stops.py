@@ -9,8 +9,18 @@ from typing import ClassVar
 
 from cellc.contract.contract import Contract
 from cellc.contract.rehearsals import FaultEntry
-from cellc.mock.faults.case import BORNE, Ending, FaultCase, ends_in, fault_case
-from cellc.mock.faults.cell_steps import CellStep, components, device_of, joints_of_device, stoppable
+from cellc.mock.faults.cases import (
+    BORNE,
+    CellStep,
+    Ending,
+    FaultCase,
+    components,
+    device_of,
+    ends_in,
+    fault_case,
+    joints_of_device,
+    stoppable,
+)
 from cellc.mock.faults.endings import Bounds, stopped
 from cellc.mock.faults.ports import FaultPorts
 from cellc.mock.stops import EMERGENCY_STOP, FAULT, PROTECTIVE_STOP

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from importlib.resources import files
 from xml.etree.ElementTree import Element
 
@@ -12,9 +13,8 @@ from cellc.mock.campaign.plan import RunEnd
 from cellc.mock.campaign.summary import Matrix, cell_text, legend, limit_lines, matrix_of, outcome_lines
 from cellc.mock.evidence.kpis import Kpi
 from cellc.mock.gates.gate import GateCheck, GateResult, Verdict
-from cellc.mock.report_page.content import ReportContent, RunEvidence
 from cellc.mock.report_page.html import count, plain, seconds, tag, to_page
-from cellc.mock.report_page.run_section import run_section
+from cellc.mock.report_page.run_section import RunEvidence, run_section
 
 _NAMES = {
     "plan_to_execute_s": "plan to execute",
@@ -42,6 +42,24 @@ UNPROVEN = (
 """What mock hardware leaves out, each with its own gate on the real cell."""
 _MARKS = {Verdict.PASSED: "✓", Verdict.FAILED: "✗", Verdict.UNKNOWN: "?"}
 _CLASSES = {Verdict.PASSED: "good", Verdict.FAILED: "bad", Verdict.UNKNOWN: "unknown"}
+
+
+@dataclass(frozen=True, slots=True)
+class ReportContent:
+    """All of one call.
+
+    Attributes:
+        notes: what is odd about the generated folder.
+        seed: of everything that was drawn.
+        campaign: every fault at every step; None where it was not run.
+    """
+
+    contract: Contract
+    notes: tuple[str, ...]
+    seed: int
+    runs: tuple[RunEvidence, ...]
+    gates: tuple[GateResult, ...]
+    campaign: Campaign | None = None
 
 
 def header(content: ReportContent) -> Element:

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from xml.etree.ElementTree import Element
 
 from cellc.contract.contract import Contract
-from cellc.contract.rehearsals import FaultEntry, FaultEvent
+from cellc.contract.rehearsals import FaultEntry, FaultEvent, RehearsalEntry
+from cellc.mock.evidence.kpis import Kpi
 from cellc.mock.evidence.run_trace import Claim, StateChange, TraceResult
 from cellc.mock.report_page.axes import TimeAxis, ticks
-from cellc.mock.report_page.content import RunEvidence
 from cellc.mock.report_page.html import Child, at, count, seconds, tag
 from cellc.mock.report_page.plots import age_plot, joint_plot, state_plot
-from cellc.mock.result import AttemptRecord, PacketStep
+from cellc.mock.result import AttemptRecord, PacketStep, RehearsalResult
 from cellc.vocabulary import AttemptOutcome
 
 _WORDS = {
@@ -26,6 +26,23 @@ _WORDS = {
     PacketStep.DRIVEN: "driven",
     PacketStep.RETURNED: "returned",
 }
+
+
+@dataclass(frozen=True, slots=True)
+class RunEvidence:
+    """What the report knows of one rehearsal; the trace is None where a controller manager never came up.
+
+    Attributes:
+        tolerances: path tolerance of each joint that has one, rad or m.
+        files: names of the files beside the report.
+    """
+
+    entry: RehearsalEntry
+    result: RehearsalResult
+    trace: TraceResult | None
+    kpis: tuple[Kpi, ...]
+    tolerances: Mapping[str, float]
+    files: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)

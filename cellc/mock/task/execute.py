@@ -12,9 +12,8 @@ from cellc.mock.control import GoalStatus, GripperEnded, GripperGoal, Trajectory
 from cellc.mock.engine.process import Wait, Waiting
 from cellc.mock.plant import Plant
 from cellc.mock.result import CancelRecord, PacketStep, ResultRecord
-from cellc.mock.task.attempt import Attempt
 from cellc.mock.task.bounds import cancel_bound_s
-from cellc.mock.task.context import AttemptError, GoalEnded, TaskContext
+from cellc.mock.task.context import Attempt, AttemptError, GoalEnded, TaskContext
 from cellc.mock.world.joint_states import JointStateHistory
 from cellc.vocabulary import AttemptOutcome
 

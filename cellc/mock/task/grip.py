@@ -7,8 +7,7 @@ import math
 from cellc.contract.contract import ContractGripper
 from cellc.mock.control import GripperGoal
 from cellc.mock.engine.process import Waiting
-from cellc.mock.task.attempt import Attempt
-from cellc.mock.task.context import AttemptError, CurrentState, TaskContext
+from cellc.mock.task.context import Attempt, AttemptError, CurrentState, TaskContext
 from cellc.mock.task.execute import execute, require_success
 from cellc.mock.task.move import state_since
 from cellc.vocabulary import AttemptOutcome, Behaviour

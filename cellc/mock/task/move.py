@@ -9,9 +9,8 @@ from cellc.mock.control import TrajectoryGoal, TrajectoryPoint
 from cellc.mock.engine.process import Waiting
 from cellc.mock.nodes.motion_planner import PLANNING_LATENCY_S, GoalPose, PlannedMotion
 from cellc.mock.result import PacketStep
-from cellc.mock.task.attempt import Attempt
 from cellc.mock.task.bounds import goal_timeout_s, planning_server
-from cellc.mock.task.context import AttemptError, CurrentState, TaskContext, current_state
+from cellc.mock.task.context import Attempt, AttemptError, CurrentState, TaskContext, current_state
 from cellc.mock.task.execute import await_response, execute, require_success
 from cellc.mock.tf.buffer import Transform
 from cellc.planning import PlanFailure, TimedTrajectory

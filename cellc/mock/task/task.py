@@ -9,8 +9,7 @@ from cellc.mock.nodes.perception import DEFAULT_RATE_HZ
 from cellc.mock.plant import Plant
 from cellc.mock.result import AttemptRecord, PacketStep
 from cellc.mock.stops import NORMAL
-from cellc.mock.task.attempt import Attempt, Identity
-from cellc.mock.task.context import OUTCOME_OF_STOP, AttemptError, TaskContext, current_state
+from cellc.mock.task.context import OUTCOME_OF_STOP, Attempt, AttemptError, Identity, TaskContext, current_state
 from cellc.mock.task.grip import grip
 from cellc.mock.task.move import move
 from cellc.vocabulary import AttemptOutcome

@@ -9,7 +9,7 @@ import pytest
 from cellc.adapter import Phase
 from cellc.contract.rehearsals import FaultEntry, RehearsalEntry, StepEntry
 from cellc.mock import MockCell, RehearsalResult, load
-from cellc.mock.campaign.execute import execute
+from cellc.mock.campaign.campaign import execute
 from cellc.mock.campaign.limits import check_limits
 from cellc.mock.campaign.plan import CampaignRun
 from cellc.mock.control import GripperGoal, TrajectoryGoal, TrajectoryPoint

@@ -11,7 +11,7 @@ from cellc.mock import MockCell, load
 from cellc.mock.campaign.campaign import make_plan
 from cellc.mock.campaign.plan import CampaignPlan
 from cellc.mock.command import campaign as command  # FIXME rename
-from cellc.mock.faults.case import FaultCase
+from cellc.mock.faults.cases import FaultCase
 from cellc.mock.faults.registry import possible_faults
 from tests.cells import CELLS, generated
 

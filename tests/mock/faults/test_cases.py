@@ -10,7 +10,7 @@ import pytest
 from cellc.contract.rehearsals import FaultEntry, FaultEvent, RehearsalEntry, StepEntry
 from cellc.mock import MockCell
 from cellc.mock.errors import MockError
-from cellc.mock.faults.case import BORNE, FaultCase, ends_in
+from cellc.mock.faults.cases import BORNE, FaultCase, ends_in
 from cellc.mock.faults.registry import possible_faults
 from cellc.vocabulary import AttemptOutcome, FaultKind
 from tests.mock.faults.conftest import Rehearse

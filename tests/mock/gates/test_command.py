@@ -9,7 +9,7 @@ import pytest
 
 from cellc.contract.contract import Contract
 from cellc.mock.command import campaign as command  # FIXME rename
-from cellc.mock.faults.case import FaultCase
+from cellc.mock.faults.cases import FaultCase
 from cellc.mock.faults.registry import possible_faults
 from cellc.mock.task.context import TaskContext
 from tests.cli.run import MINIMAL, run
