@@ -13,7 +13,7 @@ from cellc.cell.cell import Cell
 from cellc.cell.control import Controller, ControllerManager
 from cellc.cell.frame import WORLD, FrameKind
 from cellc.cell.interface import TARGETS, InterfaceKind, Node
-from cellc.deploy.processes import asks_for_motion, described_by, motion_clients
+from cellc.deploy.processes import asks_for_motion, description_nodes, motion_clients
 from cellc.link.derived import JOINT_STATE_TYPE
 
 MOVE = "move"
@@ -69,7 +69,7 @@ def ready_to_move(cell: Cell, target: str) -> tuple[str, ...]:
         for one in cell.interfaces
         if one.kind is InterfaceKind.ACTION and target in one.targets and any(end.node in asking for end in one.sinks)
     )
-    mocked = (f"mocked {node}" for node in described_by(cell)) if target == "mock" else ()
+    mocked = (f"mocked {node}" for node in description_nodes(cell)) if target == "mock" else ()
     return (*mocked, *claimed, *actions, *_states(cell))
 
 

@@ -8,7 +8,7 @@ from cellc.cell.cell import Cell
 from cellc.cell.interface import Endpoint, Interface, InterfaceKind
 from cellc.cell.site import UNKNOWN
 from cellc.deploy.configuration import version_tuple
-from cellc.deploy.processes import asks_for_motion, described_by, motion_clients, started_by_a_person
+from cellc.deploy.processes import asks_for_motion, description_nodes, motion_clients, started_by_a_person
 from cellc.deploy.recording import record_command
 from cellc.deploy.releases import move_mock, move_real, start_mock, start_real
 from cellc.formats.header import Header
@@ -221,7 +221,7 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "stream": (("topic", "rate", "age"), _streams),
     "bounded_clock": (("host", "offset"), _bounded_clocks),
     "group": (("tip", "base"), lambda graph: ((one.tip_frame, one.base_link) for one in graph.cell.groups)),
-    "described_node": (("node",), lambda graph: _each(described_by(graph.cell))),
+    "described_node": (("node",), lambda graph: _each(description_nodes(graph.cell))),
 }
 _OF_CELL = ("cell", "build", "description", "start_mock", "record", "domain", "stop_authority", "stop_path")
 

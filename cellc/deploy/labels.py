@@ -28,18 +28,26 @@ _FRAMES = {
 }
 _UNSTAMPED = ("std_msgs/msg/",)
 _PLAIN_TEXT = "std_msgs/msg/String"
+_NOT_STATED = "not stated"
+# REP-103: SI and radians; by the joint's type.
+_UNITS = {
+    "position": ("rad", "m"),
+    "velocity": ("rad/s", "m/s"),
+    "acceleration": ("rad/s^2", "m/s^2"),
+    "effort": ("Nm", "N"),
+}
 
 
 def interface_facts(interface: Interface) -> Iterator[str]:
     """Yield type, frame, unit, rate, time source, owner and failure behavior; what is not stated says so."""
-    yield f"{interface.kind.value} {interface.type}, {_rate(interface)}"
+    yield f"{interface.kind.value} {interface.type}, {rate_label(interface)}"
     yield f"frame {frame_label(interface)}, unit {_unit(interface)}, time {_time(interface)}"
-    yield f"owner {interface.owner or 'not stated'}; {', '.join(_failures(interface)) or 'failure not stated'}"
+    yield f"owner {interface.owner or _NOT_STATED}; {failure_label(interface)}"
 
 
 def frame_label(interface: Interface) -> str:
     """Return the frame of an interface: the stated one, otherwise what its type says."""
-    return interface.frame or _FRAMES.get(interface.type, "not stated")
+    return interface.frame or _FRAMES.get(interface.type, _NOT_STATED)
 
 
 def _unit(interface: Interface) -> str:
@@ -47,10 +55,11 @@ def _unit(interface: Interface) -> str:
 
 
 def _time(interface: Interface) -> str:
-    return interface.time_source or ("none, unstamped" if interface.type.startswith(_UNSTAMPED) else "not stated")
+    return interface.time_source or ("none, unstamped" if interface.type.startswith(_UNSTAMPED) else _NOT_STATED)
 
 
-def _rate(interface: Interface) -> str:
+def rate_label(interface: Interface) -> str:
+    """Return how often an interface is used."""
     if interface.rate_hz is not None:
         return f"{shortest(interface.rate_hz)} Hz"
     if interface.kind is not InterfaceKind.TOPIC:
@@ -65,6 +74,11 @@ def _rate(interface: Interface) -> str:
 
 def _latched(interface: Interface) -> bool:
     return bool(interface.sources) and all(one.qos.durability == "transient_local" for one in interface.sources)
+
+
+def failure_label(interface: Interface) -> str:
+    """Return what happens on each failure that the spec speaks of."""
+    return ", ".join(_failures(interface)) or "failure not stated"
 
 
 def _failures(interface: Interface) -> Iterator[str]:
@@ -83,16 +97,6 @@ def _failures(interface: Interface) -> Iterator[str]:
         yield f"cancel holds within {shortest(interface.cancel_within_s)} s"
     if interface.on_error is not None:
         yield f"error: {interface.on_error}"
-
-
-_NOT_STATED = "not stated"
-# REP-103: SI and radians; by the joint's type.
-_UNITS = {
-    "position": ("rad", "m"),
-    "velocity": ("rad/s", "m/s"),
-    "acceleration": ("rad/s^2", "m/s^2"),
-    "effort": ("Nm", "N"),
-}
 
 
 def claim_facts(cell: Cell, manager: ControllerManager, controller: Controller) -> Iterator[str]:

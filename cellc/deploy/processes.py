@@ -18,7 +18,7 @@ def launch_hosts(cell: Cell) -> tuple[str, ...]:
     return hosts if len(hosts) > 1 else ()
 
 
-def described_by(cell: Cell) -> tuple[str, ...]:
+def description_nodes(cell: Cell) -> tuple[str, ...]:
     """Return the nodes whose parameter ``robot_description`` is what the managers run, each once.
 
     Managers may have been started on several hosts, each with a target of its own: one answer does not tell of all.

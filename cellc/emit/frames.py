@@ -12,7 +12,7 @@ from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
 from cellc.cell.frame import Frame
 from cellc.deploy.deployment import Deployment
-from cellc.formats.numbers import settled
+from cellc.formats.numbers import rounded
 from cellc.formats.yaml_text import Tree, render
 from cellc.graph.cell_graph import CellGraph
 
@@ -64,4 +64,4 @@ def _transform(frame: Frame) -> Tree:
     pose = frame.transform_to_parent
     if pose is None or not frame.parent:
         return {}
-    return {"xyz": tuple(map(settled, pose.position)), "rpy": tuple(map(settled, pose.rpy()))}
+    return {"xyz": tuple(map(rounded, pose.position)), "rpy": tuple(map(rounded, pose.rpy()))}

@@ -23,7 +23,7 @@ def decimal(value: float) -> str:
     return (mantissa if "." in mantissa else f"{mantissa}.0") + exponent + power
 
 
-def settled(value: float) -> float:
+def rounded(value: float) -> float:
     """Return a computed length or angle without its rounding noise: a picometer or picoradian is exact enough."""
     return positive_zero(round(value, 12))
 

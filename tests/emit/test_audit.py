@@ -117,3 +117,9 @@ def test_bar_in_a_cell_does_not_end_it() -> None:
 
 def test_section_without_rows_says_so() -> None:
     assert table(("a",), []) == "None."
+
+
+def test_audit_says_the_whole_rate_of_transforms_and_of_what_is_latched() -> None:
+    rows = {row[0].strip("`"): row[-1] for row in section(artifacts_of("ur5e_pick")["audit.md"], "Expected topics")}
+    assert rows["/tf"].startswith("20 Hz, dynamic frames at their own; frame in each transform")
+    assert rows["/tf_static"].startswith("once, kept for whoever comes later; ")

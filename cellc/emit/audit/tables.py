@@ -8,7 +8,7 @@ from cellc.cell.cell import Cell
 from cellc.cell.control import Controller, ControllerManager
 from cellc.cell.interface import Endpoint, Interface, InterfaceKind, Node, NodeSource
 from cellc.deploy.files import QOS_OVERRIDES, controllers_file, is_planner, parameter_files, plans
-from cellc.deploy.labels import frame_label, interface_facts, units, watchdog
+from cellc.deploy.labels import failure_label, frame_label, interface_facts, rate_label, units, watchdog
 from cellc.formats.numbers import shortest
 from cellc.formats.parameter_file import qos_parameters
 from cellc.graph.cell_graph import CellGraph
@@ -65,7 +65,7 @@ def _requests(cell: Cell) -> Iterator[tuple[str, ...]]:
                 time,
                 qos,
                 "none",
-                _failure(one),
+                failure_label(one),
             )
 
 
@@ -83,7 +83,7 @@ def _controller(
     device = next((one for one in cell.devices if one.name == controller.device), None)
     hardware = "its hardware" if device is None or device.hardware is None else device.hardware.name
     rate = controller.update_rate_hz or manager.update_rate_hz
-    behaviour = "" if action is None else f"; {_failure(action)}"
+    behaviour = "" if action is None else f"; {failure_label(action)}"
     name = controller.action or controller.full_name
     return (
         f"{controller.client or 'nobody'} → `{name}` → {controller.label} → {hardware}",
@@ -95,10 +95,6 @@ def _controller(
         watchdog(cell, controller),
         f"on violation {controller.on_violation}{behaviour}",
     )
-
-
-def _failure(interface: Interface) -> str:
-    return list(interface_facts(interface))[2].partition("; ")[2]
 
 
 def _qos(ends: tuple[Endpoint, ...]) -> str:
@@ -174,9 +170,9 @@ def _of_drivers(cell: Cell) -> Iterator[tuple[str, ...]]:
 
 
 def _interface(interface: Interface) -> tuple[str, ...]:
-    first, *others = interface_facts(interface)
-    facts = "; ".join([first.rpartition(", ")[2], *others])
-    return f"`{interface.name}`", interface.type, _ends(interface.sources), _ends(interface.sinks), facts
+    _, *facts = interface_facts(interface)
+    contract = "; ".join((rate_label(interface), *facts))
+    return f"`{interface.name}`", interface.type, _ends(interface.sources), _ends(interface.sinks), contract
 
 
 def _ends(ends: tuple[Endpoint, ...]) -> str:

@@ -18,7 +18,7 @@ from cellc.contract.contract import (
     ContractPoseTarget,
     ContractSwitch,
 )
-from cellc.formats.numbers import settled
+from cellc.formats.numbers import rounded
 from cellc.formats.urdf.robot import described_frames
 from cellc.graph.claims import adapter_of_group
 from cellc.transforms import Pose
@@ -162,6 +162,6 @@ def _controller(controller: Controller) -> ContractController:
 
 def contract_pose(pose: Pose) -> ContractPose:
     """Return meters and a unit quaternion x, y, z, w without rounding noise."""
-    x, y, z = (settled(value) for value in pose.position)
-    qx, qy, qz, qw = (settled(value) for value in pose.quaternion)
+    x, y, z = (rounded(value) for value in pose.position)
+    qx, qy, qz, qw = (rounded(value) for value in pose.quaternion)
     return ContractPose(xyz=(x, y, z), quaternion=(qx, qy, qz, qw))

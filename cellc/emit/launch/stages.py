@@ -16,7 +16,7 @@ from xml.etree.ElementTree import Element
 
 from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
-from cellc.cell.interface import Node, NodeSource
+from cellc.cell.interface import TARGETS, Node, NodeSource
 from cellc.deploy.bringup import MOVE, Step, ready_to_move
 from cellc.deploy.deployment import Deployment
 from cellc.deploy.processes import bring_up_enclave, started_by_a_person
@@ -26,7 +26,6 @@ from cellc.formats.xml_text import comment, element
 from cellc.link.frames import ROBOT_STATE_PUBLISHER
 
 FILE = "launch/bring_up.bash"
-_TARGETS = ("mock", "real")
 _CONDITIONS = Path(__file__).with_name("readiness.bash")
 _ABOUT = {
     "configure": "every controller is loaded and configured, none is active; managed nodes likewise",
@@ -113,7 +112,7 @@ def bring_up(cell: Cell, plan: Deployment) -> Artifact:
 def _names(plan: Deployment) -> Iterator[str]:
     yield from (step.name for step in plan.steps)
     if plan.motion_clients:
-        yield from (f"{MOVE}_{target}" for target in _TARGETS)
+        yield from (f"{MOVE}_{target}" for target in TARGETS)
 
 
 def _case(step: Step) -> Iterator[str]:
@@ -125,7 +124,7 @@ def _case(step: Step) -> Iterator[str]:
 
 def _move(cell: Cell, plan: Deployment) -> Iterator[str]:
     if plan.motion_clients:
-        for target in _TARGETS:
+        for target in TARGETS:
             yield f"  {MOVE}_{target}) # by a person; what stands behind the step is started then"
             yield from (f"    needs {condition}" for condition in ready_to_move(cell, target))
             yield "    shift"

@@ -12,7 +12,7 @@ from xml.etree.ElementTree import Element
 from cellc.cell.cell import Cell
 from cellc.cell.control import Controller, ControllerManager
 from cellc.cell.interface import InterfaceKind, Node, NodeSource
-from cellc.deploy.processes import described_by
+from cellc.deploy.processes import description_nodes
 from cellc.formats.xml_text import element
 from cellc.link.derived import JOINT_STATE_TYPE
 from cellc.link.nodes import JOINT_STATES
@@ -210,7 +210,7 @@ def bring_up_profiles(cell: Cell) -> tuple[Profile, Profile]:
     """Return the rights of the command-line tools and of ``tf2_echo``."""
     common = common_profile(cell)
     managed = (f"{node.full_name}/{one}" for node in cell.nodes if node.lifecycle for one in _OF_MANAGED)
-    described = (f"{node}/get_parameters" for node in described_by(cell))
+    described = (f"{node}/get_parameters" for node in description_nodes(cell))
     managers = (f"{one.namespace}/controller_manager/{name}" for one in cell.managers for name in _OF_MANAGER)
     seen = (interface.name for interface in cell.interfaces if interface.type == JOINT_STATE_TYPE)
     tools = Profile(

@@ -23,7 +23,7 @@ from cellc.description.model import (
     Sphere,
     Visual,
 )
-from cellc.formats.numbers import settled, shortest
+from cellc.formats.numbers import rounded, shortest
 from cellc.formats.xml_text import element
 from cellc.transforms import Pose, identity
 
@@ -35,8 +35,8 @@ def numbers(values: Iterable[float]) -> str:
 
 def origin(pose: Pose) -> tuple[Element, ...]:
     """Return ``<origin>`` in meters and fixed-axis roll, pitch, yaw, or nothing for the identity."""
-    xyz = tuple(settled(value) for value in pose.position)
-    rpy = tuple(settled(value) for value in pose.rpy())
+    xyz = tuple(rounded(value) for value in pose.position)
+    rpy = tuple(rounded(value) for value in pose.rpy())
     attributes = {name: numbers(values) for name, values in (("xyz", xyz), ("rpy", rpy)) if any(values)}
     return (element("origin", attributes),) if attributes else ()
 
@@ -181,7 +181,7 @@ def device_joint(joint: Joint, limits: DeviceJoint | None) -> Element:
         element("child", {"link": joint.child}),
     ]
     if joint.type != "fixed":
-        children.append(element("axis", {"xyz": numbers(settled(value) for value in joint.axis)}))
+        children.append(element("axis", {"xyz": numbers(rounded(value) for value in joint.axis)}))
     if limits is not None:
         children.append(_limit(limits))
     if joint.mimic is not None:
