@@ -1,4 +1,4 @@
-"""The cell: everything that the spec and the catalogue say, bound and in SI."""
+"""The cell: everything that the spec and the catalog say, bound and in SI."""
 
 from __future__ import annotations
 

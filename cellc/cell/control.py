@@ -29,13 +29,13 @@ class Controller(Entity):
         label: name that no other controller of the cell has: the bare one, or the full one where managers share it.
         targets: targets on which it is spawned; the others lack its hardware, or parts of it.
         stand_in: what takes its goals on the real target where it is not spawned there.
-        kind: kind in the catalogue, such as ``joint_trajectory``.
+        kind: kind in the catalog, such as ``joint_trajectory``.
         behaviour: what it does; a vendor's scaled variant is ``scaled_joint_trajectory``.
         plugin: type string for the controller manager.
         command_interfaces: full names that it claims, such as ``arm_elbow_joint/position``.
         state_interfaces: full names that it reads.
         package: the ROS package of its plugin.
-        declared: what the catalogue says of its kind: parameters, topics, services.
+        declared: what the catalog says of its kind: parameters, topics, services.
         plugin_parameters: names of parameters that the plugin of a device's own controller has besides.
         parameters: everything that goes to its node, dots for nesting, in the types that it declares.
         written_parameters: those of them that stand under ``parameters:`` in the spec.

@@ -1,4 +1,4 @@
-"""Devices of a cell with everything that the catalogue knows of them bound and prefixed."""
+"""Devices of a cell with everything that the catalog knows of them bound and prefixed."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class DeviceJoint(Entity):
     """A movable joint: ``name`` carries the prefix, ``local_name`` does not.
 
     Limits are the device's own, tightened by the cell; rad and rad/s for revolute, m and m/s for prismatic joints;
-    None where neither the description nor the catalogue states one. ``mimics`` names the joint that it follows.
+    None where neither the description nor the catalog states one. ``mimics`` names the joint that it follows.
     """
 
     local_name: str
@@ -128,7 +128,7 @@ class Stamp:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Payload:
-    """Load that the robot controller is told of: at the flange, centre of mass in the arm's tool0 in m."""
+    """Load that the robot controller is told of: at the flange, center of mass in the arm's tool0 in m."""
 
     mass_kg: float
     center_of_mass: Vector3
@@ -178,7 +178,7 @@ class CameraStream:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Camera:
-    """A camera; the exposure is that of the spec, else of the catalogue, else zero."""
+    """A camera; the exposure is that of the spec, else of the catalog, else zero."""
 
     streams: tuple[CameraStream, ...]
     exposure_s: float = 0.0
@@ -243,18 +243,18 @@ class Device(Entity):
     """A robot, gripper or sensor where it stands.
 
     Args:
-        model, vendor, kind: as the catalogue names them; the kind is arm, gripper or camera.
+        model, vendor, kind: as the catalog names them; the kind is arm, gripper or camera.
         architecture: who owns the command path: ros2, direct_sdk or hybrid.
         description: links and joints with the prefix applied; frames as URDF.
         root_link: prefixed root link; its pose in ``parent_frame`` is ``transform_root_to_parent``.
-        frames: short names of the catalogue and local link names → prefixed link names.
+        frames: short names of the catalog and local link names → prefixed link names.
         joints: movable joints in the order of the description, mimic joints included.
         driver: what moves it on the real target where no component of ros2_control does.
         tool_frame: prefixed link where tools mount, for an arm.
         carries: devices mounted on this one, directly or on a frame of it.
         host: the computer that runs its driver; empty where the cell names none.
         versions, connection, limit_shares, stamp, payload, adapter, simulated_joints: what the spec states of it.
-        home: prefixed joint → position where the catalogue says a mock begins.
+        home: prefixed joint → position where the catalog says a mock begins.
         optical_frames: short names of frames that look along z.
         payload_limit_kg: what may hang on the flange, tool included.
         update_rates_hz: those that the device accepts; any where empty.

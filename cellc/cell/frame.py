@@ -60,7 +60,7 @@ class Frame(Entity):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SceneBox(Entity):
-    """A box that planning avoids: full edge lengths in m, centre pose in ``parent``."""
+    """A box that planning avoids: full edge lengths in m, center pose in ``parent``."""
 
     parent: str
     transform_to_parent: Pose

@@ -22,7 +22,7 @@ class NodeSource(str, Enum):
     """Who brings a node into the cell."""
 
     SPEC = "spec"
-    DEVICE = "device"  # a driver of the catalogue
+    DEVICE = "device"  # a driver of the catalog
     STANDARD = "standard"  # robot_state_publisher, controller manager, controllers
 
 

@@ -50,7 +50,7 @@ def cell_pins(cell: Cell) -> Iterator[Pin]:
 
 
 def device_pins(cell: Cell) -> Iterator[Pin]:
-    """Yield the parts of the tuple of each device; what its catalogue entry says it has none of is left out."""
+    """Yield the parts of the tuple of each device; what its catalog entry says it has none of is left out."""
     for device in cell.devices:
         packages = device.packages
         absent = {"driver": packages.driver, "sdk": packages.sdk, "description": packages.description}
@@ -73,7 +73,7 @@ def version_numbers(text: str) -> tuple[int, ...]:
 
 
 def distribution(cell: Cell) -> DistroFacts | None:
-    """Return the facts of the pinned distribution, or None where the catalogue has none."""
+    """Return the facts of the pinned distribution, or None where the catalog has none."""
     table = load_distros().value
     known = {} if table is None else dict(table.distros.items())
     return next((facts for name, facts in known.items() if name == cell.distro), None)
@@ -107,7 +107,7 @@ def _of_cell(cell: Cell) -> Iterator[Judgement]:
         if not pin.known:
             yield Judgement(pin, Answer.UNKNOWN, "not pinned")
         elif facts is None or table is None:
-            yield Judgement(pin, Answer.UNKNOWN, "the catalogue has no such distribution")
+            yield Judgement(pin, Answer.UNKNOWN, "the catalog has no such distribution")
         else:
             answer, evidence = _cell_answer(pin, facts)
             yield Judgement(pin, answer, f"{evidence} (as of {table.as_of})")

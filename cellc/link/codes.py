@@ -1,4 +1,4 @@
-"""What linking reports: references that nothing has, and choices that the catalogue does not offer."""
+"""What linking reports: references that nothing has, and choices that the catalog does not offer."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ CODES: tuple[CodePage, ...] = (
     _unknown("unknown-host", "host", "nodes, managers and connections name entries of `hosts`"),
     _unknown("unknown-interface", "interface", "a fault names a topic, service or action under its full name"),
     _unknown("unknown-joint", "joint", "a joint is `device/joint`, with the joint's name in its description"),
-    _unknown("unknown-model", "model", "a device names an entry of the catalogue, or a folder with a device.yaml"),
+    _unknown("unknown-model", "model", "a device names an entry of the catalog, or a folder with a device.yaml"),
     _unknown("unknown-nic", "network card", "a connection names a card of its host"),
     _unknown("unknown-node", "node", "interfaces, frames and clients name nodes, devices or controllers"),
     _unknown("unknown-rehearsal", "rehearsal", "`use` names another entry of `rehearsals`"),

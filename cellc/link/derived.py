@@ -273,5 +273,5 @@ def _service(source: Derivation, controller: Controller, service: ControllerServ
 
 
 def _absolute(controller: Controller, name: str) -> str:
-    """Return a name of the catalogue in full: below the controller's own, or in its namespace."""
+    """Return a name of the catalog in full: below the controller's own, or in its namespace."""
     return f"{controller.full_name}{name[1:]}" if name.startswith("~/") else f"{controller.namespace}/{name}"

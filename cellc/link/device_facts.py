@@ -160,7 +160,7 @@ def _gripper(facts: DeviceModel, prefix: str) -> Gripper | None:
 
 
 def _camera(facts: DeviceModel, written: DeviceSpec, known: Placeholders, prefix: str) -> Camera | None:
-    """Return the camera that the device is; an exposure of the spec counts before the catalogue's."""
+    """Return the camera that the device is; an exposure of the spec counts before the catalog's."""
     camera = facts.camera
     if camera is None:
         return None
@@ -201,7 +201,7 @@ def _network_needs(facts: DeviceModel) -> NetworkNeeds | None:
 
 
 def _vendor_safety(facts: DeviceModel) -> VendorSafety:
-    """Return the vendor's safety boundary; empty where the catalogue has none."""
+    """Return the vendor's safety boundary; empty where the catalog has none."""
     safety = facts.safety
     if safety is None:
         return VendorSafety()

@@ -1,4 +1,4 @@
-"""Binds each device to its catalogue entry or folder: prefix, joints with limits, hardware component, mount."""
+"""Binds each device to its catalog entry or folder: prefix, joints with limits, hardware component, mount."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from cellc.transforms import identity
 
 @dataclass(frozen=True, slots=True)
 class BoundDevice:
-    """A device with the catalogue entry that it was bound to, and what fills the placeholders of the entry's texts."""
+    """A device with the catalog entry that it was bound to, and what fills the placeholders of the entry's texts."""
 
     device: Device
     facts: DeviceModel
@@ -37,7 +37,7 @@ def link_devices(spec: CellSpec, document: SourceDocument) -> Outcome[tuple[Boun
     entries: dict[str, CatalogDevice] = {}
     problems: list[Diagnostic] = []
     for name, written in spec.devices.items():
-        entry = _catalogue_entry(name, written, document)
+        entry = _catalog_entry(name, written, document)
         problems += entry.diagnostics
         if entry.value is not None:
             entries[name] = entry.value
@@ -69,7 +69,7 @@ def prefix_of(name: str, written: DeviceSpec) -> str:
     return f"{name}_" if written.prefix is None else written.prefix
 
 
-def _catalogue_entry(name: str, written: DeviceSpec, document: SourceDocument) -> Outcome[CatalogDevice]:
+def _catalog_entry(name: str, written: DeviceSpec, document: SourceDocument) -> Outcome[CatalogDevice]:
     path = ("devices", name, "model")
     if "/" in written.model or written.model.startswith("."):
         return local_device(written.model, document.locate(path), path)
@@ -80,7 +80,7 @@ def _catalogue_entry(name: str, written: DeviceSpec, document: SourceDocument) -
             message=f"the catalog has no model `{written.model}`",
             span=document.locate(path),
             yaml_path=path,
-            help=did_you_mean(written.model, device_names(), "models of the catalogue, or a folder with a device.yaml"),
+            help=did_you_mean(written.model, device_names(), "models of the catalog, or a folder with a device.yaml"),
         )
         return Outcome(None, (problem,))
     return load_device(written.model)
@@ -119,7 +119,7 @@ def _parent_frame(
 
 
 def _frame_names(entry: CatalogDevice) -> dict[str, str]:
-    """Return local link names and the short names of the catalogue, which win."""
+    """Return local link names and the short names of the catalog, which win."""
     return {link.name: link.name for link in entry.description.links} | dict(entry.model.frames)
 
 
@@ -274,7 +274,7 @@ def local_device(model: str, place: Span, path: YamlPath) -> Outcome[CatalogDevi
     if not os.path.exists(folder / "device.yaml"):
         problem = "holds no `device.yaml`" if os.path.isdir(folder) else "is not a folder"
         shown = folder.as_posix()
-        advice = "write the folder with its `device.yaml`, or name a model of the catalogue"
+        advice = "write the folder with its `device.yaml`, or name a model of the catalog"
         missing = Diagnostic("unknown-model", Severity.ERROR, f"`{shown}` {problem}", place, path, advice)
         return Outcome(None, (missing,))
     loaded = load_device_folder(folder, root)

@@ -45,7 +45,7 @@ def _seconds(written: Quantity | None, default: float | None) -> float | None:
 
 @dataclass(frozen=True, slots=True)
 class QosResolver:
-    """Turns a catalogue profile into what an endpoint really offers on the cell's middleware."""
+    """Turns a catalog profile into what an endpoint really offers on the cell's middleware."""
 
     table: QosTable
     rmw: Rmw

@@ -86,7 +86,7 @@ def link_scene(spec: CellSpec, document: SourceDocument, names: FrameNames) -> O
 
 
 def scene_frames(boxes: Iterable[SceneBox]) -> tuple[Frame, ...]:
-    """Return the frame of each box, at its centre."""
+    """Return the frame of each box, at its center."""
     return tuple(
         Frame(
             name=box.name,

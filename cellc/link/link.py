@@ -1,4 +1,4 @@
-"""From what the user wrote to the cell: references bound, units SI, catalogue facts joined."""
+"""From what the user wrote to the cell: references bound, units SI, catalog facts joined."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ from cellc.vocabulary import Distro
 
 
 def link(spec: CellSpec, document: SourceDocument) -> Outcome[Cell]:
-    """Bind a spec to the catalogue.
+    """Bind a spec to the catalog.
 
     Returns:
         The cell where every reference could be bound; all references that could not, at once.
@@ -115,7 +115,7 @@ def _surroundings(spec: CellSpec, document: SourceDocument, distro: Distro) -> C
 
 def _qos_resolver(spec: CellSpec) -> QosResolver:
     table = load_qos_profiles().value
-    assert table is not None  # package data, held valid by the catalogue's tests
+    assert table is not None  # package data, held valid by the catalog's tests
     return QosResolver(table, _rmw(spec))
 
 

@@ -1,4 +1,4 @@
-"""What names of the spec and placeholders of the catalogue mean, and the report of a name that nothing has."""
+"""What names of the spec and placeholders of the catalog mean, and the report of a name that nothing has."""
 
 from __future__ import annotations
 

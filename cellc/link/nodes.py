@@ -27,7 +27,7 @@ Nobody merges: several publishers on it are usual, readers put joints together b
 
 
 def link_nodes(spec: CellSpec, document: SourceDocument, devices: tuple[BoundDevice, ...]) -> Outcome[tuple[Node, ...]]:
-    """Bind the nodes of the spec to their hosts, and add the drivers that the catalogue names."""
+    """Bind the nodes of the spec to their hosts, and add the drivers that the catalog names."""
     nodes: list[Node] = []
     problems: list[Diagnostic] = []
     for name, written in spec.nodes.items():

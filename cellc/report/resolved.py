@@ -1,4 +1,4 @@
-"""The resolved cell as a tree of values, each with where it came from: spec line, catalogue, or default."""
+"""The resolved cell as a tree of values, each with where it came from: spec line, catalog, or default."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from cellc.transforms import Pose
 Tree = Union["Leaf", dict[str, "Tree"]]
 
 _BOOKKEEPING = {"name", "path", "span"}
-# What a reader of `show` finds elsewhere: in the catalogue, or among the parameters.
+# What a reader of `show` finds elsewhere: in the catalog, or among the parameters.
 _HIDDEN = {
     Controller: {"package", "declared", "plugin_parameters", "written_parameters"},
     Device: {
@@ -48,7 +48,7 @@ _KEYS = {
     "velocity": "limits",
     "acceleration": "limits",
 }
-_FROM_CATALOGUE = {
+_FROM_CATALOG = {
     Device: {"root_link", "frames", "joints", "hardware", "tool_frame"},
     Controller: {"behaviour", "plugin", "joints", "command_interfaces", "state_interfaces", "action", "action_type"},
     Frame: {"parent", "transform_to_parent", "kind", "moving", "device"},
@@ -176,21 +176,21 @@ def _written(cell: Cell, path: YamlPath) -> str:
 def _origin(cell: Cell, entity: Entity, field: str) -> str:
     key = _KEYS.get(field) or _key(field)
     path = (*entity.path, key)
-    catalogue = f"catalogue {_catalogue_entry(cell, entity)}"
+    catalog = f"catalog {_catalog_entry(cell, entity)}"
     if isinstance(entity, DeviceJoint):
         tightened = key == "limits" and cell.states(*path, field)
-        return f"{_written(cell, (*path, field))} of {catalogue}" if tightened else catalogue
+        return f"{_written(cell, (*path, field))} of {catalog}" if tightened else catalog
     if isinstance(entity, Controller) and field == "parameters":
         # Some follow from the controller's keys, some from its device, some from its kind.
-        return f"{_written(cell, entity.path)} with {catalogue}"
+        return f"{_written(cell, entity.path)} with {catalog}"
     if cell.states(*path):
         return _written(cell, path)
-    known = next((names for kind, names in _FROM_CATALOGUE.items() if isinstance(entity, kind)), set[str]())
+    known = next((names for kind, names in _FROM_CATALOG.items() if isinstance(entity, kind)), set[str]())
     derived = field in known or getattr(entity, "derived", False)
-    return catalogue if derived else "default"
+    return catalog if derived else "default"
 
 
-def _catalogue_entry(cell: Cell, entity: Entity) -> str:
+def _catalog_entry(cell: Cell, entity: Entity) -> str:
     if isinstance(entity, Controller):
         return f"controllers/{entity.kind}"
     device = next((one for one in cell.devices if entity.path[:2] == one.path), None)
