@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from cellc.artifact import Artifact
-from cellc.cli.answers import Answer, answers
+from cellc.cli.batch import CellResult, results
 from cellc.cli.findings import (
     FAIL_ON,
     FORMAT,
@@ -68,19 +68,19 @@ def build(
     told: list[str] = []
     differs = False
     with progress("building") as update:
-        computed = answers("compile", files)
+        computed = results("compile", files)
         for file in files:
             update(file)
-            answer = _unless_shared(next(computed), places)
-            findings = answer.findings
-            if answer.artifacts is not None and answer.cell is not None:
-                folder = output / answer.cell.name
+            result = _unless_shared(next(computed), places)
+            findings = result.findings
+            if result.artifacts is not None and result.cell is not None:
+                folder = output / result.cell.name
                 if only_compare:
-                    differences = compare(answer.artifacts, folder)
+                    differences = compare(result.artifacts, folder)
                     differs = differs or bool(differences)
                     told += _differences(differences, folder)
                 else:
-                    findings, report = _written(findings, answer.artifacts, folder, force)
+                    findings, report = _written(findings, result.artifacts, folder, force)
                     told += [] if report is None else [_told(report, folder)]
             built.append(findings)
     shown = [selected_and_errors(one, wanted) for one in built]
@@ -92,15 +92,15 @@ def build(
     finish(shown, fail_on)
 
 
-def _unless_shared(answer: Answer, places: dict[str, Span]) -> Answer:
+def _unless_shared(result: CellResult, places: dict[str, Span]) -> CellResult:
     """Take the artifacts from a cell whose folder is made already; ``places`` holds where the cells are named."""
-    if answer.cell is None:
-        return answer
-    here = answer.cell.named_at
-    shared = shared_output(answer.cell.name, here, places.setdefault(answer.cell.name, here))
+    if result.cell is None:
+        return result
+    here = result.cell.named_at
+    shared = shared_output(result.cell.name, here, places.setdefault(result.cell.name, here))
     if shared is None:
-        return answer
-    return replace(answer, findings=answer.findings.with_more((shared,)), artifacts=None)
+        return result
+    return replace(result, findings=result.findings.with_more((shared,)), artifacts=None)
 
 
 def _written(

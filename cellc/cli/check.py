@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from cellc.cli.answers import answers
+from cellc.cli.batch import results
 from cellc.cli.findings import (
     FAIL_ON,
     FORMAT,
@@ -58,7 +58,7 @@ def check(
         for file in files if fix else ():
             update(file)
             fix_file(file)
-        computed = answers("check", files)
+        computed = results("check", files)
         for file in files:
             update(file)
             found.append(next(computed).findings)

@@ -23,7 +23,7 @@ _CELLS_THAT_PAY: Mapping[Kind, int] = {"check": 16, "compile": 3}
 
 
 @dataclass(frozen=True, slots=True)
-class Answer:
+class CellResult:
     """What a command needs of a spec that was checked, or compiled too; without the graph, so that it can be sent.
 
     Args:
@@ -36,8 +36,8 @@ class Answer:
     artifacts: tuple[Artifact, ...] | None = None
 
 
-def answers(kind: Kind, files: Sequence[str]) -> Iterator[Answer]:
-    """Yield the answer for each spec in the order of the call, with what the cells before it have against it.
+def results(kind: Kind, files: Sequence[str]) -> Iterator[CellResult]:
+    """Yield the result of each spec in the order of the call, with what the cells before it have against it.
 
     Args:
         files: specs as the user named them.
@@ -45,29 +45,29 @@ def answers(kind: Kind, files: Sequence[str]) -> Iterator[Answer]:
     number = number_of_workers(kind, len(files))
     computed = in_workers(kind, files, number) if number > 1 else (compute(kind, file) for file in files)
     earlier: list[Presence] = []
-    for answer in computed:
-        if answer.cell is None:
-            yield answer
+    for result in computed:
+        if result.cell is None:
+            yield result
             continue
-        against = tuple(shared_domains(answer.cell, earlier))
-        earlier.append(answer.cell)
+        against = tuple(shared_domains(result.cell, earlier))
+        earlier.append(result.cell)
         # An error stops the artifacts.
-        yield replace(answer, findings=answer.findings.with_more(against), artifacts=None) if against else answer
+        yield replace(result, findings=result.findings.with_more(against), artifacts=None) if against else result
 
 
-def compute(kind: Kind, file: str) -> Answer:
+def compute(kind: Kind, file: str) -> CellResult:
     """Check a spec, or check and compile it."""
     # A process that has others compute does not load the compiler.
     from cellc.pipeline import check, compile_cell
 
     checked = check(file)
     if checked.graph is None:
-        return Answer(checked.findings)
+        return CellResult(checked.findings)
     if kind == "check":
-        return Answer(checked.findings, presence_of(checked.graph))
+        return CellResult(checked.findings, presence_of(checked.graph))
     compiled = compile_cell(checked)
     artifacts = compiled.value if compiled.ok else None
-    return Answer(checked.findings.with_more(compiled.diagnostics), presence_of(checked.graph), artifacts)
+    return CellResult(checked.findings.with_more(compiled.diagnostics), presence_of(checked.graph), artifacts)
 
 
 def number_of_workers(kind: Kind, cells: int, cores: int | None = None) -> int:
@@ -86,8 +86,8 @@ def usable_cores() -> int:
     return len(affinity(0)) if affinity is not None else os.cpu_count() or 1
 
 
-def in_workers(kind: Kind, files: Sequence[str], number: int) -> Generator[Answer, None, None]:
-    """Yield answers in the order of the specs, however many processes compute them; closing it ends them all.
+def in_workers(kind: Kind, files: Sequence[str], number: int) -> Generator[CellResult, None, None]:
+    """Yield results in the order of the specs, however many processes compute them; closing it ends them all.
 
     Raises:
         KeyboardInterrupt: what had not begun was dropped, and no process is left.
@@ -102,9 +102,9 @@ def in_workers(kind: Kind, files: Sequence[str], number: int) -> Generator[Answe
     try:
         with _interrupts_blocked():
             computed = pool.map(partial(compute, kind), files)
-        for answer in computed:
+        for result in computed:
             done += 1
-            yield answer
+            yield result
     except BrokenProcessPool:  # the system ended one, for want of memory say
         yield from (compute(kind, file) for file in files[done:])
     finally:

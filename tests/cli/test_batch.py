@@ -10,7 +10,7 @@ from concurrent.futures.process import BrokenProcessPool
 
 import pytest
 
-from cellc.cli.answers import Answer, compute, in_workers, number_of_workers
+from cellc.cli.batch import CellResult, compute, in_workers, number_of_workers
 from tests.cells import ROOT
 from tests.cli.run import MINIMAL
 
@@ -30,9 +30,9 @@ def test_workers_compile_as_this_process_does() -> None:
 
 
 def test_a_caller_that_stops_early_leaves_no_process() -> None:
-    answers = in_workers("check", FILES, 2)
-    assert next(answers) == compute("check", FILES[0])
-    answers.close()
+    found = in_workers("check", FILES, 2)
+    assert next(found) == compute("check", FILES[0])
+    found.close()
     assert multiprocessing.active_children() == []
 
 
@@ -64,7 +64,7 @@ class _PoolThatBreaks:
     def __init__(self, number: int, mp_context: object) -> None:
         self.is_shut = False
 
-    def map(self, function: Callable[[str], Answer], files: Sequence[str]) -> Iterator[object]:
+    def map(self, function: Callable[[str], CellResult], files: Sequence[str]) -> Iterator[object]:
         yield function(files[0])
         raise BrokenProcessPool
 
