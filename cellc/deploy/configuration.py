@@ -18,6 +18,9 @@ from cellc.graph.cell_graph import CellGraph
 
 _DIGITS = 12
 
+_OF_CELL = ("os", "kernel", "ros", "rmw", "ros2_control", "moveit")
+_OF_DEVICE = ("revision", "serial", "firmware", "driver", "sdk", "description")
+
 
 def configuration_inputs(cell: Cell) -> ConfigurationInputs:
     """Gather what the id is taken over; the same cell on another host gives the same."""
@@ -33,10 +36,6 @@ def configuration_id(inputs: ConfigurationInputs) -> str:
     """Return ``cfg-`` and 12 hexadecimal digits; the order of calibrations and frames does not matter."""
     canonical = json.dumps(inputs.model_dump(), sort_keys=True, separators=(",", ":"))
     return "cfg-" + hashlib.sha256(canonical.encode()).hexdigest()[:_DIGITS]
-
-
-_OF_CELL = ("os", "kernel", "ros", "rmw", "ros2_control", "moveit")
-_OF_DEVICE = ("revision", "serial", "firmware", "driver", "sdk", "description")
 
 
 def version_tuple(cell: Cell) -> dict[str, str]:

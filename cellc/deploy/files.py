@@ -19,6 +19,19 @@ NETWORK_GATES = "gates/network.md"
 QOS_OVERRIDES = "config/qos_overrides.yaml"
 """QoS of the nodes that the spec names."""
 
+JOINT_LIMITS = "config/joint_limits.yaml"
+CONTROLLERS = "config/moveit/controllers.yaml"
+PARAMETER_FILES = (
+    "config/moveit/kinematics.yaml",
+    JOINT_LIMITS,
+    "config/moveit/cartesian_limits.yaml",
+    "config/moveit/planning_pipelines.yaml",
+    CONTROLLERS,
+    "config/moveit/trajectory_execution.yaml",
+    "config/moveit/planning_scene.yaml",
+)
+"""In the order in which move_group is given them."""
+
 
 def description_file(cell: Cell, target: str) -> str:
     """Return the path of the URDF for ``mock`` or ``real``."""
@@ -38,20 +51,6 @@ def controllers_file(cell: Cell, manager: ControllerManager) -> str:
 def node_file(node: Node) -> str:
     """Return the path of a node's parameter file; there is none for a node without parameters."""
     return f"config/{node.full_name.lstrip('/').replace('/', '.')}.yaml"
-
-
-JOINT_LIMITS = "config/joint_limits.yaml"
-CONTROLLERS = "config/moveit/controllers.yaml"
-PARAMETER_FILES = (
-    "config/moveit/kinematics.yaml",
-    JOINT_LIMITS,
-    "config/moveit/cartesian_limits.yaml",
-    "config/moveit/planning_pipelines.yaml",
-    CONTROLLERS,
-    "config/moveit/trajectory_execution.yaml",
-    "config/moveit/planning_scene.yaml",
-)
-"""In the order in which move_group is given them."""
 
 
 def parameter_files(cell: Cell, target: str) -> tuple[str, ...]:

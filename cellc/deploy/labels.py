@@ -37,6 +37,8 @@ _UNITS = {
     "effort": ("Nm", "N"),
 }
 
+_NOTHING = "nothing that the catalog names"
+
 
 def interface_facts(interface: Interface) -> Iterator[str]:
     """Yield type, frame, unit, rate, time source, owner and failure behavior; what is not stated says so."""
@@ -151,9 +153,6 @@ def watchdog(cell: Cell, controller: Controller) -> str:
     """Return what stops the device when commands stay away, by its vendor."""
     stated = None if controller.device is None else cell.device(controller.device).safety.watchdog
     return stated or _NOT_STATED
-
-
-_NOTHING = "nothing that the catalog names"
 
 
 def real_driver(device: Device) -> str:

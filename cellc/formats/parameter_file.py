@@ -14,6 +14,8 @@ from cellc.formats.yaml_text import nested, render
 ANY_NODE = "/**"
 """Matches every node that reads the file."""
 
+_NANOSECONDS = 1_000_000_000
+
 
 @dataclass(frozen=True, slots=True)
 class NodeParameters:
@@ -44,9 +46,6 @@ def _section(section: NodeParameters) -> str:
     plain = section.node.count("/") == 1 and section.node != ANY_NODE
     key = section.node.removeprefix("/") if plain else section.node
     return f"# {spec_path(section.origin)}\n" + render({key: {"ros__parameters": nested(section.parameters)}})
-
-
-_NANOSECONDS = 1_000_000_000
 
 
 def qos_parameters(cell: Cell, node: Node) -> dict[str, ParameterValue]:

@@ -14,6 +14,11 @@ from cellc.artifact import Artifact
 from cellc.diagnostics import Diagnostic
 from cellc.output.codes import finding
 
+MANIFEST = "manifest.json"
+_FORMAT = 1
+# Forbidden in names of one of the common file systems.
+_RESERVED = frozenset('<>:"|?*\\')
+
 
 @dataclass(frozen=True, slots=True)
 class Plan:
@@ -102,10 +107,6 @@ def _is_inside(path: str) -> bool:
     return bool(path) and not Path(path).is_absolute() and ".." not in Path(path).parts and "\0" not in path
 
 
-MANIFEST = "manifest.json"
-_FORMAT = 1
-
-
 def sha256(content: bytes) -> str:
     """Return the digest of a file's bytes as hexadecimal digits."""
     return hashlib.sha256(content).hexdigest()
@@ -126,10 +127,6 @@ def hashes_in(content: bytes | None) -> dict[str, str]:
     if not isinstance(files, dict) or not all(isinstance(digest, str) for digest in files.values()):
         return {}
     return files
-
-
-# Forbidden in names of one of the common file systems.
-_RESERVED = frozenset('<>:"|?*\\')
 
 
 def check_paths(artifacts: Sequence[Artifact], folder: Path) -> Iterator[Diagnostic]:

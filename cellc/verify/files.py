@@ -22,6 +22,12 @@ from cellc.verify.codes import Disagreement
 _XML = (".xml", ".urdf", ".srdf", ".xacro", ".svg")
 _YAML = (".yaml", ".yml", ".repos")
 
+_MODELS: Mapping[str, type[BaseModel]] = {
+    "contract.json": Contract,
+    "manifest.json": Manifest,
+    "rehearsals.json": Rehearsals,
+}
+
 
 def check_text(artifacts: Sequence[Artifact]) -> Iterator[Disagreement]:
     """Yield the files that are not what the end of their name says."""
@@ -52,13 +58,6 @@ def _check_yaml(artifact: Artifact) -> Iterator[Disagreement]:
         yaml.load(artifact.text, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
     except (yaml.YAMLError, ValueError) as error:
         yield Disagreement("verify-text", artifact.path, f"is not YAML: {error}")
-
-
-_MODELS: Mapping[str, type[BaseModel]] = {
-    "contract.json": Contract,
-    "manifest.json": Manifest,
-    "rehearsals.json": Rehearsals,
-}
 
 
 def check_json(artifacts: Sequence[Artifact]) -> Iterator[Disagreement]:

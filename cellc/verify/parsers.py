@@ -20,6 +20,9 @@ import pinocchio
 
 from cellc.transforms import Pose
 
+_MOVABLE = ("revolute", "prismatic", "continuous")
+_HEAVY = ("scipy", "networkx", "PIL", "shapely", "rtree")
+
 
 @dataclass(frozen=True, slots=True)
 class JointReading:
@@ -58,9 +61,6 @@ def displaced_positions(joints: Mapping[str, str | None]) -> dict[str, float]:
     """
     free = sorted(name for name, mimicked in joints.items() if mimicked is None)
     return {name: 0.1 + 0.05 * (index % 7) for index, name in enumerate(free)}
-
-
-_MOVABLE = ("revolute", "prismatic", "continuous")
 
 
 def read_by_yourdfpy(urdf: str) -> tuple[Reading, dict[str, float]]:
@@ -123,9 +123,6 @@ def _pose(matrix: Any) -> Pose:
         double / 4.0 if i == largest else products[(min(i, largest), max(i, largest))] / double for i in range(4)
     )
     return Pose((m[0][3], m[1][3], m[2][3]), (x, y, z, w))
-
-
-_HEAVY = ("scipy", "networkx", "PIL", "shapely", "rtree")
 
 
 def import_yourdfpy() -> ModuleType:

@@ -28,6 +28,19 @@ from cellc.formats.parameter_file import spec_path
 from cellc.graph.cell_graph import CellGraph
 from cellc.graph.versions import Answer, Judgement, compatibility
 
+_QUESTIONS = {
+    "graph": "Is there one command publisher or action server?",
+    "time_tf": "Which stamp and calibration produced the goal?",
+    "controller": "Are joints, interfaces, tolerance and hold defined?",
+    "vendor": "Are firmware, driver, mode and scaling pinned?",
+    "network": "Do discovery and data use controlled paths?",
+    "safety": "Are stop, recovery and observer independent?",
+    "data": "Can failures be replayed by layer?",
+}
+_SPEC_AUTHOR = "author of the spec"
+# What stands on the thing itself can be read by whoever answers for it; what is released only the supplier knows.
+_READ_ON_THE_DEVICE = ("revision", "serial", "firmware")
+
 
 def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     """Yield the audit."""
@@ -51,17 +64,6 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     blocks = [f"<!--\n{plan.header.text}\n-->", f"# {cell.name}: audit"]
     blocks += [f"## {title}\n\n{text}" for title, text in sections.items()]
     yield Artifact("audit.md", "\n\n".join(blocks) + "\n")
-
-
-_QUESTIONS = {
-    "graph": "Is there one command publisher or action server?",
-    "time_tf": "Which stamp and calibration produced the goal?",
-    "controller": "Are joints, interfaces, tolerance and hold defined?",
-    "vendor": "Are firmware, driver, mode and scaling pinned?",
-    "network": "Do discovery and data use controlled paths?",
-    "safety": "Are stop, recovery and observer independent?",
-    "data": "Can failures be replayed by layer?",
-}
 
 
 def approvals(cell: Cell) -> Iterator[str]:
@@ -98,11 +100,6 @@ def not_provable(cell: Cell) -> Iterator[str]:
     for device in cell.devices:
         of = f"{device.name} ({device.vendor} {device.model})"
         yield from (f"- {of}: {text}" for text in device.mock_cannot_prove)
-
-
-_SPEC_AUTHOR = "author of the spec"
-# What stands on the thing itself can be read by whoever answers for it; what is released only the supplier knows.
-_READ_ON_THE_DEVICE = ("revision", "serial", "firmware")
 
 
 def questions_section(graph: CellGraph, plan: Deployment) -> str:

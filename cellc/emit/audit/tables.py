@@ -14,6 +14,8 @@ from cellc.formats.parameter_file import qos_parameters
 from cellc.graph.cell_graph import CellGraph
 from cellc.link.nodes import DESCRIPTION_PUBLISHER
 
+_NOT_STATED = "not stated"
+
 
 def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     """Write a table; a sentence where it has no row, so that an empty section is an answer."""
@@ -25,9 +27,6 @@ def _row(cells: Sequence[str]) -> str:
     # A bar would end the cell.
     escaped = (cell.replace("|", "\\|").replace("\n", " ") for cell in cells)
     return f"| {' | '.join(escaped)} |"
-
-
-_NOT_STATED = "not stated"
 
 
 def owners_section(graph: CellGraph) -> str:

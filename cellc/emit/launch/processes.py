@@ -39,6 +39,8 @@ HOST = "$(var host)"
 ON_REAL = f"$(eval \"'{TARGET}' == 'real'\")"
 """True on the real target; `eval` because Humble has no `equals`, harmless because the argument has choices."""
 
+_TOPIC = "robot_description"
+
 
 def only_on(target: str | None) -> dict[str, str]:
     """Return the condition of what is started on one target alone; none for what is started on every target."""
@@ -139,9 +141,6 @@ def _parameters(cell: Cell, node: Node) -> Iterator[Element]:
 
 def _description(cell: Cell) -> Element:
     return description_parameter(share(cell, description_file(cell, TARGET)))
-
-
-_TOPIC = "robot_description"
 
 
 def control(cell: Cell, manager: ControllerManager) -> Iterator[Element]:

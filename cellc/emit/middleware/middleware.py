@@ -26,6 +26,15 @@ from cellc.formats.xml_text import render
 from cellc.graph.cell_graph import CellGraph
 from cellc.vocabulary import Feature, features
 
+_RANGE = {"multicast": "SUBNET", "unicast": "LOCALHOST", "localhost": "LOCALHOST", "off": "OFF"}
+_VARIABLES = {
+    ".cyclonedds.xml": ("CYCLONEDDS_URI",),
+    ".zenoh_router.json5": ("ZENOH_ROUTER_CONFIG_URI",),
+    ".zenoh_session.json5": ("ZENOH_SESSION_CONFIG_URI",),
+    # Fast DDS 2 reads the old name and 3 the new one; the other is ignored.
+    ".fastdds.xml": ("FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_DEFAULT_PROFILES_FILE"),
+}
+
 
 def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     """Yield environment and profiles."""
@@ -49,16 +58,6 @@ def _profiles(graph: CellGraph, header: Header, binding: Binding) -> Iterator[Ar
         yield Artifact(f"{stem}.zenoh_session.json5", header.commented("//") + zenoh_session())
     elif rmw in ("rmw_fastrtps_cpp", "rmw_fastrtps_dynamic_cpp"):
         yield Artifact(f"{stem}.fastdds.xml", render(fast_profile(graph.cell, binding), head))
-
-
-_RANGE = {"multicast": "SUBNET", "unicast": "LOCALHOST", "localhost": "LOCALHOST", "off": "OFF"}
-_VARIABLES = {
-    ".cyclonedds.xml": ("CYCLONEDDS_URI",),
-    ".zenoh_router.json5": ("ZENOH_ROUTER_CONFIG_URI",),
-    ".zenoh_session.json5": ("ZENOH_SESSION_CONFIG_URI",),
-    # Fast DDS 2 reads the old name and 3 the new one; the other is ignored.
-    ".fastdds.xml": ("FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_DEFAULT_PROFILES_FILE"),
-}
 
 
 def environment(cell: Cell, header: Header, binding: Binding, profiles: tuple[str, ...]) -> str:

@@ -22,6 +22,17 @@ from cellc.vocabulary import Feature, features
 
 LOOPBACK = "127.0.0.1"
 
+_MOST_PROCESSES = "99"  # rmw_cyclonedds stops at 32 participants where discovery is unicast
+_UDP, _SHARED = "cell_udp", "cell_shared_memory"
+# Fast DDS 2 and 3 name the same elements under different namespaces.
+_OLD_NAMESPACE = "http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles"
+_NAMESPACE = "http://www.eprosima.com"
+_PORT = 7447
+_SCOUTING = "  scouting: {\n    multicast: { enabled: false },\n    gossip: { enabled: true },\n  },\n"
+_TIMES = (
+    "  timestamping: { enabled: { router: true, peer: true, client: true } },\n  queries_default_timeout: 600000,\n"
+)
+
 
 @dataclass(frozen=True, slots=True)
 class Binding:
@@ -63,9 +74,6 @@ def _cards(graph: CellGraph, host: str) -> tuple[str, ...]:
     )
 
 
-_MOST_PROCESSES = "99"  # rmw_cyclonedds stops at 32 participants where discovery is unicast
-
-
 def cyclone_profile(cell: Cell, binding: Binding) -> Element:
     """Return the configuration of the cell's domain on a host."""
     domain = {"Id": str(cell.network.domain_id)}
@@ -96,12 +104,6 @@ def _discovery(cell: Cell, binding: Binding) -> Iterator[Element]:
             element("Peers", children=listed),
         ],
     )
-
-
-_UDP, _SHARED = "cell_udp", "cell_shared_memory"
-# Fast DDS 2 and 3 name the same elements under different namespaces.
-_OLD_NAMESPACE = "http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles"
-_NAMESPACE = "http://www.eprosima.com"
 
 
 def fast_profile(cell: Cell, binding: Binding) -> Element:
@@ -145,13 +147,6 @@ def _peers(cell: Cell, binding: Binding) -> Iterator[Element]:
         for address in (*binding.addresses[:1], *binding.peers)
     ]
     yield element("builtin", children=[element("initialPeersList", children=locators)])
-
-
-_PORT = 7447
-_SCOUTING = "  scouting: {\n    multicast: { enabled: false },\n    gossip: { enabled: true },\n  },\n"
-_TIMES = (
-    "  timestamping: { enabled: { router: true, peer: true, client: true } },\n  queries_default_timeout: 600000,\n"
-)
 
 
 def zenoh_router(binding: Binding) -> str:

@@ -18,40 +18,6 @@ from cellc.link.derived import JOINT_STATE_TYPE
 from cellc.link.nodes import JOINT_STATES
 from cellc.vocabulary import Feature, features
 
-
-@dataclass(frozen=True, slots=True)
-class Profile:
-    """Rights of one node; names are absolute, or ``~/…`` below the node's own."""
-
-    namespace: str
-    node: str
-    publish: tuple[str, ...] = ()
-    subscribe: tuple[str, ...] = ()
-    reply: tuple[str, ...] = ()
-    request: tuple[str, ...] = ()
-    execute: tuple[str, ...] = ()
-    call: tuple[str, ...] = ()
-
-
-def profile_element(profile: Profile) -> Element:
-    """Return ``<profile>`` with one list a right; a name stands once in each, in alphabetical order."""
-    return element("profile", {"ns": profile.namespace or "/", "node": profile.node}, _lists(profile))
-
-
-def _lists(profile: Profile) -> Iterator[Element]:
-    for plural, right, names in (
-        ("topics", "publish", profile.publish),
-        ("topics", "subscribe", profile.subscribe),
-        ("services", "reply", profile.reply),
-        ("services", "request", profile.request),
-        ("actions", "execute", profile.execute),
-        ("actions", "call", profile.call),
-    ):
-        if names:
-            entries = (element(plural[:-1], text=name) for name in sorted(set(names)))
-            yield element(plural, {right: "ALLOW"}, entries)
-
-
 _PUBLISH = ("/parameter_events", "/rosout")
 _SUBSCRIBE = ("/clock", "/parameter_events")
 _PARAMETERS = (
@@ -86,6 +52,43 @@ _MANAGER = (
 _OF_SPAWNER = ("configure_controller", "list_controllers", "load_controller")  # what `spawner --inactive` calls
 _CLEANUP = "cleanup_controller"
 _CONTROLLER_STATE = "~/controller_state"
+# What `ros2 lifecycle get|set`, `ros2 control list_controllers|switch_controllers` and `ros2 param get` call.
+_OF_MANAGED = ("change_state", "get_available_transitions", "get_state")
+_OF_MANAGER = ("list_controllers", "switch_controller")
+_TOOLS_DESCRIPTION = "/_ros2cli_*/get_type_description"  # of each tool's own node, named after its process
+
+
+@dataclass(frozen=True, slots=True)
+class Profile:
+    """Rights of one node; names are absolute, or ``~/…`` below the node's own."""
+
+    namespace: str
+    node: str
+    publish: tuple[str, ...] = ()
+    subscribe: tuple[str, ...] = ()
+    reply: tuple[str, ...] = ()
+    request: tuple[str, ...] = ()
+    execute: tuple[str, ...] = ()
+    call: tuple[str, ...] = ()
+
+
+def profile_element(profile: Profile) -> Element:
+    """Return ``<profile>`` with one list a right; a name stands once in each, in alphabetical order."""
+    return element("profile", {"ns": profile.namespace or "/", "node": profile.node}, _lists(profile))
+
+
+def _lists(profile: Profile) -> Iterator[Element]:
+    for plural, right, names in (
+        ("topics", "publish", profile.publish),
+        ("topics", "subscribe", profile.subscribe),
+        ("services", "reply", profile.reply),
+        ("services", "request", profile.request),
+        ("actions", "execute", profile.execute),
+        ("actions", "call", profile.call),
+    ):
+        if names:
+            entries = (element(plural[:-1], text=name) for name in sorted(set(names)))
+            yield element(plural, {right: "ALLOW"}, entries)
 
 
 def node_profile(cell: Cell, node: Node) -> Profile:
@@ -198,12 +201,6 @@ def _names(cell: Cell, full_name: str, kind: InterfaceKind, side: str) -> Iterat
         ends = interface.sources if side == "sources" else interface.sinks
         if interface.kind is kind and any(end.full_name == full_name for end in ends):
             yield interface.name
-
-
-# What `ros2 lifecycle get|set`, `ros2 control list_controllers|switch_controllers` and `ros2 param get` call.
-_OF_MANAGED = ("change_state", "get_available_transitions", "get_state")
-_OF_MANAGER = ("list_controllers", "switch_controller")
-_TOOLS_DESCRIPTION = "/_ros2cli_*/get_type_description"  # of each tool's own node, named after its process
 
 
 def bring_up_profiles(cell: Cell) -> tuple[Profile, Profile]:

@@ -27,6 +27,9 @@ from cellc.formats.numbers import rounded, shortest
 from cellc.formats.xml_text import element
 from cellc.transforms import Pose, identity
 
+Color = tuple[float, float, float, float]
+_SCENE_COLORS = {"fixture": (0.7, 0.7, 0.7, 1.0), "obstacle": (0.8, 0.5, 0.4, 1.0)}
+
 
 def numbers(values: Iterable[float]) -> str:
     """Return numbers as an attribute holds them."""
@@ -82,9 +85,6 @@ def _shape(shape: Geometry) -> Element:
     return element("mesh", {"filename": shape.filename} | scale)
 
 
-Color = tuple[float, float, float, float]
-
-
 @dataclass(frozen=True, slots=True)
 class Palette:
     """Name in the robot of each material and color of one device."""
@@ -120,9 +120,6 @@ def palette_of(device: Device) -> Palette:
 
 def _key(visual: Visual, color: Color) -> tuple[str, Color]:
     return (visual.material or "color", color)
-
-
-_SCENE_COLORS = {"fixture": (0.7, 0.7, 0.7, 1.0), "obstacle": (0.8, 0.5, 0.4, 1.0)}
 
 
 def frame_link(name: str) -> Element:

@@ -26,6 +26,9 @@ from cellc.formats.urdf.hardware import ros2_control
 from cellc.formats.xml_text import comment, element
 from cellc.link.frames import ROBOT_STATE_PUBLISHER
 
+HOME = "home"
+"""A named pose of this name is where the cell begins."""
+
 
 def robot_description(cell: Cell, target: str) -> Element:
     """Return the description of a cell for the target ``mock`` or ``real``, with the hardware of all devices."""
@@ -112,10 +115,6 @@ def _off_the_tree(cell: Cell) -> frozenset[str]:
         if above in dynamic:
             found.add(name)
     return frozenset(found)
-
-
-HOME = "home"
-"""A named pose of this name is where the cell begins."""
 
 
 def start_positions(cell: Cell) -> dict[str, float]:
