@@ -169,7 +169,7 @@ class Spawning:
 def spawnings(manager: ControllerManager) -> Iterator[Spawning]:
     """Yield what the spawners of a manager are given, in order; the first failure in a list stops the rest of it."""
     for only in (None, *TARGETS):
-        controllers = [one for one in manager.controllers if only_target(one) == only]
+        controllers = [one for one in manager.controllers if _only_target(one) == only]
         if controllers:
             active = [one for one in controllers if one.active]
             yield Spawning(
@@ -180,6 +180,6 @@ def spawnings(manager: ControllerManager) -> Iterator[Spawning]:
             )
 
 
-def only_target(controller: Controller) -> str | None:
+def _only_target(controller: Controller) -> str | None:
     """Return the one target on which a controller is spawned, or None for one that is spawned on every target."""
     return controller.targets[0] if len(controller.targets) == 1 else None

@@ -14,7 +14,7 @@ from typing import Union
 from cellc.cell.interface import ParameterValue
 from cellc.formats.numbers import decimal
 
-Scalar = Union[bool, int, float, str]
+_Scalar = Union[bool, int, float, str]
 Tree = Mapping[str, Union[ParameterValue, "Tree"]]
 
 _PLAIN = re.compile(r"[A-Za-z_/][A-Za-z0-9_./-]*")
@@ -27,7 +27,7 @@ def render(tree: Tree, depth: int = 0) -> str:
     return "".join(f"{line}\n" for line in _mapping(tree, depth))
 
 
-def scalar(value: Scalar) -> str:
+def scalar(value: _Scalar) -> str:
     """Write one value; a text is quoted where a reader would take it for something else."""
     if isinstance(value, bool):
         return "true" if value else "false"
@@ -78,7 +78,7 @@ def _mapping(tree: Tree, depth: int) -> Iterator[str]:
             yield f"{name} {scalar(value)}"
 
 
-def _sequence(name: str, values: tuple[Scalar, ...], indent: str) -> Iterator[str]:
+def _sequence(name: str, values: tuple[_Scalar, ...], indent: str) -> Iterator[str]:
     if values and all(isinstance(value, str) for value in values):
         yield name
         yield from (f"{indent}  - {scalar(value)}" for value in values)

@@ -57,7 +57,7 @@ def _write(artifacts: Sequence[Artifact], folder: Path, *, force: bool) -> Outco
     if any(is_alive(staging) for staging in stagings):
         message = f"another build is writing `{folder.as_posix()}`"
         return Outcome(None, (finding("output-busy", message, folder),))
-    planned = plan(artifacts, folder, hashes_of_interrupted(stagings))
+    planned = plan(artifacts, folder, _hashes_of_interrupted(stagings))
     if planned.edited and not force:
         return Outcome(None, tuple(_edited(path, folder) for path in planned.edited))
     for staging in stagings if not (planned.write or planned.remove) else ():
@@ -111,7 +111,7 @@ def _edited(path: str, folder: Path) -> Diagnostic:
     return finding("edited-by-hand", message, folder / path)
 
 
-def hashes_of_interrupted(stagings: Sequence[Path]) -> tuple[Mapping[str, str], ...]:
+def _hashes_of_interrupted(stagings: Sequence[Path]) -> tuple[Mapping[str, str], ...]:
     """Return the hashes of the files that killed builds were writing."""
     return tuple(hashes_in(content_of(staging / "new" / MANIFEST)) for staging in stagings)
 

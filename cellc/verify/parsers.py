@@ -40,7 +40,7 @@ class Reading:
 
     Args:
         at_zero: poses with every joint at position zero.
-        displaced: poses with every joint at the position that `displaced_positions` gives it.
+        displaced: poses with every joint at the position that `_displaced_positions` gives it.
     """
 
     joints: Mapping[str, JointReading]
@@ -52,7 +52,7 @@ class RefusedError(Exception):
     """A parser refuses the description."""
 
 
-def displaced_positions(joints: Mapping[str, str | None]) -> dict[str, float]:
+def _displaced_positions(joints: Mapping[str, str | None]) -> dict[str, float]:
     """Return a position away from zero for each joint, by which axes and signs show.
 
     Args:
@@ -70,14 +70,14 @@ def read_by_yourdfpy(urdf: str) -> tuple[Reading, dict[str, float]]:
         RefusedError: yourdfpy does not take the description.
     """
     try:
-        with held_interrupt():
+        with _held_interrupt():
             # Transforms alone: no mesh is opened, and nothing is looked up beside the text.
             robot = import_yourdfpy().URDF.load(BytesIO(urdf.encode()), load_meshes=False)
     except Exception as error:  # it lets through whatever its parts raise
         raise RefusedError(f"yourdfpy refuses it: {type(error).__name__} {error}") from error
     movable = [joint for joint in robot.robot.joints if joint.type in _MOVABLE]
     mimicked = {joint.name: joint.mimic.joint if joint.mimic else None for joint in movable}
-    positions = displaced_positions(mimicked)
+    positions = _displaced_positions(mimicked)
     at_zero = _yourdfpy_poses(robot, dict.fromkeys(positions, 0.0))
     displaced = _yourdfpy_poses(robot, positions)
     positions |= {joint.name: _followed(joint, positions) for joint in movable if joint.mimic}
@@ -155,7 +155,7 @@ class _Absent(MetaPathFinder):
 
 
 @contextmanager
-def held_interrupt() -> Iterator[None]:
+def _held_interrupt() -> Iterator[None]:
     """Raise a Ctrl-C that comes during the block at its end.
 
     yourdfpy and trimesh catch every exception of attributes and optional imports, KeyboardInterrupt too, and go on

@@ -46,8 +46,8 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     """Yield the audit."""
     cell = graph.cell
     sections = {
-        "Open questions": questions_section(graph, plan),
-        "Version tuple": version_section(cell),
+        "Open questions": _questions_section(graph, plan),
+        "Version tuple": _version_section(cell),
         "Command owners": owners_section(graph),
         "Command paths": command_section(graph),
         "Expected nodes": nodes_section(cell),
@@ -59,7 +59,7 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
         "Approvals": "\n".join(approvals(cell)),
         "Responsibilities": "\n".join(responsibilities(cell)),
         "Recovery": "\n".join(recovery(cell)),
-        "What the mock cannot prove": "\n".join(not_provable(cell)),
+        "What the mock cannot prove": "\n".join(_not_provable(cell)),
     }
     blocks = [f"<!--\n{plan.header.text}\n-->", f"# {cell.name}: audit"]
     blocks += [f"## {title}\n\n{text}" for title, text in sections.items()]
@@ -95,14 +95,14 @@ def recovery(cell: Cell) -> Iterator[str]:
             yield from (f"{number}. {step}" for number, step in enumerate(way.steps, 1))
 
 
-def not_provable(cell: Cell) -> Iterator[str]:
+def _not_provable(cell: Cell) -> Iterator[str]:
     """Yield what the catalog says that no mock shows, by device and vendor."""
     for device in cell.devices:
         of = f"{device.name} ({device.vendor} {device.model})"
         yield from (f"- {of}: {text}" for text in device.mock_cannot_prove)
 
 
-def questions_section(graph: CellGraph, plan: Deployment) -> str:
+def _questions_section(graph: CellGraph, plan: Deployment) -> str:
     """Write every UNKNOWN of the spec, and every part that no matrix covers."""
     return table(("asked of", "question", "answered in the spec at"), [*_open(graph, plan), *_untested(graph.cell)])
 
@@ -155,7 +155,7 @@ def _person(owner: str) -> str:
     return _SPEC_AUTHOR if owner == UNKNOWN else owner
 
 
-def version_section(cell: Cell) -> str:
+def _version_section(cell: Cell) -> str:
     """Write the tuple as a table."""
     return table(("of", "part", "pinned", "answer", "because"), _rows(cell))
 

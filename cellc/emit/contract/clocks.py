@@ -9,7 +9,7 @@ from cellc.cell.device import Device
 from cellc.cell.site import UNKNOWN, Clock
 from cellc.contract.contract import ContractClock
 
-SIM = "sim"
+_SIM = "sim"
 
 
 def clocks(cell: Cell) -> dict[str, ContractClock]:
@@ -18,8 +18,8 @@ def clocks(cell: Cell) -> dict[str, ContractClock]:
     for device in cell.devices:
         if (clock := _own_clock(cell, device)) is not None:
             found[_clock_name(cell, device)] = _clock(clock)
-    if any(node.clock == SIM for node in cell.nodes):
-        found[SIM] = ContractClock(domain=SIM, simulated=True)
+    if any(node.clock == _SIM for node in cell.nodes):
+        found[_SIM] = ContractClock(domain=_SIM, simulated=True)
     return found
 
 
@@ -30,7 +30,7 @@ def clock_of(cell: Cell) -> dict[str, str]:
 
 def _clock_of(cell: Cell) -> Iterator[tuple[str, str]]:
     for node in cell.nodes:
-        yield node.name, SIM if node.clock == SIM else node.host
+        yield node.name, _SIM if node.clock == _SIM else node.host
     for manager in cell.managers:
         for controller in manager.controllers:
             yield controller.name, manager.host

@@ -46,12 +46,12 @@ def _frame(frame: Frame, described: bool) -> ContractFrame:
         authority=frame.authority,
         kind=frame.kind.value,
         moving=frame.moving or frame.transform_to_parent is None,
-        pose=None if pose is None else contract_pose(pose),
+        pose=None if pose is None else _contract_pose(pose),
         calibration=frame.calibration,
         rate_hz=frame.rate_hz,
         buffer_s=frame.buffer_s,
         simulated_parent=None if simulated is None else simulated.parent,
-        simulated_pose=None if simulated is None else contract_pose(simulated.pose),
+        simulated_pose=None if simulated is None else _contract_pose(simulated.pose),
     )
 
 
@@ -92,7 +92,7 @@ def _goal(goal: CartesianGoal) -> ContractGoal:
         {
             "group": goal.group,
             "frame": goal.frame,
-            "pose": contract_pose(goal.transform_tip_to_frame),
+            "pose": _contract_pose(goal.transform_tip_to_frame),
             "approach": goal.approach,
             "transform_at": goal.transform_at,
         }
@@ -160,7 +160,7 @@ def _controller(controller: Controller) -> ContractController:
     )
 
 
-def contract_pose(pose: Pose) -> ContractPose:
+def _contract_pose(pose: Pose) -> ContractPose:
     """Return meters and a unit quaternion x, y, z, w without rounding noise."""
     x, y, z = (rounded(value) for value in pose.position)
     qx, qy, qz, qw = (rounded(value) for value in pose.quaternion)

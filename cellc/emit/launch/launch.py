@@ -30,18 +30,18 @@ _REAL_GATE = "launch/real_gate.launch.xml"
 _MOVE = "launch/move.launch.xml"
 _MOVE_GATE = "launch/move_gate.launch.xml"
 
-EVERYWHERE = "all"
+_EVERYWHERE = "all"
 """The choice of ``host`` that starts the whole cell on one computer, which only the mock allows."""
 
 _NOT_YET = "no"
-CONFIRM_REAL = "confirm_real"
-CONFIRM_MOTION = "confirm_motion"
+_CONFIRM_REAL = "confirm_real"
+_CONFIRM_MOTION = "confirm_motion"
 _RELEASES = {
-    CONFIRM_REAL: (
+    _CONFIRM_REAL: (
         CONFIRMATION,
         "Stated by the person who releases the real target: gates G0 to G2 have their evidence, drives are disabled.",
     ),
-    CONFIRM_MOTION: (
+    _CONFIRM_MOTION: (
         MOTION_CONFIRMATION,
         "Stated by the person who releases motion on the real target: gates G0 to G6 have their evidence, the "
         "observer stands at the stop.",
@@ -56,12 +56,12 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     for host in plan.hosts:
         actions = [*_arguments(cell), *_gate(cell, {"host": host}), *stages(cell, plan, host)]
         yield _file(plan.header, _host_file(host), actions)
-    demanded = [stated_host_argument(plan.hosts)] if plan.hosts else []
-    yield _file(plan.header, _REAL_GATE, [gate_argument(CONFIRM_REAL), *demanded])
+    demanded = [_stated_host_argument(plan.hosts)] if plan.hosts else []
+    yield _file(plan.header, _REAL_GATE, [_gate_argument(_CONFIRM_REAL), *demanded])
     yield bring_up(cell, plan)
     if plan.motion_clients:
         yield _file(plan.header, _MOVE, _moving(cell, plan))
-        yield _file(plan.header, _MOVE_GATE, [gate_argument(CONFIRM_MOTION)])
+        yield _file(plan.header, _MOVE_GATE, [_gate_argument(_CONFIRM_MOTION)])
 
 
 def _file(header: Header, path: str, actions: Iterator[Element] | list[Element]) -> Artifact:
@@ -73,14 +73,14 @@ def _host_file(host: str) -> str:
 
 
 def _arguments(cell: Cell) -> Iterator[Element]:
-    yield target_argument()
-    yield release_argument(CONFIRM_REAL)
-    yield from address_arguments(cell)
+    yield _target_argument()
+    yield _release_argument(_CONFIRM_REAL)
+    yield from _address_arguments(cell)
 
 
 def _gate(cell: Cell, more: dict[str, str]) -> Iterator[Element]:
     yield comment("the gate before real hardware: unless a person opens it nothing below is started")
-    yield _include(cell, _REAL_GATE, {CONFIRM_REAL: f"$(var {CONFIRM_REAL})"} | more, {"if": ON_REAL})
+    yield _include(cell, _REAL_GATE, {_CONFIRM_REAL: f"$(var {_CONFIRM_REAL})"} | more, {"if": ON_REAL})
 
 
 def _whole(cell: Cell, plan: Deployment) -> Iterator[Element]:
@@ -91,10 +91,10 @@ def _whole(cell: Cell, plan: Deployment) -> Iterator[Element]:
 
 def _by_host(cell: Cell, hosts: tuple[str, ...]) -> Iterator[Element]:
     yield from _arguments(cell)
-    yield host_argument(hosts)
+    yield _host_argument(hosts)
     yield from _gate(cell, {"host": HOST})
     yield comment("what each computer starts; the steps of one wait for what shows from the others")
-    passed = {name: f"$(var {name})" for name in ("target", CONFIRM_REAL, *addresses(cell))}
+    passed = {name: f"$(var {name})" for name in ("target", _CONFIRM_REAL, *addresses(cell))}
     for host in hosts:
         yield _include(cell, _host_file(host), passed, {"if": on_host(host)})
 
@@ -106,12 +106,12 @@ def _include(cell: Cell, path: str, arguments: dict[str, str], condition: dict[s
 
 
 def _moving(cell: Cell, plan: Deployment) -> Iterator[Element]:
-    yield target_argument()
-    yield release_argument(CONFIRM_MOTION)
+    yield _target_argument()
+    yield _release_argument(_CONFIRM_MOTION)
     if plan.hosts:
-        yield host_argument(plan.hosts)
+        yield _host_argument(plan.hosts)
     yield comment("the gate before motion on real hardware: unless a person opens it nothing below is started")
-    yield _include(cell, _MOVE_GATE, {CONFIRM_MOTION: f"$(var {CONFIRM_MOTION})"}, {"if": ON_REAL})
+    yield _include(cell, _MOVE_GATE, {_CONFIRM_MOTION: f"$(var {_CONFIRM_MOTION})"}, {"if": ON_REAL})
     yield comment("what asks for motion; each waits for claims, actions and states, on the mock for the mock itself")
     for node in plan.motion_clients:
         if started_by_a_person(cell, node):
@@ -119,35 +119,35 @@ def _moving(cell: Cell, plan: Deployment) -> Iterator[Element]:
             yield moving_node(cell, node, plan.hosts, f"bash {share(cell, 'launch/bring_up.bash')} move_{TARGET}")
 
 
-def target_argument() -> Element:
+def _target_argument() -> Element:
     """Return the choice between the mock and real hardware."""
     return _argument("target", "mock", "What the hardware interfaces reach: mock or real hardware.", "mock", "real")
 
 
-def release_argument(name: str) -> Element:
+def _release_argument(name: str) -> Element:
     """Return the argument with which a person releases something; alone it releases nothing."""
     return _argument(name, _NOT_YET, f"{_RELEASES[name][1]} Not needed on the mock.", _NOT_YET, _RELEASES[name][0])
 
 
-def gate_argument(name: str) -> Element:
+def _gate_argument(name: str) -> Element:
     """Return the same argument as a gate demands it: without a default, and with the one word that opens it."""
     return _argument(name, None, _RELEASES[name][1], _RELEASES[name][0])
 
 
-def host_argument(hosts: tuple[str, ...]) -> Element:
+def _host_argument(hosts: tuple[str, ...]) -> Element:
     """Return the choice of the computer on which this is launched."""
     text = "The computer on which this is launched; the whole cell on one computer is for the mock alone."
-    return _argument("host", EVERYWHERE, text, EVERYWHERE, *hosts)
+    return _argument("host", _EVERYWHERE, text, _EVERYWHERE, *hosts)
 
 
-def stated_host_argument(hosts: tuple[str, ...]) -> Element:
+def _stated_host_argument(hosts: tuple[str, ...]) -> Element:
     """Return the same argument as the gate before real hardware demands it."""
     return _argument(
         "host", None, "The computer on which this is launched: real hardware is reached from its own.", *hosts
     )
 
 
-def address_arguments(cell: Cell) -> Iterator[Element]:
+def _address_arguments(cell: Cell) -> Iterator[Element]:
     """Yield an argument for each device with an address; the launch refuses any other than that of the URDF."""
     for name, address in addresses(cell).items():
         device = name.removesuffix("_address")

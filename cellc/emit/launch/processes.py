@@ -70,7 +70,7 @@ def enclave(path: str) -> dict[str, str]:
     return {"ros_args": f"--enclave {path}"}
 
 
-def description_parameter(file: str) -> Element:
+def _description_parameter(file: str) -> Element:
     """Return the parameter that holds a description of the package, its type stated so that nobody parses it."""
     return element("param", {"name": "robot_description", "value": expanded(file), "type": "str"})
 
@@ -140,7 +140,7 @@ def _parameters(cell: Cell, node: Node) -> Iterator[Element]:
 
 
 def _description(cell: Cell) -> Element:
-    return description_parameter(share(cell, description_file(cell, TARGET)))
+    return _description_parameter(share(cell, description_file(cell, TARGET)))
 
 
 def control(cell: Cell, manager: ControllerManager) -> Iterator[Element]:
@@ -151,7 +151,7 @@ def control(cell: Cell, manager: ControllerManager) -> Iterator[Element]:
 
 
 def _description_publisher(cell: Cell, manager: ControllerManager, node: Node) -> Element:
-    description = description_parameter(share(cell, manager_description_file(cell, manager, TARGET)))
+    description = _description_parameter(share(cell, manager_description_file(cell, manager, TARGET)))
     return element("node", identity(cell, node), [description, *remaps(node)])
 
 
@@ -160,7 +160,7 @@ def _manager(cell: Cell, manager: ControllerManager) -> Element:
     place = {"namespace": manager.namespace} if manager.namespace else {}
     parameters = [element("param", {"from": share(cell, controllers_file(cell, manager))})]
     if Feature.DESCRIPTION_TOPIC not in features(cell.distro):
-        parameters.append(description_parameter(share(cell, manager_description_file(cell, manager, TARGET))))
+        parameters.append(_description_parameter(share(cell, manager_description_file(cell, manager, TARGET))))
     topic = f"{description_home(manager) if len(cell.managers) > 1 else ''}/{_TOPIC}"
     (node,) = (node for node in cell.nodes if node.full_name == manager.node)
     return element(

@@ -20,7 +20,7 @@ from cellc.formats.xml_text import element
 from cellc.graph.cell_graph import CellGraph
 from cellc.vocabulary import Feature, features
 
-LOOPBACK = "127.0.0.1"
+_LOOPBACK = "127.0.0.1"
 
 _MOST_PROCESSES = "99"  # rmw_cyclonedds stops at 32 participants where discovery is unicast
 _UDP, _SHARED = "cell_udp", "cell_shared_memory"
@@ -57,7 +57,7 @@ def bindings(graph: CellGraph) -> tuple[Binding, ...]:
         own = _cards(graph, host) if remote else ()
         others = [address for other in graph.cell.hosts if other != host for address in _cards(graph, other)]
         peers = (*others, *network.peers) if network.discovery == "unicast" else ()
-        found.append(Binding(host, (LOOPBACK, *own), tuple(dict.fromkeys(peers))))
+        found.append(Binding(host, (_LOOPBACK, *own), tuple(dict.fromkeys(peers))))
     return tuple(found)
 
 

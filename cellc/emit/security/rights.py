@@ -120,7 +120,7 @@ def _silenced(node: Node, granted: Profile) -> Profile:
     return replace(granted, publish=(*granted.publish, *said), subscribe=(*granted.subscribe, *heard))
 
 
-def common_profile(cell: Cell) -> Profile:
+def _common_profile(cell: Cell) -> Profile:
     """Return the rights that every node has, for one that stands at no interface of the cell."""
     return _granted(cell, "/", ())
 
@@ -205,7 +205,7 @@ def _names(cell: Cell, full_name: str, kind: InterfaceKind, side: str) -> Iterat
 
 def bring_up_profiles(cell: Cell) -> tuple[Profile, Profile]:
     """Return the rights of the command-line tools and of ``tf2_echo``."""
-    common = common_profile(cell)
+    common = _common_profile(cell)
     managed = (f"{node.full_name}/{one}" for node in cell.nodes if node.lifecycle for one in _OF_MANAGED)
     described = (f"{node}/get_parameters" for node in description_nodes(cell))
     managers = (f"{one.namespace}/controller_manager/{name}" for one in cell.managers for name in _OF_MANAGER)

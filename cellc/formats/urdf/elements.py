@@ -27,7 +27,7 @@ from cellc.formats.numbers import rounded, shortest
 from cellc.formats.xml_text import element
 from cellc.transforms import Pose, identity
 
-Color = tuple[float, float, float, float]
+_Color = tuple[float, float, float, float]
 _SCENE_COLORS = {"fixture": (0.7, 0.7, 0.7, 1.0), "obstacle": (0.8, 0.5, 0.4, 1.0)}
 
 
@@ -89,7 +89,7 @@ def _shape(shape: Geometry) -> Element:
 class Palette:
     """Name in the robot of each material and color of one device."""
 
-    names: Mapping[tuple[str, Color], str]
+    names: Mapping[tuple[str, _Color], str]
 
     def definitions(self) -> Iterator[Element]:
         """Yield each material with its color."""
@@ -105,7 +105,7 @@ class Palette:
 
 def palette_of(device: Device) -> Palette:
     """Collect the materials of a device, in the order of first use."""
-    names: dict[tuple[str, Color], str] = {}
+    names: dict[tuple[str, _Color], str] = {}
     for visual in (visual for link in device.description.links for visual in link.visuals):
         if visual.rgba is not None:
             names.setdefault(_key(visual, visual.rgba), "")
@@ -118,7 +118,7 @@ def palette_of(device: Device) -> Palette:
     return Palette(names)
 
 
-def _key(visual: Visual, color: Color) -> tuple[str, Color]:
+def _key(visual: Visual, color: _Color) -> tuple[str, _Color]:
     return (visual.material or "color", color)
 
 
