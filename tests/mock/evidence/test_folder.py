@@ -101,7 +101,7 @@ def test_swap_that_fails_puts_every_file_back(cell: MockCell, tmp_path: Path, mo
 
 def test_file_in_place_of_the_folder_is_refused(cell: MockCell, tmp_path: Path) -> None:
     (tmp_path / "evidence").write_text("a file")
-    with pytest.raises(MockError, match="is no folder"):
+    with pytest.raises(MockError, match="is not a folder"):
         write_evidence(cell, tmp_path / "evidence", "cancelled")
 
 
