@@ -28,7 +28,7 @@ class CellResult:
 
     Args:
         cell: as the other cells of the call see it; None where an error hides it.
-        artifacts: with the manifest over them; None where an error stops them, or nobody asked.
+        artifacts: with the manifest over them; None where an error stops them, or where the kind is "check".
     """
 
     findings: Findings

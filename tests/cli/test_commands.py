@@ -59,11 +59,11 @@ def test_show_tells_the_value_and_the_line_it_is_written_on() -> None:
     assert ran.out.split() == ["controllers.arm_trajectory.goal_time_s", "1", "#", f"{PICK}:{_line('goal_time: 1 s')}"]
 
 
-def test_show_tells_that_a_tightened_limit_comes_from_spec_and_catalogue() -> None:
+def test_show_tells_that_a_tightened_limit_comes_from_spec_and_catalog() -> None:
     out = run("show", PICK, "devices.arm.joints.arm_elbow_joint.velocity").out
     # Half of pi rad/s (robots.md: UR5e, velocity limits).
     assert "1.57079633" in out
-    assert "of catalogue devices/ur5e" in out
+    assert "of catalog devices/ur5e" in out
 
 
 def test_show_of_a_misspelt_path_names_the_nearest() -> None:
