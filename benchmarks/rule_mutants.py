@@ -28,8 +28,9 @@ from cellc.source.read import read  # noqa: E402
 from cellc.spec.parse import parse  # noqa: E402
 from tests.rules import boundaries, examples  # noqa: E402
 
-_WORDING = {"message", "advice", "names", "related", "due", "way", "chain", "allowed", "turns", "faults"}
-_WORDING |= {"least", "most", "queue", "legal", "per", "deadline", "period", "even"}
+_WORDING = {"message", "advice", "names", "related", "way", "chain", "allowed", "turns", "faults", "expected", "got"}
+_WORDING |= {"queue", "legal", "per", "deadline", "period", "even", "age", "claimed", "needed", "written", "bounds"}
+_WORDING |= {"fitting", "three"}
 _WORDING_CALLS = {"join", "did_you_mean", "Related"}
 _SWAPS: dict[type[ast.cmpop], type[ast.cmpop]] = {
     ast.Eq: ast.NotEq, ast.NotEq: ast.Eq, ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt,
