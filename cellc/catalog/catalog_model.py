@@ -1,4 +1,4 @@
-"""What all catalogue models share: strict, frozen, no unknown keys; and their small types."""
+"""What all catalog models share: strict, frozen, no unknown keys; and their small types."""
 
 from __future__ import annotations
 
@@ -18,6 +18,6 @@ ParameterFact = Union[bool, int, float, str, tuple[Union[bool, int, float, str],
 
 
 class CatalogModel(BaseModel):
-    """A part of the catalogue: facts with their sources, in the units of the text."""
+    """A part of the catalog: facts with their sources, in the units of the text."""
 
     model_config = ConfigDict(strict=True, frozen=True, extra="forbid", regex_engine="python-re", defer_build=True)

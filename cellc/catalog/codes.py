@@ -1,4 +1,4 @@
-"""Every code that reading descriptions and the catalogue can report, with its documentation page."""
+"""Every code that reading descriptions and the catalog can report, with its documentation page."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The catalogue in the form in which a check reads it: JSON with expanded descriptions, beside the files it comes from.
+"""The catalog in the form in which a check reads it: JSON with expanded descriptions, beside the files it comes from.
 
 Reading YAML with its places and expanding xacro took a fifth of a check. A compiled entry says from which bytes it was
 made; where they differ from the files, it is not used. ``python -m cellc.catalog.compiled`` writes all of them anew.
@@ -24,7 +24,7 @@ Places = Mapping[tuple[str, str], Span]
 
 
 def compiled_table(file: str) -> str | None:
-    """Return the data of a YAML file of the catalogue as JSON, or None where it is to be read itself."""
+    """Return the data of a YAML file of the catalog as JSON, or None where it is to be read itself."""
     entry = _entry(file, (CATALOGUE / file,))
     return None if entry is None else json.dumps(entry["data"])
 
@@ -38,7 +38,7 @@ def compiled_device(name: str) -> tuple[str, str, Places] | None:
     return json.dumps(entry["data"]), entry["urdf"], places
 
 
-def compile_catalogue() -> Iterator[tuple[Path, str]]:
+def compile_catalog() -> Iterator[tuple[Path, str]]:
     """Yield every compiled file with its text.
 
     Raises:
@@ -77,7 +77,7 @@ def _data(file: Path) -> object:
     from cellc.source.compose import compose
 
     root = compose(file.name, file.read_text(encoding="utf-8")).value
-    assert root is not None  # held valid by the catalogue's tests
+    assert root is not None  # held valid by the catalog's tests
     return root.data
 
 
@@ -111,6 +111,6 @@ def _digest(sources: Sequence[Path]) -> str:
 
 
 if __name__ == "__main__":
-    for _file_, _text in compile_catalogue():
+    for _file_, _text in compile_catalog():
         _file_.parent.mkdir(parents=True, exist_ok=True)
         _file_.write_text(_text, encoding="utf-8", newline="\n")

@@ -1,4 +1,4 @@
-"""A device of the catalogue: what ``device.yaml`` says beyond what its description holds.
+"""A device of the catalog: what ``device.yaml`` says beyond what its description holds.
 
 Texts may carry placeholders that link fills in: ``{device}`` the name in the spec, ``{prefix}`` that of its ROS names,
 ``{bare_prefix}`` the prefix without its last underscore, ``{stem}`` the same or, where there is none, the name,

@@ -1,4 +1,4 @@
-"""Entries of the catalogue by name, each read once for the life of the process."""
+"""Entries of the catalog by name, each read once for the life of the process."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _NamedThing = tuple[YamlPath, str, set[str], str]
 
 @dataclass(frozen=True, slots=True)
 class CatalogDevice:
-    """A device of the catalogue: its facts, and its description without prefix."""
+    """A device of the catalog: its facts, and its description without prefix."""
 
     model: DeviceModel
     description: Description
@@ -32,7 +32,7 @@ class CatalogDevice:
 
 @lru_cache(maxsize=1)
 def device_names() -> tuple[str, ...]:
-    """Name the devices of the catalogue, in alphabetical order."""
+    """Name the devices of the catalog, in alphabetical order."""
     return tuple(sorted(file.parent.name for file in (CATALOGUE / "devices").glob("*/device.yaml")))
 
 
@@ -44,13 +44,13 @@ def controller_kinds() -> tuple[str, ...]:
 
 @lru_cache(maxsize=64)
 def load_device(name: str) -> Outcome[CatalogDevice]:
-    """Load a device of the catalogue.
+    """Load a device of the catalog.
 
     Args:
         name: one of ``device_names()``.
 
     Raises:
-        KeyError: the catalogue lists no such device; who asks for a name of the user's tells the user first.
+        KeyError: the catalog lists no such device; who asks for a name of the user's tells the user first.
     """
     if name not in device_names():
         raise KeyError(name)
@@ -64,7 +64,7 @@ def load_device(name: str) -> Outcome[CatalogDevice]:
 
 
 def read_device(name: str) -> Outcome[CatalogDevice]:
-    """Read the files of a device of the catalogue."""
+    """Read the files of a device of the catalog."""
     from cellc.description.read_description import read_catalogue_description
 
     devices = CATALOGUE / "devices"
@@ -119,7 +119,7 @@ def _unknown_names(model: DeviceModel, description: Description, document: Sourc
     ]
     return [
         *_unknown(document, named, "description"),
-        *_unknown(document, behaviours, "catalogue"),
+        *_unknown(document, behaviours, "catalog"),
         *_unknown(document, _named_by_driver(model), "device"),
     ]
 
@@ -166,7 +166,7 @@ def load_controller_kind(kind: str) -> Outcome[ControllerKind]:
         kind: one of ``controller_kinds()``.
 
     Raises:
-        KeyError: the catalogue lists no such kind; who asks for a name of the user's tells the user first.
+        KeyError: the catalog lists no such kind; who asks for a name of the user's tells the user first.
     """
     if kind not in controller_kinds():
         raise KeyError(kind)
@@ -206,7 +206,7 @@ def _table(file: str, model: type[ModelT]) -> Outcome[ModelT]:
 
 
 def kind_behind(type_: str, device: DeviceModel | None) -> ControllerKind | None:
-    """Return what the catalogue says of a type of controller, or None where it has no such type.
+    """Return what the catalog says of a type of controller, or None where it has no such type.
 
     Args:
         type_: the type as the spec writes it.

@@ -1,4 +1,4 @@
-"""A catalogue file into its model, with the places of its values kept."""
+"""A catalog file into its model, with the places of its values kept."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _HELP = {_UNKNOWN_KEY: "check its spelling, or remove it", "missing": "add it"}
 
 
 def read_model(path: Path, shown: str, model: type[ModelT]) -> Outcome[tuple[ModelT, SourceDocument]]:
-    """Read one YAML file of the catalogue, or one like it that a user wrote.
+    """Read one YAML file of the catalog, or one like it that a user wrote.
 
     Args:
         path: the file.

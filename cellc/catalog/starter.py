@@ -1,4 +1,4 @@
-"""A first spec for devices of the catalogue: what a new cell must say, and honest blanks for the rest."""
+"""A first spec for devices of the catalog: what a new cell must say, and honest blanks for the rest."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def starter_spec(name: str, distro: Distro, devices: Mapping[str, CatalogDevice]
 
     Args:
         name: name of the cell and its package.
-        devices: catalogue entries by the names they get in the cell; at least one.
+        devices: catalog entries by the names they get in the cell; at least one.
         schema: path or address of the JSON schema for the editor's modeline.
 
     Returns:

@@ -41,7 +41,7 @@ def init(name: str, devices: tuple[str, ...], ros: str, output: Path | None, for
     if not re.fullmatch(r"[a-z][a-z0-9_]+", name) or "__" in name:
         raise click.UsageError(f"`{name}` is no package name: use lower case letters, digits and single underscores")
     if not devices:
-        raise click.UsageError(f"name at least one model of the catalogue: {', '.join(device_names())}")
+        raise click.UsageError(f"name at least one model of the catalog: {', '.join(device_names())}")
     file = output or Path("cells") / name / "cell.yaml"
     if file.exists() and not force:
         raise click.UsageError(f"{file.as_posix()} exists; give --force to replace it, or -o for another file")
@@ -59,10 +59,10 @@ def _named(devices: tuple[str, ...]) -> dict[str, CatalogDevice]:
     for text in devices:
         given, _, model = text.rpartition("=")
         if model not in device_names():
-            known = did_you_mean(model, device_names(), "models of the catalogue")
-            raise click.UsageError(f"the catalogue has no model `{model}`: {known}")
+            known = did_you_mean(model, device_names(), "models of the catalog")
+            raise click.UsageError(f"the catalog has no model `{model}`: {known}")
         entry = load_device(model).value
-        assert entry is not None  # package data, held valid by the catalogue's tests
+        assert entry is not None  # package data, held valid by the catalog's tests
         name = given or _free_name(entry.model.kind, entries)
         if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name):
             raise click.UsageError(f"`{name}` is no device name: use letters, digits and underscores")

@@ -11,7 +11,7 @@ from cellc.spec.quantity import Duration, Frequency, JointPosition, JointPositio
 class ControllerSpec(SpecModel):
     """A controller; what it claims follows from its type and device."""
 
-    type: Text = Field(..., description="Kind of controller in the catalogue.", examples=["joint_trajectory"])
+    type: Text = Field(..., description="Kind of controller in the catalog.", examples=["joint_trajectory"])
     device: Name | None = Field(None, description="Device whose joints it drives.", examples=["arm"])
     joints: tuple[Text, ...] = Field(
         (),

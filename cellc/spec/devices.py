@@ -115,11 +115,11 @@ class SimulatedJointSpec(SpecModel):
 
 
 class DeviceSpec(SpecModel):
-    """One device: a catalogue entry, where it is mounted, and the exact thing that stands there."""
+    """One device: a catalog entry, where it is mounted, and the exact thing that stands there."""
 
     model: Text = Field(
         ...,
-        description="Catalogue entry, or a folder beside this file with your own device.yaml.",
+        description="Catalog entry, or a folder beside this file with your own device.yaml.",
         examples=["./my_arm"],
     )
     mount: PlacementSpec | None = Field(

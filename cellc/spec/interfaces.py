@@ -22,7 +22,7 @@ OnTimeout = Literal["cancel_and_hold", "error", "continue"]
 
 
 class NodeSpec(SpecModel):
-    """A node of the cell that is not a driver or controller of the catalogue."""
+    """A node of the cell that is not a driver or controller of the catalog."""
 
     run: Text = Field(..., description="Package and executable.", examples=["cell_perception/detector"])
     namespace: Namespace = Field("", description="Namespace of the node.", examples=["/left"])

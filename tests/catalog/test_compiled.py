@@ -1,4 +1,4 @@
-"""The compiled catalogue says what its files say; where it does not know a file, the file itself is read."""
+"""The compiled catalog says what its files say; where it does not know a file, the file itself is read."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from cellc.catalog import compiled, load
-from cellc.catalog.compiled import CATALOGUE, compile_catalogue, compiled_device, compiled_table
+from cellc.catalog.compiled import CATALOGUE, compile_catalog, compiled_device, compiled_table
 from cellc.catalog.controller_kind import ControllerKind
 from cellc.catalog.load import controller_kinds, device_names, load_controller_kind, load_device, read_device
 from cellc.catalog.read_model import read_model
@@ -17,8 +17,8 @@ WRITTEN = sorted((CATALOGUE / "compiled").rglob("*.json"))
 
 
 def test_compiled_files_are_up_to_date() -> None:
-    # After a change in the catalogue: python -m cellc.catalog.compiled
-    expected = dict(compile_catalogue())
+    # After a change in the catalog: python -m cellc.catalog.compiled
+    expected = dict(compile_catalog())
     assert {file: file.read_text(encoding="utf-8") for file in WRITTEN} == expected
 
 
