@@ -1,4 +1,4 @@
-"""The closed lists of words that catalogue, contract, compiler and mock share, each declared here and nowhere else.
+"""The closed lists of words that catalog, contract, compiler and mock share, each declared here and nowhere else.
 
 Members are strings with the text that stands in YAML, JSON and messages. What differs between distributions is a
 feature in one table: code asks `Feature.X in features(distro)` and compares with no distribution's name.
@@ -37,7 +37,7 @@ class Feature(Enum):
     DESCRIPTION_TOPIC = "the controller manager takes the robot description from a topic, not from a parameter"
     LIMITED_COMMANDS = "the controller manager can enforce the joint limits of the description"
     LIMITED_BY_DEFAULT = "it does so unless it is told otherwise"
-    PREEMPTED_GOALS = "a trajectory controller calls a replaced goal preempted, not cancelled"
+    PREEMPTED_GOALS = "a trajectory controller calls a replaced goal preempted, not canceled"
     TRAJECTORIES_END_AT_REST = "a trajectory must end with zero velocity unless the controller is told otherwise"
     SCALED_STATE = "JointTrajectoryControllerState has the speed scaling factor in place of desired and actual"
     PLUGIN_LISTS = "MoveIt takes planning plugins and their adapters as lists"
@@ -161,4 +161,10 @@ class GateCode(Term):
     L5 = "L5"
     L6 = "L6"
     S2 = "S2"
-    """The checklist of every interface: a late sample, a missing responder, a cancelled goal."""
+    """The checklist of every interface: a late sample, a missing responder, a canceled goal."""
+
+
+PROMOTION_GATES = tuple(code for code in GateCode if code.startswith("G"))
+"""Gates of the first bring-up, in order."""
+NETWORK_GATES = tuple(code for code in GateCode if code.startswith("L"))
+"""Gates from layer to layer of a cell that runs, in order."""

@@ -7,15 +7,10 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, fields
 
 from cellc.cell.entity import Entity
+from cellc.vocabulary import NETWORK_GATES, PROMOTION_GATES
 
 UNKNOWN = "UNKNOWN"
 """The answer of a spec that does not guess; it blocks the real target and stands in the audit."""
-
-GATES = tuple(f"G{number}" for number in range(8))
-"""Gates of the first bring-up, in order."""
-
-LADDER = tuple(f"L{number}" for number in range(1, 7))
-"""Gates from layer to layer of a cell that runs, in order."""
 
 ATTEMPT_FIELDS = (
     "attempt_id",
@@ -210,7 +205,7 @@ class FirstMotion:
 class Bringup:
     """The gates by name, in order, and the first motion where it is stated."""
 
-    gates: tuple[str, ...] = (*GATES, *LADDER)
+    gates: tuple[str, ...] = (*PROMOTION_GATES, *NETWORK_GATES)
     first_motion: FirstMotion | None = None
 
 

@@ -12,8 +12,8 @@ REHEARSALS = "rehearsals.json"
 RECORDING = "config/recording_qos.yaml"
 """QoS with which an attempt is recorded."""
 
-PROMOTION_GATES = "gates/promotion.md"
-NETWORK_GATES = "gates/network.md"
+PROMOTION_CHECKLIST = "gates/promotion.md"
+NETWORK_CHECKLIST = "gates/network.md"
 """Checklists of gates G0 to G7 and of layers L1 to L6."""
 
 QOS_OVERRIDES = "config/qos_overrides.yaml"

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 
 from cellc.artifact import Artifact
 from cellc.deploy.deployment import Deployment
-from cellc.deploy.files import NETWORK_GATES, PROMOTION_GATES
+from cellc.deploy.files import NETWORK_CHECKLIST, PROMOTION_CHECKLIST
 from cellc.deploy.gates import Check, Gate
 from cellc.formats.header import Header
 from cellc.graph.cell_graph import CellGraph
@@ -35,8 +35,8 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     name = graph.cell.name
     promotion = _page(plan.header, f"{name}: From the manifest to a trajectory", _PROMOTION, plan.promotion)
     network = _page(plan.header, f"{name}: From the cable to the command path", _NETWORK, plan.network)
-    yield Artifact(PROMOTION_GATES, promotion)
-    yield Artifact(NETWORK_GATES, network)
+    yield Artifact(PROMOTION_CHECKLIST, promotion)
+    yield Artifact(NETWORK_CHECKLIST, network)
 
 
 def _page(header: Header, title: str, text: str, gates: tuple[Gate, ...]) -> str:

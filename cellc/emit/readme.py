@@ -16,7 +16,7 @@ from cellc.cell.frame import FrameKind
 from cellc.cell.interface import Interface, InterfaceKind
 from cellc.deploy.configuration import OpenQuestion
 from cellc.deploy.deployment import Deployment
-from cellc.deploy.files import NETWORK_GATES, PROMOTION_GATES, plans
+from cellc.deploy.files import NETWORK_CHECKLIST, PROMOTION_CHECKLIST, plans
 from cellc.deploy.gates import Gate
 from cellc.deploy.labels import real_driver
 from cellc.deploy.releases import start_mock
@@ -83,9 +83,9 @@ def _gates(plan: Deployment) -> Iterator[str]:
         "Enabling drives (G5) and moving (G6, G7) are steps of people at the cell: no file here takes them. After a "
         "stop, the section Recovery of `audit.md` has the way back."
     )
-    yield _table(PROMOTION_GATES, plan.promotion)
+    yield _table(PROMOTION_CHECKLIST, plan.promotion)
     yield "G3 is passed layer by layer, from the cable to the command path:"
-    yield _table(NETWORK_GATES, plan.network)
+    yield _table(NETWORK_CHECKLIST, plan.network)
     number = len(plan.questions)
     if number:
         yield f"**{number} answers are missing in the spec**, and each blocks the real target: [{_OPEN}](#{_ANCHOR})."

@@ -11,8 +11,6 @@ from collections.abc import Mapping
 from cellc.cell.entity import Places
 from cellc.cell.site import (
     ATTEMPT_FIELDS,
-    GATES,
-    LADDER,
     TARGET_DEFAULTS,
     ApprovalOwners,
     Bringup,
@@ -40,6 +38,7 @@ from cellc.spec.cell_spec import CellSpec
 from cellc.spec.devices import StampSpec
 from cellc.spec.hosts import ClockSpec
 from cellc.spec.safety import FirstMotionSpec
+from cellc.vocabulary import NETWORK_GATES, PROMOTION_GATES
 
 
 def bind_places(document: SourceDocument) -> Places:
@@ -162,7 +161,7 @@ def bind_bringup(spec: CellSpec) -> Bringup:
     """Return the gates, ``standard`` written out, and the first motion."""
     gates, first = spec.bringup.gates, spec.bringup.first_motion
     return Bringup(
-        gates=(*GATES, *LADDER) if gates == "standard" else tuple(gates),
+        gates=(*PROMOTION_GATES, *NETWORK_GATES) if gates == "standard" else tuple(gates),
         first_motion=None if first is None else _first_motion(first),
     )
 

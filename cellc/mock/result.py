@@ -107,7 +107,7 @@ def to_json_lines(records: Iterable[AttemptRecord]) -> str:
 
 
 class RunFailure(Term):
-    """How a rehearsal ends that comes to no outcome of an attempt; none can expect it."""
+    """How a rehearsal ends that comes to no outcome of an attempt; no rehearsal expects it."""
 
     BRINGUP_FAILURE = "bringup_failure"
     CRASHED = "crashed"

@@ -38,7 +38,6 @@ def _bodies(file: Path) -> Iterator[tuple[str, int, int]]:
                 yield node.name, node.lineno, size
 
 
-@pytest.mark.xfail(reason="pending: crumbs are being merged", strict=False)
 def test_no_module_of_less_than_30_lines_has_a_single_reader() -> None:
     """Such a module belongs into the one that imports it; a rule stands alone because its page does."""
     readers = {file: _readers(file) for file in SOURCES if file.name not in ("__init__.py", "__main__.py")}

@@ -22,15 +22,15 @@ Source: docs/principles.md#promotion-gates
 
 from __future__ import annotations
 
-from cellc.cell.site import GATES, LADDER
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
+from cellc.vocabulary import NETWORK_GATES, PROMOTION_GATES
 
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield each ladder of gates that is not complete and in order."""
     gates = graph.cell.bringup.gates
-    for ladder in (GATES, LADDER):
+    for ladder in (PROMOTION_GATES, NETWORK_GATES):
         written = [gate for gate in gates if gate in ladder]
         missing = [gate for gate in ladder if gate not in written]
         if missing:
