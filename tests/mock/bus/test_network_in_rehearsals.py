@@ -13,9 +13,6 @@ from cellc.contract.rehearsals import FaultEntry
 from cellc.mock import MockCell, RehearsalResult, load
 from cellc.mock.bus.network import QosEventKind
 from cellc.mock.plant import Plant
-from tests.mock.engine.conftest import built_folder, folder
-
-__all__ = ["built_folder", "folder"]
 
 Change = Callable[[dict[str, Any]], None]
 

@@ -10,7 +10,7 @@ from cellc.contract.rehearsals import RehearsalEntry, StepEntry
 from cellc.mock import load
 from cellc.mock.cell import cell_of
 from tests.cells import CORPUS, build_into
-from tests.mock.evidence.conftest import Written, received, write_evidence
+from tests.mock.conftest import Written, received, write_evidence
 
 
 @pytest.fixture(scope="module")

@@ -14,7 +14,7 @@ from mcap.reader import make_reader
 
 from cellc.mock import MockCell
 from cellc.mock.result import to_json_line
-from tests.mock.evidence.conftest import Received, Written, received, stamp_ns
+from tests.mock.conftest import Received, Written, received, stamp_ns
 
 TOPICS = {
     "/robot_description": "std_msgs/msg/String",

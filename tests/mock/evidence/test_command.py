@@ -10,46 +10,48 @@ import pytest
 from cellc.mock.command.options import MockOptions, run_mock
 
 
-def evidence_of(generated: Path, tmp_path: Path, *rehearsals: str) -> int:
-    return run_mock(MockOptions(str(generated), rehearsals=rehearsals, evidence=str(tmp_path / "out")))
+def evidence_of(built_folder: Path, tmp_path: Path, *rehearsals: str) -> int:
+    return run_mock(MockOptions(str(built_folder), rehearsals=rehearsals, evidence=str(tmp_path / "out")))
 
 
 def test_one_rehearsal_has_its_evidence_and_the_exit_code_of_its_outcome(
-    generated: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    built_folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert evidence_of(generated, tmp_path, "cancelled") == 0
+    assert evidence_of(built_folder, tmp_path, "cancelled") == 0
     assert "passed  cancelled" in capsys.readouterr().out
     assert (tmp_path / "out" / "report.html").is_file()
 
 
-def test_same_rehearsal_twice_is_one(generated: Path, tmp_path: Path) -> None:
-    assert evidence_of(generated, tmp_path, "cancelled", "cancelled") == 0
+def test_same_rehearsal_twice_is_one(built_folder: Path, tmp_path: Path) -> None:
+    assert evidence_of(built_folder, tmp_path, "cancelled", "cancelled") == 0
 
 
-def test_unknown_rehearsal_leaves_nothing(generated: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert evidence_of(generated, tmp_path, "missing") == 2
+def test_unknown_rehearsal_leaves_nothing(
+    built_folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert evidence_of(built_folder, tmp_path, "missing") == 2
     assert "has no rehearsal `missing`" in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
 
 
 def test_missing_package_is_told_with_what_to_install(
-    generated: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    built_folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     loading = ("mcap", "cellc.mock.command.evidence", "cellc.mock.evidence.bag")
     for name in [name for name in sys.modules if name.startswith(loading)]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "mcap", None)
-    assert evidence_of(generated, tmp_path, "cancelled") == 2
+    assert evidence_of(built_folder, tmp_path, "cancelled") == 2
     assert "pip install 'cellc[evidence]'" in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
 
 
-def test_runs_without_evidence_load_nothing_of_it(generated: Path) -> None:
+def test_runs_without_evidence_load_nothing_of_it(built_folder: Path) -> None:
     import subprocess
 
     code = (
         "import sys; from cellc.mock.command.options import MockOptions, run_mock; "
-        f"run_mock(MockOptions({str(generated)!r}, rehearsals=('cancelled',)))"
+        f"run_mock(MockOptions({str(built_folder)!r}, rehearsals=('cancelled',)))"
     )
     told = "; print([name for name in sys.modules if name.split('.')[0] == 'mcap' or 'report_page' in name])"
     ran = subprocess.run([sys.executable, "-c", code + told], capture_output=True, text=True, check=True)

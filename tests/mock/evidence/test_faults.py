@@ -12,7 +12,7 @@ from cellc.contract.rehearsals import RehearsalEntry
 from cellc.mock import MockCell
 from cellc.mock.cell import cell_of
 from cellc.mock.faults.registry import possible_faults
-from tests.mock.evidence.conftest import Written, received, write_evidence
+from tests.mock.conftest import Written, received, write_evidence
 
 PICK = 3
 """Number of the step that moves the arm to the part."""

@@ -11,7 +11,7 @@ import pytest
 from cellc.mock import MockCell
 from cellc.mock.errors import MockError
 from cellc.mock.evidence.folder import file_names
-from tests.mock.evidence.conftest import Written, write_evidence
+from tests.mock.conftest import Written, write_evidence
 
 
 def contents(folder: Path) -> dict[str, bytes]:

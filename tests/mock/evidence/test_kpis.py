@@ -11,7 +11,7 @@ from cellc.mock.evidence.kpis import Kpi, kpis
 from cellc.mock.evidence.run_trace import Claim, StateChange, TraceResult
 from cellc.mock.result import AttemptRecord, CancelRecord, PacketStep, RehearsalResult, TracePoint
 from cellc.vocabulary import AttemptOutcome
-from tests.mock.evidence.conftest import Written
+from tests.mock.conftest import Written
 
 TARGETS = ContractKpis(
     plan_to_execute_s=0.5,

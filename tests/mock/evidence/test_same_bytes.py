@@ -13,7 +13,7 @@ import pytest
 
 from cellc.mock import MockCell
 from tests.cells import ROOT
-from tests.mock.evidence.conftest import Written, write_evidence
+from tests.mock.conftest import Written, write_evidence
 
 NEEDED = "click, mcap, numpy, pinocchio, pydantic, ruckig, yaml"
 VERSIONS = ("3.10", "3.11", "3.12", "3.13")
@@ -23,10 +23,10 @@ def contents(folder: Path) -> dict[str, bytes]:
     return {path.name: path.read_bytes() for path in folder.iterdir()}
 
 
-def written_by(python: str, generated: Path, folder: Path, **environment: str) -> dict[str, bytes]:
+def written_by(python: str, built_folder: Path, folder: Path, **environment: str) -> dict[str, bytes]:
     """Run the mock in a process of its own and return what it wrote."""
     subprocess.run(
-        [python, "-m", "cellc.mock", str(generated), "--evidence", str(folder)],
+        [python, "-m", "cellc.mock", str(built_folder), "--evidence", str(folder)],
         env={**os.environ, "PYTHONPATH": str(ROOT), **environment},
         cwd=folder.parent,
         check=True,
@@ -40,12 +40,14 @@ def test_second_run_writes_the_same_bytes(written: Written, cell: MockCell, tmp_
 
 
 @pytest.mark.parametrize("hash_seed", ["0", "4242"])
-def test_other_process_writes_the_same_bytes(hash_seed: str, written: Written, generated: Path, tmp_path: Path) -> None:
-    other = written_by(sys.executable, generated, tmp_path / "other", PYTHONHASHSEED=hash_seed, TZ="Asia/Tokyo")
+def test_other_process_writes_the_same_bytes(
+    hash_seed: str, written: Written, built_folder: Path, tmp_path: Path
+) -> None:
+    other = written_by(sys.executable, built_folder, tmp_path / "other", PYTHONHASHSEED=hash_seed, TZ="Asia/Tokyo")
     assert other == contents(written.folder)
 
 
-def test_other_pythons_write_the_same_bytes(written: Written, generated: Path, tmp_path: Path) -> None:
+def test_other_pythons_write_the_same_bytes(written: Written, built_folder: Path, tmp_path: Path) -> None:
     """Told by CELLC_PYTHONS, a list of interpreters as in PATH; else those of other versions that are found.
 
     Plans are computed with numpy, whose linear algebra may round otherwise from one release to the next.
@@ -57,7 +59,7 @@ def test_other_pythons_write_the_same_bytes(written: Written, generated: Path, t
     if not others:
         pytest.skip("no other Python here has what the mock needs, with the same release of numpy")
     for number, python in enumerate(others):
-        assert written_by(python, generated, tmp_path / f"python-{number}") == contents(written.folder)
+        assert written_by(python, built_folder, tmp_path / f"python-{number}") == contents(written.folder)
 
 
 def _pythons() -> Iterator[str]:

@@ -15,7 +15,7 @@ import pytest
 from cellc.mock import MockCell, MockError, load
 from tests.cells import ROOT
 from tests.end_to_end.test_mock_alone import copy_the_mock
-from tests.mock.engine.conftest import LoadWith, fault
+from tests.mock.conftest import LoadWith, fault
 
 Edit = Callable[[Callable[[Any], None]], MockCell]
 

@@ -6,7 +6,7 @@ import pytest
 
 from cellc.mock import MockCell
 from cellc.mock.result import AttemptRecord
-from tests.mock.engine.conftest import Fault, LoadWith, fault
+from tests.mock.conftest import Fault, LoadWith, fault
 
 
 def last_attempt(cell: MockCell) -> AttemptRecord:

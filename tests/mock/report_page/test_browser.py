@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.mock.evidence.conftest import Written
+from tests.mock.conftest import Written
 
 BROWSER = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 PHONE_PX, DESKTOP_PX = 390, 1280

@@ -11,7 +11,7 @@ import pytest
 
 from cellc.mock import MockCell
 from cellc.mock.cell import cell_of
-from tests.mock.evidence.conftest import Written, received, write_evidence
+from tests.mock.conftest import Written, received, write_evidence
 
 
 class Page(HTMLParser):
@@ -96,13 +96,13 @@ def test_gates_are_judged_with_their_evidence(page: Page) -> None:
     assert "Each command interface is claimed by its one owner" in page.words
 
 
-def test_names_of_the_spec_are_text_and_never_markup(generated: Path, tmp_path: Path) -> None:
+def test_names_of_the_spec_are_text_and_never_markup(built_folder: Path, tmp_path: Path) -> None:
     import json
     import shutil
 
     from cellc.mock import load
 
-    folder = Path(shutil.copytree(generated, tmp_path / "cell"))
+    folder = Path(shutil.copytree(built_folder, tmp_path / "cell"))
     hostile = "</style><script>alert('1')</script>\"><b onclick=x>"
     file = folder / "rehearsals.json"
     rehearsals = json.loads(file.read_text(encoding="utf-8"))
