@@ -72,9 +72,9 @@ _URDF = (
     ),
     _page(
         "urdf-not-expanded",
-        "a URDF still holds xacro elements",
+        "a URDF still holds xacro elements, or texts that are yet to be expanded",
         "Consumers of URDF ignore elements that they do not know, so whatever the macros hold would be missing "
-        "from the robot.",
+        "from the robot; `${…}` and `$(…)` would be evaluated on the host that starts the cell.",
         "name the file `….xacro` so that it is expanded first",
     ),
     _page(

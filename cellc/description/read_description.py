@@ -32,7 +32,7 @@ def read_description(file: Path, arguments: Mapping[str, str], root: Path) -> Ou
     except XacroRefusedError as refusal:
         found = Diagnostic(refusal.code, Severity.ERROR, refusal.message, start, help=refusal.help_text)
         return Outcome(None, (found,))
-    return read_urdf(text, file.as_posix())
+    return read_urdf(text, file.as_posix(), from_user=True)
 
 
 def read_catalogue_description(
@@ -45,5 +45,5 @@ def read_catalogue_description(
 def _read_expanded(file: Path, expanded: Outcome[Expansion]) -> Outcome[Description]:
     if expanded.value is None:
         return Outcome(None, expanded.diagnostics)
-    read = read_urdf(expanded.value.text, file.as_posix(), expanded.value.origins)
+    read = read_urdf(expanded.value.text, file.as_posix(), expanded.value.origins, from_user=True)
     return Outcome(read.value, expanded.diagnostics + read.diagnostics)

@@ -41,7 +41,9 @@ from cellc.description.urdf_values import (
 )
 from cellc.description.xml_tree import XmlElement, read_xml
 from cellc.diagnostics import Diagnostic, Outcome, Severity, Span, did_you_mean
+from cellc.diagnostics.unsafe_text import hidden, substitution
 
+_READ = ("link", "joint", "material", "ros2_control")
 JOINT_TYPES = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
 Origins = Mapping[tuple[str, str], Span]
 """Where a ``("link", name)`` or ``("joint", name)`` was written, for text that was expanded from xacro."""
@@ -51,13 +53,15 @@ Rgba = tuple[float, float, float, float]
 _T = TypeVar("_T")
 
 
-def read_urdf(text: str, file: str, origins: Origins | None = None) -> Outcome[Description]:
+def read_urdf(text: str, file: str, origins: Origins | None = None, *, from_user: bool = False) -> Outcome[Description]:
     """Read a URDF document; what is malformed is reported, what is merely wrong is left for the rules.
 
     Args:
         text: the document.
         file: the path as the user named it, for spans.
         origins: places of links and joints before expansion; where given they replace those in ``text``.
+        from_user: refuse texts too that other programs would evaluate or hide; what cellc generates asks xacro for
+            share folders.
 
     Returns:
         The description, or None and a diagnostic for each link or joint that cannot be read.
@@ -77,6 +81,7 @@ def read_urdf(text: str, file: str, origins: Origins | None = None) -> Outcome[D
     links: list[Link] = _read_each(root.all("link"), lambda element: _read_link(element, known), found)
     joints = _read_each(root.all("joint"), _read_joint, found)
     found.extend(_left_from_xacro(root))
+    found.extend(_unsafe(root) if from_user else ())
     if found:
         return Outcome(None, tuple(found))
     hardware, hardware_error = read_hardware(root)
@@ -117,6 +122,31 @@ def _left_from_xacro(root: XmlElement) -> Iterable[Diagnostic]:
             help_text = "name the file `….xacro` so that it is expanded first"
             yield Diagnostic("urdf-not-expanded", Severity.ERROR, message, element.span, help=help_text)
             return
+
+
+def _unsafe(root: XmlElement) -> Iterable[Diagnostic]:
+    """Yield texts that other programs would evaluate or hide, in the elements that are read."""
+    read = (element for element in root.children if element.tag in _READ)
+    elements = [root, *(inner for element in read for inner in _walked(element))]
+    for element in elements:
+        for text in (*element.attributes.values(), element.text):
+            if message := substitution(text):
+                help_text = "name the file `….xacro` so that it is expanded first, or write the value itself"
+                yield Diagnostic("urdf-not-expanded", Severity.ERROR, message, element.span, help=help_text)
+            if message := hidden(text):
+                help_text = "delete the character"
+                yield Diagnostic("control-character", Severity.ERROR, message, element.span, help=help_text)
+        for attribute, value in element.attributes.items():
+            # A parser makes spaces of those that stand there as they are; these were written as `&#10;`.
+            if "\n" in value or "\t" in value:
+                message = f"`{attribute}` of `<{element.tag}>` holds a line break or a tab"
+                yield Diagnostic("control-character", Severity.ERROR, message, element.span, help="write a space")
+
+
+def _walked(element: XmlElement) -> Iterable[XmlElement]:
+    yield element
+    for child in element.children:
+        yield from _walked(child)
 
 
 def _read_colour(element: XmlElement) -> tuple[str, Rgba | None]:

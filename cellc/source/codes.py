@@ -23,8 +23,9 @@ CODES: tuple[CodePage, ...] = (
         "control-character",
         "the text holds a character that steers terminals or hides text",
         "Escape sequences, text direction overrides and Unicode line separators make a reviewer see something "
-        "else than what the compiler reads. YAML itself forbids most of them.",
-        "delete the character, or write it as an escape inside double quotes",
+        "else than what the compiler reads. YAML itself forbids most of them, and as an escape they would reach "
+        "names and files that are generated.",
+        "delete the character",
     ),
     _page(
         "duplicate-key",
@@ -141,6 +142,14 @@ CODES: tuple[CodePage, ...] = (
         "the file holds more than one YAML document",
         "One file describes one cell; what follows `---` or `...` would be ignored by some readers and win in others.",
         "delete the separator, or move the second document into a file of its own",
+    ),
+    _page(
+        "substitution-in-text",
+        "a text holds `${`, `$(` or `$$`",
+        "xacro, ros2 launch and shells replace `${…}` and `$(…)` by what they evaluate, so that a text of the spec or "
+        "of a device could run a program on the host that starts the cell. No device needs them: link fills in "
+        "placeholders such as `{address}` and `{share:PACKAGE}`.",
+        "write the value itself, or a placeholder of the catalog",
     ),
     _page(
         "tab-indentation",

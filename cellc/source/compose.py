@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import yaml
 
 from cellc.diagnostics import Diagnostic, Outcome, Related, Span, YamlPath
+from cellc.diagnostics.unsafe_text import hidden, substitution
 from cellc.source.codes import finding
 from cellc.source.document import MAX_DEPTH, MAX_FINDINGS, MAX_NODES, Child, Node, Plain, PlainScalar
 from cellc.source.events import event_span, flow_span, parse_events
@@ -126,6 +127,7 @@ class _Composer:
     def _take_scalar(self, event: yaml.ScalarEvent) -> None:
         self._refuse_tag(event)
         span = self._span(event)
+        self._refuse_unsafe(event.value, span)
         data = event.value if event.style else self._resolve(event.value, span)
         node = Node(span, data, event.value)
         if event.anchor is not None:
@@ -206,6 +208,13 @@ class _Composer:
     def _refuse_tag(self, event: yaml.ScalarEvent | yaml.CollectionStartEvent) -> None:
         if event.tag is not None:
             self._report("yaml-tag", f"the value carries the tag `{_short(event.tag)}`", self._span(event))
+
+    def _refuse_unsafe(self, text: str, span: Span) -> None:
+        # Hidden characters can stand here as escapes alone: as they are the text of the file was refused for them.
+        if message := hidden(text):
+            self._report("control-character", message, span)
+        if message := substitution(text):
+            self._report("substitution-in-text", message, span)
 
     def _report(
         self, code: str, message: str, span: Span, related: tuple[Related, ...] = (), key: YamlPath = ()

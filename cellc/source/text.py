@@ -9,15 +9,13 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from cellc.diagnostics import Diagnostic, Outcome, Span, nearest
+from cellc.diagnostics.unsafe_text import HIDDEN, hidden
 from cellc.source.codes import finding
 from cellc.source.document import MAX_FILE_BYTES
 
 _UTF16_MARKS = (b"\xff\xfe", b"\xfe\xff")
 # `<<` is not meant: that is a merge key.
 _XML_START = re.compile(r"\s*<[?!a-zA-Z]")
-# What YAML 1.2.2, production c-printable, leaves out, and what only hides text: Unicode line separators (YAML 1.1
-# breaks lines there, 1.2 does not), text direction overrides, and a byte order mark in the middle of the text.
-_FORBIDDEN = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufeff\ufffe\uffff]")
 
 
 def read_text(path: Path, name: str, place: Span) -> Outcome[str]:
@@ -43,7 +41,7 @@ def read_text(path: Path, name: str, place: Span) -> Outcome[str]:
 def showable(content: bytes) -> str | None:
     """Return the text of a file of any format for a report; None where it is no text that a terminal may show."""
     text = _decode(content, "")
-    return None if isinstance(text, Diagnostic) or _FORBIDDEN.search(text) else text
+    return None if isinstance(text, Diagnostic) or HIDDEN.search(text) else text
 
 
 def _read_bytes(path: Path, name: str, place: Span) -> bytes | Diagnostic:
@@ -102,8 +100,8 @@ def _unlike_yaml(text: str, name: str) -> Diagnostic | None:
     zero = text.find("\0")
     if zero >= 0:
         return finding("not-utf8", f"`{name}` is binary: it holds a zero byte", _span_after(text[:zero], name, 1))
-    if match := _FORBIDDEN.search(text):
-        message = f"the text holds the character U+{ord(match[0]):04X}"
+    if match := HIDDEN.search(text):
+        message = hidden(match[0]) or ""
         return finding("control-character", message, _span_after(text[: match.start()], name, 1))
     if _XML_START.match(text):
         before = text[: len(text) - len(text.lstrip())]

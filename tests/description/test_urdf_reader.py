@@ -210,3 +210,35 @@ def test_reader_answers_any_text(text: str) -> None:
 def test_reader_answers_any_damage(start: int, length: int, patch: str) -> None:
     outcome = read_urdf(ROBOT[:start] + patch + ROBOT[start + length :], "r.urdf")
     assert (outcome.value is None) == bool(outcome.diagnostics)
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [
+        ("${1+1}", "urdf-not-expanded"),
+        ("$(env HOME)", "urdf-not-expanded"),
+        ("$$", "urdf-not-expanded"),
+        ("x&#x202E;y", "control-character"),
+        ("x&#10;y", "control-character"),
+        ("x&#x9B;y", "control-character"),
+    ],
+)
+@pytest.mark.parametrize(
+    "body",
+    [
+        '<link name="TEXT"/>',
+        '<material name="TEXT"/>',
+        '<link name="a"><visual name="TEXT"><geometry><sphere radius="1"/></geometry></visual></link>',
+        '<link name="a"><collision><geometry><mesh filename="TEXT"/></geometry></collision></link>',
+        '<joint name="j" type="fixed"><parent link="TEXT"/><child link="b"/></joint>',
+        '<ros2_control name="TEXT" type="system"><hardware><plugin>p</plugin></hardware></ros2_control>',
+        '<ros2_control name="n" type="system"><hardware><plugin>p</plugin></hardware>'
+        '<gpio name="g"><command_interface name="TEXT"/></gpio></ros2_control>',
+    ],
+)
+def test_a_user_brings_no_text_that_is_evaluated_or_hidden_later(body: str, text: str, code: str) -> None:
+    urdf = f'<robot name="r">\n{body.replace("TEXT", text)}\n</robot>'
+    outcome = read_urdf(urdf, "r.urdf", from_user=True)
+    assert outcome.value is None
+    assert {(found.code, found.span.line) for found in outcome.diagnostics} == {(code, 2)}
+    assert read_urdf(urdf, "r.urdf").value is not None

@@ -74,7 +74,7 @@ def test_file_reached_twice_is_read_once(tmp_path: Path) -> None:
         ("include: link.yaml", "include-escape"),
         ("include: gone.yaml", "file-not-found"),
         ("include: .", "not-a-file"),
-        ('include: "a\\0b"', "file-unreadable"),
+        ('include: "a\\0b"', "control-character"),
         ("include: cell.yaml", "include-cycle"),
     ],
 )

@@ -37,6 +37,12 @@ REFUSED = [
     ("\n<?xml version='1.0'?><robot/>", [("not-yaml", 2, 1)]),
     ("a: 1\nb: x\x1b[2J\n", [("control-character", 2, 5)]),
     ("a: \u202ehidden\n", [("control-character", 1, 4)]),
+    ('a: "\\u202ehidden"\n', [("control-character", 1, 4)]),
+    ('"\\e[2J": 1\n', [("control-character", 1, 1)]),
+    ("a: ${1+1}\n", [("substitution-in-text", 1, 4)]),
+    ("a: [x, 'y $(env HOME)']\n", [("substitution-in-text", 1, 8)]),
+    ('a: {"$(arg x)": "\\x24{1+1}"}\n', [("substitution-in-text", 1, 5), ("substitution-in-text", 1, 17)]),
+    ("a: costs $$ 5\n", [("substitution-in-text", 1, 4)]),
     ("<<: x\n", [("merge-key", 1, 1)]),
     (BOMB, [("alias-bomb", 6, 4)]),
 ]
