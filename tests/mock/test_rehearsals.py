@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 import pytest
 
 from cellc.mock import MockCell
@@ -54,6 +57,15 @@ def test_a_bound_that_is_not_held_fails_the_rehearsal(load_with: LoadWith) -> No
     result = cell.run("faulty")
     assert result.outcome == "cancelled"
     assert not result.passed
+
+
+def test_grip_has_the_timeout_of_its_own_action(edit_contract: Callable[[Callable[[Any], None]], MockCell]) -> None:
+    def state_timeout(contract: Any) -> None:
+        contract["interfaces"]["/gripper_action/gripper_cmd"]["timeout_s"] = 0.001
+
+    failed = edit_contract(state_timeout).run("pick_and_place").attempts[-2]
+    assert (failed.step, failed.outcome) == ("grip close gripper", "timeout")
+    assert failed.fault_code == "no result of gripper_action within 0.001 s"
 
 
 CASES: list[tuple[str, Fault, str, str]] = [

@@ -10,9 +10,8 @@ from cellc.mock.faults.cases import BORNE, CellStep, Ending, ends_in
 from cellc.mock.nodes.motion_planner import PLANNING_LATENCY_S
 from cellc.mock.nodes.observations import DEFAULT_MAX_AGE_S as DEFAULT_OBSERVATION_AGE_S
 from cellc.mock.nodes.perception import DEFAULT_RATE_HZ, POSE_TYPE
-from cellc.mock.task.bounds import action_timeout_s, cancel_bound_s, goal_timeout_s, joint_state_age_s
+from cellc.mock.task.bounds import action_timeout_s, cancel_bound_s, goal_timeout_s, grip_timeout_s, joint_state_age_s
 from cellc.mock.task.context import WATCH_S
-from cellc.mock.task.grip import GRIP_TIMEOUT_S
 from cellc.mock.task.move import TF_TIMEOUT_S
 from cellc.mock.task.task import PATIENCE_PERIODS
 from cellc.vocabulary import AttemptOutcome
@@ -56,7 +55,7 @@ class Bounds:
     def execution_s(self, step: CellStep) -> float | None:
         """Return the bound of a goal that makes no progress; None where no action of the contract states one."""
         if step.kind == "grip":
-            return GRIP_TIMEOUT_S * max(1, len(step.controllers)) + self.asked_s()
+            return sum(grip_timeout_s(self.contract, controller) for controller in step.controllers) + self.asked_s()
         goals = [goal_timeout_s(self.contract, controller) for controller in step.controllers]
         stated = [timeout_s for timeout_s in goals or [action_timeout_s(self.contract)] if timeout_s is not None]
         return sum(stated) + self.asked_s() if len(stated) == max(1, len(goals)) else None

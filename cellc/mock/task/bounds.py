@@ -8,6 +8,8 @@ from cellc.mock.world.joint_states import JOINT_STATE_TYPE
 
 DEFAULT_CANCEL_S = 0.5
 """Where the contract bounds neither the cancel of an action nor that of the cell."""
+DEFAULT_GRIP_S = 10.0
+"""Where the action of a gripper states no timeout."""
 DEFAULT_JOINT_STATE_AGE_S = 0.1
 """Where no interface states how old a joint state may be."""
 
@@ -38,8 +40,18 @@ def action_timeout_s(contract: Contract) -> float | None:
 def goal_timeout_s(contract: Contract, controller: str) -> float | None:
     """Return the bound of a whole goal: of the action that plans and executes, else of the one that takes the goal."""
     planned_s = action_timeout_s(contract)
+    return _own_timeout_s(contract, controller) if planned_s is None else planned_s
+
+
+def grip_timeout_s(contract: Contract, controller: str) -> float:
+    """Return the bound of one opening or closing: that of the gripper's own action, which nobody plans for."""
+    stated_s = _own_timeout_s(contract, controller)
+    return DEFAULT_GRIP_S if stated_s is None else stated_s
+
+
+def _own_timeout_s(contract: Contract, controller: str) -> float | None:
     interface = contract.interfaces.get(served_actions(contract).get(controller) or "")
-    return planned_s if planned_s is not None or interface is None else interface.timeout_s
+    return None if interface is None else interface.timeout_s
 
 
 def planning_server(contract: Contract) -> str:

@@ -7,13 +7,12 @@ import math
 from cellc.contract.contract import ContractGripper
 from cellc.mock.control import GripperGoal
 from cellc.mock.engine.process import Waiting
+from cellc.mock.task.bounds import grip_timeout_s
 from cellc.mock.task.context import Attempt, AttemptError, CurrentState, TaskContext
 from cellc.mock.task.execute import execute, require_success
 from cellc.mock.task.move import state_since
 from cellc.vocabulary import AttemptOutcome, Behaviour
 
-GRIP_TIMEOUT_S = 10.0
-"""Bound of one opening or closing."""
 ARRIVAL_SHARE = 0.05
 """Share of its stroke by which a gripper may miss the position where it should come to rest."""
 GRASP_TOLERANCE_M = 0.03
@@ -28,7 +27,8 @@ def grip(context: TaskContext, attempt: Attempt, device: str, command: str) -> W
     between = _object_between(context, device) if command == "close" else None
     target = facts.closed if command == "close" else facts.open
     goal = _goal(context, facts, target)
-    ended = yield from execute(context, attempt, "grip", facts.controller, goal, GRIP_TIMEOUT_S)
+    timeout_s = grip_timeout_s(context.contract, facts.controller)
+    ended = yield from execute(context, attempt, "grip", facts.controller, goal, timeout_s)
     require_success(ended, context)
     state = yield from state_since(context, ended.decided_ns)
     _require_arrival(state, facts, target)
@@ -42,7 +42,7 @@ def _require_arrival(state: CurrentState, facts: ContractGripper, expected: floa
     """Raise AttemptError where the fingers are elsewhere: a controller may call any stall a success."""
     allowed = ARRIVAL_SHARE * abs(facts.closed - facts.open)
     position = state.positions.get(facts.joint, math.nan)
-    if not abs(position - expected) <= allowed:  # a position that nobody reports is no arrival either
+    if not abs(position - expected) <= allowed:  # an unknown position is no arrival either
         text = f"joint {facts.joint} stands at {position:.4g}, {expected:.4g} expected within {allowed:.2g}"
         raise AttemptError(AttemptOutcome.TOLERANCE_VIOLATION, text)
 
