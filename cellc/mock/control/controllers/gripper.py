@@ -1,4 +1,4 @@
-"""Gripper action controllers: parallel_gripper_action_controller and the older gripper_controllers (facts §6).
+"""Gripper action controllers: parallel_gripper_action_controller and the older gripper_controllers.
 
 Success and stall are looked at in each update before the command is written. A goal that is replaced ends as canceled
 at once; a goal that runs while the controller is deactivated never gets a result.

@@ -1,6 +1,6 @@
 """Enforcement of joint limits on commands, as joint_limits::JointSaturationLimiter per command interface.
 
-Facts: facts/ros2_control.md §1 and the recorded cases. A position is limited around the previous command, not around
+As recorded of ros2_control. A position is limited around the previous command, not around
 the measured position; the measured position alone decides when a joint is so far outside that the update fails.
 """
 

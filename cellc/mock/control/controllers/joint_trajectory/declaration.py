@@ -1,4 +1,4 @@
-"""Parameters of the joint trajectory controller (facts/ros2_control.md §5.1)."""
+"""Parameters of the joint trajectory controller."""
 
 from __future__ import annotations
 
