@@ -5,11 +5,17 @@ Both are computed by the planner and kept in the cache. The planner is imported 
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import TypeVar
+
+from cellc.description.meshes import mesh_contents
 from cellc.feasibility.answers import DisabledAnswer, DisabledLinks, MotionAnswer
 from cellc.feasibility.question import MotionQuestion, motion_question, shapes_and_joints
 from cellc.feasibility.touching_links import touching_links
 from cellc.graph.cell_graph import CellGraph
 from cellc.store.cache import recall
+
+_Answer = TypeVar("_Answer")
 
 
 def disabled_links(graph: CellGraph) -> DisabledAnswer:
@@ -28,7 +34,7 @@ def motion_answer(graph: CellGraph) -> MotionAnswer:
 
 def _disabled(graph: CellGraph) -> DisabledAnswer:
     urdf = shapes_and_joints(graph.cell)
-    answer = recall("disabled", urdf, DisabledAnswer, lambda: _sampled(urdf))
+    answer = _kept("disabled", urdf, urdf, DisabledAnswer, lambda: _sampled(urdf))
     if not answer.refused:
         return answer
     found = (
@@ -46,10 +52,18 @@ def _sampled(urdf: str) -> DisabledAnswer:
 
 def _motion(graph: CellGraph) -> MotionAnswer:
     question = motion_question(graph)
-    return recall("motion", repr(question), MotionAnswer, lambda: _answered(question))
+    return _kept("motion", repr(question), question.urdf, MotionAnswer, lambda: _answered(question))
 
 
 def _answered(question: MotionQuestion) -> MotionAnswer:
     from cellc.feasibility.compute import answer
 
     return answer(question)
+
+
+def _kept(kind: str, question: str, urdf: str, answer: type[_Answer], compute: Callable[[], _Answer]) -> _Answer:
+    """Return the kept answer to a question on a description and on the mesh files that it names."""
+    meshes = mesh_contents(urdf)
+    if meshes is None:
+        return compute()
+    return recall(kind, f"{question}\0{meshes}", answer, compute, lambda: mesh_contents(urdf) == meshes)

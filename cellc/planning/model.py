@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 import pinocchio
 
+from cellc.description.meshes import MeshError, with_mesh_files
 from cellc.description.model import Description, Joint
 from cellc.description.urdf_reader import read_urdf
 from cellc.planning.problem import Array, ModelError
@@ -47,15 +48,12 @@ class RobotModel:
     mimics: tuple[MimicJoint, ...]
 
     @classmethod
-    def from_urdf(
-        cls, text: str, *, description: Description | None = None, package_dirs: Iterable[str] = ()
-    ) -> RobotModel:
+    def from_urdf(cls, text: str, *, description: Description | None = None) -> RobotModel:
         """Read the text of an expanded URDF.
 
         Args:
-            text: URDF; collision shapes may be primitives, or meshes under one of ``package_dirs``.
+            text: URDF; collision shapes may be primitives or meshes.
             description: what was read of ``text`` before; it is read here where absent.
-            package_dirs: folders in which ``package://`` names are looked up.
 
         Raises:
             ModelError: the text is no robot description, with the reason that the parser would print to stderr only.
@@ -65,9 +63,10 @@ class RobotModel:
         mimics = _resolve_mimics(described)
         try:
             model = pinocchio.buildModelFromXML(text)
-            geometry = pinocchio.buildGeomFromUrdfString(
-                model, text, pinocchio.GeometryType.COLLISION, None, list(package_dirs)
-            )
+            located = with_mesh_files(text)
+            geometry = pinocchio.buildGeomFromUrdfString(model, located, pinocchio.GeometryType.COLLISION, None, [])
+        except MeshError as error:
+            raise ModelError(str(error)) from None
         except (ValueError, RuntimeError) as error:
             raise ModelError(f"pinocchio refuses the robot description: {str(error).splitlines()[0]}") from None
         names = list(model.names)

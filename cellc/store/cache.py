@@ -13,6 +13,7 @@ import tempfile
 import zlib
 from collections.abc import Callable, Mapping
 from functools import cache
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import TypeVar
 
@@ -29,6 +30,9 @@ MAX_ENTRIES = 2000
 
 _ANSWERING = ("feasibility", "planning", "description")
 """Packages whose code decides the answers; an entry that other code wrote is not read."""
+
+_LIBRARIES = ("pin", "coal", "numpy")
+"""Distributions whose code decides the answers too."""
 
 _Answer = TypeVar("_Answer")
 
@@ -68,18 +72,34 @@ def _program() -> str:
     for package in _ANSWERING:
         for file in sorted((root / package).glob("*.py")):
             digest.update(f"{file.name}\0".encode() + file.read_bytes() + b"\0")
+    digest.update((root / "transforms.py").read_bytes())
+    digest.update("\0".join((sys.version, *map(_version, _LIBRARIES))).encode())
     return digest.hexdigest()
 
 
-def recall(kind: str, question: str, answer: type[_Answer], compute: Callable[[], _Answer]) -> _Answer:
+def _version(distribution: str) -> str:
+    try:
+        return version(distribution)
+    except PackageNotFoundError:
+        return "unknown"
+
+
+def recall(
+    kind: str,
+    question: str,
+    answer: type[_Answer],
+    compute: Callable[[], _Answer],
+    is_current: Callable[[], bool] = lambda: True,
+) -> _Answer:
     """Return the kept answer to a question, or compute it.
 
     A missing, unreadable or damaged entry, and a folder that cannot be written, cost time and nothing else.
 
     Args:
         kind: folder of the entry.
-        question: everything that the answer depends on, apart from the program.
+        question: everything that the answer depends on, apart from the program; of files that are read, the content.
         answer: a type that pydantic reads and writes, such as a dataclass.
+        is_current: whether the question still stands after the computation, so that no file changed under it.
     """
     if cache_folder() is None:
         return compute()
@@ -92,7 +112,8 @@ def recall(kind: str, question: str, answer: type[_Answer], compute: Callable[[]
         except ValidationError:
             pass  # of another release whose code looked the same
     computed = compute()
-    write_entry(name, adapter.dump_json(computed))
+    if is_current():
+        write_entry(name, adapter.dump_json(computed))
     return computed
 
 
