@@ -28,6 +28,9 @@ def raise_lost_interrupts() -> None:
 
 def main() -> None:
     """Run the command; the import stands inside, so that Ctrl-C while it loads ends without a traceback too."""
+    if sys.flags.optimize > 1:
+        print("error: `python -OO` drops the docstrings, in which rules and commands keep their help", file=sys.stderr)
+        sys.exit(2)
     # A tenth of a short command went into collecting garbage. What a check makes are 80 000 objects, and they stay.
     gc.set_threshold(200_000, 20, 20)
     # What a spec means is no matter of plugins; looking for some takes longer than reading the spec.

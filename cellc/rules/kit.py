@@ -94,7 +94,9 @@ def rule(severity: Severity, assumes: tuple[str, ...] = ()) -> Callable[[Check],
 
     def make(check: Check) -> Rule:
         _, _, folder, file = check.__module__.split(".")
-        page = sys.modules[check.__module__].__doc__ or ""
+        page = sys.modules[check.__module__].__doc__
+        if page is None:
+            raise RuntimeError(f"`{check.__module__}` must have a docstring, its page; `python -OO` leaves none")
         return Rule(file.replace("_", "-"), FAMILIES[folder], severity, check, page, assumes)
 
     return make

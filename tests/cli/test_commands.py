@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import errno
 import json
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -125,3 +127,17 @@ def test_schema_prints_the_committed_schema() -> None:
 def _line(text: str) -> int:
     lines = Path(PICK).read_text().splitlines()
     return next(number for number, line in enumerate(lines, 1) if text in line)
+
+
+def test_python_without_docstrings_is_refused_as_the_help_stands_in_them() -> None:
+    command = [sys.executable, "-OO", "-B", "-m", "cellc", "check", MINIMAL]
+    ran = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert (ran.returncode, ran.stdout) == (2, "")
+    assert ran.stderr.startswith("error: `python -OO` drops the docstrings")
+
+
+def test_program_without_docstrings_loads_no_rule() -> None:
+    command = [sys.executable, "-OO", "-B", "-c", f"import cellc; cellc.check({MINIMAL!r})"]
+    ran = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert ran.returncode == 1
+    assert ran.stderr.strip().endswith("must have a docstring, its page; `python -OO` leaves none")
