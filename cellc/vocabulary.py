@@ -75,7 +75,7 @@ def features(distro: Distro) -> frozenset[Feature]:
 
 
 class Behaviour(Term):
-    """What a controller does: the kinds of the catalogue, and the variants that one plugin or one device has."""
+    """What a controller does: the kinds of the catalog, and the variants that one plugin or one device has."""
 
     JOINT_TRAJECTORY = "joint_trajectory"
     SCALED_JOINT_TRAJECTORY = "scaled_joint_trajectory"

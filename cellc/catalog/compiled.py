@@ -14,7 +14,7 @@ from typing import Any
 
 from cellc.diagnostics import Span
 
-CATALOGUE = Path(__file__).parent
+CATALOG = Path(__file__).parent
 SHOWN = "cellc/catalog"
 """Stands for the folder of the package in messages: where that lies on the machine is of no interest to a reader."""
 
@@ -25,7 +25,7 @@ Places = Mapping[tuple[str, str], Span]
 
 def compiled_table(file: str) -> str | None:
     """Return the data of a YAML file of the catalog as JSON, or None where it is to be read itself."""
-    entry = _entry(file, (CATALOGUE / file,))
+    entry = _entry(file, (CATALOG / file,))
     return None if entry is None else json.dumps(entry["data"])
 
 
@@ -48,7 +48,7 @@ def compile_catalog() -> Iterator[tuple[Path, str]]:
 
     tables = ("distros", "controller_manager", "message_types", "qos_profiles")
     for table in (*tables, *(f"controllers/{kind}" for kind in controller_kinds())):
-        yield _written(f"{table}.yaml", (CATALOGUE / f"{table}.yaml",), {"data": _data(CATALOGUE / f"{table}.yaml")})
+        yield _written(f"{table}.yaml", (CATALOG / f"{table}.yaml",), {"data": _data(CATALOG / f"{table}.yaml")})
     for name in device_names():
         yield _written(f"devices/{name}", _files_of(name), _device(name))
 
@@ -57,7 +57,7 @@ def _device(name: str) -> dict[str, Any]:
     from cellc.catalog.load import read_device
     from cellc.description.xacro_expansion import expand_here
 
-    devices = CATALOGUE / "devices"
+    devices = CATALOG / "devices"
     device = read_device(name)
     if device.value is None or device.diagnostics:
         raise ValueError(f"{name}: {'; '.join(found.message for found in device.diagnostics)}")
@@ -82,7 +82,7 @@ def _data(file: Path) -> object:
 
 
 def _files_of(name: str) -> tuple[Path, ...]:
-    devices = CATALOGUE / "devices"
+    devices = CATALOG / "devices"
     return (*sorted(devices.glob("*.xacro")), *sorted(file for file in (devices / name).iterdir() if file.is_file()))
 
 
@@ -99,7 +99,7 @@ def _entry(name: str, sources: Sequence[Path]) -> dict[str, Any] | None:
 
 
 def _file(name: str) -> Path:
-    return CATALOGUE / _COMPILED / f"{name.removesuffix('.yaml')}.json"
+    return CATALOG / _COMPILED / f"{name.removesuffix('.yaml')}.json"
 
 
 def _digest(sources: Sequence[Path]) -> str:

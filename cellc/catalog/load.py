@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
-from cellc.catalog.compiled import CATALOGUE, SHOWN, compiled_device, compiled_table
+from cellc.catalog.compiled import CATALOG, SHOWN, compiled_device, compiled_table
 from cellc.catalog.controller_kind import ControllerKind
 from cellc.catalog.device_model import DeviceModel
 from cellc.catalog.read_model import ModelT, read_model
@@ -33,13 +33,13 @@ class CatalogDevice:
 @lru_cache(maxsize=1)
 def device_names() -> tuple[str, ...]:
     """Name the devices of the catalog, in alphabetical order."""
-    return tuple(sorted(file.parent.name for file in (CATALOGUE / "devices").glob("*/device.yaml")))
+    return tuple(sorted(file.parent.name for file in (CATALOG / "devices").glob("*/device.yaml")))
 
 
 @lru_cache(maxsize=1)
 def controller_kinds() -> tuple[str, ...]:
     """Name the neutral controller kinds, in alphabetical order."""
-    return tuple(sorted(file.stem for file in (CATALOGUE / "controllers").glob("*.yaml")))
+    return tuple(sorted(file.stem for file in (CATALOG / "controllers").glob("*.yaml")))
 
 
 @lru_cache(maxsize=64)
@@ -65,13 +65,13 @@ def load_device(name: str) -> Outcome[CatalogDevice]:
 
 def read_device(name: str) -> Outcome[CatalogDevice]:
     """Read the files of a device of the catalog."""
-    from cellc.description.read_description import read_catalogue_description
+    from cellc.description.read_description import read_catalog_description
 
-    devices = CATALOGUE / "devices"
+    devices = CATALOG / "devices"
     shown = f"{SHOWN}/devices"
 
     def read(file: Path, arguments: dict[str, str]) -> Outcome[Description]:
-        return read_catalogue_description(file, arguments, devices, shown)
+        return read_catalog_description(file, arguments, devices, shown)
 
     return _load(devices / name, f"{shown}/{name}", read)
 
@@ -201,7 +201,7 @@ def _table(file: str, model: type[ModelT]) -> Outcome[ModelT]:
     compiled = compiled_table(file)
     if compiled is not None:
         return Outcome(model.model_validate_json(compiled))
-    read = read_model(CATALOGUE / file, f"{SHOWN}/{file}", model)
+    read = read_model(CATALOG / file, f"{SHOWN}/{file}", model)
     return Outcome(None if read.value is None else read.value[0], read.diagnostics)
 
 

@@ -194,7 +194,7 @@ class ContractDriver(ContractModel):
 class ContractDevice(ContractModel):
     """A device as the mock needs it."""
 
-    model: str = Field(description="Catalogue entry.")
+    model: str = Field(description="Catalog entry.")
     kind: str = Field(description="Kind of device.")
     prefix: str = Field(description="Put before its joint and link names.")
     root_link: str = Field(description="Link that is mounted.")

@@ -1,6 +1,6 @@
 """Bring-up by readiness: what each step does, and the state, interface or transform that must show before it.
 
-Stages of chapter 4, section 6: discover, configure, observe, claim; enable and move are taken by people. Starting the
+Stages: discover, configure, observe, claim; enable and move are taken by people. Starting the
 processes is discovery; what follows here waits for proof, whatever order the processes came up in.
 """
 

@@ -35,10 +35,10 @@ def read_description(file: Path, arguments: Mapping[str, str], root: Path) -> Ou
     return read_urdf(text, file.as_posix(), from_user=True)
 
 
-def read_catalogue_description(
+def read_catalog_description(
     file: Path, arguments: Mapping[str, str], root: Path, shown_root: str
 ) -> Outcome[Description]:
-    """Read a description that ships with the catalogue, in this process."""
+    """Read a description that ships with the catalog, in this process."""
     return _read_expanded(file, expand_here(file.as_posix(), arguments, root.as_posix(), shown_root))
 
 

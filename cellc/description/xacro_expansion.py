@@ -1,6 +1,6 @@
 """One expansion of a xacro file, every failure told as a diagnostic: in this process, or in a child with limits.
 
-A file of the catalogue is expanded here. A file of the user is expanded in a child process with bounded time, memory
+A file of the catalog is expanded here. A file of the user is expanded in a child process with bounded time, memory
 and output: the confinement refuses what reaches out of the folder, the process ends an expansion that takes too long.
 Started as a program, this module is that child: it reads one request from stdin and answers on stdout.
 """
@@ -42,7 +42,7 @@ class Expansion:
 def expand_here(
     file: str, arguments: Mapping[str, str], root: str, shown_root: str | None = None
 ) -> Outcome[Expansion]:
-    """Expand a xacro file in this process: for files of the catalogue, or inside a limited child process.
+    """Expand a xacro file in this process: for files of the catalog, or inside a limited child process.
 
     Args:
         file: the xacro file, as the user named it; its includes are found beside it.

@@ -15,7 +15,7 @@ from cellc.catalog.read_model import read_model
 from cellc.diagnose.subjects import FIELDS, Scope
 
 LAYERS = ("network", "qos", "time", "lifecycle", "ownership", "vendor", "tool", "safety")
-"""The layers of the chapter's prompt C, in the order in which they are ruled out."""
+"""The layers in the order in which they are ruled out."""
 Area = Literal["graph", "time_tf", "controller", "vendor", "network", "safety", "data"]
 
 # Commands that read. Anything else, such as a switch, a parameter set or a published message, is refused as data.

@@ -1,4 +1,4 @@
-"""``gates/promotion.md`` and ``gates/network.md``: G0–G7 and L1–L6 of chapter 4 for this cell.
+"""``gates/promotion.md`` and ``gates/network.md``: G0–G7 and L1–L6 for this cell.
 
 Markdown checklists for the people at the cell. Commands read, or start what is released at that gate; what enables or
 moves anything is a step of the vendor's procedure and stands here as words. Left out: results, which belong into the

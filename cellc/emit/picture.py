@@ -1,4 +1,4 @@
-"""``graph/responsibility.svg``: the cell on one sheet, every arrow labeled (chapter 4, last section).
+"""``graph/responsibility.svg``: the cell on one sheet, every arrow labeled.
 
 SVG 1.1 without scripts, styles or fonts from elsewhere, for A4 upright: 13 units of 1000 are 7 points on the page, and
 10 pixels on a phone that is held sideways. One arrow a row, from left to right who, what, to whom, so that it needs no

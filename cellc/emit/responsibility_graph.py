@@ -1,4 +1,4 @@
-"""``graph/responsibility.mmd``: who tells what to whom, and who answers for it, on one page (chapter 4, last section).
+"""``graph/responsibility.mmd``: who tells what to whom, and who answers for it, on one page.
 
 Mermaid flowchart, for code hosts and editors that draw it. Every arrow carries type, frame, unit, rate, time source,
 owner and failure behavior; an interface with several ends carries them once, in a box between its ends, whose arrows

@@ -19,7 +19,7 @@ from cellc.planning.problem import Array, FailureReason, IkFailure, JointLimits
 
 # Two descents that end closer than this, in rad or m of any joint, found the same solution.
 _SAME_SOLUTION = 1e-4
-# A solution this close on the same branch is the nearest of all: of 2,540 random targets for a catalogue arm the first
+# A solution this close on the same branch is the nearest of all: of 2,540 random targets for a catalog arm the first
 # descent stayed within 1 rad for 701, and for none of these did any of 40 descents end nearer.
 _NEAR_RAD = math.pi / 4.0
 POSITION_TOLERANCE_M = 1e-6

@@ -11,7 +11,7 @@ _UNKNOWN = "UNKNOWN"
 
 
 class ResponsibilitiesSpec(SpecModel):
-    """The eight responsibilities of the chapter, whatever the architecture; UNKNOWN blocks the real target."""
+    """The eight responsibilities that every architecture has; UNKNOWN blocks the real target."""
 
     frames: Text = Field(_UNKNOWN, description="Owner of frames and calibrations.", examples=["perception"])
     time: Text = Field(_UNKNOWN, description="Owner of clocks and stamps.", examples=["perception"])

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from cellc.catalog.compiled import CATALOGUE
+from cellc.catalog.compiled import CATALOG
 from cellc.catalog.controller_kind import ControllerKind, ParameterFacts
 from cellc.catalog.load import (
     CatalogDevice,
@@ -68,7 +68,7 @@ def test_device_loads_under_its_own_name(name: str) -> None:
 
 @pytest.mark.parametrize("name", device_names())
 def test_device_text_uses_known_placeholders_only(name: str) -> None:
-    text = (CATALOGUE / "devices" / name / "device.yaml").read_text(encoding="utf-8")
+    text = (CATALOG / "devices" / name / "device.yaml").read_text(encoding="utf-8")
     for placeholder in re.findall(r'"[^"\n]*?\{([a-z_:]+)\}', text):
         assert placeholder in PLACEHOLDERS or placeholder.startswith("share:")
 
@@ -124,7 +124,7 @@ def test_name_that_is_not_listed_is_refused(load: Callable[[str], object], name:
 
 
 def test_device_of_the_user_with_a_wrong_value_is_reported_on_its_line(tmp_path: Path) -> None:
-    text = (CATALOGUE / "devices/realsense_d435i/device.yaml").read_text(encoding="utf-8")
+    text = (CATALOG / "devices/realsense_d435i/device.yaml").read_text(encoding="utf-8")
     lines = text.replace("rate: 30 Hz\n      qos", "rate: 30 mm\n      qos", 1).splitlines()
     (tmp_path / "device.yaml").write_text("\n".join(lines), encoding="utf-8")
     (found,) = load_device_folder(tmp_path, tmp_path).diagnostics

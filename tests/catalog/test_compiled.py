@@ -8,12 +8,12 @@ from pathlib import Path
 import pytest
 
 from cellc.catalog import compiled, load
-from cellc.catalog.compiled import CATALOGUE, compile_catalog, compiled_device, compiled_table
+from cellc.catalog.compiled import CATALOG, compile_catalog, compiled_device, compiled_table
 from cellc.catalog.controller_kind import ControllerKind
 from cellc.catalog.load import controller_kinds, device_names, load_controller_kind, load_device, read_device
 from cellc.catalog.read_model import read_model
 
-WRITTEN = sorted((CATALOGUE / "compiled").rglob("*.json"))
+WRITTEN = sorted((CATALOG / "compiled").rglob("*.json"))
 
 
 def test_compiled_files_are_up_to_date() -> None:
@@ -30,7 +30,7 @@ def test_compiled_device_is_the_device_of_the_files(name: str) -> None:
 
 @pytest.mark.parametrize("kind", controller_kinds())
 def test_compiled_kind_is_the_kind_of_the_file(kind: str) -> None:
-    read = read_model(CATALOGUE / f"controllers/{kind}.yaml", kind, ControllerKind)
+    read = read_model(CATALOG / f"controllers/{kind}.yaml", kind, ControllerKind)
     assert read.value is not None
     assert load_controller_kind(kind).value == read.value[0]
 
@@ -51,22 +51,22 @@ def test_device_whose_files_changed_is_not_taken_from_the_compiled_one(
     changed: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     copy = tmp_path / "catalog"
-    shutil.copytree(CATALOGUE, copy, ignore=shutil.ignore_patterns("*.py", "__pycache__"))
-    monkeypatch.setattr(compiled, "CATALOGUE", copy)
+    shutil.copytree(CATALOG, copy, ignore=shutil.ignore_patterns("*.py", "__pycache__"))
+    monkeypatch.setattr(compiled, "CATALOG", copy)
     assert compiled_device("ur5e") is not None
     (copy / changed).write_bytes((copy / changed).read_bytes() + b" ")
     assert compiled_device("ur5e") is None
 
 
 def test_missing_compiled_file_is_no_loss(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    shutil.copy(CATALOGUE / "distros.yaml", tmp_path)
-    monkeypatch.setattr(compiled, "CATALOGUE", tmp_path)
+    shutil.copy(CATALOG / "distros.yaml", tmp_path)
+    monkeypatch.setattr(compiled, "CATALOG", tmp_path)
     assert compiled_table("distros.yaml") is None
 
 
 def test_line_ends_of_another_system_change_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     copy = tmp_path / "catalog"
-    shutil.copytree(CATALOGUE, copy, ignore=shutil.ignore_patterns("*.py", "__pycache__"))
-    monkeypatch.setattr(compiled, "CATALOGUE", copy)
+    shutil.copytree(CATALOG, copy, ignore=shutil.ignore_patterns("*.py", "__pycache__"))
+    monkeypatch.setattr(compiled, "CATALOG", copy)
     (copy / "distros.yaml").write_bytes((copy / "distros.yaml").read_bytes().replace(b"\n", b"\r\n"))
     assert compiled_table("distros.yaml") is not None

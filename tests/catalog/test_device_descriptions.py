@@ -13,7 +13,7 @@ import numpy as np
 import pinocchio
 import pytest
 
-from cellc.catalog.compiled import CATALOGUE
+from cellc.catalog.compiled import CATALOG
 from cellc.catalog.load import device_names, load_device
 from cellc.description.model import Box, Description, Inertial
 from cellc.description.xacro_expansion import expand_here
@@ -133,7 +133,7 @@ def _assert_possible(inertial: Inertial) -> None:
 
 def _touching(name: str, positions: dict[str, float]) -> set[tuple[str, str]]:
     """Pairs of links that collide though no joint connects them."""
-    devices = CATALOGUE / "devices"
+    devices = CATALOG / "devices"
     expanded = expand_here((devices / name / f"{name}.urdf.xacro").as_posix(), {}, devices.as_posix()).value
     assert expanded is not None
     model = pinocchio.buildModelFromXML(expanded.text)
@@ -191,10 +191,10 @@ def test_gripper_does_not_touch_itself(angle: float) -> None:
 
 def test_expansion_is_the_same_under_any_hash_seed() -> None:
     program = (
-        "from cellc.catalog.compiled import CATALOGUE\n"
+        "from cellc.catalog.compiled import CATALOG\n"
         "from cellc.catalog.load import device_names\n"
         "from cellc.description.xacro_expansion import expand_here\n"
-        "d = CATALOGUE / 'devices'\n"
+        "d = CATALOG / 'devices'\n"
         "for n in device_names():\n"
         "    print(expand_here(f'{d}/{n}/{n}.urdf.xacro', {}, str(d)).value)\n"
     )

@@ -1,4 +1,4 @@
-"""The audit and the manifest against the contract, the spec and the catalogue's own files."""
+"""The audit and the manifest against the contract, the spec and the catalog's own files."""
 
 from __future__ import annotations
 

@@ -17,6 +17,11 @@ from tests.cells import ROOT
 from tests.foreign_yaml import safe_load
 from tests.oracles import RECORDED
 
+SECTIONS = {
+    line[3:].lower().replace(" ", "-")
+    for line in (ROOT / "docs" / "principles.md").read_text(encoding="utf-8").splitlines()
+    if line.startswith("## ")
+}
 EVERY_SYMPTOM = [symptom for layer in knowledge() for symptom in layer.symptoms]
 
 # The rows of the chapter's table "Symptom-driven troubleshooting", and where its "first layer" stands in prompt C.
@@ -149,6 +154,9 @@ def test_unknown_symptom_is_unknown(cell: Cell) -> None:
 @pytest.mark.parametrize("symptom", EVERY_SYMPTOM, ids=lambda symptom: symptom.name)
 def test_every_symptom_has_a_source_a_way_to_be_found_and_a_warning(symptom: Symptom) -> None:
     assert symptom.source
+    assert "chapter" not in symptom.source
+    for section in re.findall(r"docs/principles\.md#([\w-]+)", symptom.source):
+        assert section in SECTIONS
     assert symptom.never
     assert symptom.said or symptom.logged
 

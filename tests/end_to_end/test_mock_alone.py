@@ -1,4 +1,4 @@
-"""The mock needs the generated folder and itself: no spec, no catalogue, no stage of the compiler."""
+"""The mock needs the generated folder and itself: no spec, no catalog, no stage of the compiler."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The planner on a device description of the catalogue, as xacro itself expands it."""
+"""The planner on a device description of the catalog, as xacro itself expands it."""
 
 from __future__ import annotations
 

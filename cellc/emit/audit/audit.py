@@ -1,6 +1,6 @@
 """``audit.md``: the tuple, what is expected of the running cell, who commands what, and what is not known.
 
-Markdown for the people who approve the cell (chapter 4, section 12, prompt A); ``cellc audit`` prints the same. Left
+Markdown for the people who approve the cell; ``cellc audit`` prints the same. Left
 out: findings of ``cellc check``, which change with its version; the audit holds what follows from the spec alone.
 """
 

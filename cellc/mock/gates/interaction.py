@@ -1,4 +1,4 @@
-"""The interface selection checklist of section 2: a late sample, a missing responder, a cancelled goal.
+"""The interface selection checklist: a late sample, a missing responder, a canceled goal.
 
 An interface passes where each case that concerns its kind was injected and led to a visible, bounded state: the run
 ended in another outcome than success, by name, within its bound.

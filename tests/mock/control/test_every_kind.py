@@ -1,4 +1,4 @@
-"""Every kind of controller of the catalogue runs on the mock, in every distribution, on every device that offers it.
+"""Every kind of controller of the catalog runs on the mock, in every distribution, on every device that offers it.
 
 A device offers a kind where its mock has what the kind takes: interfaces of joints, a force and torque sensor, a gpio.
 Kinds that only one device has are offered by that device alone.
