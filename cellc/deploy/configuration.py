@@ -11,6 +11,7 @@ from cellc.cell.cell import Cell
 from cellc.cell.site import UNKNOWN
 from cellc.contract.manifest import ConfigurationInputs
 from cellc.diagnostics import YamlPath
+from cellc.formats.escape import shell_word
 from cellc.formats.header import Header
 from cellc.formats.urdf.robot import robot_description
 from cellc.formats.xml_text import render
@@ -92,4 +93,4 @@ def header_of(cell: Cell) -> Header:
     The user may have named the spec from anywhere, so that the command names it from where cells are kept.
     """
     file = cell.places.file_name
-    return Header(cell.name, f"cellc build cells/{cell.name}/{file}")
+    return Header(cell.name, f"cellc build {shell_word(f'cells/{cell.name}/{file}')}")

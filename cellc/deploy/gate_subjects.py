@@ -11,6 +11,7 @@ from cellc.deploy.configuration import version_tuple
 from cellc.deploy.processes import asks_for_motion, description_nodes, motion_clients, started_by_a_person
 from cellc.deploy.recording import record_command
 from cellc.deploy.releases import move_mock, move_real, start_mock, start_real
+from cellc.formats.escape import shell_word
 from cellc.formats.header import Header
 from cellc.formats.numbers import shortest
 from cellc.graph.cell_graph import CellGraph
@@ -70,7 +71,7 @@ def _command(name: str, value: str) -> str:
         return _OF_SYSTEM[part]
     if part in _PACKAGES:
         return f"ros2 pkg xml -t version {_PACKAGES[part]}"
-    return f"ros2 pkg xml -t version {words[0]}" if part in _INSTALLED and len(words) == 2 else ""
+    return f"ros2 pkg xml -t version {shell_word(words[0])}" if part in _INSTALLED and len(words) == 2 else ""
 
 
 def _calibrated_frames(graph: CellGraph) -> Iterator[Values]:
@@ -161,10 +162,10 @@ def _interfaces(graph: CellGraph) -> Iterator[Values]:
 
 def _info(interface: Interface) -> str:
     if interface.kind is InterfaceKind.ACTION:
-        return f"ros2 action info {interface.name}"
+        return f"ros2 action info {shell_word(interface.name)}"
     if interface.kind is InterfaceKind.SERVICE:
-        return f"ros2 service type {interface.name}"
-    return f"ros2 topic info -v {interface.name}"
+        return f"ros2 service type {shell_word(interface.name)}"
+    return f"ros2 topic info -v {shell_word(interface.name)}"
 
 
 def _streams(graph: CellGraph) -> Iterator[Values]:

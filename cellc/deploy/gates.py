@@ -14,9 +14,13 @@ from pydantic import Field, Strict, field_validator, model_validator
 from cellc.catalog.catalog_model import CatalogModel, Text
 from cellc.catalog.read_model import read_model
 from cellc.deploy.gate_subjects import CELL, FIELDS, ROWS, Row, cell_row
+from cellc.formats.escape import shell_word
 from cellc.formats.header import Header
 from cellc.graph.cell_graph import CellGraph
 from cellc.vocabulary import GateCode
+
+_COMMANDS = ("build", "command", "record", "start_mock")
+"""Fields that are commands; every other is one word of a command."""
 
 FILE = Path(__file__).with_name("gates.yaml")
 _STARTS = ("ros2 launch ", "ros2 bag record ")
@@ -158,8 +162,13 @@ def _checks(line: Line, graph: CellGraph, base: Row) -> Iterator[Check]:
     repeated = tuple(_rows(line.each or CELL, graph))
     for row in _rows(line.of, graph) if repeated else ():
         filled = {**base, **row}
-        commands = (command.format_map({**filled, **other}) for other in repeated for command in line.run)
+        words = ({name: _word(name, value) for name, value in {**filled, **other}.items()} for other in repeated)
+        commands = (command.format_map(known) for known in words for command in line.run)
         yield Check(line.text.format_map(filled), tuple(commands))
+
+
+def _word(field: str, value: str) -> str:
+    return value if field in _COMMANDS else shell_word(value)
 
 
 def _rows(subject: str, graph: CellGraph) -> Iterator[Row]:

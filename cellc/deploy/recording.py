@@ -5,6 +5,7 @@ from __future__ import annotations
 from cellc.cell.cell import Cell
 from cellc.cell.interface import Interface, InterfaceKind, Qos
 from cellc.deploy.files import RECORDING
+from cellc.formats.escape import shell_word
 from cellc.vocabulary import Feature, features
 
 
@@ -19,7 +20,7 @@ def record_command(cell: Cell, bag: str) -> tuple[str, ...]:
         f"--qos-profile-overrides-path generated/{cell.name}/{RECORDING}",
         f'--output "$E/{bag}"',
         *(("--topics",) if Feature.RECORD_TOPICS_OPTION in features(cell.distro) else ()),
-        *recorded_topics(cell),
+        *map(shell_word, recorded_topics(cell)),
     )
 
 

@@ -13,6 +13,7 @@ from cellc.artifact import Artifact
 from cellc.deploy.deployment import Deployment
 from cellc.deploy.files import NETWORK_CHECKLIST, PROMOTION_CHECKLIST
 from cellc.deploy.gates import Check, Gate
+from cellc.formats.escape import markdown, markdown_comment
 from cellc.formats.header import Header
 from cellc.graph.cell_graph import CellGraph
 
@@ -40,19 +41,21 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
 
 
 def _page(header: Header, title: str, text: str, gates: tuple[Gate, ...]) -> str:
-    blocks = [f"<!--\n{header.text}\n-->", f"# {title}", f"{text} {_WHERE}", *(_gate(gate) for gate in gates)]
+    blocks = [markdown_comment(header.text), f"# {title}", f"{text} {_WHERE}", *(_gate(gate) for gate in gates)]
     return "\n\n".join(blocks) + "\n"
 
 
 def _gate(gate: Gate) -> str:
-    passed = f"*{gate.state[0].upper()}{gate.state[1:]}.* Passed when {gate.shows}."
-    signed = f"Evidence `{gate.evidence}`, signed by {gate.owner}. **Stop on:** {'; '.join(gate.stop)}."
+    passed = f"*{gate.state[0].upper()}{gate.state[1:]}.* Passed when {markdown(gate.shows)}."
+    signed = (
+        f"Evidence `{gate.evidence}`, signed by {markdown(gate.owner)}. **Stop on:** {markdown('; '.join(gate.stop))}."
+    )
     checks = "\n".join(line for check in gate.checks for line in _check(check, gate.evidence)).rstrip("\n")
     return "\n\n".join((f"## {gate.code} {gate.title}", passed, checks, signed))
 
 
 def _check(check: Check, evidence: str) -> Iterator[str]:
-    yield f"- [ ] {check.text}"
+    yield f"- [ ] {markdown(check.text)}"
     if check.commands:
         lines = [line for command in check.commands for line in command.splitlines()]
         yield ""

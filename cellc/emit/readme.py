@@ -20,9 +20,11 @@ from cellc.deploy.files import NETWORK_CHECKLIST, PROMOTION_CHECKLIST, plans
 from cellc.deploy.gates import Gate
 from cellc.deploy.labels import real_driver
 from cellc.deploy.releases import start_mock
+from cellc.formats.escape import markdown, markdown_comment
 from cellc.formats.parameter_file import spec_path
 from cellc.graph.cell_graph import CellGraph
 
+_BAR = "\\|"
 _OPEN = "Before real hardware"
 _ANCHOR = "before-real-hardware"
 _HEAD = ("gate", "what it shows", "first command", "signed by")
@@ -53,9 +55,9 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     """Yield the page."""
     cell = graph.cell
     blocks = [
-        f"<!--\n{plan.header.text}\n-->",
+        markdown_comment(plan.header.text),
         f"# {cell.name}",
-        cell.summary,
+        markdown(cell.summary),
         f"Configuration `{plan.configuration_id}`, ROS 2 {cell.distro}. This folder is a ROS 2 package; the spec is "
         "its only source, so that a change is made there.",
         *_gates(plan),
@@ -66,7 +68,7 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
         _fenced((plan.header.command, f"cellc mock generated/{cell.name}", start_mock(cell))),
         *_questions(plan.questions),
         "## The cell in one sentence",
-        _sentence(cell),
+        markdown(_sentence(cell)),
         f"![Every arrow of {cell.name} with its owner](graph/responsibility.svg)",
         "What the mock cannot prove, by device and vendor, stands in `audit.md`: the gates show it, or nothing does.",
         "## What is here",
@@ -93,14 +95,14 @@ def _gates(plan: Deployment) -> Iterator[str]:
 
 def _table(file: str, gates: tuple[Gate, ...]) -> str:
     rows = (_HEAD, ("---",) * len(_HEAD), *(_row(file, gate) for gate in gates))
-    return "\n".join(f"| {' | '.join(cells)} |" for cells in rows)
+    return "\n".join(f"| {' | '.join(cell.replace('|', _BAR) for cell in cells)} |" for cells in rows)
 
 
 def _row(file: str, gate: Gate) -> tuple[str, ...]:
     anchor = f"{gate.code} {gate.title}".lower().replace(",", "").replace(" ", "-")
-    # Up to a pipe, whose bar would end the cell.
-    command = f"`{gate.key_command.partition(' | ')[0]}`" if gate.key_command else "by people"
-    return f"[{gate.code}]({file}#{anchor}) {gate.title}", gate.shows, command, gate.owner
+    # Up to a pipe: what shows is the first program.
+    command = markdown(f"`{gate.key_command.partition(' | ')[0]}`") if gate.key_command else "by people"
+    return f"[{gate.code}]({file}#{anchor}) {gate.title}", markdown(gate.shows), command, markdown(gate.owner)
 
 
 def _shell_of(cell: Cell) -> str:
@@ -124,7 +126,7 @@ def _questions(questions: tuple[OpenQuestion, ...]) -> Iterator[str]:
     if questions:
         yield f"## {_OPEN}"
         yield "Each of these is answered in the spec, where it stands; `audit.md` says whom to ask:"
-        yield "\n".join(f"- {question.subject} (`{spec_path(question.path)}`)" for question in questions)
+        yield "\n".join(f"- {markdown(f'{question.subject} (`{spec_path(question.path)}`)')}" for question in questions)
 
 
 def _present(cell: Cell, plan: Deployment, name: str) -> bool:

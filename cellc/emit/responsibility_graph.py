@@ -16,6 +16,7 @@ from cellc.cell.cell import Cell
 from cellc.cell.interface import Endpoint, Interface, InterfaceKind
 from cellc.deploy.deployment import Deployment
 from cellc.deploy.labels import claim_facts, driver_facts, interface_facts, stop_facts
+from cellc.formats.escape import mermaid
 from cellc.graph.cell_graph import CellGraph
 
 _BOLD = "stroke-width:5px,stroke:#000,fill:none"
@@ -51,7 +52,7 @@ def _ros_graph(cell: Cell) -> Iterator[str]:
 
 def _vendor_control(cell: Cell) -> Iterator[str]:
     owner = cell.owners.responsibilities.vendor_safety
-    yield f'subgraph vendor["Vendor control: servo, limits, safety state; owner {owner}"]'
+    yield f'subgraph vendor["{_text(f"Vendor control: servo, limits, safety state; owner {owner}")}"]'
     for device in cell.devices:
         yield f"  {_box('device', device.name, device.model, device.architecture)}"
     yield "end"
@@ -65,7 +66,7 @@ def _physical_safety(cell: Cell) -> Iterator[str]:
     yield "end"
     for device in cell.devices:
         if device.hardware is not None:
-            label = _text("<br/>".join(["stops, whatever software says", *stop_facts(cell)]))
+            label = _text("stops, whatever software says", *stop_facts(cell))
             yield f'{_id("stop", stop.authority)} == "{label}" ==> {_id("device", device.name)}'
 
 
@@ -74,7 +75,7 @@ def _arrows(cell: Cell, interface: Interface) -> Iterator[str]:
     topic = interface.kind is InterfaceKind.TOPIC
     starts, ends = (interface.sources, interface.sinks) if topic else (interface.sinks, interface.sources)
     if len(starts) == len(ends) == 1:
-        label = _text("<br/>".join([interface.name, *interface_facts(interface)]))
+        label = _text(interface.name, *interface_facts(interface))
         yield f'{_end(cell, starts[0])} -- "{label}" --> {_end(cell, ends[0])}'
         return
     yield _box("interface", interface.name, *interface_facts(interface))
@@ -92,7 +93,7 @@ def _claims(cell: Cell) -> Iterator[str]:
     for manager in cell.managers:
         for controller in manager.controllers:
             if controller.device is not None and controller.command_interfaces:
-                label = _text("<br/>".join(["claims", *claim_facts(cell, manager, controller)]))
+                label = _text("claims", *claim_facts(cell, manager, controller))
                 arrow = "-->" if controller.active else "-.->"
                 start = _id("node", controller.full_name[1:])
                 yield f'{start} {arrow} |"{label}"| {_id("device", controller.device)}'
@@ -101,7 +102,7 @@ def _claims(cell: Cell) -> Iterator[str]:
 def _drivers(cell: Cell) -> Iterator[str]:
     for device in cell.devices:
         if device.driver is not None:
-            label = _text("<br/>".join(["moves", *driver_facts(cell, device, device.driver)]))
+            label = _text("moves", *driver_facts(cell, device, device.driver))
             yield f'{_id("node", device.driver.node[1:])} --> |"{label}"| {_id("device", device.name)}'
 
 
@@ -112,12 +113,12 @@ def _end(cell: Cell, end: Endpoint) -> str:
 
 
 def _box(kind: str, name: str, *lines: str) -> str:
-    return f'{_id(kind, name)}["{_text("<br/>".join([name, *lines]))}"]'
+    return f'{_id(kind, name)}["{_text(name, *lines)}"]'
 
 
 def _id(kind: str, name: str) -> str:
     return f"{kind}_" + re.sub(r"\W", "_", name)
 
 
-def _text(text: str) -> str:
-    return text.replace('"', "#quot;")
+def _text(*lines: str) -> str:
+    return "<br/>".join(map(mermaid, lines))

@@ -24,6 +24,7 @@ from cellc.emit.audit.tables import (
     table,
     tf_section,
 )
+from cellc.formats.escape import markdown, markdown_comment
 from cellc.formats.parameter_file import spec_path
 from cellc.graph.cell_graph import CellGraph
 from cellc.graph.versions import Answer, Judgement, compatibility
@@ -56,50 +57,44 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
         "Expected actions": interfaces_section(cell, InterfaceKind.ACTION),
         "Expected of drivers": drivers_section(cell),
         "Expected TF publishers": tf_section(cell),
-        "Approvals": "\n".join(approvals(cell)),
-        "Responsibilities": "\n".join(responsibilities(cell)),
+        "Approvals": table(("area", "question", "owner"), approvals(cell)),
+        "Responsibilities": table(("responsibility", "owner"), responsibilities(cell)),
         "Recovery": "\n".join(recovery(cell)),
         "What the mock cannot prove": "\n".join(_not_provable(cell)),
     }
-    blocks = [f"<!--\n{plan.header.text}\n-->", f"# {cell.name}: audit"]
+    blocks = [markdown_comment(plan.header.text), f"# {cell.name}: audit"]
     blocks += [f"## {title}\n\n{text}" for title, text in sections.items()]
     yield Artifact("audit.md", "\n\n".join(blocks) + "\n")
 
 
-def approvals(cell: Cell) -> Iterator[str]:
+def approvals(cell: Cell) -> Iterator[tuple[str, ...]]:
     """Yield the seven approval areas with the question that each answers."""
-    yield "| area | question | owner |"
-    yield "|---|---|---|"
-    for area, owner in cell.owners.approvals.items():
-        yield f"| {area} | {_QUESTIONS[area]} | {owner} |"
+    return ((area, _QUESTIONS[area], owner) for area, owner in cell.owners.approvals.items())
 
 
-def responsibilities(cell: Cell) -> Iterator[str]:
+def responsibilities(cell: Cell) -> Iterator[tuple[str, ...]]:
     """Yield the responsibilities with their owners."""
-    yield "| responsibility | owner |"
-    yield "|---|---|"
-    for name, owner in cell.owners.responsibilities.items():
-        yield f"| {name} | {owner} |"
+    return cell.owners.responsibilities.items()
 
 
 def recovery(cell: Cell) -> Iterator[str]:
     """Yield who acknowledges a stop, and the steps of every device."""
     recovery = cell.safety.recovery
-    yield f"Acknowledged by: {recovery.acknowledge}. Owner: {recovery.owner}."
-    yield f"After a reconnect: {recovery.on_reconnect}."
+    yield markdown(f"Acknowledged by: {recovery.acknowledge}. Owner: {recovery.owner}.")
+    yield markdown(f"After a reconnect: {recovery.on_reconnect}.")
     for device in cell.devices:
         for way in device.safety.recovery:
             yield ""
-            yield f"{device.name}, {way.state}:"
+            yield markdown(f"{device.name}, {way.state}:")
             yield ""
-            yield from (f"{number}. {step}" for number, step in enumerate(way.steps, 1))
+            yield from (f"{number}. {markdown(step)}" for number, step in enumerate(way.steps, 1))
 
 
 def _not_provable(cell: Cell) -> Iterator[str]:
     """Yield what the catalog says that no mock shows, by device and vendor."""
     for device in cell.devices:
         of = f"{device.name} ({device.vendor} {device.model})"
-        yield from (f"- {of}: {text}" for text in device.mock_cannot_prove)
+        yield from (f"- {markdown(f'{of}: {text}')}" for text in device.mock_cannot_prove)
 
 
 def _questions_section(graph: CellGraph, plan: Deployment) -> str:

@@ -9,6 +9,7 @@ from cellc.cell.control import Controller, ControllerManager
 from cellc.cell.interface import Endpoint, Interface, InterfaceKind, Node, NodeSource
 from cellc.deploy.files import QOS_OVERRIDES, controllers_file, is_planner, parameter_files, plans
 from cellc.deploy.labels import failure_label, frame_label, interface_facts, rate_label, units, watchdog
+from cellc.formats.escape import markdown
 from cellc.formats.numbers import shortest
 from cellc.formats.parameter_file import qos_parameters
 from cellc.graph.cell_graph import CellGraph
@@ -25,7 +26,7 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 
 def _row(cells: Sequence[str]) -> str:
     # A bar would end the cell.
-    escaped = (cell.replace("|", "\\|").replace("\n", " ") for cell in cells)
+    escaped = (markdown(cell).replace("|", "\\|") for cell in cells)
     return f"| {' | '.join(escaped)} |"
 
 

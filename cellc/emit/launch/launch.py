@@ -19,6 +19,7 @@ from cellc.deploy.processes import started_by_a_person
 from cellc.deploy.releases import CONFIRMATION, MOTION_CONFIRMATION
 from cellc.emit.launch.processes import HOST, ON_REAL, TARGET, moving_node, on_host, share
 from cellc.emit.launch.stages import bring_up, stages
+from cellc.formats.escape import launch_text
 from cellc.formats.header import Header
 from cellc.formats.parameter_file import spec_path
 from cellc.formats.xml_text import comment, element, render
@@ -162,6 +163,6 @@ def addresses(cell: Cell) -> dict[str, str]:
 
 
 def _argument(name: str, default: str | None, description: str, *choices: str) -> Element:
-    stated = {} if default is None else {"default": default}
+    stated = {} if default is None else {"default": launch_text(default)}
     attributes = {"name": name, **stated, "description": description}
-    return element("arg", attributes, [element("choice", {"value": choice}) for choice in choices])
+    return element("arg", attributes, [element("choice", {"value": launch_text(choice)}) for choice in choices])

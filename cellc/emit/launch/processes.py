@@ -26,6 +26,7 @@ from cellc.deploy.files import (
 )
 from cellc.deploy.labels import TF_RATE_HZ
 from cellc.deploy.processes import enclave_of, manager_enclave, spawner_enclave
+from cellc.formats.escape import launch_text
 from cellc.formats.numbers import decimal
 from cellc.formats.parameter_file import qos_parameters
 from cellc.formats.xml_text import element
@@ -90,8 +91,8 @@ def identity(cell: Cell, node: Node) -> dict[str, str]:
     place = {"namespace": node.namespace} if node.namespace else {}
     again = {"respawn": "true"} if node.respawn else {}
     return {
-        "pkg": node.package,
-        "exec": node.executable,
+        "pkg": launch_text(node.package),
+        "exec": launch_text(node.executable),
         "name": node.name,
         **place,
         "output": "both",

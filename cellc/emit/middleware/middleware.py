@@ -21,6 +21,7 @@ from cellc.emit.middleware.profiles import (
     zenoh_router,
     zenoh_session,
 )
+from cellc.formats.escape import shell_quoted
 from cellc.formats.header import Header
 from cellc.formats.xml_text import render
 from cellc.graph.cell_graph import CellGraph
@@ -71,7 +72,7 @@ def environment(cell: Cell, header: Header, binding: Binding, profiles: tuple[st
 def _variables(cell: Cell, binding: Binding, profiles: tuple[str, ...]) -> Iterator[tuple[str, str]]:
     rmw = cell.versions.rmw_name
     if rmw != "UNKNOWN":
-        yield "RMW_IMPLEMENTATION", rmw
+        yield "RMW_IMPLEMENTATION", shell_quoted(rmw)
     yield "ROS_DOMAIN_ID", str(cell.network.domain_id)
     yield from _discovery(cell, binding)
     for path in profiles:
@@ -88,4 +89,4 @@ def _discovery(cell: Cell, binding: Binding) -> Iterator[tuple[str, str]]:
     # Without multicast a host finds others by their addresses alone: a static peer reaches out of LOCALHOST too.
     yield "ROS_AUTOMATIC_DISCOVERY_RANGE", _RANGE[discovery]
     if binding.peers:
-        yield "ROS_STATIC_PEERS", ";".join(binding.peers)
+        yield "ROS_STATIC_PEERS", shell_quoted(";".join(binding.peers))

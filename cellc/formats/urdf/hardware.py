@@ -11,6 +11,7 @@ from collections.abc import Iterator, Mapping
 from xml.etree.ElementTree import Element
 
 from cellc.cell.device import Device, DeviceJoint, HardwareComponent, InterfaceGroup
+from cellc.formats.escape import xacro_text
 from cellc.formats.numbers import shortest
 from cellc.formats.xml_text import element
 
@@ -45,13 +46,22 @@ def share_folders(device: Device) -> tuple[str, ...]:
     return tuple(package for value in parameters.values() for package in _SHARE.findall(value))
 
 
+def for_xacro(root: Element) -> Element:
+    """Return a description whose texts xacro leaves as they are, but for share folders, which it puts in."""
+    for node in root.iter():
+        node.attrib.update({name: xacro_text(value) for name, value in node.attrib.items() if "$" in value})
+        text = xacro_text(node.text or "") or None
+        node.text = _SHARE.sub(r"$(find \1)", text) if text and node.tag == "param" else text
+    return root
+
+
 def _hardware(hardware: HardwareComponent, target: str) -> Element:
     parameters = hardware.parameters[target]
     return element(
         "hardware",
         children=[
             element("plugin", text=hardware.plugins[target]),
-            *(_parameter(name, _SHARE.sub(r"$(find \1)", value)) for name, value in parameters.items()),
+            *(_parameter(name, value) for name, value in parameters.items()),
         ],
     )
 

@@ -22,7 +22,7 @@ from cellc.formats.urdf.elements import (
     scene_link,
     scene_materials,
 )
-from cellc.formats.urdf.hardware import ros2_control
+from cellc.formats.urdf.hardware import for_xacro, ros2_control
 from cellc.formats.xml_text import comment, element
 from cellc.link.frames import ROBOT_STATE_PUBLISHER
 
@@ -37,7 +37,7 @@ def robot_description(cell: Cell, target: str) -> Element:
 
 def manager_description(cell: Cell, target: str, devices: tuple[str, ...]) -> Element:
     """Return the same description with the hardware of some devices alone, for the manager that drives them."""
-    return element("robot", {"name": cell.name}, _parts(cell, target, devices))
+    return for_xacro(element("robot", {"name": cell.name}, _parts(cell, target, devices)))
 
 
 def described_frames(cell: Cell) -> frozenset[str]:

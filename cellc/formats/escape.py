@@ -1,0 +1,71 @@
+"""Text as each format takes it for text alone: xacro, launch files, shells, Markdown and Mermaid.
+
+XML, YAML and JSON are built as structures. Readers refuse most of what is escaped here; this holds without them.
+"""
+
+from __future__ import annotations
+
+import re
+import shlex
+
+_SPACE = re.compile(r"\s+")
+_CODE = re.compile(r"((?<!`)(`+)(?!`).+?(?<!`)\2(?!`))")
+_MARKED = re.compile(r"[\\`*\[\]<]|&(?=[A-Za-z#])|(?<!\w)_|_(?!\w)")
+_BLOCK = re.compile(r"[#>+=~-]|\d+(?=[.)](\s|$))")
+
+
+def one_line(text: str) -> str:
+    """Return a text without line breaks."""
+    return _SPACE.sub(" ", text).strip() if _SPACE.search(text) else text
+
+
+def xacro_text(text: str) -> str:
+    """Return what xacro turns into the text: one `$` more before a bracket, and no other two in a row."""
+    bracketed = re.sub(r"\$+(?=[{(])", lambda found: found[0] + "$", text)
+    return re.sub(r"\$\$+(?![${(])", lambda found: "${'$'}" * (len(found[0]) - 1) + "$", bracketed)
+
+
+def launch_text(text: str) -> str:
+    """Return what `ros2 launch` turns into the text: a backslash before each dollar and backslash."""
+    return re.sub(r"[\\$]", lambda found: f"\\{found[0]}", text)
+
+
+def shell_word(text: str) -> str:
+    """Return one word of a command, in quotes where it needs them."""
+    return shlex.quote(one_line(text))
+
+
+def shell_quoted(text: str) -> str:
+    """Return the text between the double quotes of a shell."""
+    return re.sub(r'[\\"$`]', lambda found: f"\\{found[0]}", one_line(text))
+
+
+def markdown(text: str) -> str:
+    """Return a text that is one line of prose; code between backticks stays, for it is shown as it is."""
+    line = one_line(text)
+    pieces: list[str] = []
+    end = 0
+    for code in _CODE.finditer(line):
+        pieces += [_prose(line[end : code.start()]), code[0]]
+        end = code.end()
+    shown = "".join([*pieces, _prose(line[end:])])
+    block = _BLOCK.match(shown)
+    if block is None:
+        return shown
+    return f"{block[0]}\\{shown[block.end() :]}" if block[0].isdigit() else f"\\{shown}"
+
+
+def _prose(text: str) -> str:
+    return _MARKED.sub(lambda found: "&amp;" if found[0] == "&" else f"\\{found[0]}", text)
+
+
+def mermaid(text: str) -> str:
+    """Return a text within the quotes of a label."""
+    shown = one_line(text).replace('"', "#quot;").replace("<", "#lt;").replace(">", "#gt;")
+    return shown.replace("`", "#96;")
+
+
+def markdown_comment(text: str) -> str:
+    """Return lines as a comment of Markdown, which two hyphens and a bracket would end."""
+    apart = re.sub("-(?=-)", "- ", text)
+    return f"<!--\n{apart}\n-->"
