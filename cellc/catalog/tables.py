@@ -38,6 +38,7 @@ class DistroTable(CatalogModel):
     sources: tuple[Text, ...] = Field(min_length=1)
     distros: dict[DistroName, DistroFacts]
     dead_mock_parameters: dict[Text, Text]
+    harmless_plugins: dict[Text, Text] = Field(min_length=1)
 
 
 class ControllerManagerFacts(CatalogModel):

@@ -35,6 +35,7 @@ class Cell:
     Args:
         places: where the user wrote what.
         distro: the pinned distribution.
+        harmless_plugins: hardware plugins that the catalog or a signed statement knows to touch no hardware.
         behaviours: controller plugin type string → what it does, for the plugins in use.
     """
 
@@ -52,6 +53,7 @@ class Cell:
     kpis: Kpis = field(default_factory=Kpis)
     recording: Recording = field(default_factory=Recording)
     targets: Mapping[str, Target] = field(default_factory=lambda: dict(TARGET_DEFAULTS))
+    harmless_plugins: frozenset[str] = frozenset()
     devices: tuple[Device, ...] = ()
     frames: tuple[Frame, ...] = ()
     scene: tuple[SceneBox, ...] = ()

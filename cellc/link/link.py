@@ -21,6 +21,7 @@ from cellc.link.rehearsals import link_rehearsals
 from cellc.link.site import (
     bind_bringup,
     bind_calibrations,
+    bind_harmless_plugins,
     bind_hosts,
     bind_kpis,
     bind_network,
@@ -110,6 +111,7 @@ def _surroundings(spec: CellSpec, document: SourceDocument, distro: Distro) -> C
         kpis=bind_kpis(spec),
         recording=bind_recording(spec),
         targets=bind_targets(spec),
+        harmless_plugins=bind_harmless_plugins(spec),
     )
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 import datetime
 from collections.abc import Mapping
 
+from cellc.catalog.load import load_distros
 from cellc.cell.entity import Places
 from cellc.cell.site import (
     ATTEMPT_FIELDS,
@@ -197,6 +198,14 @@ def bind_recording(spec: CellSpec) -> Recording:
     return Recording(
         attempt_fields=ATTEMPT_FIELDS if written == "standard" else tuple(written), topics=spec.recording.topics
     )
+
+
+def bind_harmless_plugins(spec: CellSpec) -> frozenset[str]:
+    """Return the hardware plugins that may be a mock: those of the catalog, and those that somebody signs for."""
+    table = load_distros().value
+    assert table is not None  # package data, held valid by the catalog's tests
+    signed = (plugin for plugin, statement in spec.mock_plugins.items() if statement.is_signed())
+    return frozenset((*table.harmless_plugins, *signed))
 
 
 def bind_targets(spec: CellSpec) -> Mapping[str, Target]:

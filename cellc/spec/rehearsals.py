@@ -1,10 +1,11 @@
 """What the mock executes, what it must end in, what is measured and what is recorded."""
 
+import datetime
 from typing import Annotated, Literal, Union
 
 from pydantic import Discriminator, Field, Tag
 
-from cellc.spec.base import Name, SpecModel, StandardOr, Text
+from cellc.spec.base import Name, Pin, SpecModel, StandardOr, Text
 from cellc.spec.faults import FaultsSpec, first_key
 from cellc.spec.quantity import Duration, Ratio
 from cellc.vocabulary import AttemptOutcome
@@ -104,6 +105,24 @@ class RecordingSpec(SpecModel):
     topics: tuple[Text, ...] = Field(
         (), description="Topics to record beyond those of the motion path.", examples=[["/diagnostics"]]
     )
+
+
+class MockPluginSpec(SpecModel):
+    """What somebody signs of a hardware plugin that `device.yaml` names for the mock; UNKNOWN signs nothing."""
+
+    touches_no_hardware: bool = Field(
+        ..., description="Whether the plugin opens no connection to a device.", examples=[True]
+    )
+    by: Text = Field("UNKNOWN", description="Who says so.", examples=["controls"])
+    date: Pin = Field("UNKNOWN", description="Since when, YYYY-MM-DD.", examples=["2026-07-01"])
+
+    def is_signed(self) -> bool:
+        """Whether somebody says, with a date, that the plugin touches no hardware."""
+        try:
+            datetime.date.fromisoformat(self.date)
+        except ValueError:
+            return False
+        return self.touches_no_hardware and self.by.strip() not in ("", "UNKNOWN")
 
 
 class TargetSpec(SpecModel):

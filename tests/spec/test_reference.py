@@ -44,7 +44,7 @@ def _properties(model: object) -> list[str]:
 
 
 def test_every_link_leads_to_one_heading() -> None:
-    headings = [re.sub(r"[^a-z0-9 -]", "", line.lower()).replace(" ", "-") for line in _headings()]
+    headings = [re.sub(r"[^a-z0-9 _-]", "", line.lower()).replace(" ", "-") for line in _headings()]
     assert len(headings) == len(set(headings))
     assert set(re.findall(r"\]\(#([^)]+)\)", PAGE)) <= set(headings)
 
