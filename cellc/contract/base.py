@@ -1,7 +1,5 @@
 """What all contract models share: frozen, strict, no unknown keys; SI, radians, full ROS names; and their schema."""
 
-from __future__ import annotations
-
 from typing import TypeAlias, Union
 
 from pydantic import BaseModel, ConfigDict, Field
@@ -14,7 +12,7 @@ Json: TypeAlias = Union[bool, int, float, str, list["Json"], dict[str, "Json"], 
 class ContractModel(BaseModel):
     """A part of the format between the compiler and whoever executes what it made."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False, defer_build=True)
 
 
 class ContractPose(ContractModel):

@@ -5,8 +5,6 @@ all, is left out. The mock reads this file, the URDF and controllers.yaml that r
 SRDF, and nothing of the compiler.
 """
 
-from __future__ import annotations
-
 from typing import Literal
 
 from pydantic import Field

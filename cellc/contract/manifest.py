@@ -1,7 +1,5 @@
 """``manifest.json``: what the folder is made of, so that one id names calibration, TF publishers and URDF."""
 
-from __future__ import annotations
-
 from typing import Literal
 
 from pydantic import Field

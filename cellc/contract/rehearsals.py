@@ -1,7 +1,5 @@
 """``rehearsals.json``: what the mock executes, every name resolved."""
 
-from __future__ import annotations
-
 from typing import Literal
 
 from pydantic import Field

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Iterator, Mapping, Sequence
+from functools import cache
 from typing import Any
 
 import yaml
@@ -83,9 +84,14 @@ def _refuse(constant: str) -> float:
 def _check_schema(path: str, data: object) -> Iterator[Disagreement]:
     if path not in _MODELS:
         return
-    error = best_match(Draft202012Validator(contract_schema(_MODELS[path])).iter_errors(data))
+    error = best_match(_validator(path).iter_errors(data))
     if error is not None:
         yield Disagreement("verify-json", path, f"{error.json_path} does not fit the schema: {error.message[:200]}")
+
+
+@cache
+def _validator(path: str) -> Draft202012Validator:
+    return Draft202012Validator(contract_schema(_MODELS[path]))
 
 
 def _check_configuration(read: Mapping[str, Any]) -> Iterator[Disagreement]:
