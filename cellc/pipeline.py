@@ -86,7 +86,7 @@ def compile_cell(checked: Checked) -> Outcome[tuple[Artifact, ...]]:
 def _checked(
     file: str, texts: Mapping[str, str], found: tuple[Diagnostic, ...], graph: CellGraph | None = None
 ) -> Checked:
-    return Checked(Findings(file, with_shown_texts(texts, found), found), graph)
+    return Checked(Findings(file, with_shown_texts(texts, found, Path(file).parent), found), graph)
 
 
 def _excused(found: list[Diagnostic], texts: Mapping[str, str]) -> tuple[Diagnostic, ...]:

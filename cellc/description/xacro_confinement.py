@@ -87,10 +87,17 @@ class Confinement:
         if len(xacro.filestack) > MAX_INCLUDE_DEPTH:
             raise XacroRefusedError("xacro-too-large", f"includes are nested deeper than {MAX_INCLUDE_DEPTH} files")
         path = self.path_of(str(xacro.eval_text(specification, symbols)))
-        if not re.search(r"[*?\[]", path):
+        wildcard = re.search(r"[*?\[]", path)
+        if wildcard is None:
             yield path
             return
-        files = sorted(glob.glob(path))
+        fixed = os.path.dirname(path[: wildcard.start()])
+        outside = ".." in path[len(fixed) :].split("/") or not self.files.holds(fixed or ".")
+        # What a pattern matches elsewhere is not even looked for: which files a machine has is nobody's business.
+        files = [] if outside else sorted(glob.glob(path))
+        if outside or not all(map(self.files.holds, files)):
+            message = f"`{specification[:200]}` reaches for files outside of `{self.files.shown(self.files.root)}`"
+            raise XacroRefusedError("xacro-outside-root", message, "copy the files beside the description")
         if not files:
             self.warnings.append(f"`{specification}` matches no file")
         yield from files

@@ -49,10 +49,14 @@ class ConfinedFiles:
         self._real_root = os.path.realpath(root)
         self._bytes_read = 0
 
+    def holds(self, path: str) -> bool:
+        """Whether a path lies under the root, links followed."""
+        real = os.path.realpath(path)
+        return real == self._real_root or real.startswith(self._real_root.rstrip(os.sep) + os.sep)
+
     def checked(self, path: str) -> str:
         """Return ``path`` unless it leads out of the root."""
-        real = os.path.realpath(path)
-        if real != self._real_root and not real.startswith(self._real_root.rstrip(os.sep) + os.sep):
+        if not self.holds(path):
             raise XacroRefusedError(
                 "xacro-outside-root",
                 f"`{path[:200]}` leads out of the folder `{self.shown(self.root)}`",

@@ -18,6 +18,7 @@ from cellc.link.device_facts import limit_shares, with_catalog, with_statements
 from cellc.link.names import Placeholders, home_host, placeholders, unknown_name
 from cellc.link.quantities import pose
 from cellc.source.document import SourceDocument
+from cellc.source.text import lies_under
 from cellc.spec.cell_spec import CellSpec
 from cellc.spec.devices import DeviceSpec
 from cellc.transforms import identity
@@ -277,6 +278,10 @@ def local_device(model: str, place: Span, path: YamlPath) -> Outcome[CatalogDevi
         advice = "write the folder with its `device.yaml`, or name a model of the catalog"
         missing = Diagnostic("unknown-model", Severity.ERROR, f"`{shown}` {problem}", place, path, advice)
         return Outcome(None, (missing,))
+    if not lies_under(folder / "device.yaml", root):
+        message = f"`{folder.as_posix()}/device.yaml` leads out of the folder of the spec"
+        advice = "move the folder of the device beside the spec"
+        return Outcome(None, (Diagnostic("include-escape", Severity.ERROR, message, place, path, advice),))
     loaded = load_device_folder(folder, root)
     named = Related("the spec names this folder here", place)
     return Outcome(loaded.value, tuple(replace(one, related=(*one.related, named)) for one in loaded.diagnostics))

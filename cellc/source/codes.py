@@ -68,7 +68,7 @@ CODES: tuple[CodePage, ...] = (
     ),
     _page(
         "include-escape",
-        "an include leads out of the folder of the spec",
+        "an include, a link or a device leads out of the folder of the spec",
         "A spec is reviewed and shipped as one folder. A part from elsewhere on the machine is not under review, "
         "differs between machines, and could pull in a private file. Symbolic links are followed before the "
         "place is judged.",

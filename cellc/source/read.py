@@ -10,7 +10,7 @@ from cellc.source.codes import finding
 from cellc.source.compose import compose
 from cellc.source.document import MAX_FILES, Node, SourceDocument
 from cellc.source.include import INCLUDE, IncludeLine, include_lines, merge, resolve_include
-from cellc.source.text import read_text
+from cellc.source.text import lies_under, read_text
 
 
 def read(path: str | Path) -> Outcome[SourceDocument]:
@@ -25,7 +25,12 @@ def read(path: str | Path) -> Outcome[SourceDocument]:
     """
     name = str(path).replace(os.sep, "/") or "."
     reader = _Reader(Path(path))
-    reader.read(Path(path), name, Span(name, 1, 1, 1, 1))
+    place = Span(name, 1, 1, 1, 1)
+    if os.path.islink(path) and not lies_under(Path(path), Path(path).parent):
+        message = f"`{name}` is a link that leads out of its folder"
+        reader.findings.append(finding("include-escape", message, place, advice="copy the file to this place"))
+    else:
+        reader.read(Path(path), name, place)
     findings = list(reader.findings)
     root = Node(Span(name, 1, 1, 1, 1), {})
     if reader.roots:

@@ -121,16 +121,26 @@ _PACKAGE = "cellc/"
 """Spans in the package's own data begin so; they name no file of the current folder."""
 
 
-def with_shown_texts(texts: Mapping[str, str], found: Iterable[Diagnostic]) -> dict[str, str]:
+def with_shown_texts(texts: Mapping[str, str], found: Iterable[Diagnostic], root: Path) -> dict[str, str]:
     """Add the files of devices and descriptions that findings point into; one that cannot be shown is left out.
 
     Args:
         texts: of the spec and what it includes, by the name that spans carry.
+        root: the folder of the spec; what a link leads to outside of it is not shown.
     """
     named = {span.file for one in found for span in (one.span, *(other.span for other in one.related))}
     missing = sorted(name for name in named if name and name not in texts and not name.startswith(_PACKAGE))
-    added = {name: text for name in missing if (text := _text(name)) is not None}
+    added = {name: text for name in missing if lies_under(Path(name), root) and (text := _text(name)) is not None}
     return {**texts, **added}
+
+
+def lies_under(path: Path, folder: Path) -> bool:
+    """Whether a file lies in a folder or below, once every symbolic link of both is followed."""
+    try:
+        return Path(os.path.realpath(path)).is_relative_to(os.path.realpath(folder))
+    except (OSError, ValueError):
+        # A zero character in the name, say.
+        return False
 
 
 def _text(name: str) -> str | None:

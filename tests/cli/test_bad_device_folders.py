@@ -92,3 +92,23 @@ def test_line_that_would_steer_a_terminal_is_not_shown(tmp_path: Path) -> None:
     out = run("check", spec).out
     assert "robot.urdf.xacro" in out
     assert "\u202e" not in out
+
+
+@pytest.mark.parametrize(
+    "name", ["cell.yaml", "my_robot/device.yaml", "my_robot/robot.urdf.xacro", "my_robot/robot.urdf"]
+)
+@pytest.mark.parametrize(
+    "secret", ["root:x:0:0:secret\n", "secret: {a: secret}\n", "<secret/>\n", "<robot name='secret'>\n"]
+)
+def test_nothing_is_shown_of_a_file_that_a_link_leads_to(name: str, secret: str, tmp_path: Path) -> None:
+    folder = tmp_path / "cell"
+    folder.mkdir()
+    device = _DEVICE.replace("robot.urdf.xacro", "robot.urdf") if name.endswith(".urdf") else _DEVICE
+    spec = _cell(folder, device, _XACRO)
+    (tmp_path / "outside").write_text(secret, encoding="utf-8")
+    (folder / name).unlink(missing_ok=True)
+    (folder / name).symlink_to(tmp_path / "outside")
+    for arguments in (("check", spec), ("check", spec, "--format", "json"), ("build", spec), ("show", spec)):
+        out = run(*arguments).out
+        assert "secret" not in out
+        assert "root:x" not in out

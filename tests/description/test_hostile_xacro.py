@@ -127,3 +127,24 @@ def test_import_path_is_not_the_strangers_folder(tmp_path: Path, monkeypatch: py
     outcome = expand_xacro(Path("robot.urdf.xacro"), {}, Path())
     assert outcome.value is not None, outcome.diagnostics
     assert '<link name="a"/>' in outcome.value.text
+
+
+@pytest.mark.parametrize(
+    "pattern", ["../*.xacro", "../*/*.xacro", "parts/../../*", "*/../../*", "away/*", "*/s*", "/e*/p*"]
+)
+@pytest.mark.parametrize("exists", [True, False])
+def test_wildcard_does_not_tell_what_lies_outside(pattern: str, exists: bool, tmp_path: Path) -> None:
+    root = tmp_path / "cell"
+    (root / "parts").mkdir(parents=True)
+    (tmp_path / "away").mkdir()
+    if exists:
+        (tmp_path / "secret.xacro").write_text("", encoding="utf-8")
+        (tmp_path / "away" / "secret.xacro").write_text("", encoding="utf-8")
+    os.symlink(tmp_path / "away", root / "away")
+    text = f'{_HEAD}<xacro:include filename="{pattern}"/></robot>'
+    if pattern == "*/s*" and not exists:
+        return  # nothing is matched through the link, and nothing told
+    (found,) = _reported(_write(root, text), root)
+    assert found.code == "xacro-outside-root"
+    assert "secret" not in found.message
+    assert "passwd" not in found.message
