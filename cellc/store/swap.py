@@ -130,13 +130,25 @@ def write_whole(file: Path, text: str) -> None:
         OSError: the disk is full, or writing is refused; it names ``file``.
     """
     real = Path(os.path.realpath(file))
-    part = real.with_name(f".{real.name}.tmp-{os.getpid()}")
     try:
         real.parent.mkdir(parents=True, exist_ok=True)
-        part.write_text(text, encoding="utf-8", newline="\n")
-        os.replace(part, real)
+        replace_whole(real, text.encode())
     except OSError as error:
         raise OSError(error.errno, error.strerror, str(file)) from error
+
+
+def replace_whole(file: Path, content: bytes) -> None:
+    """Put a new file in the place of a name; where the name is a link, the link goes and its target stays.
+
+    Raises:
+        OSError: the disk is full, or writing is refused.
+    """
+    part = file.with_name(f".{file.name}.tmp-{os.getpid()}")
+    _remove(part)  # what a killed process of the same number left; of a link, the link alone
+    try:
+        with part.open("xb") as stream:  # a new file always, never one behind a link
+            stream.write(content)
+        os.replace(part, file)
     finally:
         _remove(part)
 

@@ -16,14 +16,13 @@ from cellc.mock.campaign.campaign import Campaign, conduct, make_plan, usable_co
 from cellc.mock.campaign.plan import CampaignPlan, CampaignRun
 from cellc.mock.campaign.summary import campaign_json, campaign_lines, end_lines
 from cellc.mock.cell import MockCell, cell_of, load
-from cellc.mock.command.options import MockOptions, write_text
+from cellc.mock.command.options import MockOptions, refuse_foreign, write_records
 from cellc.mock.command.rehearsals import begin_evidence
 from cellc.mock.errors import MockError
 from cellc.mock.faults.registry import possible_faults
 from cellc.mock.gates.gate import GateResult, Verdict, gate_lines, gates_as_data
 from cellc.mock.gates.runs import judged_campaign, judged_rehearsals
 from cellc.mock.gates.sign import sign_gates
-from cellc.mock.result import to_json_lines
 
 Choice = Callable[[CampaignPlan], Sequence[CampaignRun]]
 
@@ -129,6 +128,8 @@ def conduct_all(cell: MockCell, options: MockOptions) -> Campaign:
 
 
 def _conduct(cell: MockCell, choose: Choice, options: MockOptions) -> Campaign:
+    if options.records is not None:
+        refuse_foreign(Path(options.records))
     begun = perf_counter()
     plan, baselines = make_plan(cell, possible_faults(cell.contract), options.seed)
     runs = choose(plan)
@@ -136,7 +137,7 @@ def _conduct(cell: MockCell, choose: Choice, options: MockOptions) -> Campaign:
     campaign = conduct(cell, runs, baselines, seed=options.seed, jobs=jobs, progress=_tell_progress)
     if options.records is not None:
         attempts = (record for end in campaign.all_ends for record in end.result.attempts)
-        write_text(Path(options.records), to_json_lines(attempts))
+        write_records(Path(options.records), attempts)
     _end_progress(f"{len(runs)} runs in {perf_counter() - begun:.1f} s, {jobs} processes")
     return campaign
 

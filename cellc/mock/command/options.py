@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
+import json
 import os
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import BinaryIO
 
 from cellc.mock.errors import MockError
+from cellc.mock.result import AttemptRecord, to_json_lines
+from cellc.store.swap import replace_whole
+
+_LONGEST_RECORD = 1 << 20
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,25 +98,50 @@ def run_mock(options: MockOptions) -> int:
     return replay_runs(options) if options.replay else run_campaign(options)
 
 
-def write_text(path: Path, text: str) -> None:
-    """Write a file whole or not at all; a pipe or a device such as ``/dev/stdout`` is written to, not replaced.
+def write_records(path: Path, records: Iterable[AttemptRecord]) -> None:
+    """Write a file of records whole or not at all; a pipe or a device such as ``/dev/stdout`` is written to.
 
     Raises:
-        MockError: the file cannot be written.
+        MockError: the file cannot be written, or what stands there is a link or no file of records.
     """
+    refuse_foreign(path)
+    content = to_json_lines(records).encode()
     try:
-        if path.exists() and not path.is_file():
-            path.write_bytes(text.encode())
+        if _is_stream(path) or (path.exists() and not path.is_file()):
+            with _opened(path) as stream:
+                stream.write(content)
         else:
-            _replace(Path(os.path.realpath(path)), text)
+            replace_whole(path, content)
     except OSError as error:
         raise MockError(path.as_posix(), f"cannot be written: {(error.strerror or 'unknown reason').lower()}") from None
 
 
-def _replace(path: Path, text: str) -> None:
-    part = path.with_name(f".{path.name}.part")
+def refuse_foreign(path: Path) -> None:
+    """Raise MockError where a link stands at the path of the records, or a file that holds something else."""
+    if _is_stream(path):
+        return
+    if path.is_symlink():
+        raise MockError(path.as_posix(), "is a symbolic link; name the file itself")
+    if path.is_file() and not _holds_records(path):
+        raise MockError(path.as_posix(), "is no file of records; move it away, or name another file")
+
+
+def _opened(path: Path) -> BinaryIO:
+    """Open a stream by its path; one that is open already goes on where it is, though it be a file."""
+    name = {"stdout": "1", "stderr": "2"}.get(path.name, path.name)
+    return os.fdopen(os.dup(int(name)), "wb") if _is_stream(path) and name.isdigit() else path.open("ab")
+
+
+def _is_stream(path: Path) -> bool:
+    """Whether the path is one that the system gives to an open stream, as a link in most cases."""
+    return Path(os.path.abspath(path)).parent.as_posix() in ("/dev", "/dev/fd", "/proc/self/fd")
+
+
+def _holds_records(path: Path) -> bool:
+    """Whether the file is empty, or begins with an attempt."""
     try:
-        part.write_bytes(text.encode())
-        os.replace(part, path)
-    finally:
-        part.unlink(missing_ok=True)
+        with path.open("rb") as stream:
+            line = stream.readline(_LONGEST_RECORD)
+        return not line or (line.endswith(b"\n") and "attempt_id" in json.loads(line))
+    except (OSError, ValueError, TypeError, RecursionError):
+        return False

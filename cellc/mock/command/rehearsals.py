@@ -11,9 +11,9 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from cellc.mock.cell import MockCell, load
-from cellc.mock.command.options import MockOptions, write_text
+from cellc.mock.command.options import MockOptions, refuse_foreign, write_records
 from cellc.mock.errors import MockError
-from cellc.mock.result import RehearsalResult, to_json_lines
+from cellc.mock.result import RehearsalResult
 
 if TYPE_CHECKING:
     from cellc.mock.command.evidence import EvidenceCollector
@@ -78,11 +78,13 @@ def run_rehearsals(options: MockOptions) -> int:
     try:
         if options.seed < 0:
             raise MockError("", f"the seed is {options.seed}; it must be 0 or greater")
+        if options.records is not None:
+            refuse_foreign(Path(options.records))  # before the minutes that a run may take
         cell = load(Path(options.folder))
         timed = _run(cell, tuple(dict.fromkeys(options.rehearsals)) or cell.rehearsals, options)
         if options.records is not None:
             records = (record for each in timed for record in each.result.attempts)
-            write_text(Path(options.records), to_json_lines(records))
+            write_records(Path(options.records), records)
     except MockError as error:
         print(f"error: {error}", file=sys.stderr)
         return 2

@@ -55,7 +55,8 @@ class EvidenceFolder:
         self._folder = folder
         self._staging = staging_of(folder)
         self._names: list[str] = []
-        if folder.is_symlink() or (folder.exists() and not folder.is_dir()):
+        no_folder = folder.is_symlink() or (folder.exists() and not folder.is_dir())
+        if no_folder or not Path(os.path.abspath(folder)).name:
             raise MockError(folder.as_posix(), "is not a folder that evidence can be written to")
         self._stale = others(folder)
         if any(is_alive(staging) for staging in self._stale):
@@ -63,7 +64,8 @@ class EvidenceFolder:
         self._refuse_edited(names)
         try:
             folder.parent.mkdir(parents=True, exist_ok=True)
-            (self._staging / "new").mkdir(parents=True)
+            self._staging.mkdir()  # fails where anything stands there, a link too
+            (self._staging / "new").mkdir()
         except OSError as error:
             raise self._unwritable(error) from None
 
@@ -111,6 +113,9 @@ class EvidenceFolder:
                 raise MockError(path.as_posix(), "must be a file: evidence is written there")
             if path.exists() and all(hashes.get(name) != _sha256(path) for hashes in known):
                 raise MockError(path.as_posix(), "is not as cellc wrote it; move it away, or name another folder")
+        index = self._folder / INDEX
+        if index.is_symlink() or (index.exists() and not _is_index(index)):
+            raise MockError(index.as_posix(), "is no index of evidence; move it away, or name another folder")
 
     def _swap(self, removed: Sequence[str], put: Sequence[str]) -> None:
         swap = Swap(self._folder, self._staging)
@@ -131,6 +136,13 @@ class EvidenceFolder:
     def _unwritable(self, error: OSError) -> MockError:
         reason = (error.strerror or type(error).__name__).lower()
         return MockError(self._folder.as_posix(), f"cannot be written: {reason}")
+
+
+def _is_index(path: Path) -> bool:
+    try:
+        return isinstance(json.loads(path.read_bytes())["files"], dict)
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
+        return False
 
 
 def _hashes(folder: Path) -> dict[str, str]:
