@@ -74,7 +74,7 @@ class FollowerStatus(str, Enum):
     """How a trajectory stands or ended; the last four are terminal."""
 
     FOLLOWING = "following"
-    HOLDING = "holding"  # cancelled or given up, and not at standstill yet
+    HOLDING = "holding"  # canceled or given up, and not at standstill yet
     SUCCEEDED = "succeeded"
     CANCELLED = "cancelled"
     PATH_TOLERANCE_VIOLATED = "path tolerance violated"

@@ -31,7 +31,7 @@ class TaskRequests:
         self._cancels.discard(kind)
 
     def is_cancel_asked(self, kind: str) -> bool:
-        """Tell whether the goals of this kind of step are to be cancelled."""
+        """Tell whether the goals of this kind of step are to be canceled."""
         return kind in self._cancels
 
     def displace_goal(self, goal: str, offset: Vector3) -> None:

@@ -102,7 +102,7 @@ class RejectFault(FaultFields):
 class CancelFault(FaultFields):
     """The client cancels the goal that is executing, or the first that executes after."""
 
-    cancel: Literal["move", "grip"] = Field(..., description="Kind of step whose goal is cancelled.", examples=["move"])
+    cancel: Literal["move", "grip"] = Field(..., description="Kind of step whose goal is canceled.", examples=["move"])
 
 
 class SecondCommanderFault(FaultFields):

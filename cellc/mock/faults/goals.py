@@ -1,4 +1,4 @@
-"""Goals that cannot be reached, are cancelled, meet an inactive controller, or are not the only ones."""
+"""Goals that cannot be reached, are canceled, meet an inactive controller, or are not the only ones."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ class Cancel:
         ports.requests.ask_cancel(self.step, ports.schedule.now_ns)
 
     def end(self, ports: FaultPorts) -> None:
-        """Take the request back where no goal has been cancelled yet."""
+        """Take the request back where no goal has been canceled yet."""
         ports.requests.withdraw_cancel(self.step)
 
 

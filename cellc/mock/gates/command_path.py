@@ -51,7 +51,7 @@ def goal_trace(evidence: GateEvidence, controller: str) -> GateCheck:
 
 
 def cancel_trace(evidence: GateEvidence, controller: str) -> GateCheck:
-    """Judge whether cancelled goals are held within the bound, where their joints were moving."""
+    """Judge whether canceled goals are held within the bound, where their joints were moving."""
     bound_s = cancel_bound_s(evidence.contract)
     good: list[str] = []
     bad: list[str] = []
@@ -64,7 +64,7 @@ def cancel_trace(evidence: GateEvidence, controller: str) -> GateCheck:
             bad.append(f"{run.name}, {attempt.step}: not held within {bound_s:g} s")
         else:
             good.append(f"{run.name}, {attempt.step}: held after {cancel.latency_s * 1e3:.0f} ms")
-    text = f"A cancelled goal of {controller} is held within {bound_s:g} s on mock hardware"
+    text = f"A canceled goal of {controller} is held within {bound_s:g} s on mock hardware"
     return judged(text, good, bad, "a run that cancels it while its joints move")
 
 

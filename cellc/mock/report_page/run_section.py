@@ -152,7 +152,7 @@ def _details(record: AttemptRecord) -> Iterator[str]:
     if record.result is not None:
         yield " ".join(f"result {record.result.status} {record.result.error_string}".split())
     if record.cancel is not None:
-        yield f"cancelled at {at(record.cancel.requested_ns)}, held after {seconds(record.cancel.latency_s)}"
+        yield f"canceled at {at(record.cancel.requested_ns)}, held after {seconds(record.cancel.latency_s)}"
     if record.safety_state != "normal":
         yield f"safety state {record.safety_state}"
     if record.fault_code:

@@ -1,4 +1,4 @@
-"""Sends a goal to an action, waits for its end, and holds the joints where it has to be cancelled."""
+"""Sends a goal to an action, waits for its end, and holds the joints where it has to be canceled."""
 
 from __future__ import annotations
 
@@ -120,13 +120,13 @@ def execute(
 
     Args:
         kind: kind of the step, which a cancel request names.
-        timeout_s: bound from acceptance to result; then the goal is cancelled and the joints are held.
+        timeout_s: bound from acceptance to result; then the goal is canceled and the joints are held.
 
     Returns:
         The result of a goal that its controller ended.
 
     Raises:
-        AttemptError: the goal was rejected, cancelled or not ended in time, or the cell stopped.
+        AttemptError: the goal was rejected, canceled or not ended in time, or the cell stopped.
     """
     context.check_cell()
     context.deactivated_ns.pop(controller, None)
@@ -139,9 +139,7 @@ def execute(
     except AttemptError as failure:
         held = yield from cancel_and_hold(context, attempt, controller, goal_id, sent.joints)
         if failure.outcome is AttemptOutcome.CANCELLED and not held:
-            raise AttemptError(
-                AttemptOutcome.TIMEOUT, "cancelled, and the joints did not stand still in time"
-            ) from None
+            raise AttemptError(AttemptOutcome.TIMEOUT, "canceled, and the joints did not stand still in time") from None
         raise
     finally:
         _note_result(context, attempt, sent)
@@ -156,7 +154,7 @@ def require_success(ended: GoalEnded, context: TaskContext) -> None:
         return
     context.check_cell()
     if ended.status is GoalStatus.CANCELED:
-        raise AttemptError(AttemptOutcome.CANCELLED, "cancelled by another client")
+        raise AttemptError(AttemptOutcome.CANCELLED, "canceled by another client")
     if isinstance(ended, TrajectoryEnded):
         text = f"{ended.error_code}: {ended.error_string}"
         violated = ended.error_code in (-4, -5)  # PATH_ and GOAL_TOLERANCE_VIOLATED of FollowJointTrajectory
@@ -182,7 +180,7 @@ def _send(context: TaskContext, attempt: Attempt, controller: str, goal: Traject
 
 
 def _result(context: TaskContext, kind: str, goal: SentGoal, timeout_s: float) -> Waiting[None]:
-    """Wait for the result of an accepted goal; raise AttemptError where it has to be cancelled instead."""
+    """Wait for the result of an accepted goal; raise AttemptError where it has to be canceled instead."""
     until_ns = context.now_ns + round(timeout_s * 1e9)
     while (goal.controller, goal.goal_id) not in context.ended:
         if context.node.requests.is_cancel_asked(kind):

@@ -37,10 +37,10 @@ def test_rehearsals_confirm_what_they_showed_and_leave_the_rest_unknown(pick: Mo
     assert line(command_path, "is a route to a real interface").verdict is PASSED
     assert line(command_path, "claimed by its one owner").verdict is PASSED
     assert line(command_path, "A goal to arm_trajectory is accepted, driven and answered").verdict is PASSED
-    cancel = line(command_path, "A cancelled goal of arm_trajectory is held within 0.2 s on mock hardware")
+    cancel = line(command_path, "A canceled goal of arm_trajectory is held within 0.2 s on mock hardware")
     assert cancel.verdict is PASSED
     assert cancel.evidence[0].startswith("cancelled, move pick: held after ")
-    assert line(command_path, "A cancelled goal of gripper_action").verdict is UNKNOWN
+    assert line(command_path, "A canceled goal of gripper_action").verdict is UNKNOWN
     assert line(command_path, "A violated tolerance of arm_trajectory").verdict is UNKNOWN
     assert command_path.verdict is UNKNOWN
 
@@ -103,14 +103,14 @@ def test_cancel_that_is_not_held_fails_its_line(pick: MockCell, rehearsed: Runs)
     never = replace(late, held_ns=None, latency_s=None)
     for cancel in (late, never):
         spoiled = (with_attempt(moving, "move pick", partial(replace, cancel=cancel)),)
-        check = line(gate("G2", pick.folder, spoiled), "A cancelled goal of arm_trajectory")
+        check = line(gate("G2", pick.folder, spoiled), "A canceled goal of arm_trajectory")
         assert check.verdict is FAILED
         assert check.evidence == ("cancelled, move pick: not held within 0.2 s",)
 
 
 def test_cancel_of_a_goal_that_moved_nothing_is_no_evidence(pick: MockCell, rehearsed: Runs) -> None:
     still = with_attempt(run(rehearsed, "cancelled"), "move pick", partial(replace, trace=()))
-    assert line(gate("L6", pick.folder, (still,)), "A cancelled goal of arm_trajectory").verdict is UNKNOWN
+    assert line(gate("L6", pick.folder, (still,)), "A canceled goal of arm_trajectory").verdict is UNKNOWN
 
 
 def test_second_owner_fails_its_line(pick: MockCell, rehearsed: Runs) -> None:
