@@ -1,4 +1,4 @@
-"""The three values that docs/architecture.md follows are, at each stage, what the page says; its files exist."""
+"""The three values that docs/architecture.md follows are, at each stage, what the page says; named files exist."""
 
 from __future__ import annotations
 
@@ -11,11 +11,12 @@ from cellc.spec.parse import parse
 from tests.cells import ROOT, built, document_of, generated, linked, spec_of
 from tests.foreign_yaml import safe_load
 
-PAGE = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+PAGES = [(ROOT / name).read_text(encoding="utf-8") for name in ("docs/architecture.md", "CONTRIBUTING.md", "README.md")]
+NAMED = {path for page in PAGES for path in re.findall(r"`((?:cellc|tests|docs|benchmarks)/[\w/.]+)`", page)}
 PICK = spec_of("ur5e_pick")
 
 
-@pytest.mark.parametrize("path", sorted(set(re.findall(r"`(cellc/[\w/.]+)`", PAGE))))
+@pytest.mark.parametrize("path", sorted(NAMED))
 def test_file_that_is_named_exists(path: str) -> None:
     assert (ROOT / path).exists()
 
