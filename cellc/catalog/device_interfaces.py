@@ -4,7 +4,16 @@ from typing import Literal, Union
 
 from pydantic import Field
 
-from cellc.catalog.catalog_model import BehaviourName, CatalogModel, ParameterFact, Text, Token
+from cellc.catalog.catalog_model import (
+    BehaviourName,
+    CatalogModel,
+    FileName,
+    GraphName,
+    NodeName,
+    ParameterFact,
+    Text,
+    Token,
+)
 from cellc.spec.quantity import Duration, Frequency
 
 InterfaceName = Text
@@ -77,9 +86,9 @@ class DriverFacts(CatalogModel):
     takes the goals of a kind of controller that is not spawned there.
     """
 
-    node: Text
-    joint_states: Text | None = None
-    actions: dict[Token, Text] = Field(default_factory=dict)
+    node: NodeName
+    joint_states: GraphName | None = None
+    actions: dict[Token, GraphName] = Field(default_factory=dict)
     source: Text
 
 
@@ -106,9 +115,9 @@ QosUse = Union[Token, QosFacts]
 class NodeFacts(CatalogModel):
     """A node of the driver for the real target; ``publishes_tf`` where it is an authority for frames."""
 
-    name: Text
+    name: NodeName
     package: Token
-    executable: Text
+    executable: FileName
     parameters: dict[Text, ParameterFact] = Field(default_factory=dict)
     publishes_tf: bool = False
     provides: Literal["real", "every_target"] = "real"
@@ -118,10 +127,10 @@ class NodeFacts(CatalogModel):
 class TopicFacts(CatalogModel):
     """A topic that the device publishes; ``publisher`` is a node of the driver, or ``driver`` for its controllers."""
 
-    name: Text
+    name: GraphName
     type: Text
     qos: QosUse
-    publisher: Text
+    publisher: GraphName
     rate: Frequency | None = None
     frame: Token | None = None
 
@@ -129,25 +138,25 @@ class TopicFacts(CatalogModel):
 class ServiceFacts(CatalogModel):
     """A service that the device answers."""
 
-    name: Text
+    name: GraphName
     type: Text
-    server: Text
+    server: GraphName
 
 
 class ActionFacts(CatalogModel):
     """An action that the device executes."""
 
-    name: Text
+    name: GraphName
     type: Text
-    server: Text
+    server: GraphName
 
 
 class StreamFacts(CatalogModel):
     """One image stream of a camera; ``frame`` is a link name without prefix."""
 
-    topic: Text
+    topic: GraphName
     type: Text
-    info_topic: Text
+    info_topic: GraphName
     frame: Token
     rate: Frequency
     qos: QosUse

@@ -16,6 +16,7 @@ from copy import deepcopy
 from functools import cache
 from pathlib import Path
 from typing import Any
+from unittest.mock import patch
 from xml.etree import ElementTree
 
 import pytest
@@ -23,17 +24,20 @@ import xacro
 import yaml
 from pydantic import ValidationError
 
+from cellc.catalog.device_model import DeviceModel
+from cellc.catalog.load import CatalogDevice, load_device
 from cellc.cell.cell import Cell
 from cellc.deploy.configuration import header_of
 from cellc.deploy.deployment import plan_deployment
-from cellc.diagnostics import YamlPath
+from cellc.diagnostics import Outcome, YamlPath
 from cellc.emit.emit_all import emit_all
 from cellc.formats.escape import markdown_comment
 from cellc.graph.cell_graph import build_graph
 from cellc.link.link import link
 from cellc.spec.cell_spec import CellSpec
-from tests.cells import document_of, linked, spec_of
+from tests.cells import ROOT, document_of, linked, spec_of
 
+_DEVICE = ROOT / "cellc" / "catalog" / "devices" / "ur5e" / "device.yaml"
 _BASH = shutil.which("bash") or "bash"
 _FENCE = re.compile(r"^ *```sh\n(.*?)^ *```$", re.M | re.S)
 HOSTILE = {
@@ -63,16 +67,22 @@ def _leaves(data: Any, path: YamlPath = ()) -> Iterator[YamlPath]:
 def _linked(paths: tuple[YamlPath, ...], text: str) -> Cell | None:
     """Return the cell with a text at each of the paths; None where a stage up to linking refuses that."""
     document = document_of(spec_of("ur5e_pick"))
-    data: Any = deepcopy(document.data)
+    data: Any = {"spec": deepcopy(document.data), "device": deepcopy(document_of(_DEVICE).data)}
     for *holders, last in paths:
         inner = data
         for part in holders:
             inner = inner[part]
         inner[last] = text
     try:
-        outcome = link(CellSpec.model_validate(_frozen(data)), document)
+        spec = CellSpec.model_validate(_frozen(data["spec"]))
+        model = DeviceModel.model_validate(_frozen(data["device"]))
     except ValidationError:
         return None
+    known = load_device("ur5e").value
+    assert known is not None
+    changed = Outcome(CatalogDevice(model, known.description))
+    with patch("cellc.link.devices.load_device", lambda name: changed if name == "ur5e" else load_device(name)):
+        outcome = link(spec, document)
     return outcome.value if outcome.ok else None
 
 
@@ -84,9 +94,10 @@ def _frozen(data: Any) -> Any:
 
 @cache
 def free_texts() -> tuple[YamlPath, ...]:
-    """Return the places of the spec that take any text: what stands there is neither a name nor one of a few words."""
-    paths = tuple(_leaves(document_of(spec_of("ur5e_pick")).data))
-    return tuple(path for path in paths if _linked((path,), "taint <b>") is not None)
+    """Return the places that take any text: what stands there is neither a name nor one of a few words."""
+    spec = (("spec", *path) for path in _leaves(document_of(spec_of("ur5e_pick")).data))
+    device = (("device", *path) for path in _leaves(document_of(_DEVICE).data))
+    return tuple(path for path in (*spec, *device) if _linked((path,), "taint <b>") is not None)
 
 
 @cache
@@ -104,7 +115,8 @@ def _of(text: str, *endings: str) -> dict[str, str]:
 
 def test_many_places_take_any_text() -> None:
     assert len(free_texts()) > 40
-    assert ("devices", "gripper", "connection", "port") in free_texts()
+    assert ("spec", "devices", "gripper", "connection", "port") in free_texts()
+    assert ("device", "safety", "stop_authority") in free_texts()
 
 
 each = pytest.mark.parametrize("text", HOSTILE.values(), ids=HOSTILE.keys())
@@ -155,7 +167,8 @@ def test_markdown_shows_it_on_its_line(text: str) -> None:
     for path, page in _of(text, ".md").items():
         prose = _FENCE.sub("", page.split("-->", 1)[1])
         assert not re.search(r"(?m)^\s*([#>`-]+ ?|\d+\. )?(taint: 1|# taint|- taint|<script>|```)", prose), path
-        shown = re.sub(r"(`+)(?!`).*?(?<!`)\1(?!`)", "", prose)
+        parts = (part for line in prose.splitlines() for part in re.split(r"(?<!\\)\|", line))
+        shown = "\n".join(re.sub(r"(?<!`)(`+)(?!`).*?(?<!`)\1(?!`)", "", part) for part in parts)
         assert not re.search(r"(?<!\\)<script|(?<!\\)\]\(http://taint|<!--", shown), path
         for line in prose.splitlines():
             if line.startswith("|"):
