@@ -119,7 +119,11 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.mark.parametrize(
     ("moment", "code"),
-    [("cellc.mock.folder", 1), ("cellc.mock.folder:read_folder", 2), ("cellc.mock.command.rehearsals:write_text", 2)],
+    [
+        ("cellc.mock.folder", 1),
+        ("cellc.mock.folder:read_folder", 2),
+        ("cellc.mock.command.rehearsals:write_records", 2),
+    ],
 )
 def test_interrupted_mock_leaves_no_records(moment: str, code: int, built: Path, tmp_path: Path) -> None:
     _assert_interrupted(moment, ["mock", str(built), "--records", str(tmp_path / "records.jsonl")], code)

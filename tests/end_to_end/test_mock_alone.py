@@ -11,8 +11,8 @@ from pathlib import Path
 
 from tests.cells import ROOT
 
-# The mock, the format between it and the compiler, the reader of URDF and the mathematics that both use.
-NEEDED = ("mock", "contract", "planning", "description", "diagnostics", "adapter")
+# The mock, the format between it and the compiler, and what both use: the reader of URDF, the planner, whole files.
+NEEDED = ("mock", "contract", "planning", "description", "diagnostics", "store", "adapter")
 MODULES = ("__init__.py", "transforms.py", "version.py", "vocabulary.py")
 
 

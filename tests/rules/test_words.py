@@ -97,7 +97,7 @@ def test_words_fit_what_is_missing(rollback: str, message: str, help_: str, tmp_
         ("markers", "/markers"),
         ("/2d/markers", "/_2d/markers"),
         ("/markers//left/", "/markers/left"),
-        ("/$(id)", "/id"),
+        ("/(id)", "/id"),
         ("/-", "/name"),
     ],
 )
