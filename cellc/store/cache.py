@@ -103,8 +103,7 @@ def recall(
     """
     if cache_folder() is None:
         return compute()
-    # mypy takes the hash of the instances for that of the class.
-    adapter: TypeAdapter[_Answer] = _adapter(answer)  # type: ignore[arg-type]
+    adapter = TypeAdapter(answer)
     name = entry_name(kind, question)
     content = read_entry(name)
     if content is not None:
@@ -116,11 +115,6 @@ def recall(
     if is_current():
         write_entry(name, adapter.dump_json(computed))
     return computed
-
-
-@cache
-def _adapter(answer: type[_Answer]) -> TypeAdapter[_Answer]:
-    return TypeAdapter(answer)
 
 
 def read_entry(name: str) -> bytes | None:

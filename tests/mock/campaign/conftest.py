@@ -10,7 +10,7 @@ from cellc.contract.contract import Contract
 from cellc.mock import MockCell, load
 from cellc.mock.campaign.campaign import make_plan
 from cellc.mock.campaign.plan import CampaignPlan
-from cellc.mock.command import campaign as command  # FIXME rename
+from cellc.mock.command import campaign
 from cellc.mock.faults.cases import FaultCase
 from cellc.mock.faults.registry import possible_faults
 from tests.cells import CELLS, generated
@@ -37,7 +37,7 @@ def few_faults(monkeypatch: pytest.MonkeyPatch) -> None:
             case for case in possible_faults(contract) if case.entry.kind in ("protective_stop", "skip_cycles")
         )
 
-    monkeypatch.setattr(command, "possible_faults", few)
+    monkeypatch.setattr(campaign, "possible_faults", few)
 
 
 def plan_of(cell: MockCell) -> CampaignPlan:

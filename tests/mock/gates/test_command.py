@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from cellc.contract.contract import Contract
-from cellc.mock.command import campaign as command  # FIXME rename
+from cellc.mock.command import campaign
 from cellc.mock.faults.cases import FaultCase
 from cellc.mock.faults.registry import possible_faults
 from cellc.mock.task.context import TaskContext
@@ -29,7 +29,7 @@ def _few_faults(monkeypatch: pytest.MonkeyPatch) -> None:
     def few(contract: Contract) -> tuple[FaultCase, ...]:
         return tuple(case for case in possible_faults(contract) if case.entry.kind in ("cancel", "protective_stop"))
 
-    monkeypatch.setattr(command, "possible_faults", few)
+    monkeypatch.setattr(campaign, "possible_faults", few)
 
 
 def test_gates_are_printed_and_told_to_programs(folder: str) -> None:
