@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from cellc.description.xml_tree import MAX_BYTES, MAX_DEPTH, MAX_ELEMENTS, MAX_INCLUDE_DEPTH, MAX_MACRO_DEPTH
 from cellc.diagnostics import Severity
 from cellc.diagnostics.diagnostic import CodePage
+from cellc.limits import DEFAULTS, MIB
 
 
 def _page(code: str, title: str, why: str, fix: str, severity: Severity = Severity.ERROR) -> CodePage:
@@ -27,13 +27,13 @@ _XML = (
     ),
     _page(
         "xml-too-deep",
-        f"elements are nested deeper than {MAX_DEPTH} levels",
+        f"elements are nested deeper than {DEFAULTS.xml_depth} levels",
         "A robot description nests five or six levels; deeper files exhaust the stack of whoever reads them.",
         "check that the file is a robot description",
     ),
     _page(
         "xml-too-large",
-        f"a description is larger than {MAX_BYTES // 2**20} MiB",
+        f"a description is larger than {DEFAULTS.xml_bytes // MIB} MiB",
         "A description of text is a few hundred kilobytes. More is a mesh or a mistake.",
         "keep meshes in files of their own",
     ),
@@ -146,8 +146,9 @@ _XACRO = (
     _page(
         "xacro-too-large",
         "an expansion does not end within its bounds",
-        f"At most {MAX_INCLUDE_DEPTH} nested includes, {MAX_MACRO_DEPTH} nested macros, {MAX_ELEMENTS} elements, "
-        f"{MAX_BYTES // 2**20} MiB and ten seconds. More is a macro or an include that calls itself.",
+        f"At most {DEFAULTS.xacro_includes} nested includes, {DEFAULTS.xacro_macros} nested macros, "
+        f"{DEFAULTS.xacro_elements} elements, {DEFAULTS.xml_bytes // MIB} MiB and {DEFAULTS.xacro_seconds} seconds. "
+        "More is a macro or an include that calls itself.",
         "look for a macro or an include that calls itself",
     ),
     _page(

@@ -5,11 +5,13 @@ from __future__ import annotations
 import click
 
 from cellc.cli.findings import show_findings
+from cellc.cli.limit_option import limit_option
 from cellc.pipeline import check
 
 
 @click.command()
 @click.argument("file", type=click.Path(path_type=str))
+@limit_option
 def audit(file: str) -> None:
     """Print the audit of the cell in FILE, as `cellc build` writes it to audit.md.
 

@@ -12,6 +12,7 @@ from typing import Literal
 
 from cellc.artifact import Artifact
 from cellc.diagnostics.diagnostic import Findings
+from cellc.limits import Limits, in_force, limits
 from cellc.rules.shared_domain import Presence, presence_of, shared_domains
 
 Kind = Literal["check", "compile"]
@@ -70,6 +71,11 @@ def compute(kind: Kind, file: str) -> CellResult:
     return CellResult(checked.findings.with_more(compiled.diagnostics), presence_of(checked.graph), artifacts)
 
 
+def _compute_within(chosen: Limits, kind: Kind, file: str) -> CellResult:
+    with in_force(chosen):
+        return compute(kind, file)
+
+
 def number_of_workers(kind: Kind, cells: int, cores: int | None = None) -> int:
     """Return how many processes pay for so many cells; 1 is this process.
 
@@ -101,7 +107,7 @@ def in_workers(kind: Kind, files: Sequence[str], number: int) -> Generator[CellR
     done = 0
     try:
         with _interrupts_blocked():
-            computed = pool.map(partial(compute, kind), files)
+            computed = pool.map(partial(_compute_within, limits(), kind), files)
         for result in computed:
             done += 1
             yield result

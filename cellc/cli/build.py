@@ -20,6 +20,7 @@ from cellc.cli.findings import (
     selected_and_errors,
     show_findings,
 )
+from cellc.cli.limit_option import limit_option
 from cellc.diagnostics import Span
 from cellc.diagnostics.diagnostic import Findings
 from cellc.output.codes import shared_output
@@ -47,6 +48,7 @@ from cellc.report.text_report import render_difference
 @IGNORE
 @FORMAT
 @FAIL_ON
+@limit_option
 def build(
     files: tuple[str, ...],
     output: Path,

@@ -21,6 +21,7 @@ from cellc.cli.findings import (
     selected,
     show_findings,
 )
+from cellc.cli.limit_option import limit_option
 from cellc.report.progress import progress
 from cellc.report.terminal import escape
 
@@ -43,6 +44,7 @@ _PASSES = 16
 @IGNORE
 @FORMAT
 @FAIL_ON
+@limit_option
 def check(
     files: tuple[str, ...],
     fix: bool,

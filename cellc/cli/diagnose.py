@@ -9,12 +9,14 @@ import click
 
 from cellc.cell.cell import Cell
 from cellc.cli.findings import show_findings
+from cellc.cli.limit_option import limit_option
 from cellc.report.terminal import wants_colour
 
 
 @click.command()
 @click.argument("symptom")
 @click.argument("file", required=False, type=click.Path(path_type=str))
+@limit_option
 def diagnose(symptom: str, file: str | None) -> None:
     """Classify SYMPTOM, words or a log line, and tell which read-only observation rules each cause out.
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import click
 
+from cellc.cli.limit_option import limit_option
+
 
 @click.command()
 @click.argument("folder", type=click.Path(path_type=str))
@@ -24,6 +26,7 @@ import click
     "--evidence", type=click.Path(path_type=str, file_okay=False), help="Write bags, records, key figures and a report."
 )
 @click.option("--seed", default=0, show_default=True, help="Seed of planning, of seeded faults and of pairs.")
+@limit_option
 def mock(
     folder: str,
     names: tuple[str, ...],

@@ -8,6 +8,7 @@ import sys
 import click
 
 from cellc.cli.findings import show_findings
+from cellc.cli.limit_option import limit_option
 from cellc.diagnostics import did_you_mean
 from cellc.pipeline import check
 from cellc.report.resolved import Leaf, Tree, flatten, resolved_tree
@@ -17,6 +18,7 @@ from cellc.report.terminal import wants_colour
 @click.command()
 @click.argument("file", type=click.Path(path_type=str))
 @click.argument("path", required=False, default="")
+@limit_option
 def show(file: str, path: str) -> None:
     """Show the resolved value at PATH of the cell in FILE, such as `devices.arm.joints`, and where it came from.
 

@@ -19,8 +19,9 @@ import xacro
 
 from cellc.description.xacro_expression import evaluate, functions
 from cellc.description.xacro_files import ConfinedFiles, XacroRefusedError, find_package, searched_folders
-from cellc.description.xml_tree import MAX_ELEMENTS, MAX_INCLUDE_DEPTH, MAX_MACRO_DEPTH, XmlElement, read_xml
+from cellc.description.xml_tree import XmlElement, read_xml
 from cellc.diagnostics import Span
+from cellc.limits import limits, option
 
 _PLACE = "cellc-place"
 _SUBSTITUTION = re.compile(r"\$\((\w+)\s*(.*?)\s*\)", re.DOTALL)
@@ -84,8 +85,9 @@ class Confinement:
 
     def include_files(self, specification: str, symbols: Any) -> Iterator[str]:
         """Yield the files of one ``<xacro:include>``, wildcards in sorted order."""
-        if len(xacro.filestack) > MAX_INCLUDE_DEPTH:
-            raise XacroRefusedError("xacro-too-large", f"includes are nested deeper than {MAX_INCLUDE_DEPTH} files")
+        if len(xacro.filestack) > limits().xacro_includes:
+            message = f"includes are nested deeper than {limits().xacro_includes} files"
+            raise XacroRefusedError("xacro-too-large", message, option("xacro-includes"))
         path = self.path_of(str(xacro.eval_text(specification, symbols)))
         wildcard = re.search(r"[*?\[]", path)
         if wildcard is None:
@@ -169,15 +171,16 @@ class Confinement:
 
     def _counted(self, original: Callable[..., Any]) -> Callable[..., Any]:
         located = self._located(original)
+        most = limits()
 
         def eval_all(node: Any, macros: Any, symbols: Any) -> Any:
             self.elements += 1
-            if self.elements > MAX_ELEMENTS:
-                raise XacroRefusedError("xacro-too-large", f"the expansion has more than {MAX_ELEMENTS} elements")
-            if len(xacro.macrostack) > MAX_MACRO_DEPTH:
-                raise XacroRefusedError(
-                    "xacro-too-large", f"macros call each other deeper than {MAX_MACRO_DEPTH} levels"
-                )
+            if self.elements > most.xacro_elements:
+                message = f"the expansion has more than {most.xacro_elements} elements"
+                raise XacroRefusedError("xacro-too-large", message, option("xacro-elements"))
+            if len(xacro.macrostack) > most.xacro_macros:
+                message = f"macros call each other deeper than {most.xacro_macros} levels"
+                raise XacroRefusedError("xacro-too-large", message, option("xacro-macros"))
             return located(node, macros, symbols)
 
         return eval_all

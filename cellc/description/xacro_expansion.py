@@ -22,13 +22,8 @@ import xacro
 from cellc.description.xacro_confinement import Confinement, place_of
 from cellc.description.xacro_expression import ExpressionError
 from cellc.description.xacro_files import XacroRefusedError
-from cellc.description.xml_tree import MAX_BYTES
 from cellc.diagnostics import Diagnostic, Outcome, Severity, Span, did_you_mean
-
-WALL_SECONDS = 10.0
-CPU_SECONDS = 8
-MEMORY_BYTES = 1024 * 1024 * 1024
-"""What the child process may use."""
+from cellc.limits import MIB, as_options, limits, option, raised, use
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,9 +56,9 @@ def expand_here(
     unknown = _unknown_arguments(arguments, confinement.declared_arguments, start)
     if unknown:
         return Outcome(None, unknown)
-    if len(text.encode()) > MAX_BYTES:
-        message = f"the expansion is larger than {MAX_BYTES // 2**20} MiB"
-        return Outcome(None, (Diagnostic("xacro-too-large", Severity.ERROR, message, start),))
+    if len(text.encode()) > limits().xml_bytes:
+        message = f"the expansion is larger than {limits().xml_bytes // MIB} MiB"
+        return Outcome(None, (Diagnostic("xacro-too-large", Severity.ERROR, message, start, help=option("xml-bytes")),))
     warnings = tuple(
         Diagnostic("xacro-warning", Severity.WARNING, _one_line(warning), start) for warning in confinement.warnings
     )
@@ -128,7 +123,7 @@ def _one_line(text: str) -> str:
 
 
 def expand_xacro(
-    file: Path, arguments: Mapping[str, str], root: Path, wall_seconds: float = WALL_SECONDS
+    file: Path, arguments: Mapping[str, str], root: Path, wall_seconds: float | None = None
 ) -> Outcome[Expansion]:
     """Expand a xacro file that the compiler does not vouch for.
 
@@ -136,7 +131,7 @@ def expand_xacro(
         file: the xacro file, as the user named it.
         arguments: values of ``<xacro:arg>``.
         root: the folder that no file may lie outside of.
-        wall_seconds: time after which the expansion is ended.
+        wall_seconds: time after which the expansion is ended; `xacro-seconds` of the limits if None.
 
     Returns:
         The URDF text with the places of its links and joints, or diagnostics; never an exception.
@@ -146,7 +141,9 @@ def expand_xacro(
         "arguments": dict(arguments),
         "root": root.as_posix(),
         "folder": os.getcwd(),
+        "limits": as_options(limits()),
     }
+    allowed_s = limits().xacro_seconds if wall_seconds is None else wall_seconds
     start = Span(file.as_posix(), 1, 1, 1, 1)
     try:
         answer = subprocess.run(
@@ -157,18 +154,18 @@ def expand_xacro(
             # `-m` puts the current folder first on the import path: it must not be one that a stranger filled.
             cwd=Path(__file__).resolve().parents[2],
             env={**os.environ, "PYTHONHASHSEED": "0"},
-            timeout=wall_seconds,
+            timeout=allowed_s,
             check=False,
         )
     except subprocess.TimeoutExpired:
-        return _ended(f"the expansion takes longer than {wall_seconds:g} s", start)
+        return _ended(f"the expansion takes longer than {allowed_s:g} s", start)
     if answer.returncode != 0:
         return _ended("the expansion takes more time or memory than it may use", start)
     return _decoded(json.loads(answer.stdout))
 
 
 def _ended(message: str, start: Span) -> Outcome[Expansion]:
-    help_text = "look for a macro or an include that calls itself"
+    help_text = f"look for a macro or an include that calls itself; {option('xacro-seconds')}"
     return Outcome(None, (Diagnostic("xacro-too-large", Severity.ERROR, message, start, help=help_text),))
 
 
@@ -202,8 +199,9 @@ def _decoded(answer: dict[str, Any]) -> Outcome[Expansion]:
 
 def main() -> None:
     """Expand what stdin asks for."""
-    _limit_resources()
     request = json.load(sys.stdin)
+    use(raised(request["limits"]))
+    _limit_resources()
     os.chdir(request["folder"])  # names in diagnostics stay those that the user wrote
     json.dump(_encoded(expand_here(request["file"], request["arguments"], request["root"])), sys.stdout)
 
@@ -213,7 +211,7 @@ def _limit_resources() -> None:
         import resource
     except ImportError:  # not a POSIX system: the parent's wall time is the limit
         return
-    for kind, amount in ((resource.RLIMIT_CPU, CPU_SECONDS), (resource.RLIMIT_AS, MEMORY_BYTES)):
+    for kind, amount in ((resource.RLIMIT_CPU, limits().xacro_seconds), (resource.RLIMIT_AS, limits().xacro_memory)):
         hard = resource.getrlimit(kind)[1]
         allowed = amount if hard == resource.RLIM_INFINITY else min(amount, hard)
         resource.setrlimit(kind, (allowed, hard))

@@ -14,8 +14,8 @@ from collections.abc import Callable, Mapping
 from functools import lru_cache
 from typing import Any
 
-MAX_TEXT = 65_536
-MAX_ITEMS = 10_000
+from cellc.limits import limits, option
+
 MAX_MAGNITUDE = 10**40
 _METHODS: dict[type, frozenset[str]] = {
     str: frozenset({"split", "rsplit", "strip", "lstrip", "rstrip", "lower", "upper", "title", "capitalize",
@@ -67,8 +67,8 @@ def evaluate(text: str, symbols: Mapping[str, Any]) -> Any:
         ExpressionError: where the expression is not arithmetic or is too large.
         Exception: what the operation itself raises, such as ZeroDivisionError or KeyError.
     """
-    if len(text) > MAX_TEXT:
-        raise ExpressionError(f"the expression has {len(text)} characters, at most {MAX_TEXT} are evaluated")
+    if len(text) > limits().xacro_text:
+        raise ExpressionError(f"the expression has {len(text)} characters, at most {limits().xacro_text} are evaluated")
     return _value(_parsed(text.strip()), symbols)
 
 
@@ -82,10 +82,10 @@ def bounded(value: Any) -> Any:
     """Pass a result on unless it is too large to handle; applied to every intermediate result."""
     if isinstance(value, int) and abs(value) > MAX_MAGNITUDE:
         raise ExpressionError("a number is beyond 1e40")
-    if isinstance(value, str) and len(value) > MAX_TEXT:
-        raise ExpressionError(f"a text is longer than {MAX_TEXT} characters")
-    if isinstance(value, (list, tuple, dict)) and len(value) > MAX_ITEMS:
-        raise ExpressionError(f"a list is longer than {MAX_ITEMS} items")
+    if isinstance(value, str) and len(value) > limits().xacro_text:
+        raise ExpressionError(f"a text is longer than {limits().xacro_text} characters; {option('xacro-text')}")
+    if isinstance(value, (list, tuple, dict)) and len(value) > limits().xacro_items:
+        raise ExpressionError(f"a list is longer than {limits().xacro_items} items; {option('xacro-items')}")
     return value
 
 
@@ -128,8 +128,8 @@ def _check_growth(operation: ast.operator, left: Any, right: Any) -> None:
     if isinstance(operation, ast.Mult):
         for items, count in ((left, right), (right, left)):
             repeated = len(items) * count if isinstance(items, (str, list, tuple)) and isinstance(count, int) else 0
-            if repeated > MAX_ITEMS:
-                raise ExpressionError(f"repetition to {repeated} items, at most {MAX_ITEMS}")
+            if repeated > limits().xacro_items:
+                raise ExpressionError(f"repetition to {repeated} items, at most {limits().xacro_items}")
     if isinstance(operation, ast.Mod) and isinstance(left, str):
         raise ExpressionError("text formatting with `%` is not allowed in an expression")
 
@@ -216,8 +216,8 @@ _EVALUATORS: dict[type[ast.expr], Callable[[Any, Mapping[str, Any]], Any]] = {
 
 def _bounded_range(*arguments: int) -> list[int]:
     numbers = range(*arguments)
-    if len(numbers) > MAX_ITEMS:
-        raise ExpressionError(f"a range of {len(numbers)} items, at most {MAX_ITEMS}")
+    if len(numbers) > limits().xacro_items:
+        raise ExpressionError(f"a range of {len(numbers)} items, at most {limits().xacro_items}")
     return list(numbers)
 
 

@@ -15,10 +15,9 @@ import xacro
 import yaml
 
 from cellc.description.xacro_expression import evaluate, functions
-from cellc.description.xml_tree import MAX_BYTES
 from cellc.diagnostics import Span
+from cellc.limits import MIB, limits, option
 
-MAX_YAML_BYTES = 1024 * 1024
 _UNITS = {
     "!radians": 1.0,
     "!degrees": math.pi / 180.0,
@@ -84,7 +83,7 @@ class ConfinedFiles:
             raise XacroRefusedError("xacro-not-text", message, "save it as UTF-8") from None
 
     def _read_bytes(self, path: str) -> bytes:
-        remaining = MAX_BYTES - self._bytes_read
+        remaining = limits().xml_bytes - self._bytes_read
         try:
             with open(path, "rb") as file:
                 data = file.read(remaining + 1)
@@ -92,7 +91,8 @@ class ConfinedFiles:
             message = f"`{self.shown(path)}` cannot be read: {error.strerror}"
             raise XacroRefusedError("xacro-file-not-found", message, cause=error) from None
         if len(data) > remaining:
-            raise XacroRefusedError("xacro-too-large", f"the files are larger than {MAX_BYTES // 2**20} MiB together")
+            message = f"the files are larger than {limits().xml_bytes // MIB} MiB together"
+            raise XacroRefusedError("xacro-too-large", message, option("xml-bytes"))
         self._bytes_read += len(data)
         return data
 
@@ -100,8 +100,9 @@ class ConfinedFiles:
         """Read a YAML file of parameters, as ``xacro.load_yaml`` does, without anchors."""
         text = self.read(path)
         shown = self.shown(path)
-        if len(text) > MAX_YAML_BYTES:
-            raise XacroRefusedError("xacro-too-large", f"`{shown}` is larger than {MAX_YAML_BYTES // 2**20} MiB")
+        if len(text) > limits().xacro_yaml_bytes:
+            message = f"`{shown}` is larger than {limits().xacro_yaml_bytes // MIB} MiB"
+            raise XacroRefusedError("xacro-too-large", message, option("xacro-yaml-bytes"))
         try:
             # One alias of an alias of an alias is a text of gigabytes once it is written out.
             if any(isinstance(event, yaml.AliasEvent) for event in yaml.parse(text, Loader=_UnitLoader)):

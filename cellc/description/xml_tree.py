@@ -10,13 +10,7 @@ from dataclasses import dataclass, field
 from xml.parsers import expat
 
 from cellc.diagnostics import Diagnostic, Outcome, Severity, Span
-
-MAX_BYTES = 8 * 1024 * 1024
-MAX_DEPTH = 64
-MAX_MACRO_DEPTH = 100
-MAX_INCLUDE_DEPTH = 32
-MAX_ELEMENTS = 50_000
-"""Bounds of a file, and of one expansion of xacro; a large real robot stays below a tenth of each."""
+from cellc.limits import MIB, limits, option
 
 _START_TAG = re.compile(rb"""<[^>"']*(?:(?:"[^"]*"|'[^']*')[^>"']*)*>""")
 
@@ -62,9 +56,10 @@ def read_xml(text: str, file: str) -> Outcome[XmlElement]:
         The root, or one diagnostic of ``xml-too-large``, ``xml-not-well-formed``, ``xml-entities`` or ``xml-too-deep``.
     """
     data = text.encode("utf-8", "surrogatepass")
-    if len(data) > MAX_BYTES:
-        message = f"the description is {len(data) / 2**20:.1f} MiB, at most {MAX_BYTES // 2**20} MiB are read"
-        return _refused("xml-too-large", message, "keep meshes in files of their own", Span(file, 1, 1, 1, 1))
+    if len(data) > limits().xml_bytes:
+        message = f"the description is {len(data) / MIB:.1f} MiB, at most {limits().xml_bytes // MIB} MiB are read"
+        help_text = f"keep meshes in files of their own; {option('xml-bytes')}"
+        return _refused("xml-too-large", message, help_text, Span(file, 1, 1, 1, 1))
     builder = _TreeBuilder(data, file)
     try:
         builder.parser.Parse(data, True)
@@ -86,6 +81,7 @@ class _TreeBuilder:
 
     def __init__(self, data: bytes, file: str) -> None:
         self.data, self.file = data, file
+        self.depth = limits().xml_depth
         self.root: XmlElement | None = None
         self.stack: list[XmlElement] = []
         # The text is already decoded: an encoding named in the XML declaration no longer holds.
@@ -100,8 +96,9 @@ class _TreeBuilder:
         return Span(self.file, line, column, line, column + 1)
 
     def start(self, tag: str, attributes: dict[str, str]) -> None:
-        if len(self.stack) >= MAX_DEPTH:
-            raise _XmlError("xml-too-deep", f"elements are nested deeper than {MAX_DEPTH} levels", "")
+        if len(self.stack) >= self.depth:
+            message = f"elements are nested deeper than {self.depth} levels"
+            raise _XmlError("xml-too-deep", message, option("xml-depth"))
         element = XmlElement(tag, attributes, self.start_tag_span())
         if self.stack:
             self.stack[-1].children.append(element)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from cellc.diagnostics import Diagnostic, Related, Severity, Span, YamlPath
 from cellc.diagnostics.diagnostic import CodePage
-from cellc.source.document import MAX_DEPTH, MAX_FILE_BYTES, MAX_FILES, MAX_NODES
+from cellc.limits import DEFAULTS, MIB, option
 
 
 def _page(code: str, title: str, why: str, fix: str) -> CodePage:
@@ -50,7 +50,7 @@ CODES: tuple[CodePage, ...] = (
     _page(
         "file-too-large",
         "the file is larger than a spec can be",
-        f"A cell is a page or two of text. Above {MAX_FILE_BYTES // 1024**2} MiB it is a recording, a mesh or a "
+        f"A cell is a page or two of text. Above {DEFAULTS.spec_bytes // MIB} MiB it is a recording, a mesh or a "
         "mistake, and it is refused before it is read into memory.",
         "name the cell spec itself, and keep recorded or generated data in files of their own",
     ),
@@ -160,19 +160,19 @@ CODES: tuple[CodePage, ...] = (
     ),
     _page(
         "too-deep",
-        f"values are nested more than {MAX_DEPTH} deep",
+        f"values are nested more than {DEFAULTS.spec_depth} deep",
         "No section of a spec is nested nearly so far; such files are made to exhaust the stack of a parser.",
         "remove brackets or indentation until the structure is that of the spec",
     ),
     _page(
         "too-many-includes",
-        f"more than {MAX_FILES} files belong to one spec",
+        f"more than {DEFAULTS.spec_files} files belong to one spec",
         "A cell in so many pieces cannot be reviewed, and a generated chain of includes must end somewhere.",
         "join small files",
     ),
     _page(
         "too-many-values",
-        f"the spec holds more than {MAX_NODES} values",
+        f"the spec holds more than {DEFAULTS.spec_values} values",
         "A cell has some thousands. More is data that belongs beside the spec, and every check would have to walk it.",
         "keep recorded or generated data in files of their own",
     ),
@@ -202,12 +202,19 @@ def finding(
     *,
     path: YamlPath = (),
     advice: str = "",
+    limit: str = "",
     related: tuple[Related, ...] = (),
 ) -> Diagnostic:
     """Return the diagnostic; without ``advice`` its help is the fix from the page of the code.
+
+    Args:
+        limit: the row of the table of limits that is exceeded; the help tells how to raise it.
 
     Raises:
         KeyError: the code has no page.
     """
     page = _PAGES[code]
-    return Diagnostic(code, page.severity, message, span, path, advice or page.fix, related)
+    help_text = advice or page.fix
+    if limit:
+        help_text += f"; {option(limit)}"
+    return Diagnostic(code, page.severity, message, span, path, help_text, related)

@@ -9,8 +9,9 @@ import yaml
 
 from cellc.diagnostics import Diagnostic, Outcome, Related, Span, YamlPath
 from cellc.diagnostics.unsafe_text import hidden, substitution
+from cellc.limits import limits
 from cellc.source.codes import finding
-from cellc.source.document import MAX_DEPTH, MAX_FINDINGS, MAX_NODES, Child, Node, Plain, PlainScalar
+from cellc.source.document import MAX_FINDINGS, Child, Node, Plain, PlainScalar
 from cellc.source.events import event_span, flow_span, parse_events
 from cellc.source.scalar import NumberOutOfRangeError, resolve
 from cellc.source.syntax import syntax_finding
@@ -100,6 +101,7 @@ class _Composer:
         self.root: Node | None = None
         self.is_hopeless = False
         self._file = file
+        self._limits = limits()
         self._lines = text.split("\n")
         self._open: list[OpenCollection] = []
         self._anchors: dict[str, Node] = {}
@@ -158,8 +160,9 @@ class _Composer:
 
     def _start_collection(self, event: yaml.CollectionStartEvent) -> None:
         self._refuse_tag(event)
-        if len(self._open) >= MAX_DEPTH:
-            self._stop("too-deep", f"values are nested more than {MAX_DEPTH} deep", self._span(event))
+        if len(self._open) >= self._limits.spec_depth:
+            message = f"values are nested more than {self._limits.spec_depth} deep"
+            self._stop("too-deep", message, self._span(event), "spec-depth")
             return
         self._anchors.pop(event.anchor or "", None)
         self._open.append(OpenCollection(event, isinstance(event, yaml.MappingStartEvent)))
@@ -167,11 +170,12 @@ class _Composer:
     def _end_collection(self, event: yaml.CollectionEndEvent) -> None:
         collection = self._open.pop()
         node = collection.close(event, self._file, self._lines)
-        if node.size > MAX_NODES:
-            message = f"aliases expand to more than {MAX_NODES} values"
-            self._stop("alias-bomb", message, node.span)
-        elif node.height + len(self._open) > MAX_DEPTH:
-            self._stop("too-deep", f"aliases nest values more than {MAX_DEPTH} deep", node.span)
+        if node.size > self._limits.spec_values:
+            message = f"aliases expand to more than {self._limits.spec_values} values"
+            self._stop("alias-bomb", message, node.span, "spec-values")
+        elif node.height + len(self._open) > self._limits.spec_depth:
+            message = f"aliases nest values more than {self._limits.spec_depth} deep"
+            self._stop("too-deep", message, node.span, "spec-depth")
         else:
             # An anchor of the same name inside this collection comes later in the file and stays in force.
             if collection.start.anchor is not None:
@@ -181,8 +185,9 @@ class _Composer:
     def _add(self, node: Node, span: Span) -> None:
         """Put a complete value where it belongs: the root, a key, or the value of a key or an item."""
         self._values += 1
-        if self._values > MAX_NODES:
-            self._stop("too-many-values", f"the file holds more than {MAX_NODES} values", span)
+        if self._values > self._limits.spec_values:
+            message = f"the file holds more than {self._limits.spec_values} values"
+            self._stop("too-many-values", message, span, "spec-values")
         elif not self._open:
             self.root = node
         elif self._open[-1].expects_key:
@@ -217,14 +222,20 @@ class _Composer:
             self._report("substitution-in-text", message, span)
 
     def _report(
-        self, code: str, message: str, span: Span, related: tuple[Related, ...] = (), key: YamlPath = ()
+        self,
+        code: str,
+        message: str,
+        span: Span,
+        related: tuple[Related, ...] = (),
+        key: YamlPath = (),
+        limit: str = "",
     ) -> None:
         path = tuple(part for collection in self._open if (part := collection.position) is not None) + key
-        self.findings.append(finding(code, message, span, path=path, related=related))
+        self.findings.append(finding(code, message, span, path=path, limit=limit, related=related))
         self.is_hopeless = self.is_hopeless or len(self.findings) >= MAX_FINDINGS
 
-    def _stop(self, code: str, message: str, span: Span) -> None:
-        self._report(code, message, span)
+    def _stop(self, code: str, message: str, span: Span, limit: str = "") -> None:
+        self._report(code, message, span, limit=limit)
         self.is_hopeless = True
 
     def _span(self, event: yaml.Event) -> Span:

@@ -1,4 +1,4 @@
-"""What was read: plain data, the text, and the position of every path; and how large a spec may be."""
+"""What was read: plain data, the text, and the position of every path."""
 
 from __future__ import annotations
 
@@ -13,11 +13,6 @@ PlainScalar: TypeAlias = Union[bool, int, float, str, None]
 Plain: TypeAlias = Union[bool, int, float, str, list["Plain"], dict[str, "Plain"], None]
 """What YAML 1.2 core can say; every mapping has string keys."""
 
-MAX_FILE_BYTES = 2 * 1024 * 1024
-MAX_FILES = 32
-MAX_DEPTH = 64
-MAX_NODES = 200_000
-"""Values of one spec with every alias and include written out."""
 MAX_FINDINGS = 100
 """After so many findings in one file it is not a spec with mistakes, and reading stops."""
 

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
 from cellc.diagnostics import Diagnostic, Outcome, Related, Span
+from cellc.limits import limits
 from cellc.source.codes import finding
-from cellc.source.document import MAX_NODES, Child, Node
+from cellc.source.document import Child, Node
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,9 +76,9 @@ def merge(roots: Sequence[Node]) -> Outcome[Node]:
             first = sections.get(name)
             sections[name] = section if first is None else _merge_section(str(name), first, section, findings)
     merged = _mapping(roots[0], sections)
-    if merged.size > MAX_NODES:
-        message = f"the spec and its includes hold {merged.size} values; at most {MAX_NODES} are read"
-        findings.append(finding("too-many-values", message, roots[0].span))
+    if merged.size > limits().spec_values:
+        message = f"the spec and its includes hold {merged.size} values; at most {limits().spec_values} are read"
+        findings.append(finding("too-many-values", message, roots[0].span, limit="spec-values"))
     return Outcome(merged, tuple(findings))
 
 

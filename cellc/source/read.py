@@ -6,9 +6,10 @@ import os
 from pathlib import Path, PurePosixPath
 
 from cellc.diagnostics import Diagnostic, Outcome, Span
+from cellc.limits import limits
 from cellc.source.codes import finding
 from cellc.source.compose import compose
-from cellc.source.document import MAX_FILES, Node, SourceDocument
+from cellc.source.document import Node, SourceDocument
 from cellc.source.include import INCLUDE, IncludeLine, include_lines, merge, resolve_include
 from cellc.source.text import lies_under, read_text
 
@@ -54,7 +55,7 @@ class _Reader:
         self._is_full = False
 
     def read(self, path: Path, name: str, place: Span) -> None:
-        """Read one file and, depth first, what it includes; at most `MAX_FILES` deep.
+        """Read one file and, depth first, what it includes; at most `spec-files` of them.
 
         Args:
             place: the include that names the file, or the start of the root spec.
@@ -108,13 +109,13 @@ class _Reader:
             self._read_included(line, folder, includer)
 
     def _read_included(self, line: IncludeLine, folder: Path, includer: str) -> None:
-        if len(self._names) < MAX_FILES:
+        if len(self._names) < limits().spec_files:
             name = str(PurePosixPath(includer).parent / line.path)
             self.read(folder / line.path, name, line.span)
         elif not self._is_full:
             self._is_full = True
-            message = f"more than {MAX_FILES} files belong to one spec"
-            self.findings.append(finding("too-many-includes", message, line.span, path=(INCLUDE,)))
+            message = f"more than {limits().spec_files} files belong to one spec"
+            self.findings.append(finding("too-many-includes", message, line.span, path=(INCLUDE,), limit="spec-files"))
 
 
 def _real(path: Path) -> Path:

@@ -10,8 +10,8 @@ from pathlib import Path
 
 from cellc.diagnostics import Diagnostic, Outcome, Span, nearest
 from cellc.diagnostics.unsafe_text import HIDDEN, hidden
+from cellc.limits import MIB, limits
 from cellc.source.codes import finding
-from cellc.source.document import MAX_FILE_BYTES
 
 _UTF16_MARKS = (b"\xff\xfe", b"\xfe\xff")
 # `<<` is not meant: that is a merge key.
@@ -50,11 +50,11 @@ def _read_bytes(path: Path, name: str, place: Span) -> bytes | Diagnostic:
         if not stat.S_ISREG(status.st_mode):
             kind = "a folder" if stat.S_ISDIR(status.st_mode) else "not a regular file"
             return finding("not-a-file", f"`{name}` is {kind}", place)
-        if status.st_size > MAX_FILE_BYTES:
+        if status.st_size > limits().spec_bytes:
             return _too_large(name, f"{status.st_size / 1024**2:.1f} MiB", place)
         # What is larger than allowed nevertheless grew meanwhile, or its size the system does not tell.
         with path.open("rb") as file:
-            content = file.read(MAX_FILE_BYTES + 1)
+            content = file.read(limits().spec_bytes + 1)
     except (FileNotFoundError, NotADirectoryError):
         return finding("file-not-found", f"there is no file `{name}`", place, advice=_similar_file(path))
     except OSError as error:
@@ -63,11 +63,12 @@ def _read_bytes(path: Path, name: str, place: Span) -> bytes | Diagnostic:
     except ValueError:
         # A zero character in the name: no system call takes it.
         return finding("file-unreadable", f"`{name}` is not a file name", place, advice="correct the path")
-    return content if len(content) <= MAX_FILE_BYTES else _too_large(name, "larger", place)
+    return content if len(content) <= limits().spec_bytes else _too_large(name, "larger", place)
 
 
 def _too_large(name: str, size: str, place: Span) -> Diagnostic:
-    return finding("file-too-large", f"`{name}` is {size}; at most {MAX_FILE_BYTES // 1024**2} MiB are read", place)
+    message = f"`{name}` is {size}; at most {limits().spec_bytes // MIB} MiB are read"
+    return finding("file-too-large", message, place, limit="spec-bytes")
 
 
 def _similar_file(path: Path) -> str:
@@ -146,7 +147,7 @@ def lies_under(path: Path, folder: Path) -> bool:
 def _text(name: str) -> str | None:
     try:
         with open(name, "rb") as file:
-            content = file.read(MAX_FILE_BYTES + 1)
+            content = file.read(limits().spec_bytes + 1)
     except (OSError, ValueError):
         return None
-    return None if len(content) > MAX_FILE_BYTES else showable(content)
+    return None if len(content) > limits().spec_bytes else showable(content)

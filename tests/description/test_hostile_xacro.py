@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from cellc.description.xacro_expansion import expand_here, expand_xacro
 from cellc.diagnostics import Diagnostic
+from cellc.limits import DEFAULTS, in_force
 
 _HEAD = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="stranger">'
 
@@ -75,15 +77,15 @@ def test_hostile_description_ends_in_one_diagnostic(name: str, tmp_path: Path) -
     assert found.span.file.endswith("robot.urdf.xacro")
 
 
-def test_exponential_macros_are_counted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_exponential_macros_are_counted(tmp_path: Path) -> None:
     # In this process and with a lower bound: fifty thousand elements take seconds.
-    monkeypatch.setattr("cellc.description.xacro_confinement.MAX_ELEMENTS", 1000)
     doubling = "".join(
         f'<xacro:macro name="m{i}"><xacro:m{i - 1}/><xacro:m{i - 1}/></xacro:macro>' for i in range(1, 40)
     )
     body = f'<xacro:macro name="m0"><a/></xacro:macro>{doubling}<xacro:m39/>'
     file = _write(tmp_path, f"{_HEAD}{body}</robot>")
-    outcome = expand_here(file.as_posix(), {}, tmp_path.as_posix())
+    with in_force(replace(DEFAULTS, xacro_elements=1000)):
+        outcome = expand_here(file.as_posix(), {}, tmp_path.as_posix())
     assert [found.message for found in outcome.diagnostics] == ["the expansion has more than 1000 elements"]
     assert outcome.diagnostics[0].code == "xacro-too-large"
 

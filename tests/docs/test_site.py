@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.cells import ROOT
+from tests.docs import limits
 from tests.docs.import_graph import PICTURE, picture
 
 
@@ -17,6 +18,11 @@ def test_site_is_built_without_a_warning(tmp_path: Path) -> None:
     command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--site-dir", str(tmp_path / "site")]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
+
+
+def test_page_of_the_limits_is_their_table() -> None:
+    # Written by `python -m tests.docs.limits`.
+    assert limits.PAGE.read_text(encoding="utf-8") == limits.page()
 
 
 def test_picture_of_the_imports_is_that_of_the_code() -> None:

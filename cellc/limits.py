@@ -1,0 +1,137 @@
+"""How much cellc reads, expands and simulates before it refuses: one table, which every reader asks.
+
+The files come from strangers. A bound is far above what a real cell needs, and keeps a hostile one from costing more
+than seconds and some hundred megabytes. `docs/limits.md` is this table; `--limit NAME=VALUE` raises a row of it for one
+call.
+
+The table in force belongs to the process, as a locale does: every stage would otherwise pass it on to the next one.
+The command line alone changes it, for the time of a command, and hands it to the processes that it starts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field, fields, replace
+
+KIB = 1024
+MIB = 1024 * KIB
+
+
+class LimitError(ValueError):
+    """An option names no limit, or not a value that it can have; the text says which there are."""
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """What the table says of one limit beside its default.
+
+    Args:
+        unit: what is counted.
+        bounds: what it bounds, for people.
+        highest: the largest value that the option takes; above it the program itself would fail.
+    """
+
+    unit: str
+    bounds: str
+    highest: int
+
+
+def _row(default: int, unit: str, highest: int, bounds: str) -> int:
+    found: int = field(default=default, metadata={"row": Row(unit, bounds, highest)})
+    return found
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Limits:
+    """The limits in force; a field is a row of the table, with dashes for underscores in its name."""
+
+    spec_bytes: int = _row(2 * MIB, "bytes", 64 * MIB, "one file of a spec, or of YAML beside it")
+    spec_files: int = _row(32, "files", 128, "files that belong to one spec")
+    spec_depth: int = _row(64, "levels", 128, "nesting of values in YAML")
+    spec_values: int = _row(200_000, "values", 5_000_000, "values of a spec with every alias and include written out")
+    xml_bytes: int = _row(8 * MIB, "bytes", 256 * MIB, "one URDF, SRDF or xacro file, and one expansion of xacro")
+    xml_depth: int = _row(64, "levels", 128, "nesting of elements in XML")
+    xacro_elements: int = _row(50_000, "elements", 5_000_000, "elements that one expansion of xacro evaluates")
+    xacro_includes: int = _row(32, "files", 64, "nesting of includes in xacro")
+    xacro_macros: int = _row(100, "calls", 128, "nesting of macros in xacro")
+    xacro_yaml_bytes: int = _row(MIB, "bytes", 64 * MIB, "one YAML file that xacro reads")
+    xacro_text: int = _row(64 * KIB, "characters", 16 * MIB, "a text in an expression of xacro")
+    xacro_items: int = _row(10_000, "items", 1_000_000, "a list in an expression of xacro")
+    xacro_seconds: int = _row(10, "s", 3600, "time of one expansion of xacro")
+    xacro_memory: int = _row(1024 * MIB, "bytes", 64 * 1024 * MIB, "memory of one expansion of xacro")
+
+
+DEFAULTS = Limits()
+_in_force = DEFAULTS
+
+
+def limits() -> Limits:
+    """Return the limits in force."""
+    return _in_force
+
+
+def use(chosen: Limits) -> None:
+    """Put limits in force for the rest of the process: for one that was started with them."""
+    global _in_force
+    _in_force = chosen
+
+
+@contextmanager
+def in_force(chosen: Limits) -> Iterator[None]:
+    """Put limits in force for a while."""
+    before = limits()
+    use(chosen)
+    try:
+        yield
+    finally:
+        use(before)
+
+
+def rows() -> Mapping[str, Row]:
+    """Return the rows of the table by the name that the option takes, in its order."""
+    return {each.name.replace("_", "-"): each.metadata["row"] for each in fields(Limits)}
+
+
+def default(name: str) -> int:
+    """Return the default of a row."""
+    return _value(DEFAULTS, name)
+
+
+def option(name: str) -> str:
+    """Return the option that raises a limit, for the help of a message."""
+    assert name in rows(), name
+    return f"`--limit {name}=N` raises it"
+
+
+def raised(given: Sequence[str]) -> Limits:
+    """Return the limits with what options raise.
+
+    Args:
+        given: each ``NAME=VALUE``; the last of a name counts.
+
+    Raises:
+        LimitError: a name is unknown, or a value is below the default or above what the program can take.
+    """
+    changed: dict[str, int] = {}
+    table = rows()
+    for text in given:
+        name, _, value = text.partition("=")
+        if name not in table:
+            raise LimitError(f"there is no limit `{name[:60]}`; there are {', '.join(table)}")
+        least, most = default(name), table[name].highest
+        number = int(value) if value.isascii() and value.isdigit() and len(value) <= 20 else -1
+        if not least <= number <= most:
+            raise LimitError(f"`{name}` must be a whole number from {least} to {most}, got `{value[:60]}`")
+        changed[name.replace("-", "_")] = number
+    return replace(DEFAULTS, **changed)
+
+
+def as_options(chosen: Limits) -> list[str]:
+    """Return what of some limits is not at its default, as the option takes it."""
+    return [f"{name}={_value(chosen, name)}" for name in rows() if _value(chosen, name) != default(name)]
+
+
+def _value(of: Limits, name: str) -> int:
+    value: int = getattr(of, name.replace("-", "_"))
+    return value
