@@ -143,6 +143,94 @@ class FaultKind(Term):
     CUT_NETWORK = "cut_network"
 
 
+class Moment(Term):
+    """When a device may act in the world: a step of its hardware component, or what its own controller does."""
+
+    START = "start"
+    """A process of its driver starts."""
+    INIT = "init"
+    CONFIGURE = "configure"
+    ACTIVATE = "activate"
+    CLAIM = "claim"
+    """A controller that commands it becomes active."""
+    RELEASE = "release"
+    DEACTIVATE = "deactivate"
+    CLEANUP = "cleanup"
+    PROGRAM_START = "program_start"
+    """The program on the device's own controller, through which set points pass, begins or goes on."""
+    PROGRAM_STOP = "program_stop"
+    STOP = "stop"
+    """The device stops by itself: a reflex, a protective stop, an emergency stop."""
+
+
+class Motion(Term):
+    """What moves at a moment, from the least to the worst."""
+
+    NONE = "none"
+    """Nothing; the device commands what it commanded before, or nothing."""
+    HOLDS = "holds"
+    """It holds where it is measured, and follows set points from then on."""
+    MOVES = "moves"
+    """It moves by itself, on a path that no set point asked for."""
+    JUMPS = "jumps"
+    """It goes at once to set points that were kept from before, wherever it was moved meanwhile."""
+    FALLS = "falls"
+    """It is held by nothing."""
+    UNKNOWN = "unknown"
+
+
+class CommandAuthority(Term):
+    """What a moment does to who may command the device."""
+
+    UNCHANGED = "unchanged"
+    TAKEN = "taken"
+    GIVEN_BACK = "given_back"
+    UNKNOWN = "unknown"
+
+
+class ManagerLock(Term):
+    """For how long a moment keeps the controller manager from reading and writing all of its hardware."""
+
+    NONE = "none"
+    SECONDS = "seconds"
+    """Seconds, or without a limit."""
+    UNKNOWN = "unknown"
+
+
+class Need(Term):
+    """What must hold before a moment; people, or the device's own controller, bring it about."""
+
+    BRAKES_OPEN = "brakes_open"
+    INTERFACE_ENABLED = "interface_enabled"
+    """The device was told by a person to take commands of a computer at all."""
+    PROGRAM_RUNNING = "program_running"
+    PROGRAM_STOPPED = "program_stopped"
+    """No program waits for set points that would be late."""
+    NO_FAULT = "no_fault"
+    AREA_EMPTY = "area_empty"
+    NOTHING_HELD = "nothing_held"
+    PAYLOAD_TOLD = "payload_told"
+    HOMED = "homed"
+
+
+class Unmet(Term):
+    """What becomes of a moment whose need does not hold."""
+
+    REFUSED = "refused"
+    """It fails, and everything is as before."""
+    ENDS_MANAGER = "ends_manager"
+    """The process of the controller manager ends."""
+    ENDS_PROGRAM = "ends_program"
+    """A program on a device's own controller ends, because set points are late."""
+    KEEPS_SET_POINTS = "keeps_set_points"
+    """It succeeds, and the set points of that moment are sent whenever the need is met."""
+    CLEARS_FAULT = "clears_fault"
+    """The driver clears the fault without asking anybody, and goes on."""
+    UNNOTICED = "unnoticed"
+    """It succeeds as if the need were met."""
+    UNKNOWN = "unknown"
+
+
 class GateCode(Term):
     """A gate of bring-up: G from the powered-off manifest to motion, L from the cable to the command path."""
 

@@ -6,7 +6,16 @@ from typing import Annotated, Union
 
 from pydantic import BaseModel, ConfigDict, Strict, StringConstraints
 
-from cellc.vocabulary import Behaviour, Distro
+from cellc.vocabulary import (
+    Behaviour,
+    CommandAuthority,
+    Distro,
+    ManagerLock,
+    Moment,
+    Motion,
+    Need,
+    Unmet,
+)
 
 Text = Annotated[str, StringConstraints(min_length=1, max_length=1000)]
 Token = Annotated[str, StringConstraints(pattern=r"^[A-Za-z_][A-Za-z0-9_]*$", max_length=100)]
@@ -17,6 +26,12 @@ FileName = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_][A-Za-z0-9_.-
 Date = Annotated[str, StringConstraints(pattern=r"^\d{4}-\d{2}-\d{2}$")]
 DistroName = Annotated[Distro, Strict(False)]
 BehaviourName = Annotated[Behaviour, Strict(False)]
+MomentName = Annotated[Moment, Strict(False)]
+MotionName = Annotated[Motion, Strict(False)]
+AuthorityName = Annotated[CommandAuthority, Strict(False)]
+LockName = Annotated[ManagerLock, Strict(False)]
+NeedName = Annotated[Need, Strict(False)]
+UnmetName = Annotated[Unmet, Strict(False)]
 ParameterFact = Union[bool, int, float, str, tuple[Union[bool, int, float, str], ...]]
 """A ROS parameter's value; an int where a double is declared is a mistake."""
 

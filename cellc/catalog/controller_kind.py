@@ -6,6 +6,7 @@ from pydantic import Field
 
 from cellc.catalog.catalog_model import BehaviourName, CatalogModel, Date, DistroName, ParameterFact, Text, Token
 from cellc.catalog.device_interfaces import InterfaceName, PluginUse, QosUse
+from cellc.catalog.effects import EffectFacts
 from cellc.vocabulary import Distro
 
 ParameterType = Literal[
@@ -66,10 +67,11 @@ class ControllerTopic(CatalogModel):
 
 
 class ControllerService(CatalogModel):
-    """A service of a controller."""
+    """A service of a controller; ``effect`` where a call acts in the world."""
 
     name: Text
     type: Text
+    effect: EffectFacts | None = None
 
 
 class ControllerKind(CatalogModel):

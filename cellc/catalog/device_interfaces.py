@@ -7,25 +7,50 @@ from pydantic import Field
 from cellc.catalog.catalog_model import (
     BehaviourName,
     CatalogModel,
+    DistroName,
     FileName,
     GraphName,
+    MomentName,
     NodeName,
     ParameterFact,
     Text,
     Token,
 )
+from cellc.catalog.effects import EffectFacts, StartFacts
 from cellc.spec.quantity import Duration, Frequency
+from cellc.vocabulary import Distro
 
 InterfaceName = Text
 """The part after the slash: ``position``, ``force.x``, ``speed_scaling_factor``."""
 
 
+class HardwareRelease(CatalogModel):
+    """What the plugin of some releases of the driver is given beside what all are given; ``drivers`` are versions."""
+
+    distro: DistroName
+    drivers: tuple[Text, ...] = Field(min_length=1)
+    parameters: dict[Text, Text] = Field(default_factory=dict)
+    source: Text
+
+
 class HardwareFacts(CatalogModel):
-    """A hardware plugin and the ``<param>`` values that it is given."""
+    """A hardware plugin, the ``<param>`` values that it is given, and what it does in the world.
+
+    ``command_timeout`` is the longest silence of the controller manager before the device ends what it does.
+    """
 
     plugin: Text
     parameters: dict[Text, Text] = Field(default_factory=dict)
+    releases: tuple[HardwareRelease, ...] = ()
+    effects: dict[MomentName, EffectFacts] = Field(default_factory=dict)
+    start: StartFacts | None = None
+    command_timeout: Duration | None = None
     source: Text
+
+    def release(self, distro: Distro, driver: str) -> HardwareRelease | None:
+        """Return the release that a cell runs: that of its driver's version, else the first of its distribution."""
+        here = [release for release in self.releases if release.distro is distro]
+        return next((release for release in here if driver in release.drivers), here[0] if here else None)
 
 
 class HardwareByTarget(CatalogModel):
@@ -113,7 +138,10 @@ QosUse = Union[Token, QosFacts]
 
 
 class NodeFacts(CatalogModel):
-    """A node of the driver for the real target; ``publishes_tf`` where it is an authority for frames."""
+    """A node of the driver for the real target; ``publishes_tf`` where it is an authority for frames.
+
+    ``effect`` is what the start of its process does.
+    """
 
     name: NodeName
     package: Token
@@ -121,6 +149,7 @@ class NodeFacts(CatalogModel):
     parameters: dict[Text, ParameterFact] = Field(default_factory=dict)
     publishes_tf: bool = False
     provides: Literal["real", "every_target"] = "real"
+    effect: EffectFacts | None = None
     source: Text
 
 
@@ -141,14 +170,16 @@ class ServiceFacts(CatalogModel):
     name: GraphName
     type: Text
     server: GraphName
+    effect: EffectFacts | None = None
 
 
 class ActionFacts(CatalogModel):
-    """An action that the device executes."""
+    """An action that the device executes; ``effect`` where it acts past every controller."""
 
     name: GraphName
     type: Text
     server: GraphName
+    effect: EffectFacts | None = None
 
 
 class StreamFacts(CatalogModel):

@@ -12,6 +12,7 @@ from cellc.cell.interface import InterfaceKind
 from cellc.cell.site import UNKNOWN, Clock, JointFigure
 from cellc.description.model import Description
 from cellc.transforms import Pose, Vector3, identity
+from cellc.vocabulary import CommandAuthority, ManagerLock, Moment, Motion, Need, Unmet
 
 EVERY_JOINT = "*"
 """Name of what the mock adds to every joint that is commanded."""
@@ -52,10 +53,35 @@ class InterfaceGroup:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Effect:
+    """What one moment in the life of a real device does in the world.
+
+    Args:
+        needs: what must hold before it → what happens otherwise, in the distribution of the cell.
+        drops_part: what a gripper holds falls.
+        leaves: the state of the component afterwards where it is not the one that was asked for.
+        does: the same as a sentence.
+    """
+
+    motion: Motion
+    authority: CommandAuthority
+    lock: ManagerLock
+    needs: Mapping[Need, Unmet]
+    drops_part: bool
+    leaves: str | None
+    does: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class HardwareComponent:
     """A component of ros2_control; plugins and parameters by target (``mock``, ``real``).
 
-    ``targets`` are those on which it becomes a ``<ros2_control>`` tag; on any other the device's driver moves it.
+    Args:
+        targets: those on which it becomes a ``<ros2_control>`` tag; on any other the device's driver moves it.
+        effects: what the real component does at each moment that the catalog tells of.
+        initial_state: the state in which the real one is to come up.
+        at_once: from there it must become active in one call, without a stay in between.
+        command_timeout_s: the longest silence before the device ends what it does; None where nobody told.
     """
 
     name: str
@@ -64,6 +90,10 @@ class HardwareComponent:
     parameters: Mapping[str, Mapping[str, str]]
     sensors: tuple[InterfaceGroup, ...]
     gpios: tuple[InterfaceGroup, ...]
+    effects: Mapping[Moment, Effect] = field(default_factory=dict)
+    initial_state: str = "active"
+    at_once: bool = False
+    command_timeout_s: float | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -186,12 +216,16 @@ class Camera:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OfferedInterface:
-    """What a driver offers whether the spec names it or not; ``node`` is the full name of the node behind it."""
+    """What a driver offers whether the spec names it or not; ``node`` is the full name of the node behind it.
+
+    ``effect`` is what a call does where it acts past every controller.
+    """
 
     kind: InterfaceKind
     name: str
     type: str
     node: str
+    effect: Effect | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -261,6 +295,7 @@ class Device(Entity):
         controller_kinds: kinds of controllers that only this device has.
         speed_scaling: full name of the state interface that reports how far trajectories are slowed down.
         offers: what the driver offers whether the spec names it or not.
+        starts: full name of a node of the driver → what the start of its process does.
         version_rows: the matrix of versions that go together.
         mock_cannot_prove: what no mock shows of it.
     """
@@ -297,6 +332,7 @@ class Device(Entity):
     gripper: Gripper | None = None
     camera: Camera | None = None
     offers: tuple[OfferedInterface, ...] = ()
+    starts: Mapping[str, Effect] = field(default_factory=dict)
     network: NetworkNeeds | None = None
     safety: VendorSafety = field(default_factory=VendorSafety)
     packages: Packages = field(default_factory=Packages)

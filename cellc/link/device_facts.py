@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 
 from cellc.catalog.device_model import DeviceModel
@@ -16,7 +15,6 @@ from cellc.cell.device import (
     Gripper,
     LimitShares,
     NetworkNeeds,
-    OfferedInterface,
     Packages,
     Payload,
     RecoveryProcedure,
@@ -25,12 +23,13 @@ from cellc.cell.device import (
     Stamp,
     VendorSafety,
 )
-from cellc.cell.interface import InterfaceKind
+from cellc.link.hardware import offered_interfaces, started_nodes
 from cellc.link.names import Placeholders
 from cellc.link.quantities import joint_figure, si, vector
 from cellc.link.site import bind_clock
 from cellc.source.document import SourceDocument
 from cellc.spec.devices import EVERY_JOINT, DeviceSpec
+from cellc.vocabulary import Distro
 
 
 def with_statements(device: Device, written: DeviceSpec, document: SourceDocument) -> Device:
@@ -48,7 +47,9 @@ def with_statements(device: Device, written: DeviceSpec, document: SourceDocumen
     )
 
 
-def with_catalog(device: Device, facts: DeviceModel, written: DeviceSpec, known: Placeholders) -> Device:
+def with_catalog(
+    device: Device, facts: DeviceModel, written: DeviceSpec, known: Placeholders, distro: Distro | None
+) -> Device:
     """Return a device with what the catalog knows of it: what it offers, asks of its cell, and cannot prove."""
     prefix, limits, control = device.prefix, facts.limits, facts.control
     return replace(
@@ -61,7 +62,8 @@ def with_catalog(device: Device, facts: DeviceModel, written: DeviceSpec, known:
         speed_scaling=None if facts.speed_scaling is None else known.fill(facts.speed_scaling.state_interface),
         gripper=_gripper(facts, prefix),
         camera=_camera(facts, written, known, prefix),
-        offers=tuple(_offers(facts, known)),
+        offers=tuple(offered_interfaces(facts, known, distro)),
+        starts=started_nodes(facts, known, distro),
         network=_network_needs(facts),
         safety=_vendor_safety(facts),
         packages=_packages(facts),
@@ -179,17 +181,6 @@ def _camera(facts: DeviceModel, written: DeviceSpec, known: Placeholders, prefix
         ),
         exposure_s=0.0 if exposure is None else exposure.si,
     )
-
-
-def _offers(facts: DeviceModel, known: Placeholders) -> Iterator[OfferedInterface]:
-    """Yield what the driver offers, topics first, then services and actions."""
-    offered = (
-        *((InterfaceKind.TOPIC, topic.name, topic.type, topic.publisher) for topic in facts.topics),
-        *((InterfaceKind.SERVICE, service.name, service.type, service.server) for service in facts.services),
-        *((InterfaceKind.ACTION, action.name, action.type, action.server) for action in facts.actions),
-    )
-    for kind, name, type_, node in offered:
-        yield OfferedInterface(kind=kind, name=known.fill(name), type=type_, node="/" + known.fill(node))
 
 
 def _network_needs(facts: DeviceModel) -> NetworkNeeds | None:

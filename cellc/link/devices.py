@@ -7,14 +7,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from cellc.catalog.device_interfaces import GroupInterfaces, JointInterfaces
+from cellc.catalog.device_interfaces import JointInterfaces
 from cellc.catalog.device_model import AccelerationLimit, DeviceModel, JerkLimit
 from cellc.catalog.load import CatalogDevice, device_names, load_device, load_device_folder
-from cellc.cell.device import EVERY_JOINT, Device, DeviceDriver, DeviceJoint, HardwareComponent, InterfaceGroup
+from cellc.cell.device import EVERY_JOINT, Device, DeviceJoint
 from cellc.cell.frame import WORLD
 from cellc.description.model import Description, Joint
 from cellc.diagnostics import Diagnostic, Outcome, Related, Severity, Span, YamlPath, did_you_mean
 from cellc.link.device_facts import limit_shares, with_catalog, with_statements
+from cellc.link.hardware import device_driver, hardware_component
 from cellc.link.names import Placeholders, home_host, placeholders, unknown_name
 from cellc.link.quantities import pose
 from cellc.source.document import SourceDocument
@@ -22,6 +23,7 @@ from cellc.source.text import lies_under
 from cellc.spec.cell_spec import CellSpec
 from cellc.spec.devices import DeviceSpec
 from cellc.transforms import identity
+from cellc.vocabulary import Distro
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,8 +35,12 @@ class BoundDevice:
     names: Placeholders
 
 
-def link_devices(spec: CellSpec, document: SourceDocument) -> Outcome[tuple[BoundDevice, ...]]:
-    """Bind every device of the spec; parents of mounts are resolved among the devices themselves."""
+def link_devices(spec: CellSpec, document: SourceDocument, distro: Distro | None) -> Outcome[tuple[BoundDevice, ...]]:
+    """Bind every device of the spec; parents of mounts are resolved among the devices themselves.
+
+    Args:
+        distro: the distribution that decides which release of a driver runs; None where the spec names none.
+    """
     entries: dict[str, CatalogDevice] = {}
     problems: list[Diagnostic] = []
     for name, written in spec.devices.items():
@@ -50,7 +56,7 @@ def link_devices(spec: CellSpec, document: SourceDocument) -> Outcome[tuple[Boun
         parent = _parent_frame(name, written, spec, document, entries)
         problems += parent.diagnostics
         if parent.value is not None:
-            bound = _device(name, written, spec, document, entries[name], parent.value)
+            bound = _device(name, written, spec, document, entries[name], parent.value, distro)
             problems += _unknown_simulated_joints(bound.device, document)
             devices.append(bound)
     return Outcome(tuple(devices), tuple(problems))
@@ -125,7 +131,13 @@ def _frame_names(entry: CatalogDevice) -> dict[str, str]:
 
 
 def _device(
-    name: str, written: DeviceSpec, spec: CellSpec, document: SourceDocument, entry: CatalogDevice, parent: str
+    name: str,
+    written: DeviceSpec,
+    spec: CellSpec,
+    document: SourceDocument,
+    entry: CatalogDevice,
+    parent: str,
+    distro: Distro | None,
 ) -> BoundDevice:
     path = ("devices", name)
     prefix = prefix_of(name, written)
@@ -146,13 +158,13 @@ def _device(
         transform_root_to_parent=identity() if mount is None else pose(mount.xyz, mount.rpy),
         frames={short: prefix + link for short, link in _frame_names(entry).items()},
         joints=_joints(name, written, document, facts, entry.description, prefix),
-        hardware=_hardware(facts, known, prefix),
-        driver=_driver(facts, known),
+        hardware=hardware_component(facts, known, prefix, distro, written.driver),
+        driver=device_driver(facts, known),
         host=home_host(spec) if written.connection is None else written.connection.host,
         tool_frame=None if facts.tool_frame is None else prefix + facts.frames.get(facts.tool_frame, facts.tool_frame),
         carries=_carried(name, spec),
     )
-    device = with_catalog(with_statements(device, written, document), facts, written, known)
+    device = with_catalog(with_statements(device, written, document), facts, written, known, distro)
     return BoundDevice(device, facts, known)
 
 
@@ -213,53 +225,6 @@ def _interfaces(facts: DeviceModel, joint: Joint) -> JointInterfaces:
     if "*" in offered and joint.mimic is None:
         return offered["*"]
     return JointInterfaces()
-
-
-def _hardware(facts: DeviceModel, known: Placeholders, prefix: str) -> HardwareComponent | None:
-    control = facts.control
-    if control is None:
-        return None
-    by_target = {"mock": control.hardware.mock}
-    if control.hardware.real is not None:
-        by_target["real"] = control.hardware.real
-    return HardwareComponent(
-        name=known.fill(control.component),
-        targets=tuple(by_target),
-        plugins={target: hardware.plugin for target, hardware in by_target.items()},
-        parameters={
-            target: {key: known.fill(value) for key, value in hardware.parameters.items()}
-            for target, hardware in by_target.items()
-        },
-        sensors=_groups(control.sensors, prefix),
-        gpios=_groups(control.gpios, prefix),
-    )
-
-
-def _driver(facts: DeviceModel, known: Placeholders) -> DeviceDriver | None:
-    driver = facts.driver
-    if driver is None:
-        return None
-    program = next(f"{node.package}/{node.executable}" for node in facts.nodes if node.name == driver.node)
-    types = {action.name: action.type for action in facts.actions}
-    return DeviceDriver(
-        node="/" + known.fill(driver.node),
-        program=program,
-        joint_states=None if driver.joint_states is None else known.fill(driver.joint_states),
-        actions={kind: (known.fill(action), types[action]) for kind, action in driver.actions.items()},
-    )
-
-
-def _groups(groups: Mapping[str, GroupInterfaces], prefix: str) -> tuple[InterfaceGroup, ...]:
-    return tuple(
-        InterfaceGroup(
-            name=name if entry.fixed_name else prefix + name,
-            command_interfaces=entry.command,
-            state_interfaces=entry.state,
-            initial=dict(entry.initial),
-            real_only=entry.real_only,
-        )
-        for name, entry in groups.items()
-    )
 
 
 def local_device(model: str, place: Span, path: YamlPath) -> Outcome[CatalogDevice]:

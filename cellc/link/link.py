@@ -44,7 +44,7 @@ def link(spec: CellSpec, document: SourceDocument) -> Outcome[Cell]:
         The cell where every reference could be bound; all references that could not, at once.
     """
     distro = _distro(spec, document)
-    devices = link_devices(spec, document)
+    devices = link_devices(spec, document, distro.value)
     if distro.value is None or devices.value is None:
         return Outcome(None, (*distro.diagnostics, *devices.diagnostics))
     return _link_with_devices(spec, document, distro.value, devices)

@@ -10,7 +10,7 @@ from typing import Union
 
 from cellc.cell.cell import Cell
 from cellc.cell.control import Controller
-from cellc.cell.device import Device, DeviceJoint
+from cellc.cell.device import Device, DeviceJoint, HardwareComponent
 from cellc.cell.entity import Entity
 from cellc.cell.frame import Frame
 from cellc.cell.site import JointFigure
@@ -26,8 +26,9 @@ _HIDDEN = {
     Device: {
         *("vendor", "kind", "description", "home", "optical_frames", "payload_limit_kg", "update_rates_hz"),
         *("controller_kinds", "speed_scaling", "gripper", "camera", "offers", "network", "safety", "packages"),
-        *("version_rows", "mock_cannot_prove"),
+        *("version_rows", "mock_cannot_prove", "starts"),
     },
+    HardwareComponent: {"effects", "initial_state", "at_once", "command_timeout_s"},
 }
 _DERIVED = {"measured_on", "joints"}
 # What is shown of a device as the user states it.
