@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import os
-import signal
 from collections.abc import Generator, Iterator, Mapping, Sequence
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Literal
@@ -14,6 +12,7 @@ from cellc.artifact import Artifact
 from cellc.diagnostics.diagnostic import Findings
 from cellc.limits import Limits, in_force, limits
 from cellc.rules.shared_domain import Presence, presence_of, shared_domains
+from cellc.signals import deaf_children
 
 Kind = Literal["check", "compile"]
 
@@ -96,7 +95,7 @@ def in_workers(kind: Kind, files: Sequence[str], number: int) -> Generator[CellR
     """Yield results in the order of the specs, however many processes compute them; closing it ends them all.
 
     Raises:
-        KeyboardInterrupt: what had not begun was dropped, and no process is left.
+        Stopped: what had not begun was dropped, and no process is left.
     """
     # Python's machinery of processes takes longer to load than a small cell to check.
     from concurrent.futures.process import BrokenProcessPool, ProcessPoolExecutor
@@ -106,7 +105,7 @@ def in_workers(kind: Kind, files: Sequence[str], number: int) -> Generator[CellR
     pool = ProcessPoolExecutor(number, get_context("spawn"))
     done = 0
     try:
-        with _interrupts_blocked():
+        with deaf_children():
             computed = pool.map(partial(_compute_within, limits(), kind), files)
         for result in computed:
             done += 1
@@ -115,19 +114,3 @@ def in_workers(kind: Kind, files: Sequence[str], number: int) -> Generator[CellR
         yield from (compute(kind, file) for file in files[done:])
     finally:
         pool.shutdown(cancel_futures=True)
-
-
-@contextmanager
-def _interrupts_blocked() -> Iterator[None]:
-    """Block Ctrl-C here and in the processes started meanwhile, which inherit it for good.
-
-    A terminal sends Ctrl-C to all of them: only this process sees it, and ends the others in good order.
-    """
-    if not hasattr(signal, "pthread_sigmask"):
-        yield
-        return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)

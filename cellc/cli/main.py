@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import io
 import os
 import sys
@@ -11,6 +10,7 @@ from importlib import import_module
 
 import click
 
+from cellc.signals import CLOSED_PIPE, drop_output
 from cellc.version import __version__
 
 # Command → module; the function in it has the command's name.
@@ -51,16 +51,21 @@ class _LazyGroup(click.Group):
 def cellc() -> None:
     """Compile a declarative robot cell: check it, write its ROS 2 package, rehearse it on a mock.
 
-    Exit codes: 0 good, 1 findings, 2 usage. cellc never enables real motion.
+    Exit codes: 0 good, 1 findings, 2 usage, 128 + N ended by signal N. cellc never enables real motion.
     """
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Run the command and leave with its exit code; a closed pipe, a full disk or Ctrl-C end without a traceback.
+    """Run the command and leave with its exit code.
 
     Args:
         arguments: those of the process if None.
     """
+    sys.exit(run(arguments))
+
+
+def run(arguments: Sequence[str] | None = None) -> int:
+    """Run the command and return its exit code; a closed pipe or a full disk end without a traceback."""
     _prepare_streams()
     try:
         given = None if arguments is None else list(arguments)
@@ -70,20 +75,17 @@ def main(arguments: Sequence[str] | None = None) -> None:
     except click.ClickException as problem:
         problem.show()
         code = 2
-    except (click.Abort, KeyboardInterrupt):
-        print("error: interrupted; nothing was left half-written", file=sys.stderr)
-        code = 1
     except BrokenPipeError:
         # The reader of our output went away (`cellc show … | head`).
-        _discard_output()
-        code = 1
+        drop_output()
+        code = CLOSED_PIPE
     except OSError as error:
         # What a command expects of the disk it reports itself: this is a full disk under the output, and the like.
-        _discard_output()
+        drop_output()
         place = f"{error.filename}: " if error.filename else ""
         print(f"error: {place}{(error.strerror or 'unknown reason').lower()}", file=sys.stderr)
         code = 1
-    sys.exit(code or 0)
+    return int(code or 0)
 
 
 def _prepare_streams() -> None:
@@ -98,9 +100,3 @@ def _prepare_streams() -> None:
 
 def _nowhere() -> io.TextIOWrapper:
     return io.TextIOWrapper(io.FileIO(os.devnull, "w"))
-
-
-def _discard_output() -> None:
-    """Keep Python from complaining at exit of output that nobody takes."""
-    with contextlib.suppress(OSError, ValueError):
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

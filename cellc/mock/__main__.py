@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import argparse
-import contextlib
-import os
 import sys
 
-from cellc.mock.command.options import MockOptions, run_mock
+from cellc.signals import CLOSED_PIPE, drop_output, run_program
 
 
 def main() -> int:
-    """Parse the command line and run."""
+    """Parse the command line and run; the import stands inside, so that Ctrl-C while it loads ends well too."""
+    from cellc.mock.command.options import MockOptions, run_mock
+
     parser = argparse.ArgumentParser(
         prog="python -m cellc.mock", description="Run the rehearsals of a generated folder."
     )
@@ -53,24 +53,20 @@ def main() -> int:
     return run_mock(options)
 
 
-def _discard_output() -> None:
-    with contextlib.suppress(OSError, ValueError):
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-
-
-if __name__ == "__main__":
+def _guarded() -> int:
     try:
         code = main()
         if sys.stdout is not None:  # closed by who called
             sys.stdout.flush()
     except BrokenPipeError:  # who read the output has seen enough, as `head` does
-        _discard_output()
-        code = 1
+        drop_output()
+        return CLOSED_PIPE
     except OSError as problem:
-        _discard_output()
+        drop_output()
         print(f"error: {(problem.strerror or 'unknown reason').lower()}", file=sys.stderr)
-        code = 1
-    except KeyboardInterrupt:
-        print("error: interrupted; no records were written", file=sys.stderr)
-        code = 2
-    sys.exit(code)
+        return 1
+    return code
+
+
+if __name__ == "__main__":
+    sys.exit(run_program(_guarded))

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import importlib
 import math
-import signal
 import sys
-import threading
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib.abc import MetaPathFinder
 from io import BytesIO
-from types import FrameType, ModuleType
+from types import ModuleType
 from typing import Any
 
 import numpy as np
 import pinocchio
 
+from cellc.signals import held
 from cellc.transforms import Pose
 
 _MOVABLE = ("revolute", "prismatic", "continuous")
@@ -70,7 +68,7 @@ def read_by_yourdfpy(urdf: str) -> tuple[Reading, dict[str, float]]:
         RefusedError: yourdfpy does not take the description.
     """
     try:
-        with _held_interrupt():
+        with held():
             # Transforms alone: no mesh is opened, and nothing is looked up beside the text.
             robot = import_yourdfpy().URDF.load(BytesIO(urdf.encode()), load_meshes=False)
     except Exception as error:  # it lets through whatever its parts raise
@@ -152,30 +150,6 @@ class _Absent(MetaPathFinder):
         """Raise ModuleNotFoundError for a heavy library, and leave any other module to the finders after this one."""
         if name.partition(".")[0] in _HEAVY:
             raise ModuleNotFoundError(f"No module named {name!r}", name=name)
-
-
-@contextmanager
-def _held_interrupt() -> Iterator[None]:
-    """Raise a Ctrl-C that comes during the block at its end.
-
-    yourdfpy and trimesh catch every exception of attributes and optional imports, KeyboardInterrupt too, and go on
-    with what is missing then.
-    """
-    if threading.current_thread() is not threading.main_thread():
-        yield  # signals reach the main thread alone
-        return
-    pressed: list[int] = []
-
-    def hold(number: int, frame: FrameType | None) -> None:
-        pressed.append(number)
-
-    before = signal.signal(signal.SIGINT, hold)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, signal.SIG_DFL if before is None else before)
-    if pressed:
-        raise KeyboardInterrupt
 
 
 def read_by_pinocchio(urdf: str, positions: Mapping[str, float]) -> Reading:

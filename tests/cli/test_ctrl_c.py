@@ -1,4 +1,4 @@
-"""Ctrl-C at many moments of real processes: no traceback, whole files or none, nothing temporary left.
+"""Signals at many moments of real processes: no traceback, whole files or none, nothing temporary left.
 
 A moment is told by what the process does, not by the clock: when it imports a module, or calls a function for the
 n-th time. So a busy machine changes nothing.
@@ -7,6 +7,7 @@ n-th time. So a busy machine changes nothing.
 from __future__ import annotations
 
 import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -17,18 +18,17 @@ from tests.cells import ROOT
 from tests.cli.refused import everything_below
 from tests.cli.run import MINIMAL, PICK, run
 
-pytestmark = pytest.mark.skipif(os.name != "posix", reason="Ctrl-C is sent as a POSIX signal")
+pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals are those of POSIX")
 
 _START = """
 import os, signal, sys
 from importlib import import_module
 
-moment, *arguments = sys.argv[1:]
-module, _, call = moment.partition(":")
+moments, number, *arguments = sys.argv[1:]
 
-def press():
-    print("pressed", file=sys.stderr)
-    os.kill(os.getpid(), signal.SIGINT)
+def press(kill=os.kill, number=int(number), me=os.getpid(), tell=os.write):
+    tell(2, b"pressed\\n")
+    kill(me, number)
 
 def press_on_call(holder, name, number):
     original = getattr(holder, name)
@@ -40,35 +40,45 @@ def press_on_call(holder, name, number):
         return original(*given, **options)
     setattr(holder, name, called)
 
-def press_on_import(event, given):
-    if event == "import" and given[0] == module:
+def press_on_import(module):
+    sys.addaudithook(lambda event, given: press() if event == "import" and given[0] == module else None)
+
+class AtTheEnd:
+    def __del__(self, press=press):
         press()
 
-if call:
-    path, _, number = call.partition("*")
-    *parents, name = path.split(".")
-    holder = import_module(module)
-    for parent in parents:
-        holder = getattr(holder, parent)
-    press_on_call(holder, name, int(number or 1))
-else:
-    sys.addaudithook(press_on_import)
+for moment in moments.split(","):
+    module, _, call = moment.partition(":")
+    if moment == "end":
+        sys.modules["json"] = AtTheEnd()  # is let go with the modules, when Python has given back its handlers
+    elif call:
+        path, _, times = call.partition("*")
+        *parents, name = path.split(".")
+        holder = import_module(module)
+        for parent in parents:
+            holder = getattr(holder, parent)
+        press_on_call(holder, name, int(times or 1))
+    else:
+        press_on_import(module)
 sys.argv = ["cellc", *arguments]
 from cellc.__main__ import main
 main()
 """
 
 
-def _assert_interrupted(moment: str, arguments: list[str], code: int = 1) -> None:
-    """Press Ctrl-C at the moment of a command and hold that it ends well, with all its processes."""
+def _assert_interrupted(moments: str, arguments: list[str], number: signal.Signals = signal.SIGINT) -> None:
+    """Send a signal at moments of a command and hold that it ends as shells expect, with all its processes."""
+    ran = _signalled(moments, arguments, number)
+    name = "" if number == signal.SIGINT else f" by {number.name}"
+    pressed = "pressed\n" * (moments.count(",") + 1)
+    assert ran.stderr == f"{pressed}error: interrupted{name}; nothing was left half-written\n"
+    assert ran.returncode == 128 + number
+
+
+def _signalled(moments: str, arguments: list[str], number: int) -> subprocess.CompletedProcess[str]:
     # Standard error is read to its end: no process that shares it is left.
-    ran = subprocess.run(
-        [sys.executable, "-c", _START, moment, *arguments], cwd=ROOT, capture_output=True, text=True, check=False
-    )
-    assert ran.stderr.startswith("pressed\n"), ran.stderr
-    assert ran.returncode == code, ran.stderr
-    assert "Traceback" not in ran.stderr
-    assert "interrupted" in ran.stderr
+    command = [sys.executable, "-c", _START, moments, str(int(number)), *arguments]
+    return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
 
 
 @pytest.mark.parametrize(
@@ -101,6 +111,24 @@ def test_interrupted_build_leaves_the_former_folder(moment: str, tmp_path: Path)
     assert [name for name in everything_below(tmp_path) if "tmp-" in name] == []
 
 
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP, signal.SIGXCPU], ids=lambda number: number.name)
+def test_any_signal_that_asks_to_end_is_met_as_ctrl_c_is(number: signal.Signals, tmp_path: Path) -> None:
+    _assert_interrupted("cellc.store.swap:Swap.put*7", ["build", MINIMAL, "-o", str(tmp_path / "out")], number)
+    assert everything_below(tmp_path) == []
+
+
+def test_signals_that_follow_cut_no_cleaning_short(tmp_path: Path) -> None:
+    moments = "cellc.store.swap:Swap.put*7,cellc.store.swap:Swap.undo,cellc.output.write:discard"
+    _assert_interrupted(moments, ["build", MINIMAL, "-o", str(tmp_path / "out")])
+    assert everything_below(tmp_path) == []
+
+
+def test_signal_that_meets_a_finished_command_changes_nothing() -> None:
+    ran = _signalled("end", ["explain", "frame-cycle"], signal.SIGINT)
+    assert (ran.returncode, ran.stderr) == (0, "pressed\n")
+    assert ran.stdout.startswith("# frame-cycle")
+
+
 @pytest.mark.parametrize(
     "moment",
     ["cellc.rules.shared_domain:shared_domains", "cellc.rules.shared_domain:shared_domains*20"],
@@ -118,13 +146,9 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.parametrize(
-    ("moment", "code"),
-    [
-        ("cellc.mock.folder", 1),
-        ("cellc.mock.folder:read_folder", 2),
-        ("cellc.mock.command.rehearsals:write_records", 2),
-    ],
+    "moment",
+    ["cellc.mock.folder", "cellc.mock.folder:read_folder", "cellc.mock.command.rehearsals:write_records"],
 )
-def test_interrupted_mock_leaves_no_records(moment: str, code: int, built: Path, tmp_path: Path) -> None:
-    _assert_interrupted(moment, ["mock", str(built), "--records", str(tmp_path / "records.jsonl")], code)
+def test_interrupted_mock_leaves_no_records(moment: str, built: Path, tmp_path: Path) -> None:
+    _assert_interrupted(moment, ["mock", str(built), "--records", str(tmp_path / "records.jsonl")])
     assert everything_below(tmp_path) == []

@@ -6,22 +6,21 @@ import subprocess
 import sys
 
 _PROGRAM = """
-import sys, time, weakref
-from cellc.__main__ import raise_lost_interrupts
-raise_lost_interrupts()
+import os, signal, sys, time, weakref
+from cellc.signals import run_program
 class Thing: pass
-def interrupted(_): raise KeyboardInterrupt
-thing = Thing()
-reference = weakref.ref(thing, interrupted)
-try:
+def in_a_callback(_): os.kill(os.getpid(), signal.SIGTERM)
+def program():
+    thing = Thing()
+    reference = weakref.ref(thing, in_a_callback)
     del thing
     for _ in range(100): time.sleep(0.01)
-    print("lost")
-except KeyboardInterrupt:
-    print("raised again")
+    return 0
+sys.exit(run_program(program))
 """
 
 
 def test_interrupt_in_a_callback_of_a_reference_is_raised_again() -> None:
-    ran = subprocess.run([sys.executable, "-c", _PROGRAM], capture_output=True, text=True, check=True)
-    assert (ran.stdout, ran.stderr) == ("raised again\n", "")
+    ran = subprocess.run([sys.executable, "-c", _PROGRAM], capture_output=True, text=True, check=False)
+    told = "error: interrupted by SIGTERM; nothing was left half-written\n"
+    assert (ran.returncode, ran.stderr) == (143, told)

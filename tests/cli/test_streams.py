@@ -27,7 +27,7 @@ def _shell(command: str, redirection: str) -> tuple[int, str]:
 @pytest.mark.parametrize("command", _COMMANDS)
 def test_reader_that_has_seen_enough_ends_the_command_silently(command: str) -> None:
     code, told = _shell(command, "| head -n 1")
-    assert code in (0, 1)
+    assert code in (0, 1, 141)  # the last where the command had more to say
     assert told == ""
 
 

@@ -8,7 +8,6 @@ import os
 import signal
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
 from dataclasses import dataclass
 from multiprocessing import resource_tracker
 from multiprocessing.connection import Connection, wait
@@ -23,6 +22,7 @@ from cellc.mock.faults.cases import FaultCase
 from cellc.mock.folder import GeneratedFolder
 from cellc.mock.plant import Plant
 from cellc.mock.result import RehearsalResult, RunFailure, to_json_lines
+from cellc.signals import deaf_children
 
 
 def execute(cell: MockCell, run: CampaignRun, seed: int) -> RunEnd:
@@ -110,7 +110,7 @@ def run_in_workers(assignment: Assignment, jobs: int) -> Iterator[Numbered]:
     resource_tracker.ensure_running()  # it would open the ears of the first worker
     workers: list[tuple[BaseProcess, Connection]] = []
     try:
-        with _interrupts_held_back():
+        with deaf_children():
             workers += [_start() for _ in range(min(jobs, len(assignment.runs)))]
         for _, connection in workers:
             connection.send(assignment)
@@ -160,23 +160,6 @@ def _start() -> tuple[BaseProcess, Connection]:
     process.start()
     there.close()
     return process, here
-
-
-@contextmanager
-def _interrupts_held_back() -> Iterator[None]:
-    """Let children that are started meanwhile be deaf to Ctrl-C from their first instruction; their parent ends them.
-
-    They inherit the mask for good. Here a Ctrl-C that comes meanwhile is delivered afterwards. Where there are no
-    masks, children learn it in ``_work``.
-    """
-    if sys.platform == "win32":
-        yield
-        return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _work(connection: Connection) -> None:

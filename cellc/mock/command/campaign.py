@@ -39,7 +39,7 @@ def run_campaign(options: MockOptions) -> int:
         cell = load_checked(options)
         campaign = conduct_all(cell, options)
         keep_evidence_of(cell, campaign, options)
-    except (MockError, KeyboardInterrupt) as stop:
+    except MockError as stop:
         return stopped(stop)
     replay = partial(_replay_command, options)
     if options.as_json:
@@ -60,7 +60,7 @@ def replay_runs(options: MockOptions) -> int:
         campaign = _conduct(cell, named_runs, replace(options, jobs=1))
         if options.evidence is not None:
             _keep_evidence(cell, campaign, Path(options.evidence))
-    except (MockError, KeyboardInterrupt) as stop:
+    except MockError as stop:
         return stopped(stop)
     replay = partial(_replay_command, options)
     if options.as_json:
@@ -99,7 +99,7 @@ def list_runs(options: MockOptions) -> int:
     try:
         cell = load_checked(options)
         plan, _ = make_plan(cell, possible_faults(cell.contract), options.seed)
-    except (MockError, KeyboardInterrupt) as stop:
+    except MockError as stop:
         return stopped(stop)
     for run in (*plan.singles(), *plan.pairs(options.pairs, options.seed)):
         print(run.identifier)
@@ -168,11 +168,10 @@ def _end_progress(text: str) -> None:
         print(f"\r\x1b[K{text}", file=sys.stderr, flush=True)
 
 
-def stopped(stop: BaseException) -> int:
+def stopped(stop: MockError) -> int:
     """Say why nothing came of it; return the exit code."""
-    text = "interrupted; no records were written" if isinstance(stop, KeyboardInterrupt) else str(stop)
     _end_progress("")
-    print(f"error: {text}", file=sys.stderr)
+    print(f"error: {stop}", file=sys.stderr)
     return 2
 
 
@@ -187,7 +186,7 @@ def run_gates(options: MockOptions) -> int:
         results = [cell.run(name, seed=options.seed) for name in cell.rehearsals]
         campaign = conduct_all(cell, options)
         keep_evidence_of(cell, campaign, options)
-    except (MockError, KeyboardInterrupt) as stop:
+    except MockError as stop:
         return stopped(stop)
     runs = (*judged_rehearsals(cell.entries, results), *judged_campaign(campaign))
     gates = sign_gates(cell.folder, runs, options.seed)

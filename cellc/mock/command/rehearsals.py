@@ -88,9 +88,6 @@ def run_rehearsals(options: MockOptions) -> int:
     except MockError as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
-    except KeyboardInterrupt:
-        print("error: interrupted; nothing was written", file=sys.stderr)
-        return 2
     if options.as_json:
         print(to_summary_json(cell.contract.configuration_id, timed, cell.notes))
     else:

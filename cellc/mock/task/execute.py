@@ -184,7 +184,7 @@ def _result(context: TaskContext, kind: str, goal: SentGoal, timeout_s: float) -
     until_ns = context.now_ns + round(timeout_s * 1e9)
     while (goal.controller, goal.goal_id) not in context.ended:
         if context.node.requests.is_cancel_asked(kind):
-            raise AttemptError(AttemptOutcome.CANCELLED, "")
+            raise AttemptError(AttemptOutcome.CANCELLED, f"the {kind} was canceled as asked")
         if context.now_ns >= until_ns:
             raise AttemptError(AttemptOutcome.TIMEOUT, f"no result of {goal.controller} within {timeout_s:g} s")
         lost_ns = context.deactivated_ns.get(goal.controller)
