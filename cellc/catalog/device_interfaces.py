@@ -1,5 +1,6 @@
 """What a device offers: joints and their interfaces, plugins, drivers, topics, services, actions and cameras."""
 
+import re
 from typing import Literal, Union
 
 from pydantic import Field
@@ -24,6 +25,19 @@ InterfaceName = Text
 """The part after the slash: ``position``, ``force.x``, ``speed_scaling_factor``."""
 
 
+_COMMIT = re.compile(r"(?=.*[a-f])[0-9a-f]{7,40}|[0-9a-f]{40}")
+
+
+def is_commit(version: str) -> bool:
+    """Whether a version is the hash of a commit, in full or cut short: a number alone is none."""
+    return _COMMIT.fullmatch(version) is not None
+
+
+def same_version(pinned: str, known: str) -> bool:
+    """Whether a pin names a version of the catalog; a commit may be cut short."""
+    return pinned == known or (is_commit(pinned) and is_commit(known) and known.startswith(pinned))
+
+
 class HardwareRelease(CatalogModel):
     """What the plugin of some releases of the driver is given beside what all are given; ``drivers`` are versions."""
 
@@ -36,11 +50,14 @@ class HardwareRelease(CatalogModel):
 class HardwareFacts(CatalogModel):
     """A hardware plugin, the ``<param>`` values that it is given, and what it does in the world.
 
-    ``command_timeout`` is the longest silence of the controller manager before the device ends what it does.
+    ``left_out_when_empty`` are parameters that the plugin has a default for: an empty ``<param>`` makes the reader of
+    ros2_control complain. ``command_timeout`` is the longest silence of the controller manager before the device ends
+    what it does.
     """
 
     plugin: Text
     parameters: dict[Text, Text] = Field(default_factory=dict)
+    left_out_when_empty: tuple[Text, ...] = ()
     releases: tuple[HardwareRelease, ...] = ()
     effects: dict[MomentName, EffectFacts] = Field(default_factory=dict)
     start: StartFacts | None = None
@@ -50,7 +67,8 @@ class HardwareFacts(CatalogModel):
     def release(self, distro: Distro, driver: str) -> HardwareRelease | None:
         """Return the release that a cell runs: that of its driver's version, else the first of its distribution."""
         here = [release for release in self.releases if release.distro is distro]
-        return next((release for release in here if driver in release.drivers), here[0] if here else None)
+        named = (release for release in here if any(same_version(driver, known) for known in release.drivers))
+        return next(named, here[0] if here else None)
 
 
 class HardwareByTarget(CatalogModel):

@@ -43,7 +43,8 @@ def _parameters(hardware: HardwareFacts, known: Placeholders, distro: Distro | N
     """Return what the plugin is given: what all releases read, and what the one that runs here reads besides."""
     release = None if distro is None else hardware.release(distro, driver.split()[-1])
     own = {} if release is None else release.parameters
-    return {key: known.fill(value) for key, value in {**hardware.parameters, **own}.items()}
+    filled = {key: known.fill(value) for key, value in {**hardware.parameters, **own}.items()}
+    return {key: value for key, value in filled.items() if value or key not in hardware.left_out_when_empty}
 
 
 def _with_effects(component: HardwareComponent, real: HardwareFacts, distro: Distro | None) -> HardwareComponent:

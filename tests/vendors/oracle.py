@@ -6,6 +6,7 @@ A source in the catalog reads ``REPOSITORY@REF FILE:LINES``; ``; @REF :LINES`` a
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -46,6 +47,7 @@ class Release:
 
 _UR = "Universal_Robots_ROS2_Driver"
 _ROBOTIQ = "ros2_robotiq_gripper"
+_KNUCKLE = ("robotiq_85_left_knuckle_joint",)
 _ALL = (
     Release("ur5e", "universal_robots/2.14.0_humble", "humble", "ur_robot_driver 2.14.0", _UR, "2.14.0"),
     Release("ur5e", "universal_robots/3.8.0_jazzy", "jazzy", "ur_robot_driver 3.8.0", _UR, "3.8.0"),
@@ -81,3 +83,82 @@ def lines_of(source: str, release: Release) -> set[str]:
         if (repository, named[2]) == (release.repository, release.ref):
             found |= set(re.findall(r":([\d,]*\d)(?!-)\b", named[3]))
     return found
+
+
+@dataclass(frozen=True, slots=True)
+class Demands:
+    """What a plugin wants of the joints of its component; ``exactly`` where further state interfaces are refused."""
+
+    joints: tuple[str, ...]
+    command: tuple[str, ...]
+    state: tuple[str, ...]
+    further_command: tuple[str, ...] = ()
+    exactly: bool = False
+
+
+def demands(release: Release) -> Demands:
+    """Return what the plugin of a release wants; the wording of each vendor's facts is read here and nowhere else."""
+    told = facts(release, "hardware_interfaces")
+    if release.repository == _UR:
+        joints = told["demanded_of_urdf"]["joints"]
+        optional = {name for name, how in joints["command_interfaces"].items() if how.startswith("optional")}
+        command = tuple(name for name in joints["command_interfaces"] if name not in optional)
+        return Demands(tuple(joints["order"]), command, tuple(joints["state_interfaces"]), tuple(optional))
+    if release.repository == _ROBOTIQ:
+        joints = told["demanded_of_urdf"]["joints"]
+        assert joints["state_interfaces"] == "exactly 2, position and velocity"
+        further = ("set_gripper_max_velocity", "set_gripper_max_effort")
+        one = joints["command_interfaces"] == "exactly 1, position"
+        return Demands(_KNUCKLE, ("position",), ("position", "velocity"), () if one else further, True)
+    joints = told["demanded_of_the_urdf"]
+    names = tuple(f"fr3_joint{number}" for number in range(1, 8))
+    assert joints["joint_names"].startswith("<arm_prefix_><robot_type>_joint1 .. 7, in this order")
+    return Demands(names, (), (), tuple(joints["vendor_declares"]))
+
+
+def exports(release: Release, side: str, prefix: str) -> dict[str, set[str]]:
+    """Return what the plugin exports, by the name before the slash; ``<joint>`` stands for every joint.
+
+    Args:
+        side: ``command`` or ``state``.
+        prefix: that of the device in the cell.
+    """
+    told = facts(release, "hardware_interfaces")
+    if release.repository == "franka_ros2":
+        return _exports_of_fr3(told, side, prefix)
+    found: dict[str, set[str]] = {}
+    for name, listed in told[f"exports_{side}"].items():
+        names = listed["interfaces"] if isinstance(listed, dict) else listed
+        found[name.replace("<tf_prefix>", prefix)] = set(_counted(names))
+    return found
+
+
+def _exports_of_fr3(told: Any, side: str, prefix: str) -> dict[str, set[str]]:
+    joints = told["demanded_of_the_urdf"]
+    found = {"<joint>": set(joints["vendor_declares"])}
+    if side == "state":
+        sensor = told["sensor"] if "sensor" in told else joints["sensor"]
+        found[sensor["name"].replace("<p><robot_type>", f"{prefix}fr3")] = set(sensor["state_interfaces"])
+        found[f"{prefix}fr3"] = {"robot_state", "robot_model", "robot_time"}
+    return found
+
+
+def _counted(names: Iterable[str]) -> Iterator[str]:
+    """Yield names with ``_[0..17]`` written out."""
+    for name in names:
+        counted = re.fullmatch(r"(.*)\[(\d+)\.\.(\d+)\](.*)", name)
+        if counted is None:
+            yield name
+        else:
+            yield from (f"{counted[1]}{one}{counted[4]}" for one in range(int(counted[2]), int(counted[3]) + 1))
+
+
+def update_rate(release: Release) -> int | None:
+    """Return the rate at which the vendor runs the controller manager for this device; None where it takes any."""
+    rate = (
+        facts(release, "hardware_interfaces").get("update_rate_hz")
+        or facts(release, "hardware_interfaces")["update_rate"]
+    )
+    if release.repository == _UR:
+        return int(rate["per_type"][release.device])
+    return int(rate["hz"]) if "hz" in rate else None

@@ -1,0 +1,89 @@
+"""The real targets of the repository's cells, as each is emitted for every release of a driver that was read."""
+
+from __future__ import annotations
+
+import re
+import tempfile
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+from cellc.cell.cell import Cell
+from cellc.deploy.deployment import plan_deployment
+from cellc.emit import description, package, parameters
+from cellc.emit.launch import launch
+from cellc.emit.security import policy
+from tests.cells import CELLS, graph_of, spec_text
+from tests.foreign_yaml import safe_load
+from tests.vendors.oracle import RELEASES, Release
+
+
+@dataclass(frozen=True, slots=True)
+class RealTarget:
+    """What is written for one cell with one release of the driver of one of its devices."""
+
+    cell: Cell
+    device: str
+    release: Release
+    texts: dict[str, str]
+
+    def yaml(self, path: str) -> Any:
+        """Return the data of a parameter file."""
+        return safe_load(self.texts[path])
+
+    @property
+    def component(self) -> ElementTree.Element:
+        """The ``<ros2_control>`` tag of the device in the description."""
+        root = ElementTree.fromstring(self.texts[f"urdf/{self.cell.name}.real.urdf"])
+        hardware = self.cell.device(self.device).hardware
+        assert hardware is not None
+        (tag,) = (tag for tag in root.findall("ros2_control") if tag.get("name") == hardware.name)
+        return tag
+
+    @property
+    def prefix(self) -> str:
+        """What stands before the ROS names of the device."""
+        return self.cell.device(self.device).prefix
+
+
+_EMITTERS = (description.emit, parameters.emit, launch.emit, policy.emit, package.emit)
+
+
+def _written(text: str, model: str, release: Release) -> str:
+    """Return a spec for the distribution of a release, with the driver of the device pinned to it."""
+    text = re.sub(r"\bros: \w+", f"ros: {release.distro}", text)
+    block = re.compile(rf"(model: {model}\n(?:    .*\n)*?    driver: ).*\n")
+    return block.sub(rf"\g<1>{release.driver}\n", text)
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """A cell, and the release of the driver of one of its devices."""
+
+    cell: str
+    release: Release
+
+    def __str__(self) -> str:
+        return f"{self.cell}-{self.release}"
+
+
+CASES = tuple(
+    Case(cell, release) for cell in CELLS for release in RELEASES if f"model: {release.device}\n" in spec_text(cell)
+)
+"""Every cell of the repository with every release of every driver in it; none where the shared folder is absent."""
+
+
+@cache
+def real_target(case: Case) -> RealTarget:
+    """Return the files of a case; the rules are not asked, because a pin may be one that no distribution releases."""
+    release = case.release
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "cell.yaml"
+        path.write_text(_written(spec_text(case.cell), release.device, release), encoding="utf-8")
+        graph = graph_of(path)
+    plan = plan_deployment(graph)
+    texts = {artifact.path: artifact.text for emit in _EMITTERS for artifact in emit(graph, plan)}
+    (device,) = (device.name for device in graph.cell.devices if device.model == release.device)
+    return RealTarget(graph.cell, device, release, texts)
