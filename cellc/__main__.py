@@ -12,7 +12,9 @@ from cellc.signals import run_program
 def main() -> None:
     """Run the command; what is imported stands inside, so that a signal while it loads ends without a traceback too."""
     if sys.flags.optimize > 1:
-        print("error: `python -OO` drops the docstrings, in which rules and commands keep their help", file=sys.stderr)
+        from cellc.printing import refuse
+
+        refuse("`python -OO` drops the docstrings, in which rules and commands keep their help")
         sys.exit(2)
     # A tenth of a short command went into collecting garbage. What a check makes are 80 000 objects, and they stay.
     gc.set_threshold(200_000, 20, 20)

@@ -7,6 +7,7 @@ import click
 from cellc.cli.findings import show_findings
 from cellc.cli.limit_option import limit_option
 from cellc.pipeline import check
+from cellc.printing import show_document
 
 
 @click.command()
@@ -26,4 +27,4 @@ def audit(file: str) -> None:
     from cellc.emit.audit.audit import emit
 
     for artifact in emit(checked.graph, plan_deployment(checked.graph)):
-        click.echo(artifact.text, nl=False)
+        show_document(artifact.text)

@@ -26,7 +26,7 @@ from cellc.diagnostics.diagnostic import Findings
 from cellc.output.codes import shared_output
 from cellc.output.compare import Difference, compare
 from cellc.output.write import WriteReport, write
-from cellc.report.progress import progress
+from cellc.printing import Line, progress, show
 from cellc.report.text_report import render_difference
 
 
@@ -67,7 +67,7 @@ def build(
     wanted = read_selection(select, ignore)
     built: list[Findings] = []
     places: dict[str, Span] = {}
-    told: list[str] = []
+    told: list[Line] = []
     differs = False
     with progress("building") as update:
         computed = results("compile", files)
@@ -88,7 +88,7 @@ def build(
     shown = [selected_and_errors(one, wanted) for one in built]
     show_findings(shown, output_format, hidden=number_hidden(built, shown))
     if output_format == "text" and told:
-        click.echo("\n".join(told))
+        show(*told)
     if differs:
         raise click.exceptions.Exit(1)
     finish(shown, fail_on)
@@ -118,9 +118,9 @@ def _told(report: WriteReport, folder: Path) -> str:
     return f"{folder.as_posix()}: {shown}"
 
 
-def _differences(differences: tuple[Difference, ...], folder: Path) -> list[str]:
+def _differences(differences: tuple[Difference, ...], folder: Path) -> list[Line]:
     if not differences:
         return [f"{folder.as_posix()}: as the cell makes it"]
     if not folder.is_dir():
         return [f"{folder.as_posix()}: there is no such folder; `cellc build` without `--check` writes it"]
-    return [render_difference(difference, folder) for difference in differences]
+    return [line for difference in differences for line in render_difference(difference, folder)]

@@ -22,8 +22,7 @@ from cellc.cli.findings import (
     show_findings,
 )
 from cellc.cli.limit_option import limit_option
-from cellc.report.progress import progress
-from cellc.report.terminal import escape
+from cellc.printing import Stream, progress, show
 
 if TYPE_CHECKING:
     from cellc.edit.rewrite import Edit
@@ -96,4 +95,4 @@ def _rewrite(file: str, edits: Sequence[Edit], text: str) -> None:
     except OSError as error:
         raise click.UsageError(f"`{file}` cannot be written: {(error.strerror or 'unknown reason').lower()}") from error
     for edit in edits if done else ():
-        click.echo(f"{escape(edit.file)}:{edit.line}: {escape(edit.message)}", err=True)
+        show(f"{edit.file}:{edit.line}: {edit.message}", to=Stream.ERR)

@@ -5,6 +5,8 @@ from __future__ import annotations
 import click
 from click.shell_completion import get_completion_class
 
+from cellc.printing import show_document
+
 
 @click.command()
 @click.argument("shell", type=click.Choice(["bash", "zsh", "fish"]))
@@ -13,4 +15,4 @@ def completion(context: click.Context, shell: str) -> None:
     """Print the completion script of SHELL; add `eval "$(cellc completion bash)"` to its start-up file."""
     complete = get_completion_class(shell)
     assert complete is not None
-    click.echo(complete(context.find_root().command, {}, "cellc", "_CELLC_COMPLETE").source())
+    show_document(complete(context.find_root().command, {}, "cellc", "_CELLC_COMPLETE").source())

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import os
-import sys
-
 import click
 
 from cellc.cell.cell import Cell
 from cellc.cli.findings import show_findings
 from cellc.cli.limit_option import limit_option
-from cellc.report.terminal import wants_colour
+from cellc.printing import show
 
 
 @click.command()
@@ -30,10 +27,9 @@ def diagnose(symptom: str, file: str | None) -> None:
     suspicions = suspicions_of(symptom, _cell(file))
     if not suspicions:
         layers = ", ".join(layer.title for layer in knowledge())
-        click.echo(f"UNKNOWN: no known symptom fits; rule out in this order: {layers}")
+        show(f"UNKNOWN: no known symptom fits; rule out in this order: {layers}")
         raise click.exceptions.Exit(1)
-    colour = wants_colour(sys.stdout, os.environ)
-    click.echo(render_suspicions(suspicions, colour=colour), nl=False, color=colour)
+    show(*render_suspicions(suspicions))
 
 
 def _cell(file: str | None) -> Cell | None:

@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from cellc.diagnostics import did_you_mean
+from cellc.printing import show, show_document
 from cellc.report.pages import all_pages, render_handbook, render_page
 from cellc.store.swap import write_whole
 
@@ -28,14 +29,13 @@ def explain(code: str | None, everything: bool, output: Path | None) -> None:
             raise click.UsageError("--output writes the pages of all codes: give --all too")
         for name, text in render_handbook().items():
             write_whole(output / name, text)
-        click.echo(f"wrote {output.as_posix()}")
+        show(f"wrote {output.as_posix()}")
     elif everything:
-        click.echo("\n".join(render_page(page) for page in pages.values()), nl=False)
+        show_document("\n".join(render_page(page) for page in pages.values()))
     elif code is None:
         width = max(len(known) for known in pages)
-        for known, page in pages.items():
-            click.echo(f"{known:<{width}}  {page.severity.value:<8} {page.title}")
+        show(*(f"{known:<{width}}  {page.severity.value:<8} {page.title}" for known, page in pages.items()))
     elif code in pages:
-        click.echo(render_page(pages[code]), nl=False)
+        show_document(render_page(pages[code]))
     else:
         raise click.UsageError(f"there is no code `{code}`: {did_you_mean(code, pages, 'codes')}")

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import os
-import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,8 +10,8 @@ import click
 
 from cellc.diagnostics import Diagnostic, Severity
 from cellc.diagnostics.diagnostic import Findings
+from cellc.printing import show, show_document
 from cellc.report.selection import Selection, UnknownSelectionError, selection
-from cellc.report.terminal import wants_colour
 from cellc.report.text_report import render_text, summary
 
 FORMAT = click.option(
@@ -49,15 +47,14 @@ def show_findings(found: Sequence[Findings], output_format: str, *, hidden: int 
         hidden: findings that options left out; people are told how many.
     """
     if output_format != "text":
-        click.echo(_renderer(output_format)([d for one in found for d in one.diagnostics]), nl=False)
+        _show_for_programs([d for one in found for d in one.diagnostics], output_format)
         return
-    colour = wants_colour(sys.stdout, os.environ)
     for one in found:
         if one.diagnostics:
-            click.echo(render_text(one.diagnostics, one.texts, colour=colour), color=colour)
-        click.echo(summary(one.diagnostics, [one.file], colour=colour), color=colour)
+            show(*render_text(one.diagnostics, one.texts), "")
+        show(summary(one.diagnostics, [one.file]))
     if hidden:
-        click.echo(f"{hidden} hidden by --select or --ignore")
+        show(f"{hidden} hidden by --select or --ignore")
 
 
 def number_hidden(found: Sequence[Findings], shown: Sequence[Findings]) -> int:
@@ -72,19 +69,20 @@ def finish(found: Sequence[Findings], fail_on: str) -> None:
         raise click.exceptions.Exit(1)
 
 
-def _renderer(output_format: str) -> Callable[[Sequence[Diagnostic]], str]:
-    """Return the renderer of a format for programs; each is imported only when it is asked for."""
+def _show_for_programs(found: Sequence[Diagnostic], output_format: str) -> None:
+    """Write findings in a format for programs; each renderer is imported only when it is asked for."""
     if output_format == "json":
         from cellc.report.json_report import render_json
 
-        return render_json
-    if output_format == "sarif":
+        show_document(render_json(found))
+    elif output_format == "sarif":
         from cellc.report.sarif_report import render_sarif
 
-        return lambda found: render_sarif(found, Path.cwd())
-    from cellc.report.github_report import render_github
+        show_document(render_sarif(found, Path.cwd()))
+    else:
+        from cellc.report.github_report import render_github
 
-    return lambda found: render_github(found, Path.cwd())
+        show(*render_github(found, Path.cwd()))
 
 
 def read_selection(select: Sequence[str], ignore: Sequence[str]) -> Selection:

@@ -12,6 +12,7 @@ import click
 from cellc.catalog.load import CatalogDevice, device_names, load_device
 from cellc.catalog.starter import starter_spec
 from cellc.diagnostics import did_you_mean
+from cellc.printing import show
 from cellc.store.swap import write_whole
 from cellc.vocabulary import Distro
 
@@ -48,10 +49,10 @@ def init(name: str, devices: tuple[str, ...], ros: str, output: Path | None, for
     entries = _named(devices)
     schema = Path(os.path.relpath("schemas/cell.schema.json", file.parent)).as_posix()
     write_whole(file, starter_spec(name, Distro(ros), entries, schema))
-    click.echo(f"wrote {file.as_posix()}")
-    click.echo(f"next: cellc build {shlex.quote(file.as_posix())} && cellc mock generated/{name}")
+    show(f"wrote {file.as_posix()}")
+    show(f"next: cellc build {shlex.quote(file.as_posix())} && cellc mock generated/{name}")
     if not Path("schemas/cell.schema.json").exists():
-        click.echo("for completion in an editor: cellc schema -o schemas")
+        show("for completion in an editor: cellc schema -o schemas")
 
 
 def _named(devices: tuple[str, ...]) -> dict[str, CatalogDevice]:

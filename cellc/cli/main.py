@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import io
-import os
 import sys
 from collections.abc import Sequence
+from functools import partial
 from importlib import import_module
 
 import click
 
-from cellc.signals import CLOSED_PIPE, drop_output
+from cellc.printing import Stream, run_to_end, show
 from cellc.version import __version__
 
 # Command → module; the function in it has the command's name.
@@ -65,38 +64,27 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 def run(arguments: Sequence[str] | None = None) -> int:
-    """Run the command and return its exit code; a closed pipe or a full disk end without a traceback."""
-    _prepare_streams()
+    """Run the command and return its exit code."""
+    return run_to_end(partial(_run, None if arguments is None else list(arguments)))
+
+
+def _run(arguments: list[str] | None) -> int:
     try:
-        given = None if arguments is None else list(arguments)
         # Outside standalone mode click returns the code of an Exit, and what a finished command returned: None.
-        code = cellc.main(args=given, prog_name="cellc", standalone_mode=False)
-        sys.stdout.flush()
+        return cellc.main(args=arguments, prog_name="cellc", standalone_mode=False) or 0
     except click.ClickException as problem:
-        problem.show()
-        code = 2
-    except BrokenPipeError:
-        # The reader of our output went away (`cellc show … | head`).
-        drop_output()
-        code = CLOSED_PIPE
-    except OSError as error:
-        # What a command expects of the disk it reports itself: this is a full disk under the output, and the like.
-        drop_output()
-        place = f"{error.filename}: " if error.filename else ""
-        print(f"error: {place}{(error.strerror or 'unknown reason').lower()}", file=sys.stderr)
-        code = 1
-    return int(code or 0)
+        _show_usage(problem)
+        return 2
+    except click.Abort:  # what click makes of Ctrl-C
+        raise KeyboardInterrupt from None
 
 
-def _prepare_streams() -> None:
-    # Python gives None where who started us closed the descriptor.
-    sys.stdout = sys.stdout or _nowhere()
-    sys.stderr = sys.stderr or _nowhere()
-    for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):
-            # A spec may quote what the terminal's encoding cannot: show it escaped instead of failing.
-            stream.reconfigure(errors="backslashreplace")
-
-
-def _nowhere() -> io.TextIOWrapper:
-    return io.TextIOWrapper(io.FileIO(os.devnull, "w"))
+def _show_usage(problem: click.ClickException) -> None:
+    """Print what click says of a wrong call, in click's own form; what the user wrote stays on its line."""
+    context = problem.ctx if isinstance(problem, click.UsageError) else None
+    if context is not None:
+        hint = f"Try '{context.command_path} {context.help_option_names[0]}' for help."
+        show(*context.get_usage().split("\n"), hint, "", to=Stream.ERR)
+    told = f"Error: {problem.format_message()}"
+    # Click lists the choices of a parameter that is missing, one a line.
+    show(*(told.split("\n") if isinstance(problem, click.MissingParameter) else [told]), to=Stream.ERR)

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import click
 
+from cellc.printing import show, show_document
 from cellc.spec.reference import spec_reference
 from cellc.spec.schema import schema_files
 from cellc.store.swap import write_whole
@@ -22,16 +23,16 @@ def schema(name: str | None, output: Path | None, reference: bool) -> None:
     `# yaml-language-server: $schema=PATH/cell.schema.json`.
     """
     if reference:
-        click.echo(spec_reference(), nl=False)
+        show_document(spec_reference())
         return
     files = schema_files()
     if output is not None:
         for file, text in files.items():
             write_whole(output / file, text)
-            click.echo(f"wrote {(output / file).as_posix()}")
+            show(f"wrote {(output / file).as_posix()}")
         return
     wanted = f"{(name or 'cell').removesuffix('.schema.json')}.schema.json"
     if wanted not in files:
         known = ", ".join(file.removesuffix(".schema.json") for file in files)
         raise click.UsageError(f"there is no schema `{name}`; the schemas are {known}")
-    click.echo(files[wanted], nl=False)
+    show_document(files[wanted])

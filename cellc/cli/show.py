@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import os
-import sys
-
 import click
 
 from cellc.cli.findings import show_findings
 from cellc.cli.limit_option import limit_option
 from cellc.diagnostics import did_you_mean
 from cellc.pipeline import check
+from cellc.printing import Style, Styled
+from cellc.printing import show as show_lines
 from cellc.report.resolved import Leaf, Tree, flatten, resolved_tree
-from cellc.report.terminal import wants_colour
 
 
 @click.command()
@@ -31,16 +29,13 @@ def show(file: str, path: str) -> None:
         raise click.exceptions.Exit(1)
     tree = resolved_tree(checked.graph.cell)
     if not path:
-        click.echo("\n".join(tree))
+        show_lines(*tree)
         return
     leaves = list(flatten(_at(tree, path), path))
-    colour = wants_colour(sys.stdout, os.environ)
     if not leaves:
-        click.echo(f"`{path}` is empty")
+        show_lines(f"`{path}` is empty")
     width = max((len(name) for name, _ in leaves), default=0)
-    for name, leaf in leaves:
-        origin = click.style(f"  # {leaf.origin}", dim=True) if colour else f"  # {leaf.origin}"
-        click.echo(f"{name:<{width}}  {leaf.text}{origin}", color=colour)
+    show_lines(*((f"{name:<{width}}  {leaf.text}", Styled(f"  # {leaf.origin}", Style.DIM)) for name, leaf in leaves))
 
 
 def _at(tree: Tree, path: str) -> Tree:

@@ -4,17 +4,26 @@ from __future__ import annotations
 
 import argparse
 import sys
+from functools import partial
+from typing import NoReturn
 
-from cellc.signals import CLOSED_PIPE, drop_output, run_program
+from cellc.printing import Stream, run_to_end, show
+from cellc.signals import run_program
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> NoReturn:
+        """Say what is wrong with the call; what the user wrote stays on its line."""
+        usage = self.format_usage().rstrip("\n").split("\n")
+        show(*usage, f"{self.prog}: error: {message}", to=Stream.ERR)
+        raise SystemExit(2)
 
 
 def main() -> int:
     """Parse the command line and run; the import stands inside, so that Ctrl-C while it loads ends well too."""
     from cellc.mock.command.options import MockOptions, run_mock
 
-    parser = argparse.ArgumentParser(
-        prog="python -m cellc.mock", description="Run the rehearsals of a generated folder."
-    )
+    parser = _Parser(prog="python -m cellc.mock", description="Run the rehearsals of a generated folder.")
     parser.add_argument("folder", help="folder that `cellc build` wrote")
     parser.add_argument("--campaign", action="store_true", help="run every fault at every step, and print the matrix")
     parser.add_argument("--pairs", type=int, default=0, metavar="N", help="with --campaign: runs with two faults each")
@@ -53,20 +62,5 @@ def main() -> int:
     return run_mock(options)
 
 
-def _guarded() -> int:
-    try:
-        code = main()
-        if sys.stdout is not None:  # closed by who called
-            sys.stdout.flush()
-    except BrokenPipeError:  # who read the output has seen enough, as `head` does
-        drop_output()
-        return CLOSED_PIPE
-    except OSError as problem:
-        drop_output()
-        print(f"error: {(problem.strerror or 'unknown reason').lower()}", file=sys.stderr)
-        return 1
-    return code
-
-
 if __name__ == "__main__":
-    sys.exit(run_program(_guarded))
+    sys.exit(run_program(partial(run_to_end, main)))

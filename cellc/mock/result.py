@@ -11,6 +11,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass
 from enum import Enum
 
+from cellc.diagnostics.unsafe_text import harmless_json
 from cellc.vocabulary import AttemptOutcome, Term
 
 
@@ -98,7 +99,7 @@ class AttemptRecord:
 
 def to_json_line(record: AttemptRecord) -> str:
     """Return a record as one line of JSON; floats have the shortest text that reads back to the same value."""
-    return json.dumps(asdict(record), ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+    return harmless_json(json.dumps(asdict(record), ensure_ascii=False, allow_nan=False, separators=(",", ":")))
 
 
 def to_json_lines(records: Iterable[AttemptRecord]) -> str:

@@ -1,7 +1,7 @@
 """Diagnostics as workflow commands of GitHub Actions, which shows them beside the lines of a pull request.
 
-One line a finding: ``::error file=…,line=…,col=…,endLine=…,endColumn=…,title=CODE::message``. Source: GitHub Docs,
-"Workflow commands for GitHub Actions"; escapes as in ``@actions/core``. Columns are only understood within one line.
+One line a finding: ``::error file=…,line=…,col=…,endLine=…,endColumn=…,title=CODE::message``. Columns are only
+understood within one line.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from pathlib import PurePath, PurePosixPath
 from urllib.parse import quote
 
 from cellc.diagnostics import Diagnostic, Severity
-from cellc.report.terminal import escape
+from cellc.printing import WorkflowCommand
 
 _COMMANDS = {
     Severity.ERROR: "error",
@@ -21,35 +21,25 @@ _COMMANDS = {
 }
 
 
-def render_github(diagnostics: Iterable[Diagnostic], folder: PurePath) -> str:
-    """Return one command a finding, ordered by place, each ending in a line break.
+def render_github(diagnostics: Iterable[Diagnostic], folder: PurePath) -> list[WorkflowCommand]:
+    """Return one command a finding, ordered by place.
 
     Args:
         folder: absolute; the root of the checkout, from which GitHub counts paths.
     """
-    return "".join(_command(one, folder) for one in sorted(diagnostics, key=Diagnostic.sort_key))
+    return [_command(one, folder) for one in sorted(diagnostics, key=Diagnostic.sort_key)]
 
 
-def _command(diagnostic: Diagnostic, folder: PurePath) -> str:
+def _command(diagnostic: Diagnostic, folder: PurePath) -> WorkflowCommand:
     span = diagnostic.span
-    properties: dict[str, object] = {"file": relative_file(span.file, folder), "line": span.line}
+    properties: dict[str, str | int] = {"file": relative_file(span.file, folder), "line": span.line}
     if span.line == span.end_line:
         properties |= {"col": span.column, "endLine": span.end_line, "endColumn": span.end_column}
     else:
         properties["endLine"] = span.end_line
     properties["title"] = f"{diagnostic.severity.value}[{diagnostic.code}]"
-    shown = ",".join(f"{name}={_property(str(value))}" for name, value in properties.items())
-    parts = [diagnostic.message, *([f"help: {diagnostic.help}"] if diagnostic.help else [])]
-    message = "\n".join(escape(part) for part in parts)
-    return f"::{_COMMANDS[diagnostic.severity]} {shown}::{_data(message)}\n"
-
-
-def _data(text: str) -> str:
-    return text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
-
-
-def _property(text: str) -> str:
-    return _data(text).replace(":", "%3A").replace(",", "%2C")
+    message = (diagnostic.message, *([f"help: {diagnostic.help}"] if diagnostic.help else []))
+    return WorkflowCommand(_COMMANDS[diagnostic.severity], properties, message)
 
 
 def relative_file(file: str, folder: PurePath) -> str:

@@ -12,6 +12,7 @@ import json
 from collections.abc import Iterable
 
 from cellc.diagnostics import Diagnostic, Span
+from cellc.diagnostics.unsafe_text import harmless_json
 from cellc.report.text_report import counts
 
 JSON_FORMAT = 1
@@ -25,7 +26,7 @@ def render_json(diagnostics: Iterable[Diagnostic]) -> str:
         "diagnostics": [_diagnostic(diagnostic) for diagnostic in ordered],
         "summary": counts(ordered),
     }
-    return json.dumps(report, indent=2) + "\n"
+    return harmless_json(json.dumps(report, indent=2)) + "\n"
 
 
 def _diagnostic(diagnostic: Diagnostic) -> dict[str, object]:

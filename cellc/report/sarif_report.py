@@ -13,9 +13,9 @@ from pathlib import PurePath
 
 from cellc.diagnostics import Diagnostic, Severity, Span, format_path
 from cellc.diagnostics.diagnostic import CodePage
+from cellc.diagnostics.unsafe_text import escaped, harmless_json
 from cellc.report.github_report import file_uri
 from cellc.report.pages import all_pages, family_of, render_page
-from cellc.report.terminal import escape
 from cellc.version import __version__
 
 _SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
@@ -46,7 +46,8 @@ def render_sarif(diagnostics: Iterable[Diagnostic], folder: PurePath) -> str:
         "columnKind": "unicodeCodePoints",
         "results": [_result(diagnostic, codes.index(diagnostic.code), folder) for diagnostic in ordered],
     }
-    return json.dumps({"$schema": _SCHEMA, "version": "2.1.0", "runs": [run]}, indent=2) + "\n"
+    log = {"$schema": _SCHEMA, "version": "2.1.0", "runs": [run]}
+    return harmless_json(json.dumps(log, indent=2)) + "\n"
 
 
 def _rule(page: CodePage) -> dict[str, object]:
@@ -63,8 +64,8 @@ def _rule(page: CodePage) -> dict[str, object]:
 
 
 def _result(diagnostic: Diagnostic, index: int, folder: PurePath) -> dict[str, object]:
-    message = escape(diagnostic.message)
-    advice = f"\nhelp: {escape(diagnostic.help)}" if diagnostic.help else ""
+    message = escaped(diagnostic.message)
+    advice = f"\nhelp: {escaped(diagnostic.help)}" if diagnostic.help else ""
     result: dict[str, object] = {
         "ruleId": diagnostic.code,
         "ruleIndex": index,
@@ -75,7 +76,7 @@ def _result(diagnostic: Diagnostic, index: int, folder: PurePath) -> dict[str, o
     }
     if diagnostic.related:
         result["relatedLocations"] = [
-            {"id": number, **_place(related.span, folder), "message": {"text": escape(related.message)}}
+            {"id": number, **_place(related.span, folder), "message": {"text": escaped(related.message)}}
             for number, related in enumerate(diagnostic.related, 1)
         ]
     return result
@@ -84,7 +85,7 @@ def _result(diagnostic: Diagnostic, index: int, folder: PurePath) -> dict[str, o
 def _location(diagnostic: Diagnostic, folder: PurePath) -> dict[str, object]:
     location = _place(diagnostic.span, folder)
     if diagnostic.yaml_path:
-        location["logicalLocations"] = [{"fullyQualifiedName": escape(format_path(diagnostic.yaml_path))}]
+        location["logicalLocations"] = [{"fullyQualifiedName": escaped(format_path(diagnostic.yaml_path))}]
     return location
 
 

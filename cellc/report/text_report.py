@@ -1,4 +1,4 @@
-"""Findings, differences and diagnoses as text for people."""
+"""Findings, differences and diagnoses as lines for people."""
 
 from __future__ import annotations
 
@@ -8,39 +8,45 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from cellc.diagnostics import Diagnostic, Severity
-from cellc.report.terminal import BLUE, BOLD, GREEN, SEVERITY_COLOURS, Lines, escape, paint, render_snippet
+from cellc.printing import Line, Style, Styled
+from cellc.report.snippet import Texts, render_snippet
 
 if TYPE_CHECKING:
     from cellc.diagnose.diagnose import Cause, Suspicion
     from cellc.output.compare import Difference
 
+SEVERITY_STYLES: Mapping[Severity, Style] = {
+    Severity.ERROR: Style.RED,
+    Severity.BLOCKER: Style.MAGENTA,
+    Severity.WARNING: Style.YELLOW,
+    Severity.AUDIT: Style.CYAN,
+}
 
-def render_text(diagnostics: Iterable[Diagnostic], texts: Mapping[str, str], *, colour: bool) -> str:
+
+def render_text(diagnostics: Iterable[Diagnostic], texts: Mapping[str, str]) -> list[Line]:
     """Return every finding with its place, ordered by place and separated by empty lines.
 
     Args:
         texts: the text of every file that was read, by the name that spans carry, with line breaks as ``\\n``.
-
-    Returns:
-        Text that ends in a line break, or nothing where there is no finding.
     """
-    lines: Lines = {file: text.split("\n") for file, text in texts.items()}
-    blocks = [_render(diagnostic, lines, colour) for diagnostic in sorted(diagnostics, key=Diagnostic.sort_key)]
-    return "\n\n".join(blocks) + "\n" if blocks else ""
+    lines: Texts = {file: text.split("\n") for file, text in texts.items()}
+    shown: list[Line] = []
+    for diagnostic in sorted(diagnostics, key=Diagnostic.sort_key):
+        shown += ["", *_render(diagnostic, lines)]
+    return shown[1:]
 
 
-def _render(diagnostic: Diagnostic, lines: Lines, colour: bool) -> str:
-    style = SEVERITY_COLOURS[diagnostic.severity]
-    head = paint(f"{diagnostic.severity.value}[{escape(diagnostic.code)}]", style, colour)
+def _render(diagnostic: Diagnostic, texts: Texts) -> Iterator[Line]:
+    style = SEVERITY_STYLES[diagnostic.severity]
     gutter = _gutter(diagnostic)
-    shown = [head + paint(f": {escape(diagnostic.message)}", BOLD, colour)]
-    shown += render_snippet(diagnostic.span, lines, gutter=gutter, mark="^", style=style, colour=colour)
+    head = Styled(f"{diagnostic.severity.value}[{diagnostic.code}]", style)
+    yield head, Styled(f": {diagnostic.message}", Style.BOLD)
+    yield from render_snippet(diagnostic.span, texts, gutter=gutter, mark="^", style=style)
     for related in diagnostic.related:
-        shown.append(f"{paint('note', BLUE, colour)}: {escape(related.message)}")
-        shown += render_snippet(related.span, lines, gutter=gutter, mark="-", style=BLUE, colour=colour)
+        yield Styled("note", Style.BLUE), f": {related.message}"
+        yield from render_snippet(related.span, texts, gutter=gutter, mark="-", style=Style.BLUE)
     if diagnostic.help:
-        shown.append(f"{paint('help', GREEN, colour)}: {escape(diagnostic.help)}")
-    return "\n".join(shown)
+        yield Styled("help", Style.GREEN), f": {diagnostic.help}"
 
 
 def _gutter(diagnostic: Diagnostic) -> int:
@@ -62,21 +68,23 @@ def counts(diagnostics: Iterable[Diagnostic]) -> dict[str, int]:
     return {severity.value: found[severity] for severity in Severity}
 
 
-def summary(diagnostics: Iterable[Diagnostic], files: Sequence[str], *, colour: bool = False) -> str:
-    """Return such as ``2 errors, 1 blocker in cells/a.yaml``, or that nothing was found; without line break.
+def summary(diagnostics: Iterable[Diagnostic], files: Sequence[str]) -> Line:
+    """Return such as ``2 errors, 1 blocker in cells/a.yaml``, or that nothing was found.
 
     Args:
         files: the specs that were checked, as the user named them.
     """
     found = counts(diagnostics)
-    parts = [_part(severity, found[severity.value], colour) for severity in Severity if found[severity.value]]
-    place = escape(files[0]) if len(files) == 1 else f"{len(files)} files"
-    return f"{', '.join(parts) or paint('no findings', GREEN, colour)} in {place}"
+    parts = [_part(severity, found[severity.value]) for severity in Severity if found[severity.value]]
+    place = files[0] if len(files) == 1 else f"{len(files)} files"
+    told = parts or [Styled("no findings", Style.GREEN)]
+    listed = (piece for part in told for piece in (", ", part))
+    return (*tuple(listed)[1:], f" in {place}")
 
 
-def _part(severity: Severity, number: int, colour: bool) -> str:
+def _part(severity: Severity, number: int) -> Styled:
     singular, plural = _NOUNS[severity]
-    return paint(f"{number} {singular if number == 1 else plural}", SEVERITY_COLOURS[severity], colour)
+    return Styled(f"{number} {singular if number == 1 else plural}", SEVERITY_STYLES[severity])
 
 
 _WHY = {
@@ -87,44 +95,45 @@ _WHY = {
 }
 
 
-def render_difference(difference: Difference, folder: Path) -> str:
-    """Write one difference: the file, why it differs, and its first differing line."""
+def render_difference(difference: Difference, folder: Path) -> list[Line]:
+    """Return one difference: the file, why it differs, and its first differing line."""
     path = (folder / difference.path).as_posix()
-    text = f"{path}: {_WHY[difference.kind]}"
-    if difference.line:
-        text = f"{path}:{difference.line}: {_WHY[difference.kind]}"
-        text += f"\n  - {_line(difference.found)}\n  + {_line(difference.expected)}"
-    return text
+    if not difference.line:
+        return [f"{path}: {_WHY[difference.kind]}"]
+    head = f"{path}:{difference.line}: {_WHY[difference.kind]}"
+    return [head, f"  - {_cut(difference.found)}", f"  + {_cut(difference.expected)}"]
 
 
-def _line(line: str | None) -> str:
-    return "(end of file)" if line is None else escape(line)[:160]
+def _cut(line: str | None) -> str:
+    return "(end of file)" if line is None else line[:160]
 
 
-def render_suspicions(suspicions: tuple[Suspicion, ...], *, colour: bool) -> str:
-    """Return every suspicion with its hypotheses, the best first, ending in a line break."""
-    blocks = ["\n".join(_suspicion(one, colour)) for one in suspicions]
-    return "\n\n".join(blocks) + "\n"
+def render_suspicions(suspicions: tuple[Suspicion, ...]) -> list[Line]:
+    """Return every suspicion with its hypotheses, the best first, separated by empty lines."""
+    shown: list[Line] = []
+    for one in suspicions:
+        shown += ["", *_suspicion(one)]
+    return shown[1:]
 
 
-def _suspicion(suspicion: Suspicion, colour: bool) -> Iterator[str]:
-    yield paint(f"{suspicion.layer}: {suspicion.symptom}", BOLD, colour)
+def _suspicion(suspicion: Suspicion) -> Iterator[Line]:
+    yield (Styled(f"{suspicion.layer}: {suspicion.symptom}", Style.BOLD),)
     if suspicion.evidence:
-        yield f"  the line names: {escape(', '.join(suspicion.evidence))}"
+        yield f"  the line names: {', '.join(suspicion.evidence)}"
     for name in suspicion.unknown:
-        yield f"  {escape(name)} is not part of this cell"
+        yield f"  {name} is not part of this cell"
     for number, cause in enumerate(suspicion.causes, 1):
-        yield from _cause(number, cause, colour)
+        yield from _cause(number, cause)
     yield f"  do not: {suspicion.never}"
-    yield f"  who decides: {escape(suspicion.owner)}"
+    yield f"  who decides: {suspicion.owner}"
     yield f"  source: {suspicion.source}"
 
 
-def _cause(number: int, cause: Cause, colour: bool) -> Iterator[str]:
+def _cause(number: int, cause: Cause) -> Iterator[Line]:
     yield f"  {number}. {cause.text}?"
     for step in cause.steps:
         mark = "$" if step.is_command else "look at"
-        yield f"     {paint(mark, BLUE, colour)} {escape(step.action)}"
-        yield f"       {paint('ruled out if', GREEN, colour)} {escape(step.refuted)}"
+        yield "     ", Styled(mark, Style.BLUE), f" {step.action}"
+        yield "       ", Styled("ruled out if", Style.GREEN), f" {step.refuted}"
     if cause.omitted:
         yield f"     and the same for {cause.omitted} more; name one in the symptom to see it alone"

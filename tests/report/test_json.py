@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 
 from cellc.diagnostics import Related, Severity, Span
-from cellc.report import render_json
+from cellc.report.json_report import render_json
 from tests.report.findings import FILE, finding
 
 

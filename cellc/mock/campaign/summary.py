@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 
 from cellc.contract.rehearsals import RehearsalEntry, StepEntry
+from cellc.diagnostics.unsafe_text import harmless_json
 from cellc.mock.campaign.campaign import Campaign
 from cellc.mock.campaign.limits import CommandStep, LimitsReport
 from cellc.mock.campaign.plan import RunEnd
@@ -205,7 +206,7 @@ def campaign_json(campaign: Campaign, notes: Sequence[str], replay: ReplayComman
         "limits": _limits(campaign.limits),
         "notes": list(notes),
     }
-    return json.dumps(content, ensure_ascii=False, indent=2)
+    return harmless_json(json.dumps(content, ensure_ascii=False, indent=2))
 
 
 def _run(end: RunEnd, replay: ReplayCommand) -> dict[str, object]:

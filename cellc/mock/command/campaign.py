@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import shlex
-import sys
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
@@ -12,6 +11,7 @@ from pathlib import Path
 from time import perf_counter
 
 from cellc.diagnostics import nearest
+from cellc.diagnostics.unsafe_text import harmless_json
 from cellc.mock.campaign.campaign import Campaign, conduct, make_plan, usable_cores
 from cellc.mock.campaign.plan import CampaignPlan, CampaignRun
 from cellc.mock.campaign.summary import campaign_json, campaign_lines, end_lines
@@ -23,6 +23,7 @@ from cellc.mock.faults.registry import possible_faults
 from cellc.mock.gates.gate import GateResult, Verdict, gate_lines, gates_as_data
 from cellc.mock.gates.runs import judged_campaign, judged_rehearsals
 from cellc.mock.gates.sign import sign_gates
+from cellc.printing import progress, refuse, remark, show, show_document
 
 Choice = Callable[[CampaignPlan], Sequence[CampaignRun]]
 
@@ -43,9 +44,9 @@ def run_campaign(options: MockOptions) -> int:
         return stopped(stop)
     replay = partial(_replay_command, options)
     if options.as_json:
-        print(campaign_json(campaign, cell.notes, replay))
+        show_document(campaign_json(campaign, cell.notes, replay))
     else:
-        print("\n".join((*(f"note: {note}" for note in cell.notes), *campaign_lines(campaign, replay))))
+        show(*(f"note: {note}" for note in cell.notes), *campaign_lines(campaign, replay))
     return 0 if campaign.passed else 1
 
 
@@ -64,9 +65,9 @@ def replay_runs(options: MockOptions) -> int:
         return stopped(stop)
     replay = partial(_replay_command, options)
     if options.as_json:
-        print(campaign_json(replace(campaign, baselines=()), cell.notes, replay))
+        show_document(campaign_json(replace(campaign, baselines=()), cell.notes, replay))
     else:
-        print("\n".join(line for end in campaign.ends for line in end_lines(end, replay(end.run.identifier))))
+        show(*(line for end in campaign.ends for line in end_lines(end, replay(end.run.identifier))))
     return 0 if all(end.passed for end in campaign.ends) else 1
 
 
@@ -101,8 +102,7 @@ def list_runs(options: MockOptions) -> int:
         plan, _ = make_plan(cell, possible_faults(cell.contract), options.seed)
     except MockError as stop:
         return stopped(stop)
-    for run in (*plan.singles(), *plan.pairs(options.pairs, options.seed)):
-        print(run.identifier)
+    show(*(run.identifier for run in (*plan.singles(), *plan.pairs(options.pairs, options.seed))))
     return 0
 
 
@@ -134,11 +134,13 @@ def _conduct(cell: MockCell, choose: Choice, options: MockOptions) -> Campaign:
     plan, baselines = make_plan(cell, possible_faults(cell.contract), options.seed)
     runs = choose(plan)
     jobs = usable_cores() if options.jobs is None else options.jobs
-    campaign = conduct(cell, runs, baselines, seed=options.seed, jobs=jobs, progress=_tell_progress)
+    with progress("campaign") as update:
+        told = partial(_tell_progress, update)
+        campaign = conduct(cell, runs, baselines, seed=options.seed, jobs=jobs, progress=told)
     if options.records is not None:
         attempts = (record for end in campaign.all_ends for record in end.result.attempts)
         write_records(Path(options.records), attempts)
-    _end_progress(f"{len(runs)} runs in {perf_counter() - begun:.1f} s, {jobs} processes")
+    remark(f"{len(runs)} runs in {perf_counter() - begun:.1f} s, {jobs} processes")
     return campaign
 
 
@@ -157,21 +159,13 @@ def _replay_command(options: MockOptions, identifier: str) -> str:
     return f"{options.program} {shlex.quote(options.folder)} --replay {shlex.quote(identifier)}{seed}"
 
 
-def _tell_progress(done: int, total: int, failed: int) -> None:
-    if sys.stderr.isatty():
-        text = f"run {done} of {total}" + (f", {failed} failed" if failed else "")
-        print(f"\r\x1b[K{text}", end="", file=sys.stderr, flush=True)
-
-
-def _end_progress(text: str) -> None:
-    if sys.stderr.isatty():
-        print(f"\r\x1b[K{text}", file=sys.stderr, flush=True)
+def _tell_progress(update: Callable[[str], None], done: int, total: int, failed: int) -> None:
+    update(f"run {done} of {total}" + (f", {failed} failed" if failed else ""))
 
 
 def stopped(stop: MockError) -> int:
     """Say why nothing came of it; return the exit code."""
-    _end_progress("")
-    print(f"error: {stop}", file=sys.stderr)
+    refuse(str(stop))
     return 2
 
 
@@ -191,9 +185,10 @@ def run_gates(options: MockOptions) -> int:
     runs = (*judged_rehearsals(cell.entries, results), *judged_campaign(campaign))
     gates = sign_gates(cell.folder, runs, options.seed)
     if options.as_json:
-        print(json.dumps({"gates": gates_as_data(gates), "notes": list(cell.notes)}, ensure_ascii=False, indent=2))
+        judged = {"gates": gates_as_data(gates), "notes": list(cell.notes)}
+        show_document(harmless_json(json.dumps(judged, ensure_ascii=False, indent=2)))
     else:
-        print("\n".join(gate_lines(gates)).rstrip())
+        show(*list(gate_lines(gates))[:-1])
     return 1 if any(_failed(gate) for gate in gates) else 0
 
 

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
 
+from cellc.diagnostics.unsafe_text import harmless_json
 from cellc.mock.cell import MockCell, load
 from cellc.mock.command.options import MockOptions, refuse_foreign, write_records
 from cellc.mock.errors import MockError
 from cellc.mock.result import RehearsalResult
+from cellc.printing import progress, refuse, show, show_document
 
 if TYPE_CHECKING:
     from cellc.mock.command.evidence import EvidenceCollector
@@ -44,7 +45,7 @@ def to_summary_json(configuration_id: str, timed: Sequence[TimedResult], notes: 
         for each in timed
     ]
     summary = {"configuration_id": configuration_id, "rehearsals": rehearsals, "notes": list(notes)}
-    return json.dumps(summary, ensure_ascii=False, indent=2)
+    return harmless_json(json.dumps(summary, ensure_ascii=False, indent=2))
 
 
 def to_lines(timed: Sequence[TimedResult], notes: Sequence[str]) -> Iterator[str]:
@@ -86,12 +87,12 @@ def run_rehearsals(options: MockOptions) -> int:
             records = (record for each in timed for record in each.result.attempts)
             write_records(Path(options.records), records)
     except MockError as error:
-        print(f"error: {error}", file=sys.stderr)
+        refuse(str(error))
         return 2
     if options.as_json:
-        print(to_summary_json(cell.contract.configuration_id, timed, cell.notes))
+        show_document(to_summary_json(cell.contract.configuration_id, timed, cell.notes))
     else:
-        print("\n".join(to_lines(timed, cell.notes)))
+        show(*to_lines(timed, cell.notes))
     return 0 if timed and all(each.result.passed for each in timed) else 1
 
 
@@ -105,16 +106,13 @@ def _run(cell: MockCell, names: Sequence[str], options: MockOptions) -> list[Tim
 
 
 def _timed(names: Sequence[str], run: Callable[[str], RehearsalResult]) -> list[TimedResult]:
-    on_terminal = sys.stderr.isatty()
     timed: list[TimedResult] = []
-    for number, name in enumerate(names, start=1):
-        if on_terminal:
-            print(f"\r\x1b[Krehearsal {number} of {len(names)}: {name}", end="", file=sys.stderr, flush=True)
-        begun = perf_counter()
-        result = run(name)
-        timed.append(TimedResult(result, perf_counter() - begun))
-    if on_terminal:
-        print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+    with progress("mock") as update:
+        for number, name in enumerate(names, start=1):
+            update(f"rehearsal {number} of {len(names)}, {name}")
+            begun = perf_counter()
+            result = run(name)
+            timed.append(TimedResult(result, perf_counter() - begun))
     return timed
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import BinaryIO
 from urllib.parse import quote
 
+from cellc.diagnostics.unsafe_text import harmless_json
 from cellc.mock.errors import MockError
 from cellc.store.swap import Swap, discard, is_alive, others, staging_of
 
@@ -91,7 +92,8 @@ class EvidenceFolder:
         self._refuse_edited(self._names)
         new = self._staging / "new"
         hashes = {name: _sha256(new / name) for name in sorted(self._names)}
-        self.write(INDEX, json.dumps({"format": 1, **identity, "files": hashes}, ensure_ascii=False, indent=2) + "\n")
+        index = json.dumps({"format": 1, **identity, "files": hashes}, ensure_ascii=False, indent=2)
+        self.write(INDEX, harmless_json(index) + "\n")
         former = {*_hashes(self._folder), *(name for staging in self._stale for name in _hashes(staging / "new"))}
         try:
             self._swap(sorted(former - set(hashes) - {INDEX}), [*hashes, INDEX])

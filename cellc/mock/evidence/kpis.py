@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass
 
 from cellc.contract.contract import ContractKpis
 from cellc.contract.rehearsals import RehearsalEntry
+from cellc.diagnostics.unsafe_text import harmless_json
 from cellc.mock.evidence.run_trace import StateChange, TraceResult
 from cellc.mock.result import AttemptRecord, PacketStep, RehearsalResult
 from cellc.vocabulary import AttemptOutcome
@@ -78,7 +79,7 @@ def to_kpi_json(entry: RehearsalEntry, result: RehearsalResult, figures: Sequenc
         "faults": [fault.kind for fault in entry.faults],
         "kpis": [asdict(figure) for figure in figures],
     }
-    return json.dumps(content, ensure_ascii=False, allow_nan=False, indent=2) + "\n"
+    return harmless_json(json.dumps(content, ensure_ascii=False, allow_nan=False, indent=2)) + "\n"
 
 
 def _at_most(name: str, value: float | None, target: float | None) -> Kpi:

@@ -6,7 +6,7 @@ import io
 
 import pytest
 
-from cellc.report import progress, wants_colour
+from cellc.printing import progress, wants_colour
 
 
 class _Terminal(io.StringIO):
@@ -39,8 +39,8 @@ class _Clock:
     ],
 )
 def test_colour_follows_the_conventions(environment: dict[str, str], on_terminal: bool, in_pipe: bool) -> None:
-    assert wants_colour(_Terminal(), environment) is on_terminal
-    assert wants_colour(io.StringIO(), environment) is in_pipe
+    assert wants_colour(True, environment) is on_terminal
+    assert wants_colour(False, environment) is in_pipe
 
 
 def test_progress_is_silent_for_a_second_and_erased_at_the_end() -> None:

@@ -1,71 +1,14 @@
-"""Text for a terminal: colours, harmless escapes, and the line of a file that a finding marks."""
+"""The line of a file that a finding marks."""
 
 from __future__ import annotations
 
 import unicodedata
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Protocol
 
-from cellc.diagnostics import Severity, Span
-
-_RESET = "\x1b[0m"
-BOLD = "\x1b[1m"
-BLUE = "\x1b[1;34m"
-GREEN = "\x1b[32m"
-SEVERITY_COLOURS: Mapping[Severity, str] = {
-    Severity.ERROR: "\x1b[1;31m",
-    Severity.BLOCKER: "\x1b[1;35m",
-    Severity.WARNING: "\x1b[1;33m",
-    Severity.AUDIT: "\x1b[1;36m",
-}
-
-
-class Stream(Protocol):
-    """What is asked of an output stream."""
-
-    def isatty(self) -> bool:
-        """Whether a person reads it on a terminal."""
-
-
-def wants_colour(stream: Stream, environment: Mapping[str, str]) -> bool:
-    """Return whether to colour what goes to ``stream``.
-
-    NO_COLOR (no-color.org) wins over FORCE_COLOR (force-color.org) and CLICOLOR_FORCE, these over CLICOLOR
-    (bixense.com/clicolors); without them a terminal is coloured unless it is dumb.
-    """
-    if environment.get("NO_COLOR"):
-        return False
-    for name in ("FORCE_COLOR", "CLICOLOR_FORCE"):
-        if environment.get(name, "0") not in ("", "0"):
-            return True
-    if environment.get("CLICOLOR") == "0" or environment.get("TERM") == "dumb":
-        return False
-    return stream.isatty()
-
-
-def paint(text: str, style: str, colour: bool) -> str:
-    """Return ``text`` in a style where colour is wanted."""
-    return f"{style}{text}{_RESET}" if colour and text else text
-
-
-# Controls, invisible formatting, lone surrogates, and the separators that some terminals break lines at.
-_UNSAFE_CATEGORIES = frozenset({"Cc", "Cf", "Cs", "Zl", "Zp"})
-
-
-def escape(text: str) -> str:
-    """Return ``text`` on one line with every character that could steer a terminal written as an escape."""
-    if text.isascii() and text.isprintable():
-        return text
-    return "".join(escape_character(character) for character in text)
-
-
-def escape_character(character: str) -> str:
-    """Return a character itself, or its escape such as ``\\x1b``."""
-    if unicodedata.category(character) not in _UNSAFE_CATEGORIES:
-        return character
-    return character.encode("unicode_escape").decode("ascii")
-
+from cellc.diagnostics import Span
+from cellc.diagnostics.unsafe_text import escaped_character
+from cellc.printing import Line, Style, Styled
 
 _TAB_STOP = 4
 _WIDEST = 110
@@ -119,7 +62,7 @@ def _window_start(line: str, start: int) -> int:
 def _shown(character: str, offset: int) -> str:
     if character == "\t":
         return " " * (_TAB_STOP - offset % _TAB_STOP)
-    return escape_character(character)
+    return escaped_character(character)
 
 
 def _width(shown: str) -> int:
@@ -134,29 +77,27 @@ def _character_width(character: str) -> int:
     return 2 if unicodedata.east_asian_width(character) in ("W", "F") else 1
 
 
-Lines = Mapping[str, Sequence[str]]
+Texts = Mapping[str, Sequence[str]]
 """The lines of every file, by the name that spans carry."""
 
 
-def render_snippet(span: Span, lines: Lines, *, gutter: int, mark: str, style: str, colour: bool) -> list[str]:
+def render_snippet(span: Span, texts: Texts, *, gutter: int, mark: str, style: Style) -> list[Line]:
     """Return the lines of output for one place; a file whose text is not at hand is only named.
 
     Args:
         gutter: digits of the widest line number of the finding.
         mark: the character under the culprit, ``^`` or ``-``.
     """
-    arrow = paint("-->", BLUE, colour)
-    shown = [f"{' ' * gutter}{arrow} {escape(str(span))}"]
-    file = lines.get(span.file, ())
+    margin, bar = " " * gutter, Styled("|", Style.BLUE)
+    shown: list[Line] = [(margin, Styled("-->", Style.BLUE), f" {span}")]
+    file = texts.get(span.file, ())
     if not 1 <= span.line <= len(file):
         return shown
     line = file[span.line - 1]
     end = span.end_column - 1 if span.end_line == span.line else len(line)
     part = excerpt(line, span.column - 1, end)
-    bar = paint("|", BLUE, colour)
-    number = paint(f"{span.line:>{gutter}}", BLUE, colour)
-    carets = paint(mark * part.marked_cells, style, colour)
-    shown.append(f"{' ' * gutter} {bar}")
-    shown.append(f"{number} {bar} {part.text}".rstrip())
-    shown.append(f"{' ' * gutter} {bar} {' ' * part.marked_from}{carets}")
+    carets = Styled(mark * part.marked_cells, style)
+    shown.append((f"{margin} ", bar))
+    shown.append((Styled(f"{span.line:>{gutter}}", Style.BLUE), " ", bar, f" {part.text}".rstrip()))
+    shown.append((f"{margin} ", bar, f" {' ' * part.marked_from}", carets))
     return shown

@@ -1,0 +1,261 @@
+"""The one door to standard output and standard error: nobody else prints.
+
+Every text that comes here is taken for a stranger's. It is shown on its line, with an escape for each character that
+hides text or steers a terminal, and no line of it is a command to the program that runs CI. Colours are ours and are
+passed beside the text. Escape sequences: ECMA-48, SGR.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+import re
+import shutil
+import sys
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from enum import Enum
+from typing import TextIO
+
+from cellc.diagnostics.unsafe_text import escaped, harmless_line
+from cellc.signals import CLOSED_PIPE, drop_output
+
+
+class Style(Enum):
+    """How a piece of a line looks; the values are what a terminal is told."""
+
+    BOLD = "\x1b[1m"
+    DIM = "\x1b[2m"
+    GREEN = "\x1b[32m"
+    BLUE = "\x1b[1;34m"
+    RED = "\x1b[1;31m"
+    MAGENTA = "\x1b[1;35m"
+    YELLOW = "\x1b[1;33m"
+    CYAN = "\x1b[1;36m"
+
+
+_RESET = "\x1b[0m"
+
+
+@dataclass(frozen=True, slots=True)
+class Styled:
+    """A piece of a line with a style of ours."""
+
+    text: str
+    style: Style
+
+
+@dataclass(frozen=True, slots=True)
+class WorkflowCommand:
+    """A line that GitHub Actions obeys: ``::name key=value,…::message``.
+
+    Source: GitHub Docs, "Workflow commands for GitHub Actions"; escapes as in ``@actions/core``.
+
+    Attributes:
+        name: such as ``error``.
+        message: lines, of which GitHub shows each on its own.
+    """
+
+    name: str
+    properties: Mapping[str, str | int]
+    message: tuple[str, ...]
+
+    def text(self) -> str:
+        """Return the line."""
+        told = ",".join(f"{key}={_of_property(str(value))}" for key, value in self.properties.items())
+        return f"::{self.name} {told}::{'%0A'.join(_of_message(line) for line in self.message)}"
+
+
+def _of_message(text: str) -> str:
+    return harmless_line(escaped(text)).replace("%", "%25")
+
+
+def _of_property(text: str) -> str:
+    # The name of a file must reach GitHub as it is, so its line breaks are not shown as escapes of ours.
+    pieces = re.split("([\r\n])", text)
+    named = (_OF_LINES.get(piece) or escaped(piece).replace("%", "%25") for piece in pieces)
+    return "".join(named).replace(":", "%3A").replace(",", "%2C")
+
+
+_OF_LINES = {"\r": "%0D", "\n": "%0A"}
+
+
+Line = str | tuple[str | Styled, ...]
+"""One line of output: a text, or pieces of which some have a style."""
+
+
+class Stream(Enum):
+    """Where output goes."""
+
+    OUT = "standard output"
+    ERR = "standard error"
+
+    def opened(self) -> TextIO:
+        """Return the stream as it is now."""
+        return sys.stdout if self is Stream.OUT else sys.stderr
+
+
+def show(*lines: Line | WorkflowCommand, to: Stream = Stream.OUT) -> None:
+    """Print lines, coloured where that is wanted."""
+    stream = to.opened()
+    _write(stream, as_text(lines, colour=wants_colour(stream.isatty(), os.environ)))
+
+
+def refuse(reason: str) -> None:
+    """Print on standard error why nothing came of a command."""
+    show(f"error: {reason}", to=Stream.ERR)
+
+
+def remark(line: Line) -> None:
+    """Print a line beside the output where a person reads it on a terminal."""
+    if sys.stderr.isatty():
+        show(line, to=Stream.ERR)
+
+
+def show_document(text: str) -> None:
+    """Print a text of several lines that we wrote, such as Markdown or JSON; what it quotes may be of strangers."""
+    _write(sys.stdout, as_text(text.removesuffix("\n").split("\n"), colour=False) if text else "")
+
+
+def as_text(lines: Iterable[Line | WorkflowCommand], *, colour: bool) -> str:
+    """Return lines as they are printed, each ending in a line break."""
+    return "".join(f"{_line(one, colour)}\n" for one in lines)
+
+
+def _line(line: Line | WorkflowCommand, colour: bool) -> str:
+    if isinstance(line, WorkflowCommand):
+        return line.text()
+    if isinstance(line, str):
+        return harmless_line(escaped(line))
+    plain = "".join(escaped(piece if isinstance(piece, str) else piece.text) for piece in line)
+    harmless = harmless_line(plain)
+    if not colour or harmless != plain:  # nothing of ours looks like a command
+        return harmless
+    return "".join(_piece(piece) for piece in line)
+
+
+def _piece(piece: str | Styled) -> str:
+    if isinstance(piece, str):
+        return escaped(piece)
+    return f"{piece.style.value}{escaped(piece.text)}{_RESET}" if piece.text else ""
+
+
+def _write(stream: TextIO, text: str) -> None:
+    stream.write(text)
+    stream.flush()
+
+
+def wants_colour(is_terminal: bool, environment: Mapping[str, str]) -> bool:
+    """Return whether to colour what goes to a stream.
+
+    NO_COLOR (no-color.org) wins over FORCE_COLOR (force-color.org) and CLICOLOR_FORCE, these over CLICOLOR
+    (bixense.com/clicolors); without them a terminal is coloured unless it is dumb.
+    """
+    if environment.get("NO_COLOR"):
+        return False
+    for name in ("FORCE_COLOR", "CLICOLOR_FORCE"):
+        if environment.get(name, "0") not in ("", "0"):
+            return True
+    if environment.get("CLICOLOR") == "0" or environment.get("TERM") == "dumb":
+        return False
+    return is_terminal
+
+
+def run_to_end(run: Callable[[], int]) -> int:
+    """Run a command and return its exit code; a closed pipe or a full disk end without a traceback."""
+    _prepare_streams()
+    try:
+        code = run()
+        sys.stdout.flush()
+        return code
+    except BrokenPipeError:  # the reader of our output went away (`cellc show … | head`)
+        drop_output()
+        return CLOSED_PIPE
+    except OSError as error:
+        # What a command expects of the disk it reports itself: this is a full disk under the output, and the like.
+        drop_output()
+        place = f"{error.filename}: " if error.filename else ""
+        refuse(f"{place}{(error.strerror or 'unknown reason').lower()}")
+        return 1
+    except Exception:
+        _show_bug()
+        return 1
+
+
+def _show_bug() -> None:
+    """Print the traceback of the exception in work: what it quotes may be of strangers as well."""
+    import traceback  # loads for 5 ms, and is for bugs alone
+
+    show(*traceback.format_exc().rstrip("\n").split("\n"), "error: this is a bug of cellc", to=Stream.ERR)
+
+
+def _prepare_streams() -> None:
+    # Python gives None where who started us closed the descriptor.
+    sys.stdout = sys.stdout or _nowhere()
+    sys.stderr = sys.stderr or _nowhere()
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            # A spec may quote what the terminal's encoding cannot: show it escaped instead of failing.
+            stream.reconfigure(errors="backslashreplace")
+
+
+def _nowhere() -> io.TextIOWrapper:
+    return io.TextIOWrapper(io.FileIO(os.devnull, "w"))
+
+
+_SILENT_S = 1.0
+_REDRAW_S = 0.1
+
+
+@contextmanager
+def progress(
+    label: str, stream: TextIO | None = None, clock: Callable[[], float] = time.monotonic
+) -> Iterator[Callable[[str], None]]:
+    """Give a function that tells what is being done; what it says shows after a second and is erased at the end.
+
+    Only a terminal gets it. Erasing uses spaces and a carriage return, so that it needs neither colour nor a terminal
+    that knows escape sequences.
+
+    Args:
+        stream: standard error if None.
+        clock: time in s, for tests.
+    """
+    line = _ProgressLine(label, sys.stderr if stream is None else stream, clock)
+    try:
+        yield line.update
+    finally:
+        line.erase()
+
+
+class _ProgressLine:
+    def __init__(self, label: str, stream: TextIO | None, clock: Callable[[], float]) -> None:
+        self._label = label
+        self._stream = stream if stream is not None and stream.isatty() else None
+        self._clock = clock
+        self._next_s = clock() + _SILENT_S
+        self._width = 0
+
+    def update(self, step: str) -> None:
+        """Show the step that begins now, unless the line was drawn a moment ago."""
+        now_s = self._clock()
+        if self._stream is None or now_s < self._next_s:
+            return
+        self._next_s = now_s + _REDRAW_S
+        # The last cell stays free: some terminals wrap after it. Escapes of wide text may need two cells a character.
+        room = shutil.get_terminal_size().columns - 1
+        text = harmless_line(escaped(f"{self._label}: {step}"))
+        text = text[: room if text.isascii() else room // 2]
+        self._draw(text)
+
+    def erase(self) -> None:
+        """Leave the terminal as it was."""
+        if self._width:
+            self._draw("")
+
+    def _draw(self, text: str) -> None:
+        width = len(text) if text.isascii() else 2 * len(text)
+        if self._stream is not None:
+            _write(self._stream, "\r" + " " * self._width + "\r" + text)
+        self._width = width
