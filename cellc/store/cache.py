@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import os
+import stat
 import sys
 import tempfile
 import zlib
@@ -24,6 +25,9 @@ from cellc.version import __version__
 OFF = "CELLC_NO_CACHE"
 MAX_BYTES = 10_000_000
 """A larger entry is not one that cellc wrote."""
+
+MAX_CONTENT_BYTES = 50_000_000
+"""Nor is one that unpacks to more."""
 
 MAX_ENTRIES = 2000
 """Entries of one kind; when there are more, the older half goes."""
@@ -120,25 +124,38 @@ def recall(
 def read_entry(name: str) -> bytes | None:
     """Return the content of an entry, or None where there is none, or it is not as this user wrote it."""
     folder = cache_folder()
-    if folder is None:
+    data = None if folder is None else _own_file(folder / name)
+    digest, _, packed = (data or b"").partition(b"\n")
+    if digest != _digest(name, packed):
         return None
-    file = folder / name
+    unpacking = zlib.decompressobj()
     try:
-        status = file.stat()
-        # In a folder that several users share, nobody takes the answer of another.
-        if status.st_size > MAX_BYTES or (hasattr(os, "getuid") and status.st_uid != os.getuid()):
-            return None
-        digest, _, packed = file.read_bytes().partition(b"\n")
+        content = unpacking.decompress(packed, MAX_CONTENT_BYTES)
+    except zlib.error:
+        return None
+    return content if unpacking.eof else None
+
+
+def _own_file(file: Path) -> bytes | None:
+    """Return what a file of this user holds: where several share a folder, nobody takes the answer of another."""
+    try:
+        # A pipe in the place of an entry is not waited for.
+        with open(
+            os.open(file, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)), "rb"
+        ) as stream:
+            status = os.fstat(stream.fileno())
+            if not stat.S_ISREG(status.st_mode) or status.st_size > MAX_BYTES:
+                return None
+            return stream.read() if not hasattr(os, "getuid") or status.st_uid == os.getuid() else None
     except OSError:
         return None
-    return zlib.decompress(packed) if digest == _digest(packed) else None
 
 
 def write_entry(name: str, content: bytes) -> None:
     """Keep the content; where that is not possible, nothing happens."""
     folder = cache_folder()
     packed = zlib.compress(content, 1)
-    if folder is None or len(packed) >= MAX_BYTES:
+    if folder is None or len(packed) >= MAX_BYTES or len(content) > MAX_CONTENT_BYTES:
         return
     file = folder / name
     try:
@@ -148,15 +165,16 @@ def write_entry(name: str, content: bytes) -> None:
         return
     try:
         with os.fdopen(handle, "wb") as stream:
-            stream.write(_digest(packed) + b"\n" + packed)
+            stream.write(_digest(name, packed) + b"\n" + packed)
         os.replace(part, file)  # no other process reads half of it
         _prune(file.parent)
     except OSError:
         Path(part).unlink(missing_ok=True)
 
 
-def _digest(content: bytes) -> bytes:
-    return hashlib.sha256(content).hexdigest().encode()
+def _digest(name: str, packed: bytes) -> bytes:
+    # The name is in it: the bytes of one entry in the place of another are the answer to another question.
+    return hashlib.sha256(name.encode() + b"\0" + packed).hexdigest().encode()
 
 
 def _prune(folder: Path) -> None:

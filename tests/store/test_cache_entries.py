@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
+import zlib
 from pathlib import Path
 
 import pytest
@@ -55,3 +57,33 @@ def test_an_entry_of_another_user_is_none(monkeypatch: pytest.MonkeyPatch) -> No
     write_entry("kind/name", b"0123456789")
     monkeypatch.setattr(os, "getuid", lambda: -1)
     assert read_entry("kind/name") is None
+
+
+def test_the_bytes_of_one_entry_are_no_answer_in_the_place_of_another(home: Path) -> None:
+    write_entry("kind/first", b"the first answer")
+    write_entry("kind/second", b"the second answer")
+    (home / "kind/first").replace(home / "kind/second")
+    assert read_entry("kind/second") is None
+
+
+@pytest.mark.parametrize("packed", [b"not packed", zlib.compress(b"cut")[:-2], b""], ids=["not packed", "cut", "empty"])
+def test_a_sum_that_fits_does_not_make_an_entry(packed: bytes, home: Path) -> None:
+    (home / "kind").mkdir(parents=True)
+    digest = hashlib.sha256(b"kind/name\0" + packed).hexdigest().encode()
+    (home / "kind/name").write_bytes(digest + b"\n" + packed)
+    assert read_entry("kind/name") is None
+
+
+def test_what_unpacks_to_more_than_an_answer_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
+    write_entry("kind/name", b" " * 1000)
+    monkeypatch.setattr(cache, "MAX_CONTENT_BYTES", 500)
+    assert read_entry("kind/name") is None
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="the system has no named pipes")
+def test_a_pipe_in_the_place_of_an_entry_is_not_waited_for(home: Path) -> None:
+    (home / "kind").mkdir(parents=True)
+    os.mkfifo(home / "kind/name")
+    assert read_entry("kind/name") is None
+    write_entry("kind/name", b"0123456789")
+    assert read_entry("kind/name") == b"0123456789"

@@ -1,0 +1,275 @@
+"""What must hold for every input, whatever stands in it."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import traceback
+import warnings
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, nullcontext
+from dataclasses import dataclass
+from pathlib import Path
+from xml.etree import ElementTree
+
+import yaml
+
+from cellc.artifact import Artifact
+from cellc.deploy.deployment import plan_deployment
+from cellc.description import read_description
+from cellc.description.xacro_expansion import Expansion, expand_here
+from cellc.diagnose.diagnose import diagnose
+from cellc.diagnostics import Diagnostic, Severity
+from cellc.diagnostics.diagnostic import Outcome
+from cellc.emit.audit.audit import emit as emit_audit
+from cellc.emit.emit_all import emit_all
+from cellc.feasibility import disabled_links, motion_answer
+from cellc.mock.cell import load
+from cellc.mock.errors import MockError
+from cellc.pipeline import Checked, check, compile_cell
+from cellc.report.github_report import render_github
+from cellc.report.json_report import render_json
+from cellc.report.resolved import flatten, resolved_tree
+from cellc.report.sarif_report import render_sarif
+from cellc.report.text_report import render_text
+from cellc.store.cache import OFF
+from tests.robustness.fuzz.bases import PARTS
+from tests.robustness.fuzz.cache_damage import damage_cache
+from tests.robustness.fuzz.inputs import FOLDER, SPEC, FuzzInput
+
+SHARES = {"render": 0.05, "show": 0.2, "build": 0.25, "mock": 0.1, "forgetful": 0.1, "rehearse": 0.1}
+"""How many of the inputs that come so far go through what a check does not need."""
+
+
+@dataclass(frozen=True)
+class Find:
+    """What does not hold: a word of `WRONGS`, and one line or a traceback."""
+
+    wrong: str
+    text: str
+
+
+WRONGS = ("traceback", "hang", "memory", "wrong answer", "message", "artifact", "died")
+
+
+class Sandbox:
+    """A folder that inputs are written into one after the other, and what is known of those before.
+
+    Attributes:
+        folder: holds ``parts`` of the corpus, which an input may name.
+        cache: the folder where cellc keeps answers meanwhile.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder / "cell"
+        self.cache = folder / "kept" / "cellc"
+        self.folder.mkdir()
+        shutil.copytree(PARTS, self.folder / "parts")
+        os.environ["XDG_CACHE_HOME"] = str(self.cache.parent)
+        os.environ["ROS_PACKAGE_PATH"] = str(self.folder)
+        os.environ.pop(OFF, None)
+        self._written: dict[str, bytes] = {}
+        self._truths: dict[tuple[tuple[str, bytes], ...], tuple[object, ...]] = {}
+
+    def write(self, files: Mapping[str, bytes]) -> None:
+        """Write files, with nothing left of the input before; a file that is there already is not written again."""
+        for name in self._written.keys() - files.keys():
+            (self.folder / name).unlink()
+        for name in self._written.keys() & files.keys():
+            if self._written[name] is not files[name]:
+                (self.folder / name).unlink()
+        for name, data in files.items():
+            if self._written.get(name) is not data:
+                file = self.folder / name
+                file.parent.mkdir(parents=True, exist_ok=True)
+                file.write_bytes(data)
+        self._written = dict(files)
+
+    def truth(self) -> tuple[object, ...]:
+        """Return the answers that a run gives which keeps nothing; cells recur, so they are computed once."""
+        key = tuple(sorted(self._written.items()))
+        if key not in self._truths:
+            with _keeping_nothing():
+                self._truths[key] = _answers()
+        return self._truths[key]
+
+
+def judge(given: FuzzInput, sandbox: Sandbox, *, in_child: bool = False) -> list[Find]:
+    """Take an input through the public entry points and return what does not hold.
+
+    Args:
+        in_child: expand xacro in a child with limits, as commands do; a process for each input takes long.
+    """
+    with _inside(sandbox.folder), warnings.catch_warnings():
+        warnings.simplefilter("error")  # what reaches standard error in words of a library is no answer
+        try:
+            with nullcontext() if in_child else _expanding_here():
+                sandbox.write(given.files)
+                judged = {"folder": _generated, "cache": _remembered}.get(given.kind, _spec)
+                return list(judged(given, sandbox))
+        except Exception:
+            return [Find("traceback", traceback.format_exc())]
+
+
+def _spec(given: FuzzInput, sandbox: Sandbox) -> Iterator[Find]:
+    """Judge a cell: what is said of it, what is built of it, and what the mock makes of that."""
+    chance = given.chance
+    wanted = {step for step, share in SHARES.items() if chance.random() < share}
+    checked = check(SPEC)
+    yield from _messages(checked.diagnostics)
+    if "render" in wanted:
+        _render(checked)
+    if checked.graph is not None and "forgetful" in wanted:
+        with _keeping_nothing():
+            yield from _differences(_said(check(SPEC)), _said(checked))
+    if checked.graph is not None and "show" in wanted:
+        list(flatten(resolved_tree(checked.graph.cell), ""))
+        diagnose("the arm stops with a tolerance violation", checked.graph.cell)
+        list(emit_audit(checked.graph, plan_deployment(checked.graph)))
+    if checked.ok and "build" in wanted:
+        yield from _built(checked, sandbox if "mock" in wanted else None)
+
+
+def _built(checked: Checked, sandbox: Sandbox | None) -> Iterator[Find]:
+    outcome = compile_cell(checked)
+    for found in outcome.diagnostics:
+        yield Find("artifact", f"{found.code}: {found.message}")
+    if outcome.value is None:
+        yield Find("artifact", "a cell without an error is not built")
+        return
+    yield from _unreadable(outcome.value)
+    again = check(SPEC)
+    assert again.graph is not None  # it was there a moment ago
+    texts = {artifact.path: artifact.text for artifact in emit_all(again.graph, plan_deployment(again.graph))}
+    for artifact in outcome.value:
+        if texts.get(artifact.path, artifact.text) != artifact.text:
+            yield Find("artifact", f"{artifact.path} differs between two builds")
+    if sandbox is not None:
+        sandbox.write({f"{FOLDER}/{one.path}": one.text.encode() for one in outcome.value})
+        cell = load(Path(FOLDER))
+        for name in cell.rehearsals[:1]:
+            cell.run(name)
+
+
+def _unreadable(artifacts: Sequence[Artifact]) -> Iterator[Find]:
+    readers: dict[str, Callable[[str], object]] = {
+        ".json": json.loads,
+        ".yaml": lambda text: yaml.load(text, Loader=yaml.CSafeLoader),
+        **dict.fromkeys((".xml", ".urdf", ".srdf", ".svg"), ElementTree.fromstring),
+    }
+    for artifact in artifacts:
+        reader = readers.get(os.path.splitext(artifact.path)[1])
+        try:
+            artifact.text.encode()
+            if reader is not None:
+                reader(artifact.text)
+        except (ValueError, yaml.YAMLError, SyntaxError) as error:
+            yield Find("artifact", f"{artifact.path} cannot be read back: {error}")
+
+
+def _generated(given: FuzzInput, sandbox: Sandbox) -> Iterator[Find]:
+    """Judge a generated folder: it runs, or is refused in words."""
+    try:
+        cell = load(Path(FOLDER))
+        names = cell.rehearsals if given.chance.random() < SHARES["rehearse"] else ()
+        for name in names[:1]:
+            cell.run(name)
+    except MockError as error:
+        if not str(error).strip() or not str(error).isprintable():
+            yield Find("message", f"refused as {str(error)!a}")
+
+
+def _remembered(given: FuzzInput, sandbox: Sandbox) -> Iterator[Find]:
+    """Judge the cache: whatever stands in it, the answer is that of a run that keeps nothing."""
+    sandbox.truth()
+    _answers()
+    with _kept_aside(sandbox.cache) if given.damage else nullcontext():
+        damage_cache(sandbox.cache, given.damage, given.chance)
+        sandbox.write({**given.files, **given.later})
+        kept = _answers()
+    yield from _differences(sandbox.truth(), kept)
+
+
+@contextmanager
+def _kept_aside(cache: Path) -> Iterator[None]:
+    """Put the cache back as it is now."""
+    aside = cache.with_name("aside")
+    shutil.copytree(cache, aside)
+    try:
+        yield
+    finally:
+        if cache.is_dir() and not cache.is_symlink():
+            shutil.rmtree(cache)
+        else:
+            cache.unlink(missing_ok=True)
+        aside.rename(cache)
+
+
+def _answers() -> tuple[object, ...]:
+    checked = check(SPEC)
+    if checked.graph is None:
+        return _said(checked)
+    return (*_said(checked), motion_answer(checked.graph), disabled_links(checked.graph))
+
+
+def _said(checked: Checked) -> tuple[Diagnostic, ...]:
+    return checked.diagnostics
+
+
+def _differences(forgetful: Sequence[object], kept: Sequence[object]) -> Iterator[Find]:
+    if tuple(forgetful) != tuple(kept):
+        here = [one for one in kept if one not in forgetful]
+        there = [one for one in forgetful if one not in kept]
+        yield Find("wrong answer", f"from memory {here}, and without {there}")
+
+
+def _messages(found: Sequence[Diagnostic]) -> Iterator[Find]:
+    for one in found:
+        if not one.message.strip() or not one.message.isprintable() or not (one.help or "x").isprintable():
+            yield Find("message", f"{one.code}: not one printable line: {one.message!a} {one.help!a}")
+        if one.severity is Severity.ERROR and (not one.span.file or one.span.line < 1 or one.span.column < 1):
+            yield Find("message", f"{one.code}: no place: {one.span}")
+
+
+def _render(checked: Checked) -> None:
+    findings = checked.findings
+    render_text(findings.diagnostics, findings.texts, colour=False)
+    render_json(findings.diagnostics).encode()
+    render_sarif(findings.diagnostics, Path.cwd()).encode()
+    render_github(findings.diagnostics, Path.cwd()).encode()
+
+
+@contextmanager
+def _inside(folder: Path) -> Iterator[None]:
+    before = os.getcwd()
+    os.chdir(folder)
+    try:
+        yield
+    finally:
+        os.chdir(before)
+
+
+@contextmanager
+def _keeping_nothing() -> Iterator[None]:
+    before = os.environ.get(OFF)
+    os.environ[OFF] = "1"
+    try:
+        yield
+    finally:
+        os.environ.pop(OFF) if before is None else os.environ.update({OFF: before})
+
+
+@contextmanager
+def _expanding_here() -> Iterator[None]:
+    """Expand xacro in this process; what that does not end goes through the child once more."""
+
+    def expand(file: Path, arguments: Mapping[str, str], root: Path) -> Outcome[Expansion]:
+        return expand_here(file.as_posix(), arguments, root.as_posix())
+
+    before = vars(read_description)["expand_xacro"]
+    vars(read_description)["expand_xacro"] = expand
+    try:
+        yield
+    finally:
+        vars(read_description)["expand_xacro"] = before
