@@ -18,7 +18,7 @@ from typing import Any
 from tests.robustness.fuzz.oracle import WRONGS
 
 CHUNK = 250
-SILENCE_S = 45.0
+SILENCE_S = 90.0
 """A process that is silent for so long hangs where no alarm reaches it."""
 
 
