@@ -234,10 +234,10 @@ def _messages(found: Sequence[Diagnostic]) -> Iterator[Find]:
 
 def _render(checked: Checked) -> None:
     findings = checked.findings
-    render_text(findings.diagnostics, findings.texts, colour=False)
+    render_text(findings.diagnostics, findings.texts)
     render_json(findings.diagnostics).encode()
     render_sarif(findings.diagnostics, Path.cwd()).encode()
-    render_github(findings.diagnostics, Path.cwd()).encode()
+    render_github(findings.diagnostics, Path.cwd())
 
 
 @contextmanager
