@@ -1,7 +1,7 @@
 """What a device offers: joints and their interfaces, plugins, drivers, topics, services, actions and cameras."""
 
 import re
-from typing import Literal, Union
+from typing import Annotated, Literal, Union
 
 from pydantic import Field
 
@@ -18,6 +18,7 @@ from cellc.catalog.catalog_model import (
     Token,
 )
 from cellc.catalog.effects import EffectFacts, StartFacts
+from cellc.spec.base import MOST
 from cellc.spec.quantity import Duration, Frequency
 from cellc.vocabulary import Distro
 
@@ -93,7 +94,7 @@ class GroupInterfaces(CatalogModel):
 
     command: tuple[InterfaceName, ...] = ()
     state: tuple[InterfaceName, ...] = ()
-    initial: dict[InterfaceName, float] = Field(default_factory=dict)
+    initial: dict[InterfaceName, Annotated[float, Field(allow_inf_nan=False)]] = Field(default_factory=dict)
     real_only: bool = False
     fixed_name: bool = False
 
@@ -148,7 +149,7 @@ class QosFacts(CatalogModel):
     reliability: Literal["reliable", "best_effort"]
     durability: Literal["volatile", "transient_local"]
     history: Literal["keep_last", "keep_all"] = "keep_last"
-    depth: int = Field(10, ge=1)
+    depth: int = Field(10, ge=1, le=MOST)
 
 
 QosUse = Union[Token, QosFacts]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -10,16 +10,13 @@ from pathlib import Path
 from cellc.catalog.compiled import CATALOG, SHOWN, compiled_device, compiled_table
 from cellc.catalog.controller_kind import ControllerKind
 from cellc.catalog.device_model import DeviceModel
+from cellc.catalog.names import CatalogNames, unknown_names
 from cellc.catalog.read_model import ModelT, read_model
 from cellc.catalog.tables import ControllerManagerFacts, DistroTable, InterfaceTypeTable, QosTable
 from cellc.description.model import Description
 from cellc.description.urdf_reader import read_urdf
-from cellc.diagnostics import Diagnostic, Outcome, Severity, YamlPath, did_you_mean
-from cellc.source.document import SourceDocument
+from cellc.diagnostics import Outcome
 from cellc.vocabulary import PASSIVE
-
-_NamedThing = tuple[YamlPath, str, set[str], str]
-"""Where a name stands, the name, the names that exist, and what they are."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,60 +99,12 @@ def _load(
     description = read(folder / model.description.file, model.description.arguments)
     if description.value is None:
         return Outcome(None, description.diagnostics)
-    unknown = tuple(_unknown_names(model, description.value, document))
+    profiles = load_qos_profiles().value
+    assert profiles is not None  # package data, held valid by the catalog's tests
+    known = CatalogNames({*controller_kinds(), *PASSIVE}, set(profiles.profiles))
+    unknown = tuple(unknown_names(model, description.value, document, known))
     device = None if unknown else CatalogDevice(model, description.value)
     return Outcome(device, description.diagnostics + unknown)
-
-
-def _unknown_names(model: DeviceModel, description: Description, document: SourceDocument) -> list[Diagnostic]:
-    links = {link.name for link in description.links}
-    joints = {joint.name for joint in description.joints}
-    named: list[_NamedThing] = [(("base",), model.base, links, "link"), *_named_joints(model, joints)]
-    named += [(("frames", short), link, links, "link") for short, link in model.frames.items()]
-    kinds = {*controller_kinds(), *PASSIVE}
-    behaviours: list[_NamedThing] = [
-        (("controllers", name, "behaviour"), own.behaviour, kinds, "kind of controller")
-        for name, own in model.controllers.items()
-    ]
-    return [
-        *_unknown(document, named, "description"),
-        *_unknown(document, behaviours, "catalog"),
-        *_unknown(document, _named_by_driver(model), "device"),
-    ]
-
-
-def _unknown(document: SourceDocument, named: Iterable[_NamedThing], where: str) -> Iterator[Diagnostic]:
-    for path, name, known, kind in named:
-        if name not in known:
-            yield Diagnostic(
-                "catalogue-entry-invalid",
-                Severity.ERROR,
-                f"the {where} has no {kind} `{name}`",
-                document.locate(path),
-                path,
-                did_you_mean(name, known, f"{kind}s of the {where}"),
-            )
-
-
-def _named_by_driver(model: DeviceModel) -> Iterator[_NamedThing]:
-    driver = model.driver
-    if driver is None:
-        return
-    yield ("driver", "node"), driver.node, {node.name for node in model.nodes}, "node"
-    if driver.joint_states is not None:
-        yield ("driver", "joint_states"), driver.joint_states, {topic.name for topic in model.topics}, "topic"
-    for kind, action in driver.actions.items():
-        yield ("driver", "actions", kind), action, {one.name for one in model.actions}, "action"
-
-
-def _named_joints(model: DeviceModel, joints: set[str]) -> list[_NamedThing]:
-    named: list[_NamedThing] = [(("home", joint), joint, joints, "joint") for joint in model.home or {}]
-    if model.control is not None:
-        controlled = (joint for joint in model.control.joints if joint != "*")
-        named += [(("control", "joints", joint), joint, joints, "joint") for joint in controlled]
-    if model.gripper is not None:
-        named.append((("gripper", "joint"), model.gripper.joint, joints, "joint"))
-    return named
 
 
 @lru_cache(maxsize=32)

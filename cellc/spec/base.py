@@ -6,9 +6,11 @@ A model is built when the first spec is parsed, with those inside it. Files of m
 
 from __future__ import annotations
 
+import math
 from typing import Annotated, Literal, Union
 
-from pydantic import BaseModel, ConfigDict, Discriminator, StringConstraints, Tag
+from pydantic import AfterValidator, BaseModel, ConfigDict, Discriminator, Field, StringConstraints, Tag
+from pydantic_core import PydanticCustomError
 
 
 class SpecModel(BaseModel):
@@ -56,29 +58,50 @@ def shape_of(value: object) -> str | None:
     return "mapping" if isinstance(value, (dict, SpecModel)) else None
 
 
-def _parameter_shape(value: object) -> str | None:
-    # bool before int: `True` is an int to Python.
-    kinds: tuple[tuple[type, str], ...] = ((bool, "flag"), (int, "integer"), (float, "number"))
-    return next((kind for type_, kind in kinds if isinstance(value, type_)), shape_of(value))
-
-
 StandardOr = Annotated[
     Union[Annotated[Literal["standard"], Tag("text")], Annotated[tuple[Text, ...], Tag("list")]],
     Discriminator(shape_of, custom_error_type="wrong-type", custom_error_message="`standard` or a list of names"),
 ]
 
-# ROS distinguishes `1` from `1.0`: each scalar keeps the type that the user wrote.
+# What every count fits into, whatever reads it: `size_t`, `int64` and doubles of JSON.
+MOST = 2**31 - 1
+
+
+def _parameter_shape(value: object) -> str | None:
+    # bool before int: `True` is an int to Python.
+    kinds: tuple[tuple[type, str], ...] = ((bool, "flag"), (int, "integer"), (float, "number"))
+    if isinstance(value, (list, tuple)):
+        item = _parameter_shape(value[0]) if value else "text"
+        return f"{item}s" if item in ("flag", "integer", "number") else "texts"
+    return next((kind for type_, kind in kinds if isinstance(value, type_)), shape_of(value))
+
+
+def _without_nan(value: float) -> float:
+    if math.isnan(value):
+        raise PydanticCustomError("wrong-type", "a number other than `.nan`")
+    return value
+
+
+# Infinity is the default of every clamp of a PID; NaN compares with nothing, so that no limit would act on it.
+_Number = Annotated[float, AfterValidator(_without_nan)]
+_Integer = Annotated[int, Field(ge=-(2**63), le=2**63 - 1)]
+
+# rcl_yaml_param_parser: ROS distinguishes `1` from `1.0`, so each scalar keeps the type that the user wrote; integers
+# have 64 bits; the items of a list are of one type.
 ParameterValue = Annotated[
     Union[
         Annotated[bool, Tag("flag")],
-        Annotated[int, Tag("integer")],
-        Annotated[float, Tag("number")],
+        Annotated[_Integer, Tag("integer")],
+        Annotated[_Number, Tag("number")],
         Annotated[str, Tag("text")],
-        Annotated[tuple[str, ...], Tag("list")],
+        Annotated[tuple[bool, ...], Tag("flags")],
+        Annotated[tuple[_Integer, ...], Tag("integers")],
+        Annotated[tuple[_Number, ...], Tag("numbers")],
+        Annotated[tuple[str, ...], Tag("texts")],
     ],
     Discriminator(
         _parameter_shape,
         custom_error_type="wrong-type",
-        custom_error_message="true, false, a number, text or a list of texts",
+        custom_error_message="true, false, a number, text or a list of one of them",
     ),
 ]

@@ -5,7 +5,7 @@ from typing import Literal
 from pydantic import Field
 
 from cellc.spec.base import FrameReference, Name, Namespace, ParameterValue, SpecModel, Text
-from cellc.spec.quantity import Duration, Frequency, JointPosition, JointPositions, Position, RollPitchYaw
+from cellc.spec.quantity import Duration, JointPosition, JointPositions, Position, RollPitchYaw, UpdateRate
 
 
 class ControllerSpec(SpecModel):
@@ -33,7 +33,7 @@ class ControllerSpec(SpecModel):
     on_violation: Literal["abort_and_hold", "abort_and_decelerate"] = Field(
         "abort_and_hold", description="What happens on a tolerance violation.", examples=["abort_and_hold"]
     )
-    update_rate: Frequency | None = Field(None, description="Slower rate than the manager's.", examples=["100 Hz"])
+    update_rate: UpdateRate | None = Field(None, description="Slower rate than the manager's.", examples=["100 Hz"])
     parameters: dict[str, ParameterValue] = Field(
         default_factory=dict,
         description="Further parameters, dots for nesting.",
@@ -53,7 +53,7 @@ class SwitchSpec(SpecModel):
 class ManagerSpec(SpecModel):
     """One controller manager with its update loop."""
 
-    update_rate: Frequency = Field(..., description="Rate of read, update, write.", examples=["500 Hz"])
+    update_rate: UpdateRate = Field(..., description="Rate of read, update, write.", examples=["500 Hz"])
     namespace: Namespace = Field("", description="Namespace of the manager.", examples=["/left"])
     host: Name | None = Field(None, description="Host that runs it.", examples=["control_pc"])
     controllers: dict[Name, ControllerSpec] = Field(

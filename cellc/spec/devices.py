@@ -14,6 +14,7 @@ from cellc.spec.quantity import (
     Position,
     Ratio,
     RollPitchYaw,
+    TimeShift,
 )
 
 
@@ -68,7 +69,7 @@ class StampSpec(SpecModel):
         None, description="What ties the clock to the host's.", examples=["global_time"]
     )
     max_offset: Duration | None = Field(None, description="Bound of the offset to the host's clock.", examples=["1 ms"])
-    simulated_offset: Duration | None = Field(
+    simulated_offset: TimeShift | None = Field(
         None, description="Offset that the mock gives this clock; none if absent.", examples=["0.5 ms"]
     )
     simulated_drift: Drift | None = Field(
@@ -86,11 +87,13 @@ class PayloadSpec(SpecModel):
 class AdapterSpec(SpecModel):
     """What guards the commands of a direct SDK: its adapter's own contract."""
 
-    command_timeout: Duration | None = Field(
+    command_timeout: TimeShift | None = Field(
         None, description="Watchdog: silence after which the device stops.", examples=["20 ms"]
     )
-    stop_time: Duration | None = Field(None, description="Longest time from a hold to standstill.", examples=["100 ms"])
-    goal_time: Duration | None = Field(
+    stop_time: TimeShift | None = Field(
+        None, description="Longest time from a hold to standstill.", examples=["100 ms"]
+    )
+    goal_time: TimeShift | None = Field(
         None, description="Time past the end of a trajectory within which the device stands still.", examples=["0.5 s"]
     )
     path_tolerance: JointPosition | None = Field(
@@ -105,7 +108,7 @@ EVERY_JOINT = "*"
 class SimulatedJointSpec(SpecModel):
     """How a joint of the mock differs from one that is where it was commanded at once."""
 
-    lag: Duration | None = Field(None, description="Time constant of a first-order lag.", examples=["20 ms"])
+    lag: TimeShift | None = Field(None, description="Time constant of a first-order lag.", examples=["20 ms"])
     noise: JointPosition | None = Field(
         None, description="Largest error of the measured position, evenly distributed.", examples=["0.0002 rad"]
     )

@@ -133,6 +133,12 @@ def _number_out_of_range(error: ErrorDetails, place: Place, document: SourceDocu
     return Problem("out-of-range", message, f"write a number of {bound}{_example(place.field)}")
 
 
+def _quantity_out_of_range(error: ErrorDetails, place: Place, document: SourceDocument) -> Problem:
+    context = error["ctx"]
+    message = f"{quote_path(place.path)} must be {context['bounds']}, got {quote(str(context['text']))}"
+    return Problem("out-of-range", message, f"write a value {context['bounds']}{_example(place.field)}")
+
+
 def _length_out_of_range(error: ErrorDetails, place: Place, document: SourceDocument) -> Problem:
     context = error.get("ctx", {})
     unit = "characters" if error["type"].startswith("string") else "entries"
@@ -211,6 +217,7 @@ _WRITERS: Mapping[str, _Writer] = {
     "string_pattern_mismatch": _bad_name,
     "greater_than_equal": _number_out_of_range,
     "less_than_equal": _number_out_of_range,
+    "quantity-out-of-range": _quantity_out_of_range,
     "string_too_short": _length_out_of_range,
     "string_too_long": _length_out_of_range,
     "too_short": _length_out_of_range,

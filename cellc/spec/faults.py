@@ -4,15 +4,15 @@ from typing import Annotated, Literal, Union
 
 from pydantic import Discriminator, Field, Tag
 
-from cellc.spec.base import FrameReference, Name, SpecModel, Text, shape_of
-from cellc.spec.quantity import Duration, JointPosition, JointVelocity, Ratio
+from cellc.spec.base import MOST, FrameReference, Name, SpecModel, Text, shape_of
+from cellc.spec.quantity import Duration, JointPosition, JointVelocity, Ratio, TimeShift
 from cellc.vocabulary import FaultKind
 
 
 class EventSpec(SpecModel):
     """A moment in a rehearsal that is told by how far a step has come."""
 
-    step: int = Field(..., description="Number of the step, counted from 1.", examples=[3], ge=1)
+    step: int = Field(..., description="Number of the step, counted from 1.", examples=[3], ge=1, le=MOST)
     when: Literal["started", "accepted", "moving"] = Field(
         "started",
         description="Before the first action of the step, when a controller took its goal, or at the first motion.",
@@ -70,7 +70,7 @@ class JumpClockFault(FaultFields):
     """A clock jumps, forwards, or back with a negative duration."""
 
     jump_clock: Name = Field(..., description="Host, device with a clock of its own, or domain.", examples=["ros"])
-    by: Duration = Field(..., description="How far.", examples=["-1 s"])
+    by: TimeShift = Field(..., description="How far.", examples=["-1 s"])
 
 
 class MismatchQosFault(FaultFields):

@@ -5,7 +5,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from cellc.spec.base import FrameReference, Name, Pin, SpecModel, Text
+from cellc.spec.base import MOST, FrameReference, Name, Pin, SpecModel, Text
 from cellc.spec.devices import PlacementSpec
 from cellc.spec.quantity import Duration, Frequency, Length, Position, RollPitchYaw
 
@@ -13,10 +13,10 @@ from cellc.spec.quantity import Duration, Frequency, Length, Position, RollPitch
 class CalibrationSpec(SpecModel):
     """A measurement that a transform rests on; a new measurement gets a new revision."""
 
-    revision: int = Field(..., description="Counts up with every new measurement.", examples=[4], ge=1)
+    revision: int = Field(..., description="Counts up with every new measurement.", examples=[4], ge=1, le=MOST)
     measured: Pin = Field("UNKNOWN", description="Date of the measurement, YYYY-MM-DD.", examples=["2026-07-01"])
     method: Text = Field("UNKNOWN", description="How it was measured.", examples=["charuco"])
-    samples: int | None = Field(None, description="Number of observations.", examples=[40], ge=1)
+    samples: int | None = Field(None, description="Number of observations.", examples=[40], ge=1, le=MOST)
     residual: Length | None = Field(None, description="Residual of the fit.", examples=["0.8 mm"])
     owner: Text = Field("UNKNOWN", description="Who answers for it.", examples=["perception"])
 
@@ -49,6 +49,7 @@ class FrameSpec(SpecModel):
         description="Known points of a fixture that validate direction and scale; at least three are needed.",
         examples=[3],
         ge=0,
+        le=MOST,
     )
     dynamic: bool = Field(False, description="Changes while the cell runs.", examples=[True])
     published_by: Name | None = Field(

@@ -5,7 +5,7 @@ from typing import Literal
 from pydantic import Field
 
 from cellc.spec.base import Name, Pin, SpecModel, Text
-from cellc.spec.quantity import Drift, Duration
+from cellc.spec.quantity import Drift, Duration, TimeShift
 
 
 class RollbackSpec(SpecModel):
@@ -54,7 +54,7 @@ class ClockSpec(SpecModel):
     domain: Text = Field("ros", description="Clock domain that the host's stamps belong to.", examples=["ros"])
     synchronised_by: Text | None = Field(None, description="What disciplines the clock.", examples=["chrony"])
     max_offset: Duration | None = Field(None, description="Bound of the offset to the other hosts.", examples=["1 ms"])
-    simulated_offset: Duration | None = Field(
+    simulated_offset: TimeShift | None = Field(
         None, description="Offset that the mock gives this clock; none if absent.", examples=["0.5 ms"]
     )
     simulated_drift: Drift | None = Field(

@@ -5,6 +5,7 @@ from typing import Annotated, Literal, Union
 from pydantic import Discriminator, Field, Tag
 
 from cellc.spec.base import (
+    MOST,
     FrameReference,
     InterfaceType,
     Name,
@@ -15,7 +16,7 @@ from cellc.spec.base import (
     Text,
     shape_of,
 )
-from cellc.spec.quantity import Duration, Frequency, Ratio
+from cellc.spec.quantity import Duration, Frequency, Ratio, TimeShift
 
 OnStale = Literal["reject_goal", "stop_and_hold", "ignore_sample", "continue"]
 OnTimeout = Literal["cancel_and_hold", "error", "continue"]
@@ -53,7 +54,7 @@ class QosSpec(SpecModel):
     history: Literal["keep_last", "keep_all"] | None = Field(
         None, description="What is queued.", examples=["keep_last"]
     )
-    depth: int | None = Field(None, description="Queue length of keep_last.", examples=[1], ge=1)
+    depth: int | None = Field(None, description="Queue length of keep_last.", examples=[1], ge=1, le=MOST)
     deadline: Duration | None = Field(None, description="Longest time between samples.", examples=["200 ms"])
     lifespan: Duration | None = Field(None, description="Age at which a sample is dropped.", examples=["500 ms"])
     liveliness: Literal["automatic", "manual_by_topic"] | None = Field(
@@ -92,8 +93,8 @@ class InterfaceFields(SpecModel):
 class SimulatedNetworkSpec(SpecModel):
     """What the mock's network does to each sample of a topic, drawn from the seed of the run."""
 
-    latency: Duration | None = Field(None, description="Shortest time from publishing to arrival.", examples=["2 ms"])
-    jitter: Duration | None = Field(None, description="Up to so much more, evenly spread.", examples=["1 ms"])
+    latency: TimeShift | None = Field(None, description="Shortest time from publishing to arrival.", examples=["2 ms"])
+    jitter: TimeShift | None = Field(None, description="Up to so much more, evenly spread.", examples=["1 ms"])
     loss: Ratio | None = Field(None, description="Share of samples lost on their way.", examples=["0.5 %"])
     reordering: Ratio | None = Field(
         None, description="Share of samples that the next one overtakes.", examples=["0.1 %"]

@@ -2,6 +2,9 @@
 
 ``500 Hz``, ``0.2 s``, ``0 0 162 mm``, ``0 -90 90 deg``, ``50 %``. A bare number is an error that tells which units fit.
 Values are held in SI and radians (REP-103) beside the text, so that a message can quote what the user wrote.
+
+Every kind of quantity has its bounds, so that nothing after this meets a rate of zero or a length that overflows. They
+are far beyond any cell: what is merely wrong for one is for rules to say.
 """
 
 from __future__ import annotations
@@ -28,33 +31,35 @@ _MAX_TEXT = 400  # a pose of 20 joints is under 200 characters; more is no quant
 class Dimension:
     """A physical dimension with the units that users may write, each with its factor to SI.
 
-    ``deg`` is the one factor that no decimal holds; it is applied by ``math.radians``.
+    ``deg`` is the one factor that no decimal holds; it is applied by ``math.radians``. ``largest`` is the greatest
+    magnitude in SI.
     """
 
     name: str
     units: tuple[tuple[str, Decimal | None], ...]
+    largest: float
 
 
-def _dimension(name: str, units: dict[str, str | None]) -> Dimension:
-    return Dimension(name, tuple((unit, None if si is None else Decimal(si)) for unit, si in units.items()))
+def _dimension(name: str, units: dict[str, str | None], largest: float) -> Dimension:
+    return Dimension(name, tuple((unit, None if si is None else Decimal(si)) for unit, si in units.items()), largest)
 
 
-LENGTH = _dimension("length", {"mm": "0.001", "cm": "0.01", "m": "1", "um": "0.000001"})
-ANGLE = _dimension("angle", {"deg": None, "rad": "1"})
+LENGTH = _dimension("length", {"mm": "0.001", "cm": "0.01", "m": "1", "um": "0.000001"}, 1e5)
+ANGLE = _dimension("angle", {"deg": None, "rad": "1"}, 1e5)
 DURATION = _dimension(
-    "duration", {"s": "1", "ms": "0.001", "us": "0.000001", "ns": "0.000000001", "min": "60", "h": "3600"}
+    "duration", {"s": "1", "ms": "0.001", "us": "0.000001", "ns": "0.000000001", "min": "60", "h": "3600"}, 4e9
 )
-FREQUENCY = _dimension("frequency", {"Hz": "1", "kHz": "1000", "MHz": "1000000"})
-MASS = _dimension("mass", {"kg": "1", "g": "0.001"})
-RATIO = _dimension("ratio", {"%": "0.01"})
-DRIFT = _dimension("clock drift", {"ppm": "0.000001"})
-FORCE = _dimension("force", {"N": "1", "kN": "1000"})
-VELOCITY = _dimension("velocity", {"m/s": "1", "mm/s": "0.001"})
-ACCELERATION = _dimension("acceleration", {"m/s^2": "1", "mm/s^2": "0.001"})
-JERK = _dimension("jerk", {"m/s^3": "1", "mm/s^3": "0.001"})
-ANGULAR_VELOCITY = _dimension("angular velocity", {"deg/s": None, "rad/s": "1"})
-ANGULAR_ACCELERATION = _dimension("angular acceleration", {"deg/s^2": None, "rad/s^2": "1"})
-ANGULAR_JERK = _dimension("angular jerk", {"deg/s^3": None, "rad/s^3": "1"})
+FREQUENCY = _dimension("frequency", {"Hz": "1", "kHz": "1000", "MHz": "1000000"}, 1e6)
+MASS = _dimension("mass", {"kg": "1", "g": "0.001"}, 1e5)
+RATIO = _dimension("ratio", {"%": "0.01"}, 100.0)
+DRIFT = _dimension("clock drift", {"ppm": "0.000001"}, 1.0)
+FORCE = _dimension("force", {"N": "1", "kN": "1000"}, 1e6)
+VELOCITY = _dimension("velocity", {"m/s": "1", "mm/s": "0.001"}, 1e4)
+ACCELERATION = _dimension("acceleration", {"m/s^2": "1", "mm/s^2": "0.001"}, 1e6)
+JERK = _dimension("jerk", {"m/s^3": "1", "mm/s^3": "0.001"}, 1e8)
+ANGULAR_VELOCITY = _dimension("angular velocity", {"deg/s": None, "rad/s": "1"}, 1e5)
+ANGULAR_ACCELERATION = _dimension("angular acceleration", {"deg/s^2": None, "rad/s^2": "1"}, 1e7)
+ANGULAR_JERK = _dimension("angular jerk", {"deg/s^3": None, "rad/s^3": "1"}, 1e9)
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,11 +82,16 @@ class QuantityVector:
 
 @dataclass(frozen=True, slots=True)
 class QuantityType:
-    """Tells pydantic how a field reads its text; ``size`` is 1, a fixed count, or 0 for any count."""
+    """Tells pydantic how a field reads its text; ``size`` is 1, a fixed count, or 0 for any count.
+
+    ``least`` and ``most`` are bounds in SI, those of the dimension where they are None.
+    """
 
     dimensions: tuple[Dimension, ...]
     example: str
     size: int = 1
+    least: float | None = None
+    most: float | None = None
 
     def __get_pydantic_core_schema__(self, source: object, handler: GetCoreSchemaHandler) -> core_schema.CoreSchema:
         return core_schema.no_info_plain_validator_function(
@@ -125,10 +135,16 @@ class QuantityType:
             context = self._context() | {"actual": len(numbers), "size": self.size}
             raise PydanticCustomError("wrong-count", "expected {size} numbers, got {actual}", context)
         values = tuple(_scaled(number, factors[unit]) for number in numbers)
-        if not all(math.isfinite(value) for value in values):
-            context = self._context() | {"text": text[:60]}
-            raise PydanticCustomError("not-a-quantity", "`{text}` is too large for {what}", context)
+        least, most = self._bounds(unit)
+        if not all(least <= value <= most for value in values):  # what is not finite neither
+            bounds = f"between {_shown(least, factors[unit])} and {_shown(most, factors[unit])} {unit}"
+            context = {"bounds": bounds, "text": text[:60]}
+            raise PydanticCustomError("quantity-out-of-range", "must be {bounds}, got `{text}`", context)
         return Quantity(values[0], unit, text) if self.size == 1 else QuantityVector(values, unit, text)
+
+    def _bounds(self, unit: str) -> tuple[float, float]:
+        largest = next(one.largest for one in self.dimensions if unit in dict(one.units))
+        return (-largest if self.least is None else self.least, largest if self.most is None else self.most)
 
     def _missing_unit(self, text: str) -> PydanticCustomError:
         context = self._context() | {"text": text[:60]}
@@ -145,18 +161,31 @@ def _scaled(number: str, factor: Decimal | None) -> float:
     return math.radians(float(number)) if factor is None else float(Decimal(number) * factor)
 
 
+def _shown(si: float, factor: Decimal | None) -> str:
+    """Write a bound in the unit that the user chose, without exponent where it is large."""
+    value = math.degrees(si) if factor is None else float(Decimal(str(si)) / factor)
+    return f"{value:.0f}" if abs(value) >= 1.0 else f"{value:g}"
+
+
 def _written(value: Quantity | QuantityVector) -> str:
     return value.text
 
 
-Length = Annotated[Quantity, QuantityType((LENGTH,), "162 mm")]
-Duration = Annotated[Quantity, QuantityType((DURATION,), "200 ms")]
-Frequency = Annotated[Quantity, QuantityType((FREQUENCY,), "500 Hz")]
-Mass = Annotated[Quantity, QuantityType((MASS,), "0.9 kg")]
+LONGEST_S = 1e6  # eleven days: no budget, timeout or step of a cell is longer
+SLOWEST_HZ = 1e-6
+
+Length = Annotated[Quantity, QuantityType((LENGTH,), "162 mm", least=0.0)]
+Duration = Annotated[Quantity, QuantityType((DURATION,), "200 ms", least=0.0, most=LONGEST_S)]
+# Ahead or behind: a clock without a battery starts in 1970. Where a length of time has this type, a rule judges it.
+TimeShift = Annotated[Quantity, QuantityType((DURATION,), "-1.5 ms")]
+Frequency = Annotated[Quantity, QuantityType((FREQUENCY,), "500 Hz", least=SLOWEST_HZ)]
+# ros2_control, controller_manager: an integer in Hz.
+UpdateRate = Annotated[Quantity, QuantityType((FREQUENCY,), "500 Hz", least=1.0)]
+Mass = Annotated[Quantity, QuantityType((MASS,), "0.9 kg", least=0.0)]
 Ratio = Annotated[Quantity, QuantityType((RATIO,), "50 %")]
 Drift = Annotated[Quantity, QuantityType((DRIFT,), "20 ppm")]
-Force = Annotated[Quantity, QuantityType((FORCE,), "60 N")]
-Velocity = Annotated[Quantity, QuantityType((VELOCITY,), "0.25 m/s")]
+Force = Annotated[Quantity, QuantityType((FORCE,), "60 N", least=0.0)]
+Velocity = Annotated[Quantity, QuantityType((VELOCITY,), "0.25 m/s", least=0.0)]
 JointPosition = Annotated[Quantity, QuantityType((ANGLE, LENGTH), "0.2 rad")]
 JointVelocity = Annotated[Quantity, QuantityType((ANGULAR_VELOCITY, VELOCITY), "30 deg/s")]
 JointAcceleration = Annotated[Quantity, QuantityType((ANGULAR_ACCELERATION, ACCELERATION), "2 rad/s^2")]

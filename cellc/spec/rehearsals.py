@@ -5,7 +5,7 @@ from typing import Annotated, Literal, Union
 
 from pydantic import Discriminator, Field, Tag
 
-from cellc.spec.base import Name, Pin, SpecModel, StandardOr, Text
+from cellc.spec.base import MOST, Name, Pin, SpecModel, StandardOr, Text
 from cellc.spec.faults import FaultsSpec, first_key
 from cellc.spec.quantity import Duration, Ratio
 from cellc.vocabulary import AttemptOutcome
@@ -87,13 +87,19 @@ class KpisSpec(SpecModel):
         None, description="Longest time from plan to execution.", examples=["500 ms"]
     )
     cancel: Duration | None = Field(None, description="Longest time from cancel to hold.", examples=["200 ms"])
-    missed_cycles: int | None = Field(None, description="Missed update cycles allowed in a run.", examples=[0], ge=0)
+    missed_cycles: int | None = Field(
+        None, description="Missed update cycles allowed in a run.", examples=[0], ge=0, le=MOST
+    )
     stale_state_rejection: Ratio | None = Field(
         None, description="Share of stale samples rejected.", examples=["100 %"]
     )
-    protective_stops: int | None = Field(None, description="Protective stops allowed in a shift.", examples=[0], ge=0)
+    protective_stops: int | None = Field(
+        None, description="Protective stops allowed in a shift.", examples=[0], ge=0, le=MOST
+    )
     recovery_time: Duration | None = Field(None, description="Longest time from stop to ready.", examples=["120 s"])
-    wrong_owner_events: int | None = Field(None, description="Commands of a wrong owner allowed.", examples=[0], ge=0)
+    wrong_owner_events: int | None = Field(
+        None, description="Commands of a wrong owner allowed.", examples=[0], ge=0, le=MOST
+    )
 
 
 class RecordingSpec(SpecModel):

@@ -1,0 +1,46 @@
+"""A name in a device.yaml that nothing has is a finding at its line, with the names that exist."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from cellc.catalog.load import load_device_folder
+from tests.cells import ROOT
+
+PARTS = ROOT / "tests/corpus/valid/parts"
+
+
+@pytest.mark.parametrize(
+    ("device", "old", "new", "message"),
+    [
+        ("demo_camera", "qos: default", "qos: nobody", "the catalog has no QoS profile `nobody`"),
+        ("demo_camera", "info_qos: default", "info_qos: nobody", "the catalog has no QoS profile `nobody`"),
+        ("demo_camera", "optical_frames: [color_optical]", "optical_frames: [nobody]", "no link `nobody`"),
+        ("demo_camera", "frame: color_optical\n", "frame: nobody\n", "the description has no link `nobody`"),
+        ("demo_gripper", "jerk: {finger_joint", "jerk: {nobody", "the description has no joint `nobody`"),
+        ("demo_gripper", "acceleration: {finger_joint", "acceleration: {nobody", "no joint `nobody`"),
+        ("demo_gripper", "  joint: finger_joint", "  joint: nobody", "the description has no joint `nobody`"),
+        ("demo_arm", "tool_frame: tool0", "tool_frame: nobody", "the description has no link `nobody`"),
+        (
+            "demo_gripper",
+            "gripper:\n",
+            "services: [{name: /open, type: std_srvs/srv/Trigger, server: nobody}]\ngripper:\n",
+            "the device has no node `nobody`",
+        ),
+    ],
+)
+def test_name_of_nothing_is_found_at_its_line(device: str, old: str, new: str, message: str, tmp_path: Path) -> None:
+    folder = tmp_path / device
+    shutil.copytree(PARTS / device, folder)
+    text = (folder / "device.yaml").read_text(encoding="utf-8")
+    assert old in text
+    changed = text.replace(old, new, 1)
+    (folder / "device.yaml").write_text(changed, encoding="utf-8")
+    loaded = load_device_folder(folder, tmp_path)
+    assert loaded.value is None
+    (found,) = loaded.diagnostics
+    assert (found.code, found.message.endswith(message)) == ("catalogue-entry-invalid", True)
+    assert "nobody" in changed.splitlines()[found.span.line - 1]

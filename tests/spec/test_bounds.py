@@ -1,0 +1,88 @@
+"""Every quantity and every count of a spec is finite and bounded as it is read; bounds are far beyond any cell."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.spec.reading import ARM, HEAD, parsed
+
+CONTROL = "control: {{update_rate: {}, controllers: {{states: {{type: joint_state_broadcaster}}}}}}\n"
+ACTION = "interfaces: {{/move: {{action: a/action/B, server: x, client: y, timeout: {}}}}}\n"
+TOPIC = "interfaces: {{/pose: {{topic: a/msg/B, from: x, to: y, rate: {}}}}}\n"
+FRAME = "frames: {{part: {{parent: world, xyz: {}}}}}\n"
+PAYLOAD = "devices: {{arm: {{model: ur5e, payload: {{mass: {}, center_of_mass: 0 0 0 m}}}}}}\n"
+QUEUE = "interfaces: {{/pose: {{topic: a/msg/B, from: {{x: {{depth: {}}}}}, to: y}}}}\n"
+FAULT = "rehearsals: {{late: {{inject: {{jump_clock: ros, by: {}, at: 1 s}}}}}}\n"
+PARAMETER = "nodes: {{task: {{run: a/b, parameters: {{p: {}}}}}}}\n"
+
+
+def _found(text: str, folder: Path) -> list[tuple[str, str]]:
+    head = HEAD if text.startswith("devices") else HEAD + ARM
+    return [(one.code, one.message) for one in parsed(head + text, folder).diagnostics]
+
+
+@pytest.mark.parametrize(
+    ("section", "written", "bounds"),
+    [
+        # ros2_control's update_rate is an integer in Hz, so that less than one is none at all.
+        (CONTROL, "0 Hz", "between 1 and 1000000 Hz"),
+        (CONTROL, "0.3 Hz", "between 1 and 1000000 Hz"),
+        (CONTROL, "-1 Hz", "between 1 and 1000000 Hz"),
+        (CONTROL, "1e9 Hz", "between 1 and 1000000 Hz"),
+        (CONTROL, "0 kHz", "between 0.001 and 1000 kHz"),
+        (TOPIC, "0 Hz", "between 1e-06 and 1000000 Hz"),
+        (TOPIC, "1e-99 Hz", "between 1e-06 and 1000000 Hz"),
+        (ACTION, "-1 s", "between 0 and 1000000 s"),
+        (ACTION, "1e99 h", "between 0 and 278 h"),
+        (FRAME, "0 0 1e9 m", "between -100000 and 100000 m"),
+        (FRAME, "0 1e99 0 mm", "between -100000000 and 100000000 mm"),
+        (PAYLOAD, "-1 kg", "between 0 and 100000 kg"),
+        (PAYLOAD, "1e99 g", "between 0 and 100000000 g"),
+        (FAULT, "1e10 s", "between -4000000000 and 4000000000 s"),
+    ],
+)
+def test_quantity_out_of_the_bounds_of_its_kind_is_refused(
+    section: str, written: str, bounds: str, tmp_path: Path
+) -> None:
+    ((code, message),) = _found(section.format(written), tmp_path)
+    assert code == "out-of-range"
+    assert message.endswith(f" must be {bounds}, got `{written}`")
+
+
+@pytest.mark.parametrize(
+    ("section", "written"),
+    [(CONTROL, "1 Hz"), (TOPIC, "0.1 Hz"), (ACTION, "0 s"), (FRAME, "0 0 -99 m"), (FAULT, "-1 s")],
+)
+def test_quantity_within_the_bounds_of_its_kind_is_taken(section: str, written: str, tmp_path: Path) -> None:
+    assert _found(section.format(written), tmp_path) == []
+
+
+def test_count_that_no_system_can_hold_is_refused(tmp_path: Path) -> None:
+    assert _found(QUEUE.format(2**31 - 1), tmp_path) == []
+    ((code, message),) = _found(QUEUE.format(2**31), tmp_path)
+    assert (code, message.endswith("must be at most 2147483647, got `2147483648`")) == ("out-of-range", True)
+
+
+@pytest.mark.parametrize(
+    "written", ["[1, -2]", "[1.0, .inf]", "[true, false]", "[a, b]", "[]", ".inf", "9223372036854775807"]
+)
+def test_parameter_is_a_scalar_or_a_list_of_one_type(written: str, tmp_path: Path) -> None:
+    assert _found(PARAMETER.format(written), tmp_path) == []
+
+
+@pytest.mark.parametrize(
+    ("written", "expected"),
+    [
+        # rcl_yaml_param_parser: "Sequence should be of same type".
+        ("[1, 2.5]", "expected a whole number for `nodes.task.parameters.p[1]`, got the number `2.5`"),
+        ("[true, 1]", "expected `true` or `false` for `nodes.task.parameters.p[1]`, got the number `1`"),
+        ("[a, 1]", "expected text for `nodes.task.parameters.p[1]`, got the number `1`"),
+        ("[[1]]", "expected text for `nodes.task.parameters.p[0]`, got a list"),
+        ("[.nan]", "expected a number other than `.nan` for `nodes.task.parameters.p[0]`, got the number `.nan`"),
+        (".nan", "expected a number other than `.nan` for `nodes.task.parameters.p`, got the number `.nan`"),
+    ],
+)
+def test_list_of_several_types_and_no_number_are_refused(written: str, expected: str, tmp_path: Path) -> None:
+    assert _found(PARAMETER.format(written), tmp_path) == [("wrong-type", expected)]
