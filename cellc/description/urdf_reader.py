@@ -60,7 +60,7 @@ def read_urdf(text: str, file: str, origins: Origins | None = None, *, from_user
         text: the document.
         file: the path as the user named it, for spans.
         origins: places of links and joints before expansion; where given they replace those in ``text``.
-        from_user: refuse texts too that other programs would evaluate or hide; what cellc generates asks xacro for
+        from_user: refuse texts too that other programs would evaluate; what cellc generates asks xacro for
             share folders.
 
     Returns:
@@ -81,7 +81,7 @@ def read_urdf(text: str, file: str, origins: Origins | None = None, *, from_user
     links: list[Link] = _read_each(root.all("link"), lambda element: _read_link(element, known), found)
     joints = _read_each(root.all("joint"), _read_joint, found)
     found.extend(_left_from_xacro(root))
-    found.extend(_unsafe(root) if from_user else ())
+    found.extend(_unsafe(root, from_user))
     if found:
         return Outcome(None, tuple(found))
     hardware, hardware_error = read_hardware(root)
@@ -124,19 +124,19 @@ def _left_from_xacro(root: XmlElement) -> Iterable[Diagnostic]:
             return
 
 
-def _unsafe(root: XmlElement) -> Iterable[Diagnostic]:
-    """Yield texts that other programs would evaluate or hide, in the elements that are read."""
+def _unsafe(root: XmlElement, from_user: bool) -> Iterable[Diagnostic]:
+    """Yield texts that hide something in what is read, and of users those that programs would evaluate."""
     read = (element for element in root.children if element.tag in _READ)
     elements = [root, *(inner for element in read for inner in _walked(element))]
     for element in elements:
         for text in (*element.attributes.values(), element.text):
-            if message := substitution(text):
+            if from_user and (message := substitution(text)):
                 help_text = "name the file `….xacro` so that it is expanded first, or write the value itself"
                 yield Diagnostic("urdf-not-expanded", Severity.ERROR, message, element.span, help=help_text)
             if message := hidden(text):
                 help_text = "delete the character"
                 yield Diagnostic("control-character", Severity.ERROR, message, element.span, help=help_text)
-        for attribute, value in element.attributes.items():
+        for attribute, value in element.attributes.items() if from_user else ():
             # A parser makes spaces of those that stand there as they are; these were written as `&#10;`.
             if "\n" in value or "\t" in value:
                 message = f"`{attribute}` of `<{element.tag}>` holds a line break or a tab"

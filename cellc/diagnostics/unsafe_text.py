@@ -46,19 +46,21 @@ def _said(character: str) -> str:
     return f"the text holds the character U+{ord(character):04X}"
 
 
-def hidden_in_json(text: str) -> tuple[int, str] | None:
-    """Return the line of the first character that hides text, as it is or as an escape, and say which; None without."""
+def hidden_on_line(text: str) -> tuple[int, str] | None:
+    """Return the line of the first character that hides text, and say which; None where there is none."""
     told = text.replace("\r\n", "\n")
-    told = _JSON_ESCAPE.sub(lambda found: _unescaped(found[0]), told) if "\\" in told else told
     match = HIDDEN.search(told)
-    if match is None:
-        return None
-    return told.count("\n", 0, match.start()) + 1, _said(match[0])
+    return None if match is None else (told.count("\n", 0, match.start()) + 1, _said(match[0]))
+
+
+def hidden_in_json(text: str) -> tuple[int, str] | None:
+    """Return the same of a JSON text, in which a character stands as it is or as an escape."""
+    return hidden_on_line(_JSON_ESCAPE.sub(lambda found: _unescaped(found[0]), text) if "\\" in text else text)
 
 
 def _unescaped(escape: str) -> str:
     try:
-        return str(json.loads(f'"{escape}"')).replace("\n", " ")
+        return str(json.loads(f'"{escape}"')).replace("\n", " ")  # which ends no line of the file
     except ValueError:  # no escape of JSON, which its reader refuses
         return ""
 

@@ -20,6 +20,7 @@ from cellc.cell.cell import Cell
 from cellc.cell.interface import Interface, InterfaceKind
 from cellc.deploy.deployment import Deployment
 from cellc.deploy.labels import claim_facts, driver_facts, interface_facts, stop_facts
+from cellc.formats.escape import one_line
 from cellc.formats.xml_text import element, render
 from cellc.graph.cell_graph import CellGraph
 
@@ -141,7 +142,7 @@ def _row(row: Row, top: int) -> Iterator[Element]:
 
 def _text(x: int, y: int, said: str, style: dict[str, str]) -> Element:
     """Return a line of text; ``y`` is its base line."""
-    return element("text", {"x": str(x), "y": str(y)} | style, text=said)
+    return element("text", {"x": str(x), "y": str(y)} | style, text=one_line(said))
 
 
 def _arrow(left: int, right: int, y: int) -> Element:

@@ -8,6 +8,8 @@ from __future__ import annotations
 import re
 import shlex
 
+from cellc.diagnostics.unsafe_text import escaped_within
+
 _SPACE = re.compile(r"\s+")
 _CODE = re.compile(r"((?<!`)(`+)(?!`).+?(?<!`)\2(?!`))")
 _MARKED = re.compile(r"[\\`*\[\]<]|&(?=[A-Za-z#])|(?<!\w)_|_(?!\w)")
@@ -15,8 +17,9 @@ _BLOCK = re.compile(r"[#>+=~-]|\d+(?=[.)](\s|$))")
 
 
 def one_line(text: str) -> str:
-    """Return a text without line breaks."""
-    return _SPACE.sub(" ", text).strip() if _SPACE.search(text) else text
+    """Return a text without line breaks, and with an escape for each character that hides text."""
+    line = _SPACE.sub(" ", text).strip() if _SPACE.search(text) else text
+    return escaped_within(line)
 
 
 def xacro_text(text: str) -> str:

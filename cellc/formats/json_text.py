@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 
 from pydantic import BaseModel
 
+from cellc.diagnostics.unsafe_text import harmless_json
 from cellc.formats.numbers import positive_zero
 
 _WIDTH = 120
@@ -40,4 +41,4 @@ def _enclosed(start: str, entries: Sequence[str], end: str, before: int, depth: 
 
 
 def _scalar(value: Json) -> str:
-    return json.dumps(positive_zero(value) if isinstance(value, float) else value, ensure_ascii=False)
+    return harmless_json(json.dumps(positive_zero(value) if isinstance(value, float) else value, ensure_ascii=False))

@@ -6,7 +6,10 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from xml.etree.ElementTree import Element
 
+from cellc.diagnostics.unsafe_text import HIDDEN, escaped_within
+
 _COMMENT = "!--"
+_NO_CHARACTER = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 
 
 def element(
@@ -42,16 +45,23 @@ def render(root: Element, header: str = "") -> str:
 
 
 def _apart(text: str) -> str:
-    return re.sub("-(?=-)", "- ", text)
+    return re.sub("-(?=-)", "- ", escaped_within(text))
 
 
 # As xml.sax.saxutils does it, whose import takes 8 ms of every check because it brings urllib along.
 def _escaped(text: str) -> str:
-    return text.replace("&", "&amp;").replace(">", "&gt;").replace("<", "&lt;")
+    shown = text.replace("&", "&amp;").replace(">", "&gt;").replace("<", "&lt;")
+    return shown if shown.isascii() and shown.isprintable() else HIDDEN.sub(_reference, shown)
+
+
+def _reference(found: re.Match[str]) -> str:
+    """Return a reference to a character that hides text; XML 1.0 takes none to what its production Char leaves out."""
+    character = found[0]
+    return "\ufffd" if _NO_CHARACTER.match(character) else f"&#x{ord(character):X};"
 
 
 def _quoted(value: str) -> str:
-    escaped = _escaped(value).replace("\n", "&#10;").replace("\r", "&#13;").replace("\t", "&#9;")
+    escaped = _escaped(value).replace("\n", "&#10;").replace("\t", "&#9;")
     if '"' not in escaped:
         return f'"{escaped}"'
     return '"{}"'.format(escaped.replace('"', "&quot;")) if "'" in escaped else f"'{escaped}'"

@@ -12,6 +12,7 @@ from collections.abc import Iterator, Mapping
 from typing import Union
 
 from cellc.cell.interface import ParameterValue
+from cellc.diagnostics.unsafe_text import HIDDEN
 from cellc.formats.numbers import decimal
 
 _Scalar = Union[bool, int, float, str]
@@ -36,7 +37,12 @@ def scalar(value: _Scalar) -> str:
     if isinstance(value, float):
         return decimal(value)
     plain = _PLAIN.fullmatch(value) and value.lower() not in _MISREAD
-    return value if plain else json.dumps(value, ensure_ascii=False)
+    return value if plain else HIDDEN.sub(_as_escape, json.dumps(value, ensure_ascii=False))
+
+
+def _as_escape(found: re.Match[str]) -> str:
+    code = ord(found[0])
+    return f"\\u{code:04x}" if code <= 0xFFFF else f"\\U{code:08x}"
 
 
 def nested(parameters: Mapping[str, ParameterValue]) -> Tree:

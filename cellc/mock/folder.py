@@ -17,6 +17,7 @@ from cellc.contract.rehearsals import RehearsalEntry, Rehearsals
 from cellc.description.model import Description
 from cellc.description.urdf_reader import read_urdf
 from cellc.description.xml_tree import read_xml
+from cellc.diagnostics.unsafe_text import hidden_in_json, hidden_on_line
 from cellc.mock.errors import MockError
 
 CONTRACT_FILE = "contract.json"
@@ -139,13 +140,22 @@ def _read_text(folder: Path, name: str) -> str:
     try:
         if path.stat().st_size > MAX_BYTES:
             raise MockError(name, f"is larger than {MAX_BYTES} bytes")
-        return path.read_bytes().decode("utf-8")
+        text = path.read_bytes().decode("utf-8")
     except FileNotFoundError:
         raise MockError(name, "is missing from the generated folder") from None
     except OSError as error:
         raise MockError(name, f"cannot be read: {error.strerror}") from None
     except UnicodeDecodeError:
         raise MockError(name, "is not UTF-8 text") from None
+    _refuse_hidden(name, text)
+    return text
+
+
+def _refuse_hidden(name: str, text: str) -> None:
+    """Refuse a text that hides something from who reads it; what the compiler writes does not."""
+    found = hidden_in_json(text) if name.endswith(".json") else hidden_on_line(text)
+    if found is not None:
+        raise MockError(name, f"line {found[0]}: {found[1]}")
 
 
 def _inside(folder: Path, name: str) -> Path:

@@ -22,9 +22,10 @@ CODES: tuple[CodePage, ...] = (
     _page(
         "control-character",
         "the text holds a character that steers terminals or hides text",
-        "Escape sequences, text direction overrides and Unicode line separators make a reviewer see something "
-        "else than what the compiler reads. YAML itself forbids most of them, and as an escape they would reach "
-        "names and files that are generated.",
+        "Escape sequences, text direction overrides, characters without a width and Unicode line separators make a "
+        "reviewer see something else than what the compiler reads. YAML itself forbids most of them, and as an escape "
+        "they would reach names and files that are generated. A joiner between letters of a script that needs it, or "
+        "between emoji, is no finding.",
         "delete the character",
     ),
     _page(

@@ -53,7 +53,7 @@ def test_spoilt_json_is_refused(folder: Path, name: str, content: bytes) -> None
 @pytest.mark.parametrize(
     ("changes", "reason"),
     [
-        ({"name": "a\n\x1b[31mb"}, "of the name 'a\\n\\x1b[31mb'"),
+        ({"name": "a\nb"}, "of the name 'a\\nb'"),
         ({"timeout_s": 1e300}, "a time of more than 1e+09 s in rehearsal `faulty`"),
         ({"steps": [{"kind": "wait", "target": "", "duration_s": 1e10}]}, "a time of more than 1e+09 s"),
     ],
@@ -61,6 +61,30 @@ def test_spoilt_json_is_refused(folder: Path, name: str, content: bytes) -> None
 def test_rehearsal_that_no_spec_makes_is_refused(load_with: LoadWith, changes: dict[str, Any], reason: str) -> None:
     with pytest.raises(MockError, match=re.escape(reason)):
         load_with(**changes)
+
+
+@pytest.mark.parametrize("character", ["\x1b", "\x9b", "\u202e", "\u200b", "\U000e0041"])
+@pytest.mark.parametrize("as_it_is", [True, False])
+def test_hidden_character_of_a_json_file_is_named_with_its_line(folder: Path, character: str, as_it_is: bool) -> None:
+    if as_it_is and character == "\x1b":
+        pytest.skip("JSON forbids it as it is")
+    file = folder / "contract.json"
+    told = json.loads(file.read_text())
+    told["summary"] = f"a{character}b"
+    file.write_text(json.dumps(told, ensure_ascii=not as_it_is, indent=1))
+    line = next(number for number, line in enumerate(file.read_text().split("\n"), 1) if "summary" in line)
+    assert refusal(folder).reason == f"line {line}: the text holds the character U+{ord(character):04X}"
+
+
+def test_hidden_character_of_other_files_is_refused_too(folder: Path) -> None:
+    for name in ("config/controllers.yaml", "urdf/ur5e_pick.mock.urdf"):
+        file = folder / name
+        text = file.read_text()
+        file.write_text(f"{text}<!-- \u202e -->\n" if name.endswith("urdf") else f"{text}# \u202e\n")
+        assert refusal(folder).reason == f"line {text.count(chr(10)) + 1}: the text holds the character U+202E"
+        file.write_text(text)
+    file.write_text(text.replace("<link name=", '<link name="a&#x202E;"/><link name=', 1))
+    assert "the text holds the character U+202E" in refusal(folder).reason
 
 
 def test_two_rehearsals_of_one_name_are_refused(folder: Path) -> None:

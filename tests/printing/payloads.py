@@ -48,6 +48,11 @@ def harm(output: str, own_commands: frozenset[str] = frozenset()) -> list[str]:
     return [line for line in output.split("\n") if _STEERING.search(line) or _obeyed(line, own_commands)]
 
 
+def hides(text: str) -> bool:
+    """Whether a file holds what hides text or steers a terminal; tabs and ends of lines are its own."""
+    return _STEERING.search(text.replace("\t", "")) is not None
+
+
 def without_colour(output: str) -> str:
     """Return output without the colours that are ours."""
     return _COLOUR.sub("", output)

@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable
 from xml.etree.ElementTree import Element, tostring
 
-Child = Element | str
-_UNPRINTABLE = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff\ufdd0-\ufdef\ufffe\uffff]")
-"""Characters that HTML text must not hold."""
+from cellc.diagnostics.unsafe_text import escaped_within
 
+Child = Element | str
 _NONE = "–"
 
 
 def tag(name: str, *children: Child, **attributes: str) -> Element:
     """Return an element; a trailing underscore of an attribute is dropped, other underscores become hyphens."""
     names = {key: key.removesuffix("_").replace("_", "-") for key in attributes}
-    element = Element(name, {names[key]: _clean(value) for key, value in attributes.items()})
+    element = Element(name, {names[key]: escaped_within(value) for key, value in attributes.items()})
     return extend(element, children)
 
 
@@ -26,9 +24,9 @@ def extend(element: Element, children: Iterable[Child]) -> Element:
         if isinstance(child, Element):
             element.append(child)
         elif len(element):
-            element[-1].tail = (element[-1].tail or "") + _clean(child)
+            element[-1].tail = (element[-1].tail or "") + escaped_within(child)
         else:
-            element.text = (element.text or "") + _clean(child)
+            element.text = (element.text or "") + escaped_within(child)
     return element
 
 
@@ -51,10 +49,6 @@ def to_page(title: str, style: str, body: Element) -> str:
     )
     html = tag("html", head, body, lang="en")
     return "<!DOCTYPE html>\n" + tostring(html, encoding="unicode", method="html") + "\n"
-
-
-def _clean(text: str) -> str:
-    return _UNPRINTABLE.sub("\ufffd", text)
 
 
 def seconds(value_s: float | None) -> str:
