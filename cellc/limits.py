@@ -60,6 +60,15 @@ class Limits:
     xacro_items: int = _row(10_000, "items", 1_000_000, "a list in an expression of xacro")
     xacro_seconds: int = _row(10, "s", 3600, "time of one expansion of xacro")
     xacro_memory: int = _row(1024 * MIB, "bytes", 64 * 1024 * MIB, "memory of one expansion of xacro")
+    mesh_shapes: int = _row(1000, "shapes", 20_000, "mesh shapes of one description")
+    mesh_bytes: int = _row(64 * MIB, "bytes", 1024 * MIB, "one mesh file")
+    mesh_bytes_together: int = _row(256 * MIB, "bytes", 4096 * MIB, "all mesh files of one description")
+    mesh_triangles: int = _row(200_000, "triangles", 5_000_000, "one mesh")
+    mesh_triangles_together: int = _row(
+        500_000, "triangles", 20_000_000, "all meshes of one description, each once for each scale"
+    )
+    mesh_seconds: int = _row(10, "s", 3600, "processor time of reading all meshes of one description")
+    mesh_memory: int = _row(1024 * MIB, "bytes", 64 * 1024 * MIB, "memory of reading them")
 
 
 DEFAULTS = Limits()

@@ -1,47 +1,202 @@
-"""Where the mesh files of a robot description lie, and what an answer that rests on them is kept under.
+"""Where the mesh files of a robot description lie, which of them may be read, and how much of them.
 
-Planning is given the files that are found here under their full paths, so that nothing else is searched for.
+A name leads to a regular file in the folder of the spec or in a package of the package path, and nowhere else. What is
+in the file is read by a child process (`mesh_numbers`); here its bytes are counted and hashed.
 """
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import os
-from collections.abc import Iterator, Mapping
+import stat
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from xml.etree import ElementTree
 
-SELF_CONTAINED = (".stl", ".dae", ".obj", ".ply", ".off")
-"""Formats whose shape is in the one file; others, such as glTF, may read further ones that nobody sees from here."""
+from cellc.description.model import Mesh
+from cellc.description.packages import lies_under, searched_folders
+from cellc.limits import MIB, limits, option
+from cellc.transforms import Vector3
+
+FORMATS = (".stl", ".dae", ".obj", ".ply", ".off", ".glb")
+"""Formats whose shape is in the one file."""
+MAX_COORDINATE_M = 1e6
+"""Beyond it the arithmetic of collision checks has no millimetres left."""
+
+MESH_NOT_FOUND = "mesh-not-found"
+MESH_OUTSIDE_ROOT = "mesh-outside-root"
+MESH_TOO_LARGE = "mesh-too-large"
+MALFORMED_MESH = "malformed-mesh"
 
 _PIECE = 1 << 20
+_OF_THE_SYSTEM = ("/proc", "/sys", "/dev")
+_SHELVES = "`ROS_PACKAGE_PATH` or `AMENT_PREFIX_PATH`"
+_SHOWN = 200
 
 
 class MeshError(Exception):
-    """A mesh file cannot be read; the text says which one and why."""
+    """A mesh cannot be used; ``code`` is that of a rule, and the text says why.
+
+    Attributes:
+        certain: whether it follows from the file alone, and not from others or from what the machine had left.
+    """
+
+    def __init__(self, code: str, message: str, help_text: str = "", certain: bool = True) -> None:
+        super().__init__(message)
+        self.code, self.message, self.help_text, self.certain = code, message, help_text, certain
+
+    def about(self, name: str) -> MeshError:
+        """Return the same about the mesh that a description names."""
+        return MeshError(self.code, f"mesh `{name[:_SHOWN]}` {self.message}", self.help_text, self.certain)
 
 
-def find_mesh(name: str, environment: Mapping[str, str] = os.environ) -> Path:
-    """Return the full path of a mesh file that a description names.
+def too_large(message: str, limit: str, certain: bool = True) -> MeshError:
+    """Return what is said of a mesh beyond a row of the limits."""
+    advice = f"name a coarser mesh in `<collision>`, and leave the fine one to `<visual>`; {option(limit)}"
+    return MeshError(MESH_TOO_LARGE, message, advice, certain)
+
+
+@dataclass(frozen=True, slots=True)
+class MeshFile:
+    """A mesh file with the hash of its content and its size in bytes."""
+
+    path: str
+    suffix: str
+    digest: str
+    size: int
+
+
+@dataclass(frozen=True, slots=True)
+class MeshFacts:
+    """What is known of a mesh file once it was read.
+
+    Attributes:
+        triangles: their number.
+        reach: largest distance from the origin along each axis, in the unit of the file.
+        fault: code, message and help where it cannot be used.
+        certain: whether this follows from the file alone; see `MeshError`.
+    """
+
+    triangles: int = 0
+    reach: Vector3 = (0.0, 0.0, 0.0)
+    fault: tuple[str, str, str] | None = None
+    certain: bool = True
+
+
+def identify_all(meshes: Iterable[Mesh], roots: Sequence[Path]) -> dict[str, MeshFile | MeshError]:
+    """Return the file of each mesh, or why there is none, by the name that the description gives it; see `identify`."""
+    files: dict[str, MeshFile | MeshError] = {}
+    together, most = 0, limits().mesh_bytes_together
+    for name in dict.fromkeys(mesh.filename for mesh in meshes):
+        try:
+            files[name] = file = identify(name, roots)
+            together += file.size
+            if together > most:
+                message = f"must have at most {most / MIB:g} MiB with the meshes before it, got more"
+                raise too_large(message, "mesh-bytes-together").about(name)
+        except MeshError as error:
+            files[name] = error
+        if len(files) > limits().mesh_shapes or together > most:
+            break
+    return files
+
+
+def readable(files: Mapping[str, MeshFile | MeshError]) -> tuple[MeshFile, ...]:
+    """Return the files that are there, each once and in one order whoever asks."""
+    found = {file for file in files.values() if isinstance(file, MeshFile)}
+    return tuple(sorted(found, key=lambda file: (file.digest, file.path)))
+
+
+def unusable(
+    meshes: Sequence[Mesh], files: Mapping[str, MeshFile | MeshError], facts: Mapping[MeshFile, MeshFacts]
+) -> Iterator[tuple[Mesh, MeshError]]:
+    """Yield the first shape of each file and scale that cannot be used.
+
+    Args:
+        files: of ``identify_all``.
+        facts: what is in each file, as far as it is known: what is not known is no fault.
+    """
+    if len(meshes) > (most := limits().mesh_shapes):
+        message = f"must be one of at most {most} mesh shapes, got {len(meshes)}"
+        yield meshes[most], too_large(message, "mesh-shapes").about(meshes[most].filename)
+    together = 0
+    for mesh in dict.fromkeys(meshes):
+        file = files.get(mesh.filename)
+        if isinstance(file, MeshError):
+            yield mesh, file
+        elif file is not None and file in facts:
+            together += facts[file].triangles
+            try:
+                _judge(mesh, facts[file], together)
+            except MeshError as fault:
+                yield mesh, fault.about(mesh.filename)
+
+
+def _judge(mesh: Mesh, facts: MeshFacts, together: int) -> None:
+    if facts.fault is not None:
+        raise MeshError(*facts.fault)
+    if together > limits().mesh_triangles_together:
+        most = limits().mesh_triangles_together
+        message = f"must have at most {most} triangles with the meshes before it, got {together}"
+        raise too_large(message, "mesh-triangles-together")
+    if 0.0 in mesh.scale:
+        raise MeshError(MALFORMED_MESH, "must have a `scale` without 0", "write how many m a unit of the file is")
+    reach = max(abs(factor) * length for factor, length in zip(mesh.scale, facts.reach, strict=True))
+    if reach > MAX_COORDINATE_M:
+        message = f"must lie within {MAX_COORDINATE_M:g} m of its origin, got {reach:g} m"
+        raise MeshError(MALFORMED_MESH, message, "write in `scale` how many m a unit of the file is")
+
+
+def identify(name: str, roots: Sequence[Path], environment: Mapping[str, str] = os.environ) -> MeshFile:
+    """Find the file of a mesh that a description names, and hash its content.
 
     ``package://``, ``model://`` and relative names are looked up in the folders of ``ROS_PACKAGE_PATH`` and the
-    ``share`` folders of ``AMENT_PREFIX_PATH``, as pinocchio does; the first that holds the file counts.
+    ``share`` folders of ``AMENT_PREFIX_PATH``, which the user chose and where links to a workspace are usual; then as
+    packages in the folders of specs, out of which no link may lead. An absolute name must lie in one of these folders.
+
+    Args:
+        roots: folders of the specs that bring the descriptions; none where only packages count.
 
     Raises:
-        MeshError: no file is found, or the scheme is not known.
+        MeshError: there is no such file, or it may not be read, or it is too large.
     """
+    try:
+        file, suffix = _find(name, roots, tuple(_search_folders(environment))), Path(name).suffix.lower()
+        if suffix not in FORMATS:
+            message = f"must be a file of {', '.join(FORMATS)}, got `{suffix[:20]}`"
+            raise MeshError(MALFORMED_MESH, message, "export the shape as STL")
+        digest, size = hashlib.sha256(), 0
+        for piece in read_pieces(file):
+            digest.update(piece)
+            size += len(piece)
+    except OSError as error:
+        raise MeshError(MESH_NOT_FOUND, f"mesh `{name[:_SHOWN]}` cannot be read: {error.strerror}") from None
+    except MeshError as error:
+        raise error.about(name) from None
+    return MeshFile(file.as_posix(), suffix, digest.hexdigest(), size)
+
+
+def _find(name: str, roots: Sequence[Path], shelves: Sequence[Path]) -> Path:
     scheme, separator, path = name.partition("://")
     if not separator:
         scheme, path = "file" if os.path.isabs(name) else "package", name
     if scheme not in ("file", "package", "model"):
-        raise MeshError(f"mesh `{name}` has the scheme `{scheme}`, expected `package` or `file`")
-    folders = [Path()] if scheme == "file" else _search_folders(environment)
-    for folder in folders:
-        # Not normalized: `..` behind a link is where the system finds it. An absolute path would replace the folder.
-        file = Path.cwd() / folder / (path if scheme == "file" else path.lstrip("/"))
-        if os.path.isfile(file):
-            return file
-    raise MeshError(f"mesh `{name}` could not be found")
+        message = f"has the scheme `{scheme[:20]}`, expected `package` or `file`"
+        raise MeshError(MESH_NOT_FOUND, message, "write `package://PACKAGE/FILE`")
+    parts = [part for part in path.split("/") if part]
+    if ".." in parts:
+        raise MeshError(MESH_OUTSIDE_ROOT, "must not leave its folder with `..`", "name the file without `..`")
+    if scheme == "file":
+        return _regular(_absolute(Path(path), roots, shelves))
+    for shelf in shelves:
+        if os.path.lexists(file := shelf.joinpath(*parts)):
+            return _regular(file)
+    for root, folder in _packages(parts, roots):
+        if os.path.lexists(file := folder.joinpath(*parts[1:])):
+            return _regular(_within(file, root))
+    places = f"the folder of the spec or in {_SHELVES}" if roots else f"folders of {_SHELVES}"
+    raise MeshError(MESH_NOT_FOUND, f"could not be found in {places}")
 
 
 def _search_folders(environment: Mapping[str, str]) -> Iterator[Path]:
@@ -53,50 +208,58 @@ def _search_folders(environment: Mapping[str, str]) -> Iterator[Path]:
         yield Path(prefix) / "share"
 
 
-def with_mesh_files(urdf: str) -> str:
-    """Return the description with the full path of every mesh of its collision shapes.
+def _packages(parts: Sequence[str], roots: Iterable[Path]) -> Iterator[tuple[Path, Path]]:
+    """Yield each root with each folder below it that may be the package."""
+    for root in roots if parts else ():
+        yield from ((root, Path(folder)) for folder in searched_folders(parts[0], root.as_posix()))
+
+
+def _absolute(file: Path, roots: Sequence[Path], shelves: Sequence[Path]) -> Path:
+    if not file.is_absolute():
+        message = "must have an absolute path behind `file://`"
+        raise MeshError(MESH_OUTSIDE_ROOT, message, "write `package://PACKAGE/FILE`")
+    if any(lies_under(file.as_posix(), root.as_posix()) for root in (*roots, *shelves)):
+        return file
+    if any(file.is_relative_to(os.path.abspath(shelf)) for shelf in shelves):
+        return file  # a link of a package that the user chose
+    message = f"must lie in the folder of the spec or in {_SHELVES}"
+    raise MeshError(MESH_OUTSIDE_ROOT, message, "put the file in a package beside the spec, and name it `package://…`")
+
+
+def _within(file: Path, root: Path) -> Path:
+    if not lies_under(file.as_posix(), root.as_posix()):
+        message = "must lie in the folder of the spec, and is a link that leads out of it"
+        raise MeshError(MESH_OUTSIDE_ROOT, message, "put a copy of the file in its place")
+    return file
+
+
+def _regular(file: Path) -> Path:
+    """Return the real path of a regular file that is none of the operating system's."""
+    real = Path(os.path.realpath(file))
+    if any(real.is_relative_to(folder) for folder in _OF_THE_SYSTEM):
+        raise MeshError(MESH_OUTSIDE_ROOT, "must not be a file of the operating system", "name a mesh file")
+    mode = os.stat(real).st_mode
+    if not stat.S_ISREG(mode):
+        got = "a folder" if stat.S_ISDIR(mode) else "something else"
+        raise MeshError(MESH_NOT_FOUND, f"must be a regular file, got {got}", "name a mesh file")
+    return real
+
+
+def read_pieces(file: Path) -> Iterator[bytes]:
+    """Yield the bytes of a regular file, as many as may be read; whatever takes its place meanwhile, nothing waits.
 
     Raises:
-        MeshError: one of them is not found.
+        OSError: it cannot be read, or it is a link or something else by now.
+        MeshError: it is too large.
     """
-    if "<mesh" not in urdf:
-        return urdf
-    root = ElementTree.fromstring(urdf)
-    for mesh in _collision_meshes(root):
-        mesh.set("filename", str(find_mesh(mesh.get("filename", ""))))
-    return ElementTree.tostring(root, encoding="unicode")
-
-
-def mesh_contents(urdf: str) -> str | None:
-    """Return what every mesh of the collision shapes is now: its place and the hash of its content, or its absence.
-
-    Returns:
-        None where the shapes may rest on files that the description does not name, so that no answer can be kept.
-    """
-    if "<mesh" not in urdf:
-        return ""
-    names = sorted({mesh.get("filename", "") for mesh in _collision_meshes(ElementTree.fromstring(urdf))})
-    contents = [_content(name) for name in names]
-    return None if None in contents else "\n".join(filter(None, contents))
-
-
-def _content(name: str) -> str | None:
-    try:
-        file = find_mesh(name)
-        kept = file.suffix.lower() in SELF_CONTAINED
-        return f"{name}\n{file}\n{_sha256(file)}" if kept else None
-    except (MeshError, OSError) as error:
-        return f"{name}\n{error}"
-
-
-def _collision_meshes(root: ElementTree.Element) -> Iterator[ElementTree.Element]:
-    for collision in root.iter("collision"):
-        yield from collision.iter("mesh")
-
-
-def _sha256(file: Path) -> str:
-    digest = hashlib.sha256()
-    with file.open("rb") as stream:
+    descriptor = os.open(file, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOFOLLOW", 0))
+    with os.fdopen(descriptor, "rb") as stream:
+        if not stat.S_ISREG(os.fstat(descriptor).st_mode):
+            raise OSError(errno.EINVAL, "it is not a regular file")
+        room = limits().mesh_bytes
         while piece := stream.read(_PIECE):
-            digest.update(piece)
-    return digest.hexdigest()
+            room -= len(piece)
+            if room < 0:
+                message = f"must have at most {limits().mesh_bytes / MIB:g} MiB, got more"
+                raise too_large(message, "mesh-bytes")
+            yield piece

@@ -6,7 +6,7 @@ report them where they stand.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Union
 
 from cellc.diagnostics import Span
@@ -41,6 +41,7 @@ class Mesh:
 
     filename: str
     scale: Vector3
+    span: Span | None = field(default=None, compare=False)
 
 
 Geometry = Union[Box, Cylinder, Sphere, Mesh]

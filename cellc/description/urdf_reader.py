@@ -263,6 +263,6 @@ def _read_geometry(element: XmlElement) -> Geometry:
         return Sphere(number(shape, "radius"))
     if shape.tag == "mesh":
         scale = vector(shape, "scale") if "scale" in shape.attributes else (1.0, 1.0, 1.0)
-        return Mesh(required(shape, "filename"), scale)
+        return Mesh(required(shape, "filename"), scale, shape.span)
     help_text = "use `box`, `cylinder`, `sphere` or `mesh`"
     raise refused("urdf-bad-geometry", shape, f"`<{shape.tag}>` is not a shape of URDF", help_text)

@@ -17,8 +17,9 @@ from xml.dom import minidom
 
 import xacro
 
+from cellc.description.packages import find_package, searched_folders
 from cellc.description.xacro_expression import evaluate, functions
-from cellc.description.xacro_files import ConfinedFiles, XacroRefusedError, find_package, searched_folders
+from cellc.description.xacro_files import ConfinedFiles, XacroRefusedError
 from cellc.description.xml_tree import XmlElement, read_xml
 from cellc.diagnostics import Span
 from cellc.limits import limits, option

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import json
 import os
-import subprocess
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -19,6 +18,7 @@ from xml.dom import minidom
 
 import xacro
 
+from cellc.description.confined_child import ChildEndedError, ask_child, confine_this_process
 from cellc.description.xacro_confinement import Confinement, place_of
 from cellc.description.xacro_expression import ExpressionError
 from cellc.description.xacro_files import XacroRefusedError
@@ -146,22 +146,10 @@ def expand_xacro(
     allowed_s = limits().xacro_seconds if wall_seconds is None else wall_seconds
     start = Span(file.as_posix(), 1, 1, 1, 1)
     try:
-        answer = subprocess.run(
-            [sys.executable, "-m", "cellc.description.xacro_expansion"],
-            input=json.dumps(request).encode(),
-            stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL,
-            # `-m` puts the current folder first on the import path: it must not be one that a stranger filled.
-            cwd=Path(__file__).resolve().parents[2],
-            env={**os.environ, "PYTHONHASHSEED": "0"},
-            timeout=allowed_s,
-            check=False,
-        )
-    except subprocess.TimeoutExpired:
-        return _ended(f"the expansion takes longer than {allowed_s:g} s", start)
-    if answer.returncode != 0:
-        return _ended("the expansion takes more time or memory than it may use", start)
-    return _decoded(json.loads(answer.stdout))
+        answer = ask_child(__name__, json.dumps(request).encode(), allowed_s)
+    except ChildEndedError as reason:
+        return _ended(f"the expansion {reason}", start)
+    return _decoded(json.loads(answer))
 
 
 def _ended(message: str, start: Span) -> Outcome[Expansion]:
@@ -201,20 +189,9 @@ def main() -> None:
     """Expand what stdin asks for."""
     request = json.load(sys.stdin)
     use(raised(request["limits"]))
-    _limit_resources()
+    confine_this_process(limits().xacro_seconds, limits().xacro_memory, 4 * limits().xml_bytes)
     os.chdir(request["folder"])  # names in diagnostics stay those that the user wrote
     json.dump(_encoded(expand_here(request["file"], request["arguments"], request["root"])), sys.stdout)
-
-
-def _limit_resources() -> None:
-    try:
-        import resource
-    except ImportError:  # not a POSIX system: the parent's wall time is the limit
-        return
-    for kind, amount in ((resource.RLIMIT_CPU, limits().xacro_seconds), (resource.RLIMIT_AS, limits().xacro_memory)):
-        hard = resource.getrlimit(kind)[1]
-        allowed = amount if hard == resource.RLIM_INFINITY else min(amount, hard)
-        resource.setrlimit(kind, (allowed, hard))
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""The files that an expansion may read, regular ones under one folder and of bounded size, and its search of packages.
+"""The files that an expansion may read: regular ones under one folder and of bounded size.
 
 The ament index of the machine is left out on purpose: what is built must depend on what lies beside the spec, and a
 description from a stranger must not reach the packages of the machine.
@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import math
 import os
-import re
 from typing import Any
 
 import xacro
 import yaml
 
+from cellc.description.packages import lies_under
 from cellc.description.xacro_expression import evaluate, functions
 from cellc.diagnostics import Span
 from cellc.limits import MIB, limits, option
@@ -45,13 +45,11 @@ class ConfinedFiles:
     def __init__(self, root: str, shown_root: str | None = None) -> None:
         self.root = root
         self._shown_root = shown_root
-        self._real_root = os.path.realpath(root)
         self._bytes_read = 0
 
     def holds(self, path: str) -> bool:
         """Whether a path lies under the root, links followed."""
-        real = os.path.realpath(path)
-        return real == self._real_root or real.startswith(self._real_root.rstrip(os.sep) + os.sep)
+        return lies_under(path, self.root)
 
     def checked(self, path: str) -> str:
         """Return ``path`` unless it leads out of the root."""
@@ -124,26 +122,3 @@ def _with_unit(loader: yaml.SafeLoader, suffix: str, node: yaml.Node) -> float:
 
 
 _UnitLoader.add_multi_constructor("!", _with_unit)
-
-_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*", re.ASCII)
-
-
-def searched_folders(name: str, root: str) -> tuple[str, ...]:
-    """List the folders that may hold a package, in the order of the search."""
-    below = (
-        (name,),
-        ("src", name),
-        ("share", name),
-        ("install", name, "share", name),
-        ("install", "share", name),
-    )
-    folders = tuple("/".join((root.rstrip("/"), *parts)) for parts in below)
-    # The root itself is the package where a description stands in its own repository.
-    return (root, *folders) if os.path.basename(os.path.abspath(root)) == name else folders
-
-
-def find_package(name: str, root: str) -> str | None:
-    """Return the first existing folder of a package, or None."""
-    if _NAME.fullmatch(name) is None:
-        return None
-    return next((folder for folder in searched_folders(name, root) if os.path.isdir(folder)), None)

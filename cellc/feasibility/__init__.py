@@ -14,6 +14,7 @@ from cellc.feasibility.answers import (
     PoseAnswer,
 )
 from cellc.feasibility.feasibility import disabled_links, motion_answer
+from cellc.feasibility.meshes import MeshFault, mesh_faults
 
 __all__ = [
     "MARGIN_M",
@@ -22,8 +23,10 @@ __all__ = [
     "DisabledAnswer",
     "DisabledLinks",
     "GoalAnswer",
+    "MeshFault",
     "MotionAnswer",
     "PoseAnswer",
     "disabled_links",
+    "mesh_faults",
     "motion_answer",
 ]

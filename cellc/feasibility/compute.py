@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from pathlib import Path
 
 from cellc.cell.frame import WORLD
 from cellc.feasibility.answers import (
@@ -47,10 +48,10 @@ LEAST_SAMPLES = 500
 _PAIRS_TIMES_SAMPLES = 2_000_000
 
 
-def sample_pairs(urdf: str) -> DisabledAnswer:
+def sample_pairs(urdf: str, mesh_roots: Sequence[Path] = ()) -> DisabledAnswer:
     """Find the pairs of a robot description that need no collision check."""
     try:
-        robot = RobotModel.from_urdf(urdf)
+        robot = RobotModel.from_urdf(urdf, mesh_roots=mesh_roots)
     except ModelError as error:
         return DisabledAnswer((), 0, str(error))
     samples = _samples(robot)
@@ -64,10 +65,10 @@ def _samples(robot: RobotModel) -> int:
     return min(SAMPLES, max(LEAST_SAMPLES, _PAIRS_TIMES_SAMPLES // max(1, checked)))
 
 
-def answer(question: MotionQuestion) -> MotionAnswer:
+def answer(question: MotionQuestion, mesh_roots: Sequence[Path] = ()) -> MotionAnswer:
     """Answer all parts of a question in the scene of the cell, every joint not asked about at its start."""
     try:
-        robot = RobotModel.from_urdf(question.urdf)
+        robot = RobotModel.from_urdf(question.urdf, mesh_roots=mesh_roots)
         start = {joint: value for joint, value in question.start if joint in robot.joints}
         disabled = decided_collisions(robot, samples=_samples(robot), rng_seed=RNG_SEED, margin_m=MARGIN_M)
         pairs = [pair.links for pair in disabled]

@@ -6,10 +6,11 @@ Both are computed by the planner and kept in the cache. The planner is imported 
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import TypeVar
 
-from cellc.description.meshes import mesh_contents
 from cellc.feasibility.answers import DisabledAnswer, DisabledLinks, MotionAnswer
+from cellc.feasibility.meshes import mesh_contents, mesh_faults, mesh_roots
 from cellc.feasibility.question import MotionQuestion, motion_question, shapes_and_joints
 from cellc.feasibility.touching_links import touching_links
 from cellc.graph.cell_graph import CellGraph
@@ -34,36 +35,45 @@ def motion_answer(graph: CellGraph) -> MotionAnswer:
 
 def _disabled(graph: CellGraph) -> DisabledAnswer:
     urdf = shapes_and_joints(graph.cell)
-    answer = _kept("disabled", urdf, urdf, DisabledAnswer, lambda: _sampled(urdf))
+    faults = mesh_faults(graph)
+    if faults:
+        return DisabledAnswer(_touching(graph), 0, faults[0].message)
+    answer = _kept("disabled", urdf, graph, DisabledAnswer, lambda: _sampled(urdf, mesh_roots(graph.cell)))
     if not answer.refused:
         return answer
+    return DisabledAnswer(_touching(graph), 0, answer.refused)
+
+
+def _touching(graph: CellGraph) -> tuple[DisabledLinks, ...]:
     found = (
         DisabledLinks(min(first, second), max(first, second), reason.lower())
         for first, second, reason in touching_links(graph.cell)
     )
-    return DisabledAnswer(tuple(sorted(found)), 0, answer.refused)
+    return tuple(sorted(found))
 
 
-def _sampled(urdf: str) -> DisabledAnswer:
+def _sampled(urdf: str, roots: tuple[Path, ...]) -> DisabledAnswer:
     from cellc.feasibility.compute import sample_pairs
 
-    return sample_pairs(urdf)
+    return sample_pairs(urdf, roots)
 
 
 def _motion(graph: CellGraph) -> MotionAnswer:
+    faults = mesh_faults(graph)
+    if faults:
+        return MotionAnswer(refused=faults[0].message)
     question = motion_question(graph)
-    return _kept("motion", repr(question), question.urdf, MotionAnswer, lambda: _answered(question))
+    roots = mesh_roots(graph.cell)
+    return _kept("motion", repr(question), graph, MotionAnswer, lambda: _answered(question, roots))
 
 
-def _answered(question: MotionQuestion) -> MotionAnswer:
+def _answered(question: MotionQuestion, roots: tuple[Path, ...]) -> MotionAnswer:
     from cellc.feasibility.compute import answer
 
-    return answer(question)
+    return answer(question, roots)
 
 
-def _kept(kind: str, question: str, urdf: str, answer: type[_Answer], compute: Callable[[], _Answer]) -> _Answer:
-    """Return the kept answer to a question on a description and on the mesh files that it names."""
-    meshes = mesh_contents(urdf)
-    if meshes is None:
-        return compute()
-    return recall(kind, f"{question}\0{meshes}", answer, compute, lambda: mesh_contents(urdf) == meshes)
+def _kept(kind: str, question: str, graph: CellGraph, answer: type[_Answer], compute: Callable[[], _Answer]) -> _Answer:
+    """Return the kept answer to a question on a cell and on the mesh files that it names."""
+    meshes = mesh_contents(graph)
+    return recall(kind, f"{question}\0{meshes}", answer, compute, lambda: mesh_contents(graph) == meshes)

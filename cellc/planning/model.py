@@ -9,16 +9,19 @@ whose follower has the lesser name.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pinocchio
 
-from cellc.description.meshes import MeshError, with_mesh_files
+from cellc.description.meshes import MeshError
 from cellc.description.model import Description, Joint
 from cellc.description.urdf_reader import read_urdf
+from cellc.planning.mesh_shapes import mesh_shapes, without_meshes
 from cellc.planning.problem import Array, ModelError
 from cellc.transforms import Pose
 
@@ -48,12 +51,15 @@ class RobotModel:
     mimics: tuple[MimicJoint, ...]
 
     @classmethod
-    def from_urdf(cls, text: str, *, description: Description | None = None) -> RobotModel:
+    def from_urdf(
+        cls, text: str, *, description: Description | None = None, mesh_roots: Sequence[Path] = ()
+    ) -> RobotModel:
         """Read the text of an expanded URDF.
 
         Args:
             text: URDF; collision shapes may be primitives or meshes.
             description: what was read of ``text`` before; it is read here where absent.
+            mesh_roots: folders under which meshes may lie besides those of the package path.
 
         Raises:
             ModelError: the text is no robot description, with the reason that the parser would print to stderr only.
@@ -63,12 +69,14 @@ class RobotModel:
         mimics = _resolve_mimics(described)
         try:
             model = pinocchio.buildModelFromXML(text)
-            located = with_mesh_files(text)
-            geometry = pinocchio.buildGeomFromUrdfString(model, located, pinocchio.GeometryType.COLLISION, None, [])
+            shapes = mesh_shapes(described, mesh_roots)
+            plain = without_meshes(text) if shapes else text
+            geometry = pinocchio.buildGeomFromUrdfString(model, plain, pinocchio.GeometryType.COLLISION, None, [])
         except MeshError as error:
             raise ModelError(str(error)) from None
         except (ValueError, RuntimeError) as error:
             raise ModelError(f"pinocchio refuses the robot description: {str(error).splitlines()[0]}") from None
+        _place(shapes, geometry, model)
         names = list(model.names)
         single = [names[index] for index in range(1, model.njoints) if model.nvs[index] == 1]
         following = {mimic.joint for mimic in mimics}
@@ -129,6 +137,16 @@ class RobotModel:
         at = self.kinematics.idx_qs[index]
         lower, upper = self.kinematics.lowerPositionLimit[at], self.kinematics.upperPositionLimit[at]
         return float(min(max(0.0, lower), upper))
+
+
+def _place(shapes: Mapping[tuple[str, int], PinShape], geometry: PinGeometry, model: PinModel) -> None:
+    """Put each mesh in the place of the shape that stands for it; those of a link are in the order of the file."""
+    numbers: Counter[str] = Counter()
+    for shape in geometry.geometryObjects if shapes else ():
+        link = str(model.frames[shape.parentFrame].name)
+        if (link, numbers[link]) in shapes:
+            shape.geometry = shapes[link, numbers[link]]
+        numbers[link] += 1
 
 
 def _described(text: str) -> Description:

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from cellc.feasibility import BodyContact
-from cellc.graph.cell_graph import CellGraph
+from cellc.feasibility import BodyContact, mesh_faults
+from cellc.rules.kit import CellGraph, Finding, Findings
+
+USABLE_MESHES = ("malformed-mesh", "mesh-not-found", "mesh-outside-root", "mesh-too-large")
+"""What keeps a collision shape from being known."""
 
 SOUND_MODEL = (
     "circular-mimic",
@@ -33,6 +36,13 @@ KNOWN_POSES = (*SOUND_MODEL, "pose-outside-limits", "wrong-pose-size")
 
 KNOWN_GOALS = (*KNOWN_POSES, "goal-moves-with-tip", "goal-out-of-reach", "implausible-approach")
 """Adds that every goal is at a place worth a search."""
+
+
+def unusable_meshes(graph: CellGraph, code: str) -> Findings:
+    """Yield the meshes of collision shapes that cannot be used for the reason that a rule reports."""
+    for fault in mesh_faults(graph):
+        if fault.code == code:
+            yield Finding(fault.message, fault.span, fault.path, fault.help)
 
 
 def with_scene(graph: CellGraph, contacts: Sequence[BodyContact]) -> list[BodyContact]:

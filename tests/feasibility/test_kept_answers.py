@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import json
 import os
 import shutil
 import struct
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import pytest
@@ -36,26 +35,6 @@ def _cube(file: Path, side: float) -> None:
         corners = [side * value for corner in triangle for value in _CORNERS[corner]]
         data += struct.pack("<12fH", 0, 0, 0, *corners, 0)
     file.write_bytes(data)
-
-
-def _gltf(file: Path) -> None:
-    """Write a cube whose corners are in ``cube.bin`` beside the file, as glTF 2.0 has it."""
-    length = len(_TRIANGLES) * 36
-    content = {
-        "asset": {"version": "2.0"},
-        "scenes": [{"nodes": [0]}],
-        "nodes": [{"mesh": 0}],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
-        "buffers": [{"uri": "cube.bin", "byteLength": length}],
-        "bufferViews": [{"buffer": 0, "byteLength": length}],
-        "accessors": [{"bufferView": 0, "componentType": 5126, "count": len(_TRIANGLES) * 3, "type": "VEC3"}],
-    }
-    file.write_text(json.dumps(content))
-
-
-def _corners(file: Path, side: float) -> None:
-    values = [side * value for triangle in _TRIANGLES for corner in triangle for value in _CORNERS[corner]]
-    file.write_bytes(struct.pack(f"<{len(values)}f", *values))
 
 
 def _cell(folder: Path, mesh: str) -> Path:
@@ -183,27 +162,6 @@ def test_mesh_that_appears_is_seen(tmp_path: Path) -> None:
     assert _answers(path)[0].refused == ""
 
 
-def test_file_beside_a_mesh_is_seen(tmp_path: Path) -> None:
-    path = _cell(tmp_path, "package://parts/hand.gltf")
-    parts = tmp_path / "one" / "parts"
-    parts.mkdir(parents=True)
-    _gltf(parts / "hand.gltf")
-    _corners(parts / "cube.bin", SMALL)
-    assert _answers(path)[0] == MotionAnswer()
-    _corners(parts / "cube.bin", LARGE)
-    assert _answers(path)[0].start != ()
-
-
-def test_other_working_folder_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    path = _cell(tmp_path, "file://hand.stl")
-    for folder, side in (("near", SMALL), ("far", LARGE)):
-        _cube(tmp_path / folder / "hand.stl", side)
-        monkeypatch.chdir(tmp_path / folder)
-        answer = _answers(path)
-        assert answer == _without_cache(path)
-        assert (answer[0].start == ()) is (side == SMALL)
-
-
 def test_mesh_that_changes_during_the_computation_is_not_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     from cellc.feasibility import compute
 
@@ -212,9 +170,9 @@ def test_mesh_that_changes_during_the_computation_is_not_kept(tmp_path: Path, mo
     path = _cell(tmp_path, "package://parts/hand.stl")
     answered = compute.answer
 
-    def grown_meanwhile(question: MotionQuestion) -> MotionAnswer:
+    def grown_meanwhile(question: MotionQuestion, roots: Sequence[Path]) -> MotionAnswer:
         _cube(mesh, LARGE)
-        return answered(question)
+        return answered(question, roots)
 
     with monkeypatch.context() as patch:
         patch.setattr(compute, "answer", grown_meanwhile)

@@ -1,26 +1,28 @@
 """Shapes cannot be read, so that collisions are not checked.
 
-The kinematics refuses the robot description, most often because it names a mesh that cannot be found. Poses and goals
-are then not checked, the semantic description lists neighbors alone, and the mock does not plan.
+The kinematics refuses the robot description, most often because a joint lacks a figure that URDF demands. Poses and
+goals are then not checked, the semantic description lists neighbors alone, and the mock does not plan.
 
 Example that is reported:
 
 ```xml
-<link name="tool">
-  <collision><geometry><mesh filename="package://nowhere/tool.stl"/></geometry></collision>
-</link>
+<joint name="slide" type="prismatic">
+  <parent link="base"/> <child link="carriage"/> <axis xyz="0 0 1"/>
+  <limit lower="0" upper="0.5" velocity="1"/>
+</joint>
 <!-- expect at motion.groups -->
 ```
 
 Example that is accepted:
 
 ```xml
-<link name="tool">
-  <collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision>
-</link>
+<joint name="slide" type="prismatic">
+  <parent link="base"/> <child link="carriage"/> <axis xyz="0 0 1"/>
+  <limit lower="0" upper="0.5" velocity="1" effort="10"/>
+</joint>
 ```
 
-Fix: give collision shapes as boxes, cylinders and spheres.
+Fix: write in the description what the message names.
 
 Source: docs/principles.md#how-geometry-is-checked
 """
@@ -28,11 +30,11 @@ Source: docs/principles.md#how-geometry-is-checked
 from __future__ import annotations
 
 from cellc.feasibility import motion_answer
-from cellc.rules.geometry import SOUND_MODEL
+from cellc.rules.geometry import SOUND_MODEL, USABLE_MESHES
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-@rule(Severity.WARNING, assumes=SOUND_MODEL)
+@rule(Severity.WARNING, assumes=(*SOUND_MODEL, *USABLE_MESHES))
 def check(graph: CellGraph) -> Findings:
     """Yield the reason for which the description is refused."""
     refused = motion_answer(graph).refused

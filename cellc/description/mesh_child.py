@@ -1,0 +1,113 @@
+"""The child that reads mesh files of strangers, with the library (assimp) that MoveIt and RViz read them with too.
+
+It answers on stdout in plain numbers, one mesh after the other, so that where it ends early the first mesh without an
+answer is the one that ended it. The library is given a private copy of exactly the bytes that were hashed, and nothing
+in them that would make it open a further file.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+import sys
+from pathlib import Path
+from typing import Any
+
+import coal
+import numpy as np
+
+from cellc.description.confined_child import confine_this_process
+from cellc.description.mesh_numbers import EXPORT_AGAIN, MeshNumbers, pack_fault, pack_numbers
+from cellc.description.meshes import MALFORMED_MESH, MeshError, read_pieces, too_large
+from cellc.limits import MIB, Limits, limits, use
+
+_STL_HEAD, _STL_TRIANGLE = 84, 50
+_GLB_HEAD, _GLB_CHUNK = 12, 8
+_MATERIALS = re.compile(rb"^[ \t]*mtllib(?:[^\n]*\\\r?\n)*[^\n]*", re.MULTILINE)
+_OTHER_SHAPE = "export the shape as one file of triangles, such as STL"
+
+
+def main() -> None:
+    """Read the meshes that stdin names, each with its suffix and hash."""
+    request = json.load(sys.stdin)
+    use(Limits(**request["limits"]))
+    # An answer has at most three vertices for each triangle, of 24 bytes, and 12 bytes for the triangle itself.
+    most_bytes = max(84 * limits().mesh_triangles_together + MIB, limits().mesh_bytes)
+    confine_this_process(limits().mesh_seconds, limits().mesh_memory, most_bytes)
+    together = 0
+    for path, suffix, digest in request["files"]:
+        try:
+            mesh = _read(Path(path), digest, Path(request["folder"], f"mesh{suffix}"))
+            together += len(mesh.triangles)
+            if together > (most := limits().mesh_triangles_together):
+                message = f"must have at most {most} triangles with the meshes before it, got {together}"
+                raise too_large(message, "mesh-triangles-together", certain=False)
+            answer = pack_numbers(mesh)
+        except MeshError as fault:
+            answer = pack_fault(fault)
+        sys.stdout.buffer.write(answer)
+        sys.stdout.buffer.flush()
+
+
+def _read(file: Path, digest: str, copy: Path) -> MeshNumbers:
+    try:
+        content = b"".join(read_pieces(file))
+    except OSError:
+        content = b""
+    if hashlib.sha256(content).hexdigest() != digest:
+        raise MeshError(MALFORMED_MESH, "changes while it is read", "try again")
+    copy.write_bytes(_self_contained(content, copy.suffix))
+    try:
+        # The boxes round its triangles, which the library builds too, are not needed here: the simplest kind of them.
+        mesh = coal.MeshLoader(coal.NODE_TYPE.BV_AABB).load(str(copy), np.ones(3))
+    except (ValueError, RuntimeError):
+        message = f"cannot be read as `{copy.suffix}`"
+        raise MeshError(MALFORMED_MESH, message, EXPORT_AGAIN) from None
+    _bound(mesh.num_tris)
+    return MeshNumbers(np.array(mesh.vertices(), dtype=np.float64).reshape(-1, 3), _triangles(mesh))
+
+
+def _triangles(mesh: Any) -> np.ndarray[Any, np.dtype[np.int64]]:
+    corners = np.empty((mesh.num_tris, 3), dtype=np.int64)
+    for row in range(mesh.num_tris):
+        triangle = mesh.tri_indices(row)
+        corners[row] = triangle[0], triangle[1], triangle[2]
+    return corners
+
+
+def _bound(triangles: int) -> None:
+    if triangles > (most := limits().mesh_triangles):
+        raise too_large(f"must have at most {most} triangles, got {triangles}", "mesh-triangles")
+
+
+def _self_contained(content: bytes, suffix: str) -> bytes:
+    """Return the content without what names other files; refuse early what is an archive, or a count beyond bounds."""
+    if content.startswith(b"PK"):
+        raise MeshError(MALFORMED_MESH, f"must be a `{suffix}` file, got a zip archive", "unpack it")
+    if suffix == ".stl" and len(content) >= _STL_HEAD:
+        count = int.from_bytes(content[80:_STL_HEAD], "little")
+        if not content.startswith(b"solid") or len(content) == _STL_HEAD + count * _STL_TRIANGLE:
+            _bound(count)
+    if suffix == ".obj":
+        return _MATERIALS.sub(b"", content)
+    if suffix == ".glb":
+        _refuse_other_files(content)
+    return content
+
+
+def _refuse_other_files(content: bytes) -> None:
+    """Refuse a binary glTF 2.0 whose buffers or images lie in other files (glTF 2.0 specification, section 4.4)."""
+    length = int.from_bytes(content[_GLB_HEAD : _GLB_HEAD + 4], "little")
+    try:
+        scene = json.loads(content[_GLB_HEAD + _GLB_CHUNK : _GLB_HEAD + _GLB_CHUNK + length])
+        named = [part.get("uri", "data:") for kind in ("buffers", "images") for part in scene.get(kind, ())]
+        outside = [uri for uri in named if not uri.startswith("data:")]
+    except (ValueError, AttributeError, TypeError, RecursionError):
+        raise MeshError(MALFORMED_MESH, "must be a binary glTF 2.0", _OTHER_SHAPE) from None
+    if outside:
+        raise MeshError(MALFORMED_MESH, "must be one file, and names others", _OTHER_SHAPE)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,81 @@
+"""Which meshes of a cell can be used, and what an answer that rests on them is kept under."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from cellc.cell.cell import Cell
+from cellc.description.meshes import MeshError, MeshFacts, MeshFile, identify_all, readable, unusable
+from cellc.description.model import Mesh
+from cellc.diagnostics import Span, YamlPath
+from cellc.graph.cell_graph import CellGraph
+from cellc.graph.frame_tree import ModelLink
+from cellc.limits import as_options, limits
+from cellc.store.cache import recall
+
+
+@dataclass(frozen=True, slots=True)
+class MeshFault:
+    """A mesh that cannot be used: code of a rule, message and help, and where the description names it."""
+
+    code: str
+    message: str
+    help: str
+    span: Span
+    path: YamlPath
+
+
+def mesh_roots(cell: Cell) -> tuple[Path, ...]:
+    """Return the folders under which meshes may lie: those of the files that name the devices."""
+    places = (cell.locate(*device.path, "model").file for device in cell.devices)
+    return tuple(dict.fromkeys(Path(place).parent for place in places))
+
+
+def mesh_contents(graph: CellGraph) -> str:
+    """Return what every mesh of the collision shapes is now: the hash of its content, or why it cannot be found."""
+    files = identify_all((mesh for mesh, _ in _meshes(graph)), mesh_roots(graph.cell))
+    return "\n".join(
+        f"{name}\n{file if isinstance(file, MeshError) else file.suffix + file.digest}"
+        for name, file in sorted(files.items())
+    )
+
+
+def mesh_faults(graph: CellGraph) -> tuple[MeshFault, ...]:
+    """Return the meshes of collision shapes that cannot be used, in the order of the descriptions."""
+    return graph.once(_faults)
+
+
+def _faults(graph: CellGraph) -> tuple[MeshFault, ...]:
+    placed = _meshes(graph)
+    meshes = [mesh for mesh, _ in placed]
+    files = identify_all(meshes, mesh_roots(graph.cell))
+    found = readable(files)
+    facts = {file: _facts(file, found) for file in found}
+    owners = dict(reversed(placed))  # of each file and scale the first link
+    return tuple(
+        MeshFault(fault.code, fault.message, fault.help_text, mesh.span or owners[mesh].span, owners[mesh].path)
+        for mesh, fault in unusable(meshes, files, facts)
+    )
+
+
+def _meshes(graph: CellGraph) -> list[tuple[Mesh, ModelLink]]:
+    return [
+        (shape.geometry, part)
+        for part in graph.model.links()
+        for shape in part.link.collisions
+        if isinstance(shape.geometry, Mesh)
+    ]
+
+
+def _facts(file: MeshFile, files: tuple[MeshFile, ...]) -> MeshFacts:
+    """Return what is in a file, which is read together with the others, from the cache where it was read before."""
+
+    def read() -> MeshFacts:
+        from cellc.description.mesh_numbers import facts_in  # loads numpy
+
+        return facts_in(file, files)
+
+    return recall(
+        "mesh", "\0".join((file.suffix, file.digest, *as_options(limits()))), MeshFacts, read, lambda: read().certain
+    )

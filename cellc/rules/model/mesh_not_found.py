@@ -1,0 +1,37 @@
+"""A collision shape names a mesh that is not there.
+
+Without the shape nobody checks collisions: poses and goals go unjudged, the semantic description lists neighbors alone,
+and the mock does not plan. A mesh is looked for in the folders of `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH`, as a
+sourced workspace sets them, then as a package in the folder of the spec. Shapes to look at (`<visual>`) are not read.
+
+Example that is reported:
+
+```xml
+<link name="tool">
+  <collision><geometry><mesh filename="package://nowhere/tool.stl"/></geometry></collision>  <!-- expect -->
+</link>
+```
+
+Example that is accepted:
+
+```xml
+<link name="tool">
+  <collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision>
+</link>
+```
+
+Fix: source the workspace that holds the package, put the package beside the spec, or use boxes, cylinders and spheres.
+
+Source: docs/principles.md#how-geometry-is-checked
+"""
+
+from __future__ import annotations
+
+from cellc.rules.geometry import unusable_meshes
+from cellc.rules.kit import CellGraph, Findings, Severity, rule
+
+
+@rule(Severity.WARNING)
+def check(graph: CellGraph) -> Findings:
+    """Yield meshes that are not there."""
+    yield from unusable_meshes(graph, "mesh-not-found")
