@@ -69,6 +69,17 @@ class Limits:
     )
     mesh_seconds: int = _row(10, "s", 3600, "processor time of reading all meshes of one description")
     mesh_memory: int = _row(1024 * MIB, "bytes", 64 * 1024 * MIB, "memory of reading them")
+    folder_bytes: int = _row(4 * MIB, "bytes", 64 * MIB, "one file of a generated folder")
+    folder_total_bytes: int = _row(256 * MIB, "bytes", 16 * 1024 * MIB, "all files of a generated folder together")
+    folder_depth: int = _row(32, "levels", 100, "nesting of values in JSON and parameters of a generated folder")
+    folder_entries: int = _row(2000, "entries", 100_000, "one list or mapping in JSON of a generated folder")
+    folder_values: int = _row(100_000, "values", 10_000_000, "values of one JSON file of a generated folder")
+    mock_seconds: int = _row(86_400, "s", 1_000_000_000, "a duration in a generated folder")
+    mock_rate: int = _row(20_000, "Hz", 1_000_000, "a rate in a generated folder")
+    mock_samples: int = _row(
+        10_000_000, "values", 10_000_000_000, "update cycles of one run times their joints, and what a buffer keeps"
+    )
+    mock_events: int = _row(1_000_000, "events", 1_000_000_000, "images, messages and timers of one run")
 
 
 DEFAULTS = Limits()

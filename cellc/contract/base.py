@@ -4,6 +4,8 @@ from typing import TypeAlias, Union
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from cellc.contract.quantities import Coordinate, UnitQuaternion
+
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
 Json: TypeAlias = Union[bool, int, float, str, list["Json"], dict[str, "Json"], None]
@@ -18,8 +20,8 @@ class ContractModel(BaseModel):
 class ContractPose(ContractModel):
     """A rigid transform: metres and a unit quaternion x, y, z, w."""
 
-    xyz: tuple[float, float, float] = Field(description="Position, m.")
-    quaternion: tuple[float, float, float, float] = Field(description="Unit quaternion x, y, z, w.")
+    xyz: tuple[Coordinate, Coordinate, Coordinate] = Field(description="Position, m.")
+    quaternion: UnitQuaternion = Field(description="Unit quaternion x, y, z, w.")
 
 
 def contract_schema(model: type[BaseModel]) -> dict[str, Json]:

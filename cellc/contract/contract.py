@@ -10,6 +10,19 @@ from typing import Literal
 from pydantic import Field
 
 from cellc.contract.base import ContractModel, ContractPose
+from cellc.contract.quantities import (
+    Coordinate,
+    Count,
+    Drift,
+    Magnitude,
+    Offset,
+    Period,
+    PositiveMagnitude,
+    PositiveSeconds,
+    Rate,
+    Seconds,
+    Share,
+)
 from cellc.vocabulary import Behaviour, Distro
 
 
@@ -26,7 +39,7 @@ class ContractFiles(ContractModel):
 class ContractCalibration(ContractModel):
     """A measurement that transforms rest on."""
 
-    revision: int = Field(description="Counts up with every measurement.")
+    revision: Count = Field(description="Counts up with every measurement.")
     owner: str = Field(description="Who answers for it.")
 
 
@@ -35,10 +48,10 @@ class ContractClock(ContractModel):
 
     domain: str = Field(description="Clock domain.")
     synchronised_by: str | None = Field(None, description="What disciplines it.")
-    max_offset_s: float | None = Field(None, description="Bound of its offset; null where nothing bounds it.")
+    max_offset_s: Seconds | None = Field(None, description="Bound of its offset; null where nothing bounds it.")
     simulated: bool = Field(False, description="Time comes from /clock.")
-    offset_s: float = Field(0.0, description="Offset that the mock gives it.")
-    drift: float = Field(0.0, description="Seconds that the mock lets it gain in a second, until the bound.")
+    offset_s: Offset = Field(0.0, description="Offset that the mock gives it.")
+    drift: Drift = Field(0.0, description="Seconds that the mock lets it gain in a second, until the bound.")
 
 
 class ContractFrame(ContractModel):
@@ -52,8 +65,8 @@ class ContractFrame(ContractModel):
     moving: bool = Field(False, description="Published on /tf, not once on /tf_static.")
     pose: ContractPose | None = Field(None, description="Pose in the parent of a frame that no URDF holds.")
     calibration: str | None = Field(None, description="Calibration that measured it.")
-    rate_hz: float | None = Field(None, description="Rate of a dynamic frame.")
-    buffer_s: float | None = Field(None, description="History that consumers keep.")
+    rate_hz: Rate | None = Field(None, description="Rate of a dynamic frame.")
+    buffer_s: Seconds | None = Field(None, description="History that consumers keep.")
     simulated_parent: str | None = Field(None, description="Frame in which the mock puts what a dynamic frame follows.")
     simulated_pose: ContractPose | None = Field(None, description="Pose there.")
 
@@ -64,13 +77,13 @@ class ContractQos(ContractModel):
     reliability: Literal["reliable", "best_effort"] = Field(description="Every sample, or what arrives.")
     durability: Literal["volatile", "transient_local"] = Field(description="Whether a late joiner gets history.")
     history: Literal["keep_last", "keep_all"] = Field("keep_last", description="What is queued.")
-    depth: int = Field(description="Queue length of keep_last.")
-    deadline_s: float | None = Field(None, description="Longest time between samples.")
-    lifespan_s: float | None = Field(None, description="Age at which a sample is dropped.")
+    depth: Count = Field(description="Queue length of keep_last.")
+    deadline_s: Seconds | None = Field(None, description="Longest time between samples.")
+    lifespan_s: Seconds | None = Field(None, description="Age at which a sample is dropped.")
     liveliness: Literal["automatic", "manual_by_topic"] = Field(
         "automatic", description="Who asserts that the publisher lives."
     )
-    lease_duration_s: float | None = Field(None, description="Bound of the assertion.")
+    lease_duration_s: Seconds | None = Field(None, description="Bound of the assertion.")
 
 
 class ContractEndpoint(ContractModel):
@@ -87,10 +100,10 @@ class ContractEndpoint(ContractModel):
 class ContractNetwork(ContractModel):
     """What the mock's network does to each sample of a topic."""
 
-    latency_s: float = Field(0.0, description="Shortest time from publishing to arrival.")
-    jitter_s: float = Field(0.0, description="Up to so much more.")
-    loss: float = Field(0.0, description="Share of samples lost on their way, 0 to 1.")
-    reordering: float = Field(0.0, description="Share of samples overtaken by the next one, 0 to 1.")
+    latency_s: Seconds = Field(0.0, description="Shortest time from publishing to arrival.")
+    jitter_s: Seconds = Field(0.0, description="Up to so much more.")
+    loss: Share = Field(0.0, description="Share of samples lost on their way, 0 to 1.")
+    reordering: Share = Field(0.0, description="Share of samples overtaken by the next one, 0 to 1.")
 
 
 class ContractInterface(ContractModel):
@@ -105,14 +118,14 @@ class ContractInterface(ContractModel):
     time_source: str | None = Field(None, description="Clock of the stamps.")
     owner: str | None = Field(None, description="Who answers for it.")
     wants: str | None = Field(None, description="What the consumer needs: newest or every_sample.")
-    rate_hz: float | None = Field(None, description="Publishing rate.")
-    max_age_s: float | None = Field(None, description="Oldest sample that may be used.")
-    transport_s: float | None = Field(None, description="Budget from publishing to use.")
+    rate_hz: Rate | None = Field(None, description="Publishing rate.")
+    max_age_s: Seconds | None = Field(None, description="Oldest sample that may be used.")
+    transport_s: Seconds | None = Field(None, description="Budget from publishing to use.")
     on_stale: str | None = Field(None, description="What happens on an older sample.")
-    timeout_s: float | None = Field(None, description="Bound of a response or a whole goal.")
+    timeout_s: PositiveSeconds | None = Field(None, description="Bound of a response or a whole goal.")
     on_timeout: str | None = Field(None, description="What the client does then.")
     on_error: str | None = Field(None, description="How an error is told.")
-    cancel_within_s: float | None = Field(None, description="Bound from cancel to hold.")
+    cancel_within_s: Seconds | None = Field(None, description="Bound from cancel to hold.")
     simulated: ContractNetwork | None = Field(None, description="How the mock carries it; null for at once.")
 
 
@@ -135,7 +148,7 @@ class ContractController(ContractModel):
         None, description="Action that takes its goals where it is not loaded on real hardware."
     )
     real_action_type: str | None = Field(None, description="ROS type of that action.")
-    goal_time_s: float | None = Field(
+    goal_time_s: Seconds | None = Field(
         None, description="Time allowed past the end of a trajectory; null or 0 for no limit. It bounds no whole goal."
     )
     on_violation: str = Field(description="What happens on a tolerance violation.")
@@ -152,7 +165,7 @@ class ContractManager(ContractModel):
     """A controller manager."""
 
     namespace: str = Field(description="Namespace of the manager.")
-    update_rate_hz: float = Field(description="Rate of read, update, write.")
+    update_rate_hz: Rate = Field(description="Rate of read, update, write.")
     controllers: dict[str, ContractController] = Field(
         description="Controllers by name, by full name where managers share it."
     )
@@ -166,9 +179,9 @@ class ContractGripper(ContractModel):
     controller: str | None = Field(
         None, description="Controller that moves it; by full name where managers share names."
     )
-    open: float = Field(description="Position when open.")
-    closed: float = Field(description="Position when closed on nothing.")
-    max_effort: float = Field(description="Largest effort, N or Nm.")
+    open: Coordinate = Field(description="Position when open.")
+    closed: Coordinate = Field(description="Position when closed on nothing.")
+    max_effort: Magnitude = Field(description="Largest effort, N or Nm.")
 
 
 class ContractCamera(ContractModel):
@@ -176,8 +189,8 @@ class ContractCamera(ContractModel):
 
     topic: str = Field(description="Full name of the image topic.")
     frame: str = Field(description="Optical frame of the images.")
-    rate_hz: float = Field(description="Frames a second.")
-    exposure_s: float = Field(description="Exposure time.")
+    rate_hz: Rate = Field(description="Frames a second.")
+    exposure_s: Seconds = Field(description="Exposure time.")
     clock: str = Field(description="Clock domain of the stamps.")
 
 
@@ -212,30 +225,34 @@ class ContractAdapter(ContractModel):
     action: str = Field(description="Full name of the action that takes its trajectories.")
     state_topic: str = Field(description="Full name of the topic of its stamped state.")
     client: str | None = Field(None, description="Name of the one node that may command it.")
-    command_period_s: float = Field(description="Time from one command to the next.", gt=0.0)
-    command_timeout_s: float = Field(description="Watchdog: silence after which it stops.", gt=0.0)
-    stop_time_s: float = Field(description="Longest time from a hold to standstill.", gt=0.0)
-    goal_time_s: float = Field(description="Time past the end of a trajectory within which it stands still.", gt=0.0)
-    path_tolerance: float = Field(description="Distance from the command that ends a goal, rad or m.", gt=0.0)
-    start_positions: tuple[float, ...] = Field(description="Where the mock's joints stand at first, rad or m.")
+    command_period_s: Period = Field(description="Time from one command to the next.", gt=0.0)
+    command_timeout_s: PositiveSeconds = Field(description="Watchdog: silence after which it stops.", gt=0.0)
+    stop_time_s: PositiveSeconds = Field(description="Longest time from a hold to standstill.", gt=0.0)
+    goal_time_s: Seconds = Field(description="Time past the end of a trajectory within which it stands still.", gt=0.0)
+    path_tolerance: PositiveMagnitude = Field(
+        description="Distance from the command that ends a goal, rad or m.", gt=0.0
+    )
+    start_positions: tuple[Coordinate, ...] = Field(description="Where the mock's joints stand at first, rad or m.")
 
 
 class ContractJointLimits(ContractModel):
     """Limits of the cell for one joint; rad or m."""
 
-    lower: float | None = Field(None, description="Lower position; null without bound.")
-    upper: float | None = Field(None, description="Upper position; null without bound.")
-    velocity: float = Field(description="Largest speed.")
-    acceleration: float = Field(description="Largest acceleration.")
-    jerk: float = Field(description="Largest jerk.")
+    lower: Coordinate | None = Field(None, description="Lower position; null without bound.")
+    upper: Coordinate | None = Field(None, description="Upper position; null without bound.")
+    velocity: PositiveMagnitude = Field(description="Largest speed.")
+    acceleration: PositiveMagnitude = Field(description="Largest acceleration.")
+    jerk: PositiveMagnitude = Field(description="Largest jerk.")
 
 
 class ContractSimulatedJoint(ContractModel):
     """A joint that lags, saturates or is measured with noise; rad and rad/s, or m and m/s."""
 
-    lag_s: float = Field(0.0, description="Time constant of a first-order lag; 0 is none.")
-    noise: float = Field(0.0, description="Largest error of the measured position; 0 is none.")
-    max_velocity: float | None = Field(None, description="Speed at which it saturates; null where it does not.")
+    lag_s: Seconds = Field(0.0, description="Time constant of a first-order lag; 0 is none.")
+    noise: Magnitude = Field(0.0, description="Largest error of the measured position; 0 is none.")
+    max_velocity: PositiveMagnitude | None = Field(
+        None, description="Speed at which it saturates; null where it does not."
+    )
 
 
 class ContractGroup(ContractModel):
@@ -253,7 +270,7 @@ class ContractPoseTarget(ContractModel):
     """A named pose: joint positions of a group in the group's order."""
 
     group: str = Field(description="Group that moves.")
-    positions: tuple[float, ...] = Field(description="Joint positions, rad or m.")
+    positions: tuple[Coordinate, ...] = Field(description="Joint positions, rad or m.")
 
 
 class ContractGoal(ContractModel):
@@ -262,7 +279,7 @@ class ContractGoal(ContractModel):
     group: str = Field(description="Group that moves.")
     frame: str = Field(description="Frame that the goal is given in.")
     pose: ContractPose = Field(description="Tip in that frame.")
-    approach: tuple[float, float, float] | None = Field(
+    approach: tuple[Coordinate, Coordinate, Coordinate] | None = Field(
         None, description="Offset of the pose before, in the tip's axes, m."
     )
     transform_at: Literal["observation", "latest"] = Field(description="Stamp that transforms are looked up at.")
@@ -281,13 +298,13 @@ class ContractSafety(ContractModel):
 class ContractKpis(ContractModel):
     """Targets; null where none was set."""
 
-    plan_to_execute_s: float | None = Field(None, description="Longest time from plan to execution.")
-    cancel_s: float | None = Field(None, description="Longest time from cancel to hold.")
-    missed_cycles: int | None = Field(None, description="Missed cycles allowed in a run.")
-    stale_state_rejection: float | None = Field(None, description="Share of stale samples rejected, 0 to 1.")
-    protective_stops: int | None = Field(None, description="Protective stops allowed in a shift.")
-    recovery_time_s: float | None = Field(None, description="Longest time from stop to ready.")
-    wrong_owner_events: int | None = Field(None, description="Commands of a wrong owner allowed.")
+    plan_to_execute_s: Seconds | None = Field(None, description="Longest time from plan to execution.")
+    cancel_s: Seconds | None = Field(None, description="Longest time from cancel to hold.")
+    missed_cycles: Count | None = Field(None, description="Missed cycles allowed in a run.")
+    stale_state_rejection: Share | None = Field(None, description="Share of stale samples rejected, 0 to 1.")
+    protective_stops: Count | None = Field(None, description="Protective stops allowed in a shift.")
+    recovery_time_s: Seconds | None = Field(None, description="Longest time from stop to ready.")
+    wrong_owner_events: Count | None = Field(None, description="Commands of a wrong owner allowed.")
 
 
 class Contract(ContractModel):

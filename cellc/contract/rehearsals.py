@@ -5,6 +5,7 @@ from typing import Literal
 from pydantic import Field
 
 from cellc.contract.base import ContractModel
+from cellc.contract.quantities import Coordinate, Count, Offset, PositiveMagnitude, PositiveSeconds, Seconds, Share
 from cellc.vocabulary import AttemptOutcome, FaultKind
 
 
@@ -14,7 +15,7 @@ class StepEntry(ContractModel):
     kind: Literal["move", "detect", "grip", "wait", "acknowledge"] = Field(description="What the step does.")
     target: str = Field(description="Pose, goal, frame, gripper device, or who acknowledges.")
     command: Literal["open", "close"] | None = Field(None, description="What the gripper does.")
-    duration_s: float | None = Field(None, description="How long a wait lasts.")
+    duration_s: Seconds | None = Field(None, description="How long a wait lasts.")
 
 
 class FaultEvent(ContractModel):
@@ -26,7 +27,7 @@ class FaultEvent(ContractModel):
 
     step: int = Field(description="Number of the step, from 1.", ge=1)
     when: Literal["started", "accepted", "moving"] = Field("started", description="How far the step has come.")
-    after_s: float = Field(0.0, description="Simulated time after that.", ge=0.0)
+    after_s: Seconds = Field(0.0, description="Simulated time after that.", ge=0.0)
 
 
 class FaultEntry(ContractModel):
@@ -37,15 +38,15 @@ class FaultEntry(ContractModel):
 
     kind: FaultKind = Field(description="What fails.")
     target: str = Field(description="What it hits.")
-    at_s: float | None = Field(None, description="Simulated time from the start; null where an event begins it.")
+    at_s: Seconds | None = Field(None, description="Simulated time from the start; null where an event begins it.")
     event: FaultEvent | None = Field(None, description="Event that begins it; null where a time does.")
-    lasting_s: float | None = Field(None, description="How long; null to the end.")
-    cycles: int | None = Field(None, description="Update cycles missed in a row.")
-    delay_s: float | None = Field(None, description="How late samples arrive.")
-    jump_s: float | None = Field(None, description="How far a clock jumps; negative is back.")
-    displacement: float | None = Field(None, description="How far a joint stands beside its command, rad or m.")
-    velocity: float | None = Field(None, description="Speed that a joint does not exceed, rad/s or m/s.")
-    factor: float | None = Field(None, description="Speed scaling, 0 to 1.")
+    lasting_s: Seconds | None = Field(None, description="How long; null to the end.")
+    cycles: Count | None = Field(None, description="Update cycles missed in a row.")
+    delay_s: Seconds | None = Field(None, description="How late samples arrive.")
+    jump_s: Offset | None = Field(None, description="How far a clock jumps; negative is back.")
+    displacement: Coordinate | None = Field(None, description="How far a joint stands beside its command, rad or m.")
+    velocity: PositiveMagnitude | None = Field(None, description="Speed that a joint does not exceed, rad/s or m/s.")
+    factor: Share | None = Field(None, description="Speed scaling, 0 to 1.")
 
 
 class RehearsalEntry(ContractModel):
@@ -55,8 +56,8 @@ class RehearsalEntry(ContractModel):
     steps: tuple[StepEntry, ...] = Field(description="Steps in order.")
     faults: tuple[FaultEntry, ...] = Field(description="Faults that are injected.")
     expect: AttemptOutcome = Field(description="Outcome that it must end in.")
-    within_s: float | None = Field(None, description="Bound from the fault's effect to the outcome.")
-    timeout_s: float = Field(description="Bound of the whole run in simulated time.")
+    within_s: Seconds | None = Field(None, description="Bound from the fault's effect to the outcome.")
+    timeout_s: PositiveSeconds = Field(description="Bound of the whole run in simulated time.")
 
 
 class Rehearsals(ContractModel):

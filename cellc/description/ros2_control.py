@@ -42,7 +42,7 @@ def _read_component(element: XmlElement) -> HardwareComponent:
 
 def _read_rate(element: XmlElement) -> int:
     text = element.attributes.get("rw_rate", "0")
-    if not text.isdigit():
+    if re.fullmatch(r"[0-9]{1,9}", text) is None:
         raise _RefusedError(
             f'Could not parse rw_rate tag in "{element.tag}". Invalid value: "{text}", expected a positive integer.'
         )

@@ -29,6 +29,7 @@ from cellc.description.model import (
 from cellc.description.ros2_control import read_hardware
 from cellc.description.urdf_values import (
     UrdfError,
+    length,
     number,
     number_or,
     numbers,
@@ -258,9 +259,9 @@ def _read_geometry(element: XmlElement) -> Geometry:
     if shape.tag == "box":
         return Box(vector(shape, "size"))
     if shape.tag == "cylinder":
-        return Cylinder(number(shape, "radius"), number(shape, "length"))
+        return Cylinder(length(shape, "radius"), length(shape, "length"))
     if shape.tag == "sphere":
-        return Sphere(number(shape, "radius"))
+        return Sphere(length(shape, "radius"))
     if shape.tag == "mesh":
         scale = vector(shape, "scale") if "scale" in shape.attributes else (1.0, 1.0, 1.0)
         return Mesh(required(shape, "filename"), scale, shape.span)

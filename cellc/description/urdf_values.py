@@ -11,6 +11,10 @@ from cellc.transforms import Pose, Vector3, from_xyz_rpy, identity
 
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?", re.ASCII)
 _MAX_TEXT = 200
+_FARTHEST = 1e6
+"""Of lengths and angles, m and rad: what is farther off than a country is wide overflows in the geometry."""
+_LARGEST = 1e20
+"""Of every other number; exporters write 1e16 for a limit that there is not."""
 
 
 class UrdfError(Exception):
@@ -46,7 +50,7 @@ def required_child(element: XmlElement, tag: str) -> XmlElement:
 
 def number(element: XmlElement, attribute: str) -> float:
     """Return a finite number of a required attribute."""
-    return _finite(element, attribute, required(element, attribute))
+    return _bounded(element, attribute, required(element, attribute), _LARGEST)
 
 
 def optional_number(element: XmlElement, attribute: str) -> float | None:
@@ -59,13 +63,18 @@ def number_or(element: XmlElement, attribute: str, default: float) -> float:
     return number(element, attribute) if attribute in element.attributes else default
 
 
+def length(element: XmlElement, attribute: str) -> float:
+    """Return a finite length of a required attribute."""
+    return _bounded(element, attribute, required(element, attribute), _FARTHEST)
+
+
 def numbers(element: XmlElement, attribute: str, count: int) -> tuple[float, ...]:
-    """Return exactly ``count`` finite numbers separated by white space."""
+    """Return exactly ``count`` finite numbers separated by white space: lengths, angles, factors or colours."""
     parts = required(element, attribute).split()
     if len(parts) != count:
         message = f"`{attribute}` of `<{element.tag}>` has {len(parts)} numbers, expected {count}"
         raise refused("urdf-bad-number", element, message)
-    return tuple(_finite(element, attribute, part) for part in parts)
+    return tuple(_bounded(element, attribute, part, _FARTHEST) for part in parts)
 
 
 def vector(element: XmlElement, attribute: str) -> Vector3:
@@ -85,9 +94,12 @@ def origin_pose(element: XmlElement) -> Pose:
     return from_xyz_rpy(xyz, rpy)
 
 
-def _finite(element: XmlElement, attribute: str, text: str) -> float:
+def _bounded(element: XmlElement, attribute: str, text: str, most: float) -> float:
     value = float(text) if len(text) <= _MAX_TEXT and _NUMBER.fullmatch(text) else math.nan
     if not math.isfinite(value):
         message = f"`{text[:40]}` in `{attribute}` of `<{element.tag}>` is not a finite number"
+        raise refused("urdf-bad-number", element, message)
+    if abs(value) > most:
+        message = f"`{attribute}` of `<{element.tag}>` must be from {-most:g} to {most:g}, got {value:g}"
         raise refused("urdf-bad-number", element, message)
     return value

@@ -11,7 +11,7 @@ from cellc.mock.assemble import assemble, start_nodes
 from cellc.mock.bringup import Bringup
 from cellc.mock.bus.qos import unmatched_pairs
 from cellc.mock.control import ManagerAbortedError
-from cellc.mock.errors import MockError
+from cellc.mock.errors import LimitReachedError, MockError
 from cellc.mock.faults.ports import fault_ports
 from cellc.mock.faults.registry import Injection, build_fault
 from cellc.mock.folder import GeneratedFolder, read_folder
@@ -41,6 +41,15 @@ def rehearse(
     Raises:
         MockError: a fault names what the contract does not have.
     """
+    try:
+        return _executed(folder, memory, rehearsal, seed, watch)
+    except LimitReachedError as error:
+        return _not_run(rehearsal, error)
+
+
+def _executed(
+    folder: GeneratedFolder, memory: PlanMemory, rehearsal: RehearsalEntry, seed: int, watch: Watch | None
+) -> RehearsalResult:
     injections = [Injection(entry, build_fault(entry, folder.contract)) for entry in rehearsal.faults]
     try:
         plant = assemble(folder, memory, seed)
@@ -102,12 +111,20 @@ def _response_s(injections: Sequence[Injection], records: Sequence[AttemptRecord
     return (ended.ended_ns - max(*begun, ended.started_ns)) / 1e9
 
 
+def _not_run(rehearsal: RehearsalEntry, error: LimitReachedError) -> RehearsalResult:
+    evidence = (StageEvidence("limits", (), (str(error),)),)
+    return _not_up(rehearsal, evidence, (), RunFailure.LIMIT_REACHED)
+
+
 def _not_up(
-    rehearsal: RehearsalEntry, evidence: tuple[StageEvidence, ...], findings: tuple[str, ...]
+    rehearsal: RehearsalEntry,
+    evidence: tuple[StageEvidence, ...],
+    findings: tuple[str, ...],
+    outcome: RunFailure = RunFailure.BRINGUP_FAILURE,
 ) -> RehearsalResult:
     return RehearsalResult(
         name=rehearsal.name,
-        outcome=RunFailure.BRINGUP_FAILURE,
+        outcome=outcome,
         expected=rehearsal.expect,
         sim_time_s=0.0,
         response_s=None,

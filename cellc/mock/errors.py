@@ -1,6 +1,8 @@
-"""The one exception of the mock: a folder that cannot be executed."""
+"""The exceptions of the mock: a folder that cannot be executed, and a run that asks for more than it may."""
 
 from __future__ import annotations
+
+from cellc.limits import option
 
 
 class MockError(Exception):
@@ -15,3 +17,15 @@ class MockError(Exception):
         super().__init__(f"{file}: {reason}" if file else reason)
         self.file = file
         self.reason = reason
+
+
+class LimitReachedError(Exception):
+    """A run asks for more than the limits allow, which only running it shows; the run ends, others go on.
+
+    Args:
+        text: what it asked for, and how much is allowed.
+        limit: the row of the table of limits.
+    """
+
+    def __init__(self, text: str, limit: str) -> None:
+        super().__init__(f"{text}; {option(limit)}")

@@ -3,31 +3,29 @@
 from __future__ import annotations
 
 import hashlib
+import os
+import stat
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from typing import TypeVar
 
 import yaml
-from pydantic import BaseModel, ValidationError
+from pydantic import BaseModel
 
 from cellc.contract.contract import Contract
 from cellc.contract.manifest import Manifest
+from cellc.contract.reading import FormatError, read_json
 from cellc.contract.rehearsals import RehearsalEntry, Rehearsals
 from cellc.description.model import Description
 from cellc.description.urdf_reader import read_urdf
 from cellc.description.xml_tree import read_xml
 from cellc.diagnostics.unsafe_text import hidden_in_json, hidden_on_line
+from cellc.limits import limits, option
 from cellc.mock.errors import MockError
 
 CONTRACT_FILE = "contract.json"
 MANIFEST_FILE = "manifest.json"
-MAX_BYTES = 50_000_000
-"""A larger file is not one that the compiler wrote."""
-
-LONGEST_S = 1e9
-"""Times are counted in nanoseconds, of which 64 bits hold 292 years."""
-
 _Model = TypeVar("_Model", bound=BaseModel)
 
 
@@ -106,49 +104,49 @@ def _allowed_collisions(folder: Path, file: str | None) -> Iterator[tuple[str, s
 
 
 def _check_rehearsals(file: str, rehearsals: Rehearsals) -> None:
-    """Refuse what no spec makes: a name that a terminal would obey or that is given twice, and endless times."""
+    """Refuse what no spec makes: a name that a terminal would obey or that is given twice."""
     known: set[str] = set()
     for entry in rehearsals.rehearsals:
         if not entry.name.isprintable() or entry.name in known:
             raise MockError(file, f"has two rehearsals of the name {entry.name!a}, or an unprintable name")
         known.add(entry.name)
-        if any(abs(time_s) > LONGEST_S for time_s in _times(entry)):
-            raise MockError(file, f"states a time of more than {LONGEST_S:g} s in rehearsal `{entry.name}`")
-
-
-def _times(entry: RehearsalEntry) -> Iterator[float]:
-    yield entry.timeout_s
-    for step in entry.steps:
-        yield step.duration_s or 0.0
-    for fault in entry.faults:
-        after_s = 0.0 if fault.event is None else fault.event.after_s
-        yield from (fault.at_s or 0.0, after_s, fault.lasting_s or 0.0, fault.delay_s or 0.0, fault.jump_s or 0.0)
 
 
 def _read_model(folder: Path, name: str, model: type[_Model]) -> _Model:
-    text = _read_text(folder, name)
     try:
-        return model.model_validate_json(text)
-    except ValidationError as error:
-        first = error.errors(include_url=False)[0]
-        at = ".".join(str(part) for part in first["loc"])
-        raise MockError(name, f"{f'`{at}`: ' if at else ''}{first['msg'].lower()}") from None
+        return read_json(_read_text(folder, name), model)
+    except FormatError as error:
+        raise MockError(name, str(error)) from None
 
 
 def _read_text(folder: Path, name: str) -> str:
-    path = _inside(folder, name)
     try:
-        if path.stat().st_size > MAX_BYTES:
-            raise MockError(name, f"is larger than {MAX_BYTES} bytes")
-        text = path.read_bytes().decode("utf-8")
-    except FileNotFoundError:
-        raise MockError(name, "is missing from the generated folder") from None
-    except OSError as error:
-        raise MockError(name, f"cannot be read: {error.strerror}") from None
+        text = _read_bytes(folder, name).decode("utf-8")
     except UnicodeDecodeError:
         raise MockError(name, "is not UTF-8 text") from None
     _refuse_hidden(name, text)
     return text
+
+
+def _read_bytes(folder: Path, name: str) -> bytes:
+    most = limits().folder_bytes
+    try:
+        # A FIFO would else wait for a writer; what the name leads to is asked of what was opened.
+        descriptor = os.open(_inside(folder, name), os.O_RDONLY | getattr(os, "O_NONBLOCK", 0))
+        try:
+            if not stat.S_ISREG(os.fstat(descriptor).st_mode):
+                raise MockError(name, "is not a regular file")
+            with open(descriptor, "rb", closefd=False) as file:
+                content = file.read(most + 1)
+        finally:
+            os.close(descriptor)
+    except FileNotFoundError:
+        raise MockError(name, "is missing from the generated folder") from None
+    except OSError as error:
+        raise MockError(name, f"cannot be read: {error.strerror}") from None
+    if len(content) > most:
+        raise MockError(name, f"is larger than {most} bytes; {option('folder-bytes')}")
+    return content
 
 
 def _refuse_hidden(name: str, text: str) -> None:
@@ -170,11 +168,16 @@ def _notes(folder: Path, contract: Contract, manifest: Manifest) -> Iterator[str
     own, of_manifest = contract.configuration_id, manifest.configuration_id
     if of_manifest != own:
         yield f"`{MANIFEST_FILE}` belongs to configuration `{of_manifest}`, not `{own}`"
+    total, most = 0, limits().folder_total_bytes
     for name, expected in sorted(manifest.files.items()):
-        path = _inside(folder, name)
-        if not path.is_file():
+        if not _inside(folder, name).is_file():
             yield f"`{name}` is listed in the manifest and missing"
-        elif hashlib.sha256(path.read_bytes()).hexdigest() != expected.removeprefix("sha256:"):
+            continue
+        content = _read_bytes(folder, name)
+        total += len(content)
+        if total > most:
+            raise MockError(MANIFEST_FILE, f"names more than {most} bytes of files; {option('folder-total-bytes')}")
+        if hashlib.sha256(content).hexdigest() != expected.removeprefix("sha256:"):
             yield f"`{name}` differs from the manifest: it was edited after it was generated"
 
 

@@ -112,6 +112,7 @@ class RunFailure(Term):
 
     BRINGUP_FAILURE = "bringup_failure"
     CRASHED = "crashed"
+    LIMIT_REACHED = "limit_reached"
 
 
 RunOutcome = AttemptOutcome | RunFailure

@@ -54,8 +54,11 @@ def test_spoilt_json_is_refused(folder: Path, name: str, content: bytes) -> None
     ("changes", "reason"),
     [
         ({"name": "a\nb"}, "of the name 'a\\nb'"),
-        ({"timeout_s": 1e300}, "a time of more than 1e+09 s in rehearsal `faulty`"),
-        ({"steps": [{"kind": "wait", "target": "", "duration_s": 1e10}]}, "a time of more than 1e+09 s"),
+        ({"timeout_s": 1e300}, "`rehearsals.0.timeout_s`: must be from 1e-09 to 86400 s, got 1e+300"),
+        (
+            {"steps": [{"kind": "wait", "target": "", "duration_s": 1e10}]},
+            "`rehearsals.0.steps.0.duration_s`: must be from 0 to 86400 s, got 1e+10; `--limit mock-seconds=N`",
+        ),
     ],
 )
 def test_rehearsal_that_no_spec_makes_is_refused(load_with: LoadWith, changes: dict[str, Any], reason: str) -> None:

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from cellc.contract.quantities import LARGEST
 from cellc.description.model import Description, HardwareComponent, HardwarePart, Joint
 from cellc.description.urdf_reader import read_urdf
 from cellc.mock.control.errors import DescriptionError
 
 # urdfdom answers every mistake in links and joints with this one sentence.
 _REFUSED = "Failed to parse URDF file"
+_NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?", re.ASCII)
 _NOT_XML = "invalid URDF passed in to robot parser: "
 
 
@@ -109,6 +112,19 @@ def read_flag(text: str) -> bool:
     return word == "true"
 
 
+def read_number(text: str) -> float:
+    """Read a number as hardware_interface does: a decimal that a double can hold, nothing else in the text.
+
+    Raises:
+        ValueError: for everything else, and for what is beyond every machine: sums and squares of it would be infinite.
+    """
+    if _NUMBER.fullmatch(text) is None or not math.isfinite(float(text)):
+        raise ValueError("Failed converting string to real number")
+    if abs(float(text)) > LARGEST:
+        raise ValueError(f"`{text}` must be from {-LARGEST:g} to {LARGEST:g}")
+    return float(text)
+
+
 @dataclass(frozen=True, slots=True)
 class JointLimits:
     """Limits that the joint limiters enforce; infinite where there is none.
@@ -174,8 +190,8 @@ def _urdf_limits(joint: Joint) -> tuple[float, float, float, float]:
 
 
 def _bound(text: str, default: float) -> float:
-    """Read a `min` or `max`; text that is no number is skipped by ros2_control."""
+    """Read a `min` or `max`; text that is no number is skipped by ros2_control, and a limit beyond all is none."""
     try:
-        return float(text)
+        return read_number(text)
     except ValueError:
         return default

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from cellc.contract.contract import ContractManager
+from cellc.limits import limits
 from cellc.mock.adapter.server import AdapterServer
 from cellc.mock.control import (
     ControlEvent,
@@ -20,6 +21,7 @@ from cellc.mock.control import (
     TrajectoryGoal,
 )
 from cellc.mock.engine.process import Signal
+from cellc.mock.errors import LimitReachedError
 from cellc.mock.world.joint_states import JointStateHistory
 from cellc.vocabulary import Behaviour
 
@@ -83,6 +85,8 @@ GoalServer = ControllerManager | AdapterServer
 """What takes goals, runs in simulated time and tells of events."""
 _LOCKSTEP_NS = 10_000_000
 """With several managers none may run ahead of an event of another by more than this."""
+_LONGEST_STRETCH = 100_000
+"""Update cycles after which it is looked at how many there were; so many take a second or two."""
 
 
 class ControlStack:
@@ -111,6 +115,11 @@ class ControlStack:
         self.unready_hardware: dict[str, str] = {}
         self.dangers: list[str] = []
         self.histories: dict[tuple[str, str], JointStateHistory] = {}
+        self._samples = 0
+        self._joints: dict[GoalServer, int] = {
+            **{manager: max(1, len(manager.joint_positions())) for manager in self.managers.values()},
+            **{server: max(1, len(server.adapter.model.joint_names)) for server in self.adapters.values()},
+        }
         self._listeners: list[Callable[[ControlEvent], None]] = []
         self._watchers: list[ControlWatcher] = []
         self._manager_of = {
@@ -196,6 +205,10 @@ class ControlStack:
         each step.
         """
         servers = self.servers()
+        before_ns = {server: server.now_ns for server in servers}
+        if servers:
+            stretch_ns = _LONGEST_STRETCH * min(server.period_ns for server in servers)
+            until_ns = min(until_ns, min(before_ns.values()) + stretch_ns)
         if len(servers) == 1:
             servers[0].advance(until_ns)
             until_ns = servers[0].now_ns
@@ -204,10 +217,20 @@ class ControlStack:
             for server in servers:
                 while server.now_ns < until_ns:
                     server.advance(until_ns)
+        self._count({server: server.now_ns - begun_ns for server, begun_ns in before_ns.items()})
         for server in servers:
             self.events += server.take_events()
         self._collect()
         return until_ns
+
+    def _count(self, passed_ns: Mapping[GoalServer, int]) -> None:
+        """Count the joint values that were computed in a time."""
+        for server, time_ns in passed_ns.items():
+            self._samples += self._joints[server] * time_ns // server.period_ns
+        most = limits().mock_samples
+        if self._samples > most:
+            now_s = max(server.now_ns for server in passed_ns) / 1e9
+            raise LimitReachedError(f"{now_s:.0f} s with more than {most} joint values are simulated", "mock-samples")
 
     def dispatch(self, now_ns: int) -> None:
         """Hand what happened, and what was asked for just now, to the listeners; then wake who waits for it."""

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from cellc.limits import limits
 from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.engine.process import Action, EventQueue, Process, Waiting
+from cellc.mock.errors import LimitReachedError
 
 _MAX_STEPS_AT_ONCE = 100_000
 
@@ -25,6 +27,8 @@ class Simulation:
         self.now_ns = 0
         self._last_ns = 0
         self._steps_at_once = 0
+        self._events = 0
+        self._most_events = limits().mock_events
         self._foreground = EventQueue()
         self._background = EventQueue()
 
@@ -59,14 +63,22 @@ class Simulation:
             reached_ns = self.control.advance(target_ns)
         while (action := self._background.pop_due(reached_ns)) is not None:
             self.now_ns = action.at_ns
+            self._count()
             action.run()
         self._check_progress(reached_ns)
         self.now_ns = reached_ns
         self.control.dispatch(self.now_ns)
         due = self._foreground.pop_due(self.now_ns)
         if due is not None:
+            self._count()
             due.run()
             self.control.dispatch(self.now_ns)
+
+    def _count(self) -> None:
+        self._events += 1
+        if self._events > self._most_events:
+            text = f"the run has more than {self._most_events} events, {self.now_ns / 1e9:.0f} s are simulated"
+            raise LimitReachedError(text, "mock-events")
 
     def _check_progress(self, reached_ns: int) -> None:
         """Raise RuntimeError where the clock stands still: a loop without a wait is a bug, and must not hang."""

@@ -7,7 +7,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
+from cellc.limits import limits
 from cellc.mock.control import JointStateBlock
+from cellc.mock.errors import LimitReachedError
 
 JOINT_STATE_TYPE = "sensor_msgs/msg/JointState"
 
@@ -150,6 +152,9 @@ class JointStateHistory:
 
     def _restart(self, names: tuple[str, ...]) -> None:
         self.names = names
+        if 2 * self._keep * len(names) > limits().mock_samples:
+            kept = f"a buffer of {self._keep} joint states of {len(names)} joints is kept"
+            raise LimitReachedError(f"{kept}, at most {limits().mock_samples // 2} values may be", "mock-samples")
         self._stamps = np.empty(2 * self._keep, dtype=np.int64)
         self._positions = np.empty((2 * self._keep, len(names)))
         self._count = 0

@@ -82,7 +82,7 @@ class GripperController(QuietController):
         """Read the parameters."""
         parameters = self.context.parameters
         self._joint = parameters.text("joint")
-        self._monitor_ns = round(1e9 / parameters.number("action_monitor_rate"))
+        self._monitor_ns = parameters.period_ns("action_monitor_rate")
 
     def command_interfaces(self) -> tuple[str, ...]:
         """The joint's command, and those of largest effort and velocity where they are configured."""

@@ -13,7 +13,7 @@ from cellc.description.model import HardwareComponent, HardwareInterface, Joint,
 from cellc.mock.control.hardware.disturbances import Disturbances
 from cellc.mock.control.hardware.joint_motion import Motion, differences, hold_last, integral
 from cellc.mock.control.interfaces import Array, InterfaceTable
-from cellc.mock.control.robot_description import follows, read_flag
+from cellc.mock.control.robot_description import follows, read_flag, read_number
 
 _MODES = ("position", "velocity", "acceleration")
 
@@ -41,7 +41,7 @@ class GenericSystem:
         parameters = info.parameters
         self._dynamics = read_flag(parameters.get("calculate_dynamics", "false"))
         self.commands_disabled = read_flag(parameters.get("disable_commands", "false"))
-        self._offset = float(parameters.get("position_state_following_offset") or 0.0)
+        self._offset = _number(parameters.get("position_state_following_offset", ""), 0.0)
         self._custom_offset = parameters.get("custom_interface_with_following_offset", "")
         mock_sensors = read_flag(parameters.get("mock_sensor_commands", "false"))
         mock_gpios = read_flag(parameters.get("mock_gpio_commands", "false"))
@@ -287,7 +287,7 @@ class Exported:
 
 
 def _number(text: str, default: float) -> float:
-    return float(text) if text else default
+    return read_number(text) if text else default
 
 
 class Exporter:

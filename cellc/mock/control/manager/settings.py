@@ -5,8 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import lru_cache
 
+from cellc.limits import limits
 from cellc.mock.control.errors import ManagerAbortedError
 from cellc.mock.control.parameters import Parameter, ParameterError, ParameterFile, ParameterFileError, ParameterSet
+from cellc.mock.errors import LimitReachedError
 from cellc.vocabulary import Distro, Feature, features
 
 NODE_NAME = "controller_manager"
@@ -68,6 +70,11 @@ def read_settings(parameters: ParameterSet, distro: Distro) -> ManagerSettings:
     rate = int(parameters.number("update_rate"))
     if rate <= 0:
         raise ManagerAbortedError("cannot store a negative time point in rclcpp::Time")
+    if rate > limits().mock_rate:
+        text = (
+            f"the controller manager has an `update_rate` of {rate} Hz, at most {limits().mock_rate} Hz are simulated"
+        )
+        raise LimitReachedError(text, "mock-rate")
     return ManagerSettings(
         rate,
         parameters.flag("enforce_command_limits") and Feature.LIMITED_COMMANDS in features(distro),

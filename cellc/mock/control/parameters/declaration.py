@@ -7,12 +7,17 @@ import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 
+from cellc.limits import limits
+from cellc.mock.errors import LimitReachedError
+
 ParameterValue = bool | int | float | str | list[bool] | list[int] | list[float] | list[str]
 
 _TRUE = ("Y", "y", "yes", "Yes", "YES", "true", "True", "TRUE", "on", "On", "ON")
 _FALSE = ("N", "n", "no", "No", "NO", "false", "False", "FALSE", "off", "Off", "OFF")
 _INTEGER = re.compile(r"[-+]?(0[xX][0-9a-fA-F]+|[0-9]+)")
 _FLOAT = re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?")
+_LONGEST_INTEGER = 40
+_SLOWEST_HZ = 1e-4
 _SPECIAL = {".inf": math.inf, "+.inf": math.inf, "-.inf": -math.inf, ".nan": math.nan}
 
 
@@ -41,11 +46,13 @@ def scalar(text: str, quoted: bool) -> bool | int | float | str:
         return text
     if text in _TRUE or text in _FALSE:
         return text in _TRUE
-    if _INTEGER.fullmatch(text):
-        return _integer(text)
+    # strtol and strtod say ERANGE of what does not fit: the next type is tried then, a string in the end
+    # (rcl_yaml_param_parser/src/parse.c).
+    if _INTEGER.fullmatch(text) and len(text) <= _LONGEST_INTEGER and -(2**63) <= (value := _integer(text)) < 2**63:
+        return value
     if text.lower() in _SPECIAL:
         return _SPECIAL[text.lower()]
-    if _FLOAT.fullmatch(text):
+    if _FLOAT.fullmatch(text) and math.isfinite(float(text)):
         return float(text)
     return text
 
@@ -190,6 +197,18 @@ class ParameterSet:
         value = self._values[name]
         assert isinstance(value, int | float)
         return value
+
+    def period_ns(self, name: str) -> int:
+        """The period of a declared rate in Hz.
+
+        Raises:
+            LimitReachedError: the rate is none that can be simulated.
+        """
+        rate_hz, most = self.number(name), limits().mock_rate
+        if not _SLOWEST_HZ <= rate_hz <= most:
+            text = f"parameter `{name}` is {rate_hz:g} Hz, from {_SLOWEST_HZ:g} to {most} Hz are simulated"
+            raise LimitReachedError(text, "mock-rate")
+        return round(1e9 / rate_hz)
 
     def flag(self, name: str) -> bool:
         """The value of a declared boolean."""

@@ -37,7 +37,7 @@ class GoalBook:
         self._joints = joints
         self.defaults = defaults
         self.tolerances = defaults
-        self._period_ns = round(1e9 / context.parameters.number("action_monitor_rate"))
+        self._period_ns = context.parameters.period_ns("action_monitor_rate")
         self._active: GoalMonitor | None = None
         self._accepted_ns = 0
         self._waiting: list[GoalMonitor] = []

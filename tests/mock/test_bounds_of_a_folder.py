@@ -1,0 +1,181 @@
+"""A generated folder of a stranger is refused in one line, or its runs end with a name, whatever its numbers are."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import json
+import os
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from cellc.limits import DEFAULTS, in_force
+from cellc.mock import MockCell, MockError, load
+from cellc.mock.command.options import MockOptions, run_mock
+from cellc.mock.result import RunFailure
+from tests.mock.conftest import LoadWith
+
+READ = ("contract.json", "rehearsals.json", "manifest.json", "config/controllers.yaml", "urdf/ur5e_pick.mock.urdf")
+VALUES = ("NaN", "Infinity", "1e300", "-1", "0", "1e9", "true", '"x"', "null", "[]", "1" + "0" * 400, "1e-300")
+MARK = "@@"
+
+
+def refusal(folder: Path) -> MockError:
+    """Return why a folder is refused."""
+    with pytest.raises(MockError) as caught:
+        load(folder)
+    assert "\n" not in str(caught.value)
+    return caught.value
+
+
+@pytest.mark.parametrize("name", READ)
+def test_device_in_place_of_a_file_is_refused(folder: Path, name: str) -> None:
+    (folder / name).unlink()
+    (folder / name).symlink_to("/dev/zero")
+    assert (refusal(folder).file, refusal(folder).reason) == (name, "is not a regular file")
+
+
+@pytest.mark.parametrize("name", READ)
+def test_fifo_in_place_of_a_file_is_not_waited_for(folder: Path, name: str) -> None:
+    (folder / name).unlink()
+    os.mkfifo(folder / name)
+    assert refusal(folder).reason == "is not a regular file"
+
+
+@pytest.mark.parametrize("name", READ)
+def test_file_that_is_too_large_is_not_read_to_its_end(folder: Path, name: str) -> None:
+    with (folder / name).open("r+b") as file:
+        file.truncate(1 << 40)  # of holes: it takes no room on the disk, and no memory holds it
+    error = refusal(folder)
+    assert error.file == name
+    assert "`--limit folder-bytes=N` raises it" in error.reason
+
+
+def test_files_that_only_the_manifest_names_are_bounded_too(folder: Path) -> None:
+    with (folder / "README.md").open("r+b") as file:
+        file.truncate(1 << 40)
+    assert refusal(folder).file == "README.md"
+    (folder / "README.md").unlink()
+    with in_force(replace(DEFAULTS, folder_total_bytes=10_000)):
+        assert "folder-total-bytes" in refusal(folder).reason
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("[" * 10_000, "is not JSON: recursion limit exceeded"),
+        ('{"a":' * 50 + "1" + "}" * 50, "is nested deeper than 32 levels; `--limit folder-depth=N` raises it"),
+        ('{"cell": [' + "0," * 5000 + "0]}", "`cell`: has 5001 entries, at most 2000 are read"),
+        (json.dumps([[0] * 1000] * 200), "holds more than 100000 values; `--limit folder-values=N` raises it"),
+        ('{"format": 9223372036854775808}', "`format`: must fit 64 bits"),
+        ('{"frames": {"a": {"rate_hz": NaN}}}', "`frames.a.rate_hz`: must be a finite number, got nan"),
+    ],
+    ids=["brackets", "depth", "entries", "values", "integer", "nan"],
+)
+def test_json_is_bounded_before_anything_is_made_of_it(folder: Path, text: str, reason: str) -> None:
+    (folder / "contract.json").write_text(text)
+    assert reason in refusal(folder).reason
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "reason"),
+    [
+        (("managers", "control", "update_rate_hz"), 1e9, "must be from 0.0001 to 20000 Hz, got 1e+09; "),
+        (("managers", "control", "update_rate_hz"), 0, "must be from 0.0001 to 20000 Hz, got 0"),
+        (("managers", "control", "update_rate_hz"), True, "input should be a valid number"),
+        (("joint_limits", "arm_elbow_joint", "jerk"), 0.0, "must be from 1e-09 to 1000000000, got 0"),
+        (("goals", "pick", "pose", "quaternion"), [0, 0, 0, 0], "must be a unit quaternion, got one of length 0"),
+        (("goals", "pick", "pose", "xyz"), [1e300, 0, 0], "must be from -1000000000 to 1000000000, got 1e+300"),
+        (("frames", "object", "buffer_s"), 1e9, "must be from 0 to 86400 s, got 1e+09; `--limit mock-seconds=N`"),
+    ],
+)
+def test_number_is_refused_with_its_place_and_its_bounds(
+    edit_contract: Callable[[Callable[[Any], None]], MockCell], path: tuple[str, ...], value: object, reason: str
+) -> None:
+    def change(contract: Any) -> None:
+        for key in path[:-1]:
+            contract = contract[key]
+        assert path[-1] in contract
+        contract[path[-1]] = value
+
+    with pytest.raises(MockError) as caught:
+        edit_contract(change)
+    assert caught.value.file == "contract.json"
+    assert caught.value.reason.startswith(f"`{'.'.join(path)}")
+    assert reason in caught.value.reason
+
+
+def test_wait_of_a_day_ends_with_a_name_and_the_option(load_with: LoadWith) -> None:
+    cell = load_with(steps=[{"kind": "wait", "target": "", "duration_s": 80_000}], timeout_s=86_000)
+    with in_force(replace(DEFAULTS, mock_samples=100_000)):
+        result = cell.run("faulty")
+    assert result.outcome is RunFailure.LIMIT_REACHED
+    assert result.reason.endswith(
+        "with more than 100000 joint values are simulated; `--limit mock-samples=N` raises it"
+    )
+    assert not result.passed
+
+
+def test_camera_at_the_highest_rate_ends_with_a_name_and_the_option(
+    edit_contract: Callable[[Callable[[Any], None]], MockCell],
+) -> None:
+    def faster(contract: Any) -> None:
+        contract["devices"]["camera"]["camera"]["rate_hz"] = 20_000
+
+    cell = edit_contract(faster)
+    with in_force(replace(DEFAULTS, mock_events=20_000)):
+        result = cell.run("pick_and_place")
+    assert result.outcome is RunFailure.LIMIT_REACHED
+    assert "`--limit mock-events=N` raises it" in result.reason
+
+
+def test_buffer_of_a_day_is_not_allocated(edit_contract: Callable[[Callable[[Any], None]], MockCell]) -> None:
+    def longer(contract: Any) -> None:
+        contract["frames"]["object"]["buffer_s"] = 86_400
+
+    result = edit_contract(longer).run("pick_and_place")
+    assert result.outcome is RunFailure.LIMIT_REACHED
+    assert "a buffer of 43200002 joint states of 7 joints" in result.reason
+
+
+@pytest.mark.parametrize("rate", ["1000000000", "99999999999999999999", "1" + "0" * 5000, ".inf", "1.0e9"])
+def test_update_rate_of_the_parameters_is_bounded(folder: Path, rate: str) -> None:
+    file = folder / "config/controllers.yaml"
+    text = file.read_text()
+    assert "update_rate: 500" in text
+    file.write_text(text.replace("update_rate: 500", f"update_rate: {rate}"))
+    assert load(folder).run("pick_and_place").outcome in (RunFailure.LIMIT_REACHED, RunFailure.BRINGUP_FAILURE)
+
+
+def _leaves(value: Any, path: tuple[str | int, ...] = ()) -> Iterator[tuple[str | int, ...]]:
+    inner = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    for step, each in inner:
+        yield from _leaves(each, (*path, step))
+    if isinstance(value, (int, float)) and not isinstance(value, bool):
+        yield path
+
+
+def _marked(value: Any, path: tuple[str | int, ...]) -> Any:
+    if not path:
+        return MARK
+    items = value.items() if isinstance(value, dict) else enumerate(value)
+    changed = {step: _marked(each, path[1:]) if step == path[0] else each for step, each in items}
+    return changed if isinstance(value, dict) else list(changed.values())
+
+
+@pytest.mark.parametrize("name", ["contract.json", "rehearsals.json"])
+def test_damaged_numbers_end_in_a_refusal_or_an_outcome(folder: Path, name: str) -> None:
+    # Every seventh number with one value after the other; all of them with all are a script's work.
+    whole = json.loads((folder / name).read_text())
+    for number, path in enumerate(list(_leaves(whole))[::7]):
+        value = VALUES[number % len(VALUES)]
+        (folder / name).write_text(json.dumps(_marked(whole, path)).replace(f'"{MARK}"', value))
+        out, error = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(error):
+            code = run_mock(MockOptions(folder=str(folder), rehearsals=("cancelled",)))
+        assert code in (0, 1, 2), (path, value)
+        assert (code == 2) == (len(error.getvalue().splitlines()) == 1), (path, value, error.getvalue())
