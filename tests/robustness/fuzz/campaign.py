@@ -11,6 +11,7 @@ import sys
 import threading
 import time
 from collections import defaultdict
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -163,25 +164,24 @@ class _Worker:
             command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL
         )
 
-    def judge(self, kind: str, first: int, last: int) -> list[dict[str, Any]]:
-        """Return the answers up to the end, or up to the input that ended the process."""
+    def judge(self, kind: str, first: int, last: int) -> Iterator[dict[str, Any]]:
+        """Yield the answers up to the end, or up to the input that ended the process."""
         assert self._process.stdin is not None
         self._process.stdin.write(f"{json.dumps([kind, first, last])}\n".encode())
         self._process.stdin.flush()
-        answers: list[dict[str, Any]] = []
         begun = first
         while (line := self._line()) is not None:
             answer = json.loads(line)
             if "done" in answer:
-                return answers
+                return
             if "begin" in answer:
                 begun = answer["begin"][1]
             else:
-                answers.append(answer)
+                yield answer
         code = self.end()
         reason = f"silent for {SILENCE_S:g} s" if code is None else f"the process ended with {code}"
         found = [["hang" if code is None else "died", reason]]
-        return [*answers, {"end": [kind, begun], "found": found, "s": SILENCE_S if code is None else 0.0, "mb": 0.0}]
+        yield {"end": [kind, begun], "found": found, "s": SILENCE_S if code is None else 0.0, "mb": 0.0}
 
     def _line(self) -> bytes | None:
         """Return the next answer, None where the process ended or is silent."""
