@@ -18,24 +18,30 @@ _HEAD = "format: 1\ncell: fuzzed\nversions: {ros: jazzy}\n"
 TINY = (
     _HEAD + "devices:\n  camera: {model: ./parts/demo_camera, mount: {parent: world, xyz: 0 0 1 m}}\n"
     "frames:\n  tray: {parent: world, xyz: 450 100 850 mm}\n  lamp: {parent: tray, xyz: 0 0 1 m, rpy: 0 90 0 deg}\n"
-    "nodes:\n  seer: {run: cell/seer, host: pc, owner: vision}\n"
+    "nodes:\n  seer: {run: cell/seer, host: pc, owner: vision}\n  taker: {run: cell/taker, host: pc}\n"
     "hosts:\n  pc: {nics: {bulk: {address: 10.0.0.2/24, carries: [camera]}}}\n"
     "interfaces:\n  /pose:\n    topic: geometry_msgs/msg/PoseStamped\n"
-    "    from: {seer: {reliability: reliable, depth: 1}}\n"
-    "    to: {task: {deadline: 1 s}}\n    rate: 10 Hz\n    max_age: 200 ms\n    on_stale: reject_goal\n",
+    "    from: {seer: {reliability: reliable, depth: 1, deadline: 1 s}}\n"
+    "    to: {taker: {deadline: 1 s}}\n    rate: 10 Hz\n    max_age: 200 ms\n    on_stale: reject_goal\n"
+    "    frame: tray\n",
     _HEAD
     + "devices:\n  stage: {model: ./parts/stage, mount: {parent: world, xyz: 0 0 0.8 m}, limits: {velocity: 50 %}}\n"
     "control:\n  update_rate: 500 Hz\n  controllers:\n    joint_states: {type: joint_state_broadcaster}\n"
-    "    moves: {type: joint_trajectory, device: stage, goal_time: 1 s, joints: [stage/turn]}\n"
+    "    moves: {type: joint_trajectory, device: stage, goal_time: 1 s, path_tolerance: 0.2 rad,\n"
+    "      goal_tolerance: 0.01 rad, joints: [stage/turn]}\n"
     "motion:\n  groups: {all: {base: stage/base, tip: stage/arm}}\n"
     "  poses: {ready: {all: 10 deg}, back: {all: 0.2 rad}}\n"
     "scene:\n  table: {parent: world, xyz: 2 0 0 m, box: 800 600 20 mm}\n"
     "rehearsals:\n  there: {steps: [{move: ready}, {wait: 100 ms}, {move: back}], timeout: 20 s}\n",
     _HEAD + "devices:\n  stage: {model: ./parts/stage, simulated_joints: {turn: {lag: 10 ms}}}\n"
-    "network: {domain_id: 42, discovery: localhost}\nsafety:\n  protective_stop: {owner: safety, observer: controls}\n"
-    "owners: {roles: {safety: Ada, controls: Grace}}\nkpis: {cancel: 200 ms, missed_cycles: 0}\n",
+    "network: {domain_id: 42, discovery: localhost}\nkpis: {cancel: 200 ms, missed_cycles: 0}\n"
+    "owners: {responsibilities: {frames: vision, limits: controls}, approvals: {graph: controls}}\n"
+    "safety: {recovery: {states: [fault, protective_stop, emergency_stop], acknowledge: operator, owner: safety, observer: operator}}\n",
 )
 """Cells that check in milliseconds, which most inputs start from."""
+
+
+_TOLERANCES: dict[str, Tree] = {"goal_time": "1 s", "path_tolerance": "0.2 rad", "goal_tolerance": "0.01 rad"}
 
 
 @dataclass(frozen=True)
@@ -115,12 +121,7 @@ def _base(facts: dict[str, Tree], urdf: str) -> DeviceBase:
     if "control" in facts:
         controllers: dict[str, Tree] = {"joint_states": {"type": "joint_state_broadcaster"}}
         if kind == "arm":
-            controllers["moves"] = {
-                "type": "joint_trajectory",
-                "device": "it",
-                "goal_time": "1 s",
-                "path_tolerance": "0.2 rad",
-            }
+            controllers["moves"] = {"type": "joint_trajectory", "device": "it", **_TOLERANCES}
         elif kind == "gripper":
             controllers["grips"] = {"type": "parallel_gripper", "device": "it"}
         spec["control"] = {"update_rate": "500 Hz", "controllers": controllers}

@@ -54,7 +54,7 @@ def make_input(kind: str, number: int) -> FuzzInput:
 
 
 def _times(chance: random.Random) -> int:
-    return chance.choice((1, 1, 1, 2, 2, 3, 6))
+    return chance.choice((1, 1, 1, 1, 2, 2, 3, 6))
 
 
 def _base(items: Sequence[Tree], small: int, chance: random.Random) -> Tree:
@@ -65,10 +65,10 @@ def _base(items: Sequence[Tree], small: int, chance: random.Random) -> Tree:
 def _mutated(tree: Tree, others: Sequence[Tree], chance: random.Random) -> bytes:
     """Change a YAML document: its structure mostly, its bytes at times, or both."""
     draw = chance.random()
-    if draw < 0.85:
+    if draw < 0.92:
         tree = TreeMutator(tree, others, chance, json=False).mutate(_times(chance))
     data = write_yaml(tree).encode("utf-8", "surrogatepass")
-    for _ in range(_times(chance) if draw > 0.8 else 0):
+    for _ in range(_times(chance) if draw > 0.89 else 0):
         data = mutate_bytes(data, chance)
     return data
 

@@ -36,9 +36,24 @@ _BLOCK_LEVELS = 3
 
 
 def read_yaml(text: str) -> Tree:
-    """Return a YAML document with every scalar as it is written."""
-    loaded: Tree = yaml.load(text, Loader=yaml.CBaseLoader)
-    return loaded
+    """Return a YAML document with every scalar as it is written; a text that needs its quotes keeps them."""
+    node = yaml.compose(text, Loader=yaml.CSafeLoader)
+    return None if node is None else _read(node)
+
+
+def _read(node: yaml.Node) -> Tree:
+    if isinstance(node, yaml.MappingNode):
+        return {str(key.value): _read(value) for key, value in node.value}
+    if isinstance(node, yaml.SequenceNode):
+        return [_read(item) for item in node.value]
+    assert isinstance(node, yaml.ScalarNode)
+    return str(node.value) if node.style not in ("'", '"') or _is_text(node.value) else Raw(_quoted(node.value))
+
+
+def _is_text(written: str) -> bool:
+    """Whether a scalar without quotes is a text."""
+    resolvers = yaml.SafeLoader.yaml_implicit_resolvers
+    return not any(pattern.match(written) for _, pattern in [*resolvers.get(written[:1], []), *resolvers.get(None, [])])
 
 
 def copied(tree: Tree) -> Tree:
@@ -60,6 +75,19 @@ def places(tree: Tree) -> Iterator[tuple[Holder, str | int]]:
         for index, value in enumerate(tree):
             yield tree, index
             yield from places(value)
+
+
+def paths(tree: Tree, at: tuple[str | int, ...] = ()) -> list[tuple[tuple[str | int, ...], Holder, str | int]]:
+    """Return every value below the root as its path, its holder and its key or index."""
+    if isinstance(tree, Anchored):
+        return paths(tree.value, at)
+    if not isinstance(tree, (dict, list)):
+        return []
+    found: list[tuple[tuple[str | int, ...], Holder, str | int]] = []
+    for key in tree if isinstance(tree, dict) else range(len(tree)):
+        found.append(((*at, key), tree, key))
+        found += paths(value_at(tree, key), (*at, key))
+    return found
 
 
 def value_at(holder: Holder, key: str | int) -> Tree:
@@ -138,7 +166,8 @@ def _flow(tree: Tree, text: Callable[[str], str]) -> Iterator[str]:
 def _plain(text: str) -> str:
     if text.startswith(("<<", "*")) and len(text) < 12:  # a merge key, or a key that is an alias or a wildcard
         return text if text == "<<" else json.dumps(text)
-    return text if _PLAIN.fullmatch(text) and not text.startswith(("- ", "? ")) else _quoted(text)
+    marked = text.startswith(("-", "+", ".")) and not text[1:2].isdigit() and not text.startswith("./")
+    return text if _PLAIN.fullmatch(text) and not marked else _quoted(text)
 
 
 def _quoted(text: str) -> str:

@@ -14,6 +14,7 @@ from tests.robustness.fuzz.tree import (
     any_place,
     copied,
     names_in,
+    paths,
     places,
     put,
     remove,
@@ -33,14 +34,16 @@ class TreeMutator:
 
     def mutate(self, times: int) -> Tree:
         """Change the document so many times, and return it."""
+        gentle_alone = self._chance.random() < 0.5
         for _ in range(times):
             draw = self._chance.random()
-            self._chance.choice(self._gentle() if draw < 0.6 else self._rough() if draw < 0.96 else self._rare())()
+            gentle = gentle_alone or draw < 0.3
+            self._chance.choice(self._gentle() if gentle else self._rough() if draw < 0.97 else self._rare())()
         return self.tree
 
     def _gentle(self) -> Sequence[Callable[[], None]]:
         """What leaves most documents in the shape that they must have."""
-        return [self._refer, self._refer, self._quantity, self._quantity, self._graft, self._remove, self._exchange]
+        return [self._refer, self._quantity, self._quantity, self._graft, self._graft, self._remove, self._exchange]
 
     def _rough(self) -> Sequence[Callable[[], None]]:
         return [
@@ -101,6 +104,9 @@ class TreeMutator:
             return
         place = self._chance.choice(found)
         names, text = names_in(self.tree), str(value_at(*place))
+        alike = [str(value_at(*one)) for one in found if one[1] == place[1]]
+        if self._chance.random() < 0.5 and len(alike) > 1:
+            names = alike
         device, slash, rest = text.partition("/")
         if slash and self._chance.random() < 0.6:
             parts = (
@@ -113,10 +119,11 @@ class TreeMutator:
             put(*place, self._chance.choice(names))
 
     def _exchange(self) -> None:
-        """Exchange two values that have the same key, or stand in the same collection."""
+        """Exchange two values that have the same key."""
         if (first := any_place(self.tree, self._chance)) is None:
             return
-        alike = [place for place in places(self.tree) if place[1] == first[1] or place[0] is first[0]]
+        kind = type(value_at(*first))
+        alike = [one for one in places(self.tree) if one[1] == first[1] and type(value_at(*one)) is kind]
         second = self._chance.choice(alike)
         kept, other = copied(value_at(*first)), copied(value_at(*second))
         put(*first, other)
@@ -165,17 +172,19 @@ class TreeMutator:
             put(*here, copied(value_at(*there)))
 
     def _graft(self) -> None:
-        """Put a part of another document under the same key, or beside keys that it has there."""
-        other = self._chance.choice(self._others)
-        found = [(holder, key) for holder, key in places(other) if isinstance(holder, dict)]
-        if not found:
-            return
-        source, key = self._chance.choice(found)
-        assert isinstance(source, dict)
-        holders = [holder for holder, _ in places(self.tree) if isinstance(holder, dict)]
-        alike = [holder for holder in holders if key in holder or len(holder.keys() & source.keys()) > 1]
-        for holder in [self._chance.choice(alike)] if alike else []:
-            put(holder, key, copied(source[str(key)]))
+        """Put a part of another document where it fits: below names that users choose, keys of the same shape."""
+        other = paths(self._chance.choice(self._others))
+        here = paths(self.tree)
+        path, holder, key = self._chance.choice(other) if other else ((), {}, "")
+        fitting = [
+            (at, one) for at, one, _ in here if len(at) == len(path) and at[:1] == path[:1] and at[2:-1] == path[2:-1]
+        ]
+        if fitting:
+            _, target = self._chance.choice(fitting)
+            if isinstance(target, dict):
+                target[str(key)] = copied(value_at(holder, key))
+            else:
+                target.append(copied(value_at(holder, key)))
 
     def _anchor(self) -> None:
         """Share a value between two places."""
