@@ -34,9 +34,10 @@ TINY = (
     "scene:\n  table: {parent: world, xyz: 2 0 0 m, box: 800 600 20 mm}\n"
     "rehearsals:\n  there: {steps: [{move: ready}, {wait: 100 ms}, {move: back}], timeout: 20 s}\n",
     _HEAD + "devices:\n  stage: {model: ./parts/stage, simulated_joints: {turn: {lag: 10 ms}}}\n"
-    "network: {domain_id: 42, discovery: localhost}\nkpis: {cancel: 200 ms, missed_cycles: 0}\n"
+    "network: {domain_id: 42, discovery: localhost}\nkpis: {cancel: 200 ms}\n"
     "owners: {responsibilities: {frames: vision, limits: controls}, approvals: {graph: controls}}\n"
-    "safety: {recovery: {states: [fault, protective_stop, emergency_stop], acknowledge: operator, owner: safety, observer: operator}}\n",
+    "safety:\n  recovery: {states: [fault, protective_stop, emergency_stop], acknowledge: operator, owner: safety,\n"
+    "    observer: operator}\n",
 )
 """Cells that check in milliseconds, which most inputs start from."""
 
