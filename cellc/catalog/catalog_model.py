@@ -17,13 +17,14 @@ from cellc.vocabulary import (
     Unmet,
 )
 
+# The patterns end with `\Z`: to Python's engine, `$` is before a last line break too.
 Text = Annotated[str, StringConstraints(min_length=1, max_length=1000)]
-Token = Annotated[str, StringConstraints(pattern=r"^[A-Za-z_][A-Za-z0-9_]*$", max_length=100)]
-NodeName = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_{}]+$", max_length=100)]
+Token = Annotated[str, StringConstraints(pattern=r"^[A-Za-z_][A-Za-z0-9_]*\Z", max_length=100)]
+NodeName = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_{}]+\Z", max_length=100)]
 """A name of the ROS graph of one token, with placeholders; it also becomes the name of a file."""
-GraphName = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_{}/~]+$", max_length=300)]
-FileName = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_][A-Za-z0-9_.-]*$", max_length=100)]
-Date = Annotated[str, StringConstraints(pattern=r"^\d{4}-\d{2}-\d{2}$")]
+GraphName = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_{}/~]+\Z", max_length=300)]
+FileName = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_][A-Za-z0-9_.-]*\Z", max_length=100)]
+Date = Annotated[str, StringConstraints(pattern=r"^\d{4}-\d{2}-\d{2}\Z")]
 DistroName = Annotated[Distro, Strict(False)]
 BehaviourName = Annotated[Behaviour, Strict(False)]
 MomentName = Annotated[Moment, Strict(False)]

@@ -106,7 +106,7 @@ class ControlFacts(CatalogModel):
     accepts, none for any; ``joints`` are named without prefix, ``*`` stands for every joint that moves on its own.
     """
 
-    component: Text
+    component: NodeName
     update_rates: tuple[Frequency, ...] = ()
     hardware: HardwareByTarget
     joints: dict[Text, JointInterfaces]

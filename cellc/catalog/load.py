@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 
@@ -15,7 +15,8 @@ from cellc.catalog.read_model import ModelT, read_model
 from cellc.catalog.tables import ControllerManagerFacts, DistroTable, InterfaceTypeTable, QosTable
 from cellc.description.model import Description
 from cellc.description.urdf_reader import read_urdf
-from cellc.diagnostics import Outcome
+from cellc.diagnostics import Diagnostic, Outcome
+from cellc.source.document import SourceDocument
 from cellc.vocabulary import PASSIVE
 
 
@@ -96,15 +97,23 @@ def _load(
     if facts.value is None:
         return Outcome(None, facts.diagnostics)
     model, document = facts.value
-    description = read(folder / model.description.file, model.description.arguments)
+    file = folder / model.description.file
+    description = read(file, model.description.arguments)
     if description.value is None:
-        return Outcome(None, description.diagnostics)
+        return Outcome(None, tuple(_at_its_name(found, file, document) for found in description.diagnostics))
     profiles = load_qos_profiles().value
     assert profiles is not None  # package data, held valid by the catalog's tests
     known = CatalogNames({*controller_kinds(), *PASSIVE}, set(profiles.profiles))
     unknown = tuple(unknown_names(model, description.value, document, known))
     device = None if unknown else CatalogDevice(model, description.value)
     return Outcome(device, description.diagnostics + unknown)
+
+
+def _at_its_name(found: Diagnostic, file: Path, document: SourceDocument) -> Diagnostic:
+    """Return what is said of a description that is not there as said of its name: there is no file to point into."""
+    path = ("description", "file")
+    missing = found.code == "xacro-file-not-found" and found.span.file == file.as_posix()
+    return replace(found, span=document.locate(path), yaml_path=path) if missing else found
 
 
 @lru_cache(maxsize=32)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -14,11 +15,12 @@ from pydantic import Field, Strict, field_validator, model_validator
 from cellc.catalog.catalog_model import CatalogModel, Text
 from cellc.catalog.read_model import read_model
 from cellc.deploy.gate_subjects import CELL, FIELDS, ROWS, Row, cell_row
-from cellc.formats.escape import shell_word
+from cellc.formats.escape import code, shell_word
 from cellc.formats.header import Header
 from cellc.graph.cell_graph import CellGraph
 from cellc.vocabulary import GateCode
 
+_FIELD = re.compile(r"`\{(\w+)\}`|\{(\w+)\}")
 _COMMANDS = ("build", "command", "record", "start_mock")
 """Fields that are commands; every other is one word of a command."""
 
@@ -164,7 +166,12 @@ def _checks(line: Line, graph: CellGraph, base: Row) -> Iterator[Check]:
         filled = {**base, **row}
         words = ({name: _word(name, value) for name, value in {**filled, **other}.items()} for other in repeated)
         commands = (command.format_map(known) for known in words for command in line.run)
-        yield Check(line.text.format_map(filled), tuple(commands))
+        yield Check(_said(line.text, filled), tuple(commands))
+
+
+def _said(text: str, row: Row) -> str:
+    """Return a text with its fields; what stands between backticks is code, whatever it holds."""
+    return _FIELD.sub(lambda found: code(row[found[1]]) if found[1] else row[found[2]], text)
 
 
 def _word(field: str, value: str) -> str:

@@ -20,7 +20,7 @@ from cellc.deploy.files import NETWORK_CHECKLIST, PROMOTION_CHECKLIST, plans
 from cellc.deploy.gates import Gate
 from cellc.deploy.labels import real_driver
 from cellc.deploy.releases import start_mock
-from cellc.formats.escape import markdown, markdown_comment
+from cellc.formats.escape import code, markdown, markdown_comment
 from cellc.formats.parameter_file import spec_path
 from cellc.graph.cell_graph import CellGraph
 
@@ -101,7 +101,7 @@ def _table(file: str, gates: tuple[Gate, ...]) -> str:
 def _row(file: str, gate: Gate) -> tuple[str, ...]:
     anchor = f"{gate.code} {gate.title}".lower().replace(",", "").replace(" ", "-")
     # Up to a pipe: what shows is the first program.
-    command = markdown(f"`{gate.key_command.partition(' | ')[0]}`") if gate.key_command else "by people"
+    command = markdown(code(gate.key_command.partition(" | ")[0])) if gate.key_command else "by people"
     return f"[{gate.code}]({file}#{anchor}) {gate.title}", markdown(gate.shows), command, markdown(gate.owner)
 
 
@@ -126,7 +126,9 @@ def _questions(questions: tuple[OpenQuestion, ...]) -> Iterator[str]:
     if questions:
         yield f"## {_OPEN}"
         yield "Each of these is answered in the spec, where it stands; `audit.md` says whom to ask:"
-        yield "\n".join(f"- {markdown(f'{question.subject} (`{spec_path(question.path)}`)')}" for question in questions)
+        yield "\n".join(
+            f"- {markdown(f'{question.subject} ({code(spec_path(question.path))})')}" for question in questions
+        )
 
 
 def _present(cell: Cell, plan: Deployment, name: str) -> bool:
@@ -158,7 +160,7 @@ def _written(cell: Cell, kind: InterfaceKind) -> Iterator[Interface]:
 def _streams(cell: Cell) -> Iterator[str]:
     for topic in _written(cell, InterfaceKind.TOPIC):
         frame = f" in {topic.frame}" if topic.frame else ""
-        yield f"{_names(topic, 'sources')} publishes `{topic.name}`{frame} to {_names(topic, 'sinks')}"
+        yield f"{_names(topic, 'sources')} publishes {code(topic.name)}{frame} to {_names(topic, 'sinks')}"
 
 
 def _dynamic_frames(cell: Cell) -> Iterator[str]:
@@ -169,17 +171,17 @@ def _dynamic_frames(cell: Cell) -> Iterator[str]:
 
 def _actions(cell: Cell) -> Iterator[str]:
     for action in _written(cell, InterfaceKind.ACTION):
-        yield f"{_names(action, 'sinks')} asks {_names(action, 'sources')} through `{action.name}`"
+        yield f"{_names(action, 'sinks')} asks {_names(action, 'sources')} through {code(action.name)}"
     for controller in cell.controllers:
         if controller.action is not None:
             client = controller.client or "a client that the spec does not name"
-            yield f"{client} sends goals to {controller.label} through `{controller.action}`{_instead(controller)}"
+            yield f"{client} sends goals to {controller.label} through {code(controller.action)}{_instead(controller)}"
 
 
 def _instead(controller: Controller) -> str:
     """Return where the goals go on real hardware, for a controller that is not there."""
     other = controller.stand_in
-    return "" if other is None else f", on real hardware to {other.node} through `{other.action}`"
+    return "" if other is None else f", on real hardware to {other.node} through {code(other.action)}"
 
 
 def _managers(cell: Cell) -> Iterator[str]:

@@ -12,7 +12,10 @@ from cellc.diagnostics.unsafe_text import escaped_within
 
 _SPACE = re.compile(r"\s+")
 _CODE = re.compile(r"((?<!`)(`+)(?!`).+?(?<!`)\2(?!`))")
-_MARKED = re.compile(r"[\\`*\[\]<]|&(?=[A-Za-z#])|(?<!\w)_|_(?!\w)")
+_MARKED = re.compile(r"[\\`*\[\]<~$]|&(?=[A-Za-z#])|(?<!\w)_+|_+(?!\w)")
+_ENTITIES = {'"': "#quot;", "<": "#lt;", ">": "#gt;", "&": "#amp;"}
+# Entities and quotes, a line break (`\\n`), a directive (`%%{`) and a formula (`$$`).
+_IN_LABEL = re.compile(r'["<>&#`\\]|%(?=%)|(?<=%)%|\$(?=\$)|(?<=\$)\$')
 _BLOCK = re.compile(r"[#>+=~-]|\d+(?=[.)](\s|$))")
 
 
@@ -48,9 +51,11 @@ def markdown(text: str) -> str:
     line = one_line(text)
     pieces: list[str] = []
     end = 0
-    for code in _CODE.finditer(line):
-        pieces += [_prose(line[end : code.start()]), code[0]]
-        end = code.end()
+    for found in _CODE.finditer(line):
+        # In a cell of a table no reader tells a backslash before a bar from the one that escapes the bar.
+        kept = found[0] if "\\|" not in found[0] else _prose(found[0].strip("`"))
+        pieces += [_prose(line[end : found.start()]), kept]
+        end = found.end()
     shown = "".join([*pieces, _prose(line[end:])])
     block = _BLOCK.match(shown)
     if block is None:
@@ -59,13 +64,20 @@ def markdown(text: str) -> str:
 
 
 def _prose(text: str) -> str:
-    return _MARKED.sub(lambda found: "&amp;" if found[0] == "&" else f"\\{found[0]}", text)
+    return _MARKED.sub(lambda found: "&amp;" if found[0] == "&" else re.sub("(.)", r"\\\1", found[0]), text)
+
+
+def code(text: str) -> str:
+    """Return a text as code within prose, between more backticks than it has in a row."""
+    line = one_line(text)
+    fence = "`" * (max(map(len, re.findall("`+", line)), default=0) + 1)
+    apart = " " if line.startswith("`") or line.endswith("`") else ""
+    return f"{fence}{apart}{line}{apart}{fence}"
 
 
 def mermaid(text: str) -> str:
-    """Return a text within the quotes of a label."""
-    shown = one_line(text).replace('"', "#quot;").replace("<", "#lt;").replace(">", "#gt;")
-    return shown.replace("`", "#96;")
+    """Return a text within the quotes of a label, with the entities of Mermaid."""
+    return _IN_LABEL.sub(lambda found: _ENTITIES.get(found[0], f"#{ord(found[0])};"), one_line(text))
 
 
 def markdown_comment(text: str) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -25,6 +26,9 @@ Nobody merges: several publishers on it are usual, readers put joints together b
 ``source_list`` would stamp old states anew, and report zero for joints that it has not heard of.
 """
 
+_RUN = re.compile(r"[A-Za-z][A-Za-z0-9_-]*/[A-Za-z0-9_][A-Za-z0-9_.+-]*")
+"""A package as REP-144 and REP-127 name it, and a file that `ros2 run` finds in its folder of programs."""
+
 
 def link_nodes(spec: CellSpec, document: SourceDocument, devices: tuple[BoundDevice, ...]) -> Outcome[tuple[Node, ...]]:
     """Bind the nodes of the spec to their hosts, and add the drivers that the catalog names."""
@@ -33,7 +37,7 @@ def link_nodes(spec: CellSpec, document: SourceDocument, devices: tuple[BoundDev
     for name, written in spec.nodes.items():
         path = ("nodes", name)
         package, _, executable = written.run.partition("/")
-        if not package or not executable or "/" in executable:
+        if not _RUN.fullmatch(written.run):
             problems.append(_not_a_run(written.run, document, (*path, "run")))
         if written.host is not None and written.host not in spec.hosts:
             problems.append(unknown_name("unknown-host", written.host, "host", spec.hosts, document, (*path, "host")))
@@ -158,7 +162,7 @@ def _not_a_run(run: str, document: SourceDocument, path: tuple[str, ...]) -> Dia
     return Diagnostic(
         code="not-an-executable",
         severity=Severity.ERROR,
-        message=f"`{run}` is not a package and an executable",
+        message=f"`run` must be the name of a package and that of an executable, got `{run}`",
         span=document.locate(path),
         yaml_path=path,
         help="write `package/executable`, such as `cell_tasks/pick_place`",

@@ -144,6 +144,35 @@ def test_device_of_the_user_with_a_frame_that_its_description_lacks_is_reported(
     assert (found.span.line, found.help) == (10, "did you mean `lens`?")
 
 
+_OWN = "format: 1\nmodel: own\nvendor: nobody\nsummary: a link\nkind: arm\nas_of: 2026-07-01\nsources: [none]\n"
+
+
+def test_description_that_is_not_there_is_reported_where_it_is_named(tmp_path: Path) -> None:
+    text = f"{_OWN}description: {{file: b.urdf}}\nbase: a\nframes: {{a: a}}\npackages: {{}}\n"
+    (tmp_path / "device.yaml").write_text(text, encoding="utf-8")
+    (found,) = load_device_folder(tmp_path, tmp_path).diagnostics
+    assert (found.code, found.span.file, found.span.line) == ("xacro-file-not-found", f"{tmp_path}/device.yaml", 8)
+
+
+@pytest.mark.parametrize("name", ["a\\n", "a b", "a/b", "${a}"])
+def test_a_name_of_a_device_of_the_user_is_one_word_without_a_line_break(tmp_path: Path, name: str) -> None:
+    text = f'{_OWN}description: {{file: a.urdf}}\nbase: a\nframes: {{"{name}": a}}\npackages: {{}}\n'
+    (tmp_path / "device.yaml").write_text(text, encoding="utf-8")
+    (tmp_path / "a.urdf").write_text('<robot name="a"><link name="a"/></robot>', encoding="utf-8")
+    (found,) = load_device_folder(tmp_path, tmp_path).diagnostics
+    assert found.code in ("catalogue-entry-invalid", "substitution-in-text")
+    assert found.span.line == 10
+
+
+def test_the_name_of_a_hardware_component_is_a_name_of_ros(tmp_path: Path) -> None:
+    hardware = "{mock: {plugin: mock_components/GenericSystem, source: none}}"
+    control = f"{{component: 'a %0A b', hardware: {hardware}, joints: {{}}}}"
+    text = f"{_OWN}description: {{file: a.urdf}}\nbase: a\nframes: {{a: a}}\npackages: {{}}\ncontrol: {control}\n"
+    (tmp_path / "device.yaml").write_text(text, encoding="utf-8")
+    (found,) = load_device_folder(tmp_path, tmp_path).diagnostics
+    assert (found.code, found.span.line, found.yaml_path) == ("catalogue-entry-invalid", 12, ("control", "component"))
+
+
 def test_tables_load() -> None:
     for load in (load_distros, load_controller_manager, load_message_types, load_qos_profiles):
         outcome = load()

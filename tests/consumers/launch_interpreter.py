@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from xml.etree.ElementTree import Element, fromstring
 
-from tests.consumers.launch_text import LaunchError, World, condition, expand
+from tests.consumers.launch_text import LaunchError, World, condition, expand, unescaped
 
 _NODE = {"pkg", "exec", "name", "namespace", "output", "args", "ros_args", "respawn", "launch-prefix", "if", "unless"}
 _EXECUTABLE = {"name", "cmd", "output", "if", "unless"}
@@ -113,14 +113,14 @@ class Launch:
 
     def _argument(self, action: Element) -> None:
         name = action.attrib["name"]
-        self.descriptions[name] = action.get("description", "")
+        self.descriptions[name] = unescaped(action.get("description", ""))
         if name in self.given:
             value = self.given[name]
         elif name not in self.configurations and "default" not in action.attrib:
             raise LaunchError(f"required launch argument '{name}' was not provided")
         else:
             value = self.configurations.get(name, self._text(action.get("default", "")))
-        choices = [choice.attrib["value"] for choice in action.findall("choice")]
+        choices = [unescaped(choice.attrib["value"]) for choice in action.findall("choice")]
         if choices and value not in choices:
             raise LaunchError(f"argument '{name}' is '{value}', not one of {choices}")
         self.configurations[name] = value

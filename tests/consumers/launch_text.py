@@ -1,8 +1,13 @@
-"""Substitutions of launch XML, from the grammar of ROS 2 launch: ``$(name argument …)``, nested, arguments quoted."""
+"""Substitutions of launch XML, from the grammar of ROS 2 launch: ``$(name argument …)``, nested, arguments quoted.
+
+A backslash before any character but a line break stands for that character alone, outside and inside of substitutions
+(``replace_escaped_characters`` of launch 3.7).
+"""
 
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
@@ -19,6 +24,11 @@ class World:
     run: Callable[[str], str]
 
 
+def unescaped(text: str) -> str:
+    """Return a text in which nothing is put in, but in which a backslash escapes too: descriptions, choices."""
+    return re.sub(r"\\(.)", r"\1", text)
+
+
 def expand(text: str, world: World) -> str:
     """Return the text with every substitution in place."""
     value, rest = _sequence(text, world, end="")
@@ -33,6 +43,8 @@ def _sequence(text: str, world: World, end: str) -> tuple[str, str]:
         if text.startswith("$("):
             value, text = _substitution(text[2:], world)
             built += value
+        elif re.match(r"\\.", text):
+            built, text = built + text[1], text[2:]
         else:
             built, text = built + text[0], text[1:]
     return built, text

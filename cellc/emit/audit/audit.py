@@ -24,7 +24,7 @@ from cellc.emit.audit.tables import (
     table,
     tf_section,
 )
-from cellc.formats.escape import markdown, markdown_comment
+from cellc.formats.escape import code, markdown, markdown_comment
 from cellc.formats.parameter_file import spec_path
 from cellc.graph.cell_graph import CellGraph
 from cellc.graph.versions import Answer, Judgement, compatibility
@@ -105,7 +105,7 @@ def _questions_section(graph: CellGraph, plan: Deployment) -> str:
 def _open(graph: CellGraph, plan: Deployment) -> Iterator[tuple[str, ...]]:
     for question in plan.questions:
         asked, text = _asked(graph.cell, question)
-        yield asked, text, f"`{spec_path(question.path)}`"
+        yield asked, text, code(spec_path(question.path))
 
 
 def _asked(cell: Cell, question: OpenQuestion) -> tuple[str, str]:
@@ -140,10 +140,9 @@ def _untested(cell: Cell) -> Iterator[tuple[str, ...]]:
 
 def _asked_for_matrix(cell: Cell, device: Device | None, judged: Judgement) -> tuple[str, ...]:
     asked = _person(cell.owners.approvals.graph) if device is None else f"supplier {device.vendor}"
-    text = (
-        f"Is {judged.pin.part} `{judged.pin.text}` supported with ROS 2 {cell.distro}? Known so far: {judged.evidence}"
-    )
-    return asked, text, f"`{spec_path(judged.pin.path)}`"
+    pin = f"{judged.pin.part} {code(judged.pin.text)}"
+    text = f"Is {pin} supported with ROS 2 {cell.distro}? Known so far: {judged.evidence}"
+    return asked, text, code(spec_path(judged.pin.path))
 
 
 def _person(owner: str) -> str:

@@ -9,7 +9,7 @@ from cellc.cell.control import Controller, ControllerManager
 from cellc.cell.interface import Endpoint, Interface, InterfaceKind, Node, NodeSource
 from cellc.deploy.files import QOS_OVERRIDES, controllers_file, is_planner, parameter_files, plans
 from cellc.deploy.labels import failure_label, frame_label, interface_facts, rate_label, units, watchdog
-from cellc.formats.escape import markdown
+from cellc.formats.escape import code, markdown
 from cellc.formats.numbers import shortest
 from cellc.formats.parameter_file import qos_parameters
 from cellc.graph.cell_graph import CellGraph
@@ -47,14 +47,14 @@ def _owners(cell: Cell) -> Iterator[tuple[str, ...]]:
         for name in controller.command_interfaces:
             client = controller.client or "nobody"
             state = "" if controller.active else " (inactive)"
-            yield f"`{name}`", f"{controller.label}{state}", client, people.get(client, _NOT_STATED)
+            yield code(name), f"{controller.label}{state}", client, people.get(client, _NOT_STATED)
 
 
 def _requests(cell: Cell) -> Iterator[tuple[str, ...]]:
     served = {controller.action for controller in cell.controllers}
     for one in cell.interfaces:
         if one.kind is InterfaceKind.ACTION and one.name not in served:
-            ends = f"{_names(one.sinks)} → `{one.name}` → {_names(one.sources)}"
+            ends = f"{_names(one.sinks)} → {code(one.name)} → {_names(one.sources)}"
             time = one.time_source or _NOT_STATED
             qos = _qos((*one.sinks, *one.sources))
             yield (
@@ -86,7 +86,7 @@ def _controller(
     behaviour = "" if action is None else f"; {failure_label(action)}"
     name = controller.action or controller.full_name
     return (
-        f"{controller.client or 'nobody'} → `{name}` → {controller.label} → {hardware}",
+        f"{controller.client or 'nobody'} → {code(name)} → {controller.label} → {hardware}",
         (action.frame if action is not None else None) or "joints",
         units(cell, controller),
         f"{shortest(rate)} Hz",
@@ -136,7 +136,7 @@ def _nodes(cell: Cell) -> Iterator[tuple[str, ...]]:
     for node in cell.nodes:
         real = " (real target)" if node.real_only else ""
         program = f"{node.package}/{node.executable}{real}"
-        yield f"`{node.full_name}`", program, node.host or "not stated", node.owner, _code(_parameters(cell, node))
+        yield code(node.full_name), program, node.host or "not stated", node.owner, _code(_parameters(cell, node))
     for manager in cell.managers:
         for one in manager.controllers:
             owner = cell.owners.approvals.controller
@@ -163,16 +163,16 @@ def _of_drivers(cell: Cell) -> Iterator[tuple[str, ...]]:
     for device in cell.devices:
         for name, type_ in device.topics.items():
             if name not in named:
-                yield f"`{name}`", "topic", type_, device.name
+                yield code(name), "topic", type_, device.name
         for one in device.offers:
             if one.kind is InterfaceKind.SERVICE:
-                yield f"`{one.name}`", "service", one.type, device.name
+                yield code(one.name), "service", one.type, device.name
 
 
 def _interface(interface: Interface) -> tuple[str, ...]:
     _, *facts = interface_facts(interface)
     contract = "; ".join((rate_label(interface), *facts))
-    return f"`{interface.name}`", interface.type, _ends(interface.sources), _ends(interface.sinks), contract
+    return code(interface.name), interface.type, _ends(interface.sources), _ends(interface.sinks), contract
 
 
 def _ends(ends: tuple[Endpoint, ...]) -> str:
@@ -181,4 +181,4 @@ def _ends(ends: tuple[Endpoint, ...]) -> str:
 
 
 def _code(names: Iterable[str]) -> str:
-    return ", ".join(f"`{name}`" for name in names) or "none"
+    return ", ".join(code(name) for name in names) or "none"

@@ -1,0 +1,1 @@
+"""Hostile texts in every place of a spec, its device files and descriptions, looked for in everything that is made."""

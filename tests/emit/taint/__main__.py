@@ -1,0 +1,51 @@
+"""``python -m tests.emit.taint``: every place of every folder with every payload; ``--all`` for all of it."""
+
+from __future__ import annotations
+
+import argparse
+import tempfile
+import time
+from collections import Counter
+from collections.abc import Mapping
+from pathlib import Path
+
+from tests.emit.taint.cells import variants
+from tests.emit.taint.payloads import PAYLOADS
+from tests.emit.taint.rounds import KINDS, run
+
+
+def main() -> int:
+    """Run the rounds, print what each found, and return 1 where a text was more than text."""
+    arguments = argparse.ArgumentParser(description=__doc__)
+    arguments.add_argument("--all", action="store_true", help="every payload in every place, not one of each")
+    arguments.add_argument("--only", default="", help="folders whose name holds this")
+    arguments.add_argument("--turns", default="", help="FIRST:LAST, in place of all")
+    given = arguments.parse_args()
+    first, _, last = given.turns.partition(":")
+    turns = range(int(first), int(last)) if last else range(len(PAYLOADS) if given.all else 1)
+    begin = time.perf_counter()
+    count: Counter[str] = Counter()
+    for name, files in variants().items():
+        if given.only in name:
+            for turn in turns:
+                for kind in KINDS:
+                    count += _round(name, files, kind, turn)
+    print(f"{dict(count)} in {time.perf_counter() - begin:.0f} s")
+    return 1 if count["faults"] else 0
+
+
+def _round(name: str, files: Mapping[str, str], kind: str, turn: int) -> Counter[str]:
+    with tempfile.TemporaryDirectory() as folder:
+        done = run(Path(folder), files, kind, turn)
+    trial = done.trial
+    for place, error in trial.elsewhere.items():
+        at = f"{error.span.file.removeprefix(folder)}:{error.span.line}"
+        print(f"{name} {turn}: {place} is refused at {at} {error.code}")
+    for fault in done.faults:
+        print(f"{name} {turn} {kind}: {fault}")
+    sizes = {"taken": len(trial.taken), "refused": len(trial.refused), "elsewhere": len(trial.elsewhere)}
+    return Counter({"rounds": 1, **sizes, "faults": len(done.faults)})
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,0 +1,51 @@
+"""Folders of specs, with devices of their own, that together use every part of the spec language and of the catalog."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+from tests.cells import CORPUS, ROOT, spec_text
+from tests.consumers.matrix import spec_for
+
+_VALID = CORPUS / "valid"
+_DEVICES = ROOT / "cellc" / "catalog" / "devices"
+_OWN = re.compile(r"model: (\w+)")
+
+
+def variants() -> dict[str, Mapping[str, str]]:
+    """Return the files of each folder by its name; the spec is ``cell.yaml``."""
+    found: dict[str, Mapping[str, str]] = {
+        f"{cell}-{distro}": {"cell.yaml": spec_for(cell, distro)} for cell, distro in _SPECS
+    }
+    found |= {f"{name} with its devices": _with_devices(spec_text(name)) for name in ("ur5e_pick", "fr3_hand")}
+    return found | {name: _from_corpus(name) for name in _CORPUS}
+
+
+_SPECS = (
+    ("ur5e_pick", "jazzy"),
+    ("ur5e_pick", "humble"),
+    ("minimal", "kilted"),
+    ("fr3_hand", "lyrical"),
+    ("two_arms", "jazzy"),
+)
+_CORPUS = ("complete", "every_fault", "more_fields", "parameters_of_every_type", "direct_sdk_with_adapter")
+
+
+def _with_devices(spec: str) -> dict[str, str]:
+    """Return a spec whose devices are folders of its own: copies of the catalog's."""
+    files = {"cell.yaml": _OWN.sub(r"model: ./\1", spec)}
+    for model in dict.fromkeys(_OWN.findall(spec)):
+        for path in (*sorted((_DEVICES / model).iterdir()), _DEVICES / "shapes.xacro"):
+            text = path.read_text(encoding="utf-8")
+            files[f"{model}/{path.name}"] = text.replace("../shapes.xacro", "shapes.xacro")
+    return files
+
+
+def _from_corpus(name: str) -> dict[str, str]:
+    files = {"cell.yaml": (_VALID / f"{name}.yaml").read_text(encoding="utf-8")}
+    parts = _VALID / "parts"
+    for path in sorted(one for one in parts.rglob("*") if one.is_file()):
+        if "stage" not in path.parent.name:  # devices of other specs
+            files[f"parts/{path.relative_to(parts).as_posix()}"] = path.read_text(encoding="utf-8")
+    return files
