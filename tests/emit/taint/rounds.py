@@ -35,7 +35,7 @@ def run(folder: Path, files: Files, kind: str, turn: int, endings: tuple[str, ..
     """
     texts = _texts(files, kind, turn, endings)
     trial = tried(folder, files, texts)
-    said = (fault for checked in (*trial.seen, trial.checked) for fault in outputs(checked, folder))
+    said = (fault for checked in (*trial.seen, trial.checked) for fault in outputs(checked))
     return Round(trial, (*dict.fromkeys(said), *_faults(folder, files, trial)))
 
 
