@@ -6,6 +6,7 @@ import os
 import re
 import shlex
 from pathlib import Path
+from urllib.parse import quote
 
 import click
 
@@ -47,7 +48,7 @@ def init(name: str, devices: tuple[str, ...], ros: str, output: Path | None, for
     if file.exists() and not force:
         raise click.UsageError(f"{file.as_posix()} exists; give --force to replace it, or -o for another file")
     entries = _named(devices)
-    schema = Path(os.path.relpath("schemas/cell.schema.json", file.parent)).as_posix()
+    schema = quote(Path(os.path.relpath("schemas/cell.schema.json", file.parent)).as_posix())
     write_whole(file, starter_spec(name, Distro(ros), entries, schema))
     show(f"wrote {file.as_posix()}")
     show(f"next: cellc build {shlex.quote(file.as_posix())} && cellc mock generated/{name}")

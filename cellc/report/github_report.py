@@ -6,6 +6,7 @@ understood within one line.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable
 from pathlib import PurePath, PurePosixPath
 from urllib.parse import quote
@@ -59,4 +60,4 @@ def file_uri(file: str, folder: PurePath) -> str:
     """Return the URI reference of a file (RFC 3986): relative as by `relative_file`, or with the scheme ``file``."""
     path = PurePath(relative_file(file, folder))
     # A colon in the first segment would begin a scheme (section 4.2), so it is written as an escape like all others.
-    return path.as_uri() if path.is_absolute() else quote(path.as_posix())
+    return path.as_uri() if path.is_absolute() else quote(os.fsencode(path.as_posix()))

@@ -5,19 +5,22 @@ from __future__ import annotations
 import json
 import shutil
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 from unittest.mock import patch
 
 import pytest
 
+from cellc.mock.__main__ import main as run_the_mock
 from cellc.mock.faults.registry import possible_faults
 from tests.cli.run import MINIMAL, Ran, run
 from tests.printing.payloads import PAYLOADS, harm
 
 # All at once: names of files hold up to 255 bytes, and neither a slash nor a zero character.
 _EVERYTHING = "\n".join(text.replace("\n", "") for text in PAYLOADS.values()).replace("/", "|")
-_NAME = "::error::f\n::error::f\r::debug::f\x1b[2J\u009b1m\u202e\u200b\x7f##[error]f"
+_SHORT = "::error::f\n::error::f\r::debug::f\x1b[2J\u009b1m\u202e\u200b\x7f##[error]f"
+_NAME = f"{_SHORT}\udcff"  # the last one is a byte that is no UTF-8
 _OWN = frozenset({"error", "warning", "notice"})
 
 
@@ -59,7 +62,7 @@ def test_name_of_a_spec_and_of_its_folder(here: Path) -> None:
         _clean(run(*command))
     for option in ((), ("--check",), ("--force",)):
         _clean(run("build", given, "-o", _NAME, *option))
-    (here / _NAME / "minimal" / "README.md").write_text(f"{_NAME}\n")
+    (here / _NAME / "minimal" / "README.md").write_text(f"{_EVERYTHING}\n")
     (here / _NAME / "minimal" / "manifest.json").unlink()
     for option in (("--check",), ("--force",)):
         assert _clean(run("build", given, "-o", _NAME, *option)).code == 1 or option == ("--force",)
@@ -108,6 +111,25 @@ def test_arguments_that_are_wrong(built: Path, here: Path) -> None:
         _clean(run(*arguments))
 
 
+def test_arguments_of_the_mock_alone_that_are_wrong(built: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for arguments in ((), (_NAME,), (built.as_posix(), "--seed", _NAME), (built.as_posix(), f"--{_NAME}")):
+        with patch("sys.argv", ["cellc.mock", *arguments]), suppress(SystemExit):
+            assert run_the_mock() == 2
+        told = capsys.readouterr()
+        _clean(Ran(2, told.out, told.err))
+        assert told.err
+
+
+def test_schema_that_a_new_spec_names_is_one_line(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (here / "a\nb: 1").mkdir()
+    monkeypatch.chdir(here / "a\nb: 1")
+    _clean(run("init", "bench", "ur5e", "-o", (here / "cell.yaml").as_posix()))
+    assert (here / "cell.yaml").read_text().splitlines()[:2] == [
+        "# yaml-language-server: $schema=a%0Ab%3A%201/schemas/cell.schema.json",
+        "format: 1",
+    ]
+
+
 def test_files_that_init_writes(here: Path) -> None:
     arguments = ("init", "bench", "ur5e", "-o", f"{_NAME}/{_NAME}.yaml")
     for given in (arguments, arguments, (*arguments, "--force")):
@@ -120,7 +142,7 @@ def _named(contract: Any, rehearsals: Any, manifest: Any) -> None:
     contract["configuration_id"] = contract["cell"] = contract["summary"] = _EVERYTHING
     contract["version_tuple"][_EVERYTHING] = _EVERYTHING
     manifest["configuration_id"] = f"other {_EVERYTHING}"
-    manifest["files"] |= {_NAME: "sha256:0"}
+    manifest["files"] |= {_SHORT: "sha256:0"}
     rehearsals["rehearsals"][0]["name"] = "::error::f ##[error]f"
 
 
@@ -137,7 +159,7 @@ def _key(contract: Any, rehearsals: Any, manifest: Any) -> None:
 
 
 def _file(contract: Any, rehearsals: Any, manifest: Any) -> None:
-    contract["files"]["rehearsals"] = _NAME
+    contract["files"]["rehearsals"] = _SHORT
 
 
 def _outcome(contract: Any, rehearsals: Any, manifest: Any) -> None:
