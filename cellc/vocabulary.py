@@ -231,6 +231,17 @@ class Unmet(Term):
     UNKNOWN = "unknown"
 
 
+class BringUpPhase(Term):
+    """What is released at once in a bring-up: by the launch file on the mock, each by a person on the real target."""
+
+    START = "start"
+    ACTIVATE = "activate"
+    CLAIM = "claim"
+    MOVE = "move"
+
+
+
+
 class GateCode(Term):
     """A gate of bring-up: G from the powered-off manifest to motion, L from the cable to the command path."""
 

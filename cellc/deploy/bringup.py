@@ -1,7 +1,10 @@
-"""Bring-up by readiness: what each step does, and the state, interface or transform that must show before it.
+"""Bring-up by readiness: what each step asks for, the proof that it waits for, and the effect that it must show.
 
-Stages: discover, configure, observe, claim; enable and move are taken by people. Starting the
-processes is discovery; what follows here waits for proof, whatever order the processes came up in.
+Four phases: ``start`` configures and observes, ``activate`` takes hardware to active whose activation moves something,
+``claim`` gives command interfaces their owners, ``move`` starts what asks for motion. On the mock the launch file takes
+the first three at once. On the real target a person releases each at its gate: a claim before the robot listens holds a
+set point that is old when it does (Universal_Robots_ROS2_Driver issue 1084), and a claim of an FR3 starts motion mode.
+Starting the processes is discovery; what follows waits for proof, whatever order they came up in.
 """
 
 from __future__ import annotations
@@ -11,66 +14,58 @@ from dataclasses import dataclass
 
 from cellc.cell.cell import Cell
 from cellc.cell.control import Controller, ControllerManager
+from cellc.cell.device import Device
 from cellc.cell.frame import WORLD, FrameKind
 from cellc.cell.interface import TARGETS, InterfaceKind, Node
-from cellc.deploy.processes import asks_for_motion, description_nodes, motion_clients
+from cellc.contract.bring_up import (
+    ActionProof,
+    Activation,
+    BringUp,
+    BringUpStep,
+    ControllerProof,
+    HardwareActivation,
+    HardwareProof,
+    HardwareState,
+    LifecycleProof,
+    ManagedState,
+    MockProof,
+    NodeProof,
+    Proof,
+    Request,
+    Restart,
+    Target,
+    TopicProof,
+    TransformProof,
+    Transition,
+    Watch,
+)
+from cellc.deploy.processes import asks_for_motion, bring_up_enclave, description_nodes, motion_clients
 from cellc.link.derived import JOINT_STATE_TYPE
+from cellc.vocabulary import BringUpPhase
 
-MOVE = "move"
-"""Begins the name of the steps that wait for everything and then become the program behind them, one a target."""
+WATCH = "watch"
+"""What the program of the bring-up is told to do where it deactivates claims of a robot that no longer listens."""
 
-
-@dataclass(frozen=True, slots=True)
-class Step:
-    """One step of the launch file.
-
-    Args:
-        stage: ``configure``, ``observe`` or ``claim``.
-        name: name of the step, a word of a shell.
-        waits_for: conditions, each a kind and its arguments: ``topic /joint_states``.
-        command: what is done then.
-        only: the one target on which it is taken; None for every target.
-    """
-
-    stage: str
-    name: str
-    host: str
-    waits_for: tuple[str, ...]
-    command: str
-    only: str | None = None
+DEADLINE_S = 60.0
+"""How long a step waits for its proof, and for its effect."""
 
 
-def steps(cell: Cell) -> tuple[Step, ...]:
-    """Return the steps in the order of their stages; each waits for its conditions, none for the one before it."""
-    managed = [node for node in cell.nodes if node.lifecycle]
-    spawned = [(manager, one) for manager in cell.managers for one in spawnings(manager)]
-    return (
-        *(_configure(cell, node) for node in managed),
-        *(_observe(cell, manager, one) for manager, one in spawned if one.observing),
-        *(_activate(cell, node) for node in managed if not asks_for_motion(cell, node)),
-        *(_claim(cell, manager, one) for manager, one in spawned if one.claiming),
+def bring_up(cell: Cell) -> BringUp:
+    """Return the plan of a cell: steps of both targets in the order of their phases, and what the stopper watches."""
+    return BringUp(
+        format=1,
+        cell=cell.name,
+        enclave=bring_up_enclave(cell),
+        mock=tuple(_steps(cell, "mock")),
+        real=tuple(_steps(cell, "real")),
+        watches=tuple(_watches(cell)),
     )
 
 
-def ready_to_move(cell: Cell, target: str) -> tuple[str, ...]:
-    """Return what must show before a node that asks for motion is started: claims, actions, states.
-
-    For the mock that no manager runs anything but the mock: a target is a word, and the description is what moves.
-    """
-    asking = {node.name for node in motion_clients(cell)}
-    claimed = (
-        f"controller {_node(manager)} {name} active"
-        for manager in cell.managers
-        for one in spawnings(manager)
-        for name in (one.claiming if one.on(target) else ())
-    )
-    actions = (
-        f"action {one.name}"
-        for one in cell.interfaces
-        if one.kind is InterfaceKind.ACTION and target in one.targets and any(end.node in asking for end in one.sinks)
-    )
-    mocked = (f"mocked {node}" for node in description_nodes(cell)) if target == "mock" else ()
-    return (*mocked, *claimed, *actions, *_states(cell))
+def phases(plan: BringUp, target: Target, host: str | None = None) -> tuple[BringUpPhase, ...]:
+    """Return the phases that have a step on a target, and on a host where one is given."""
+    found = {step.phase for step in plan.steps(target) if host is None or step.host in ("", host)}
+    return tuple(phase for phase in BringUpPhase if phase in found)
 
 
 def activation(node: Node) -> str:
@@ -78,106 +73,224 @@ def activation(node: Node) -> str:
     return f"ros2 lifecycle set {node.full_name} activate"
 
 
-def _configure(cell: Cell, node: Node) -> Step:
-    command = _transition(node, "configure")
-    return Step("configure", f"configure_{node.name}", node.host, (f"node {node.full_name}",), command)
+def _steps(cell: Cell, target: Target) -> Iterator[BringUpStep]:
+    """Yield the steps on a target; each waits for what an earlier one made, on whichever host that runs."""
+    managed = [node for node in cell.nodes if node.lifecycle]
+    yield from (_configure(node) for node in managed)
+    for manager in cell.managers:
+        yield from _observe(cell, manager, target)
+    yield from (_activate(cell, node) for node in managed if not asks_for_motion(cell, node))
+    for manager in cell.managers:
+        yield from _activate_hardware(cell, manager, target)
+    for manager in cell.managers:
+        yield from _claim(cell, manager, target)
+    if motion_clients(cell):
+        yield _move(cell, target)
 
 
-def _activate(cell: Cell, node: Node) -> Step:
+def _configure(node: Node) -> BringUpStep:
+    return _step(
+        BringUpPhase.START,
+        f"configure_{node.name}",
+        node.host,
+        [NodeProof(kind="node", node=node.full_name)],
+        Transition(kind="transition", node=node.full_name, transition="configure"),
+        [_lifecycle(node, "inactive")],
+    )
+
+
+def _activate(cell: Cell, node: Node) -> BringUpStep:
     parents = dict.fromkeys(
         frame.parent for frame in cell.frames if frame.kind is FrameKind.DYNAMIC and frame.authority == node.name
     )
-    waits_for = (f"lifecycle {node.full_name} inactive", *(f"transform {WORLD} {parent}" for parent in parents))
-    return Step("observe", f"activate_{node.name}", node.host, waits_for, _transition(node, "activate"))
-
-
-def _transition(node: Node, transition: str) -> str:
-    # A daemon may not know of the node yet, and without one there must be time to find it.
-    return f"ros2 lifecycle set --no-daemon --spin-time 2 {node.full_name} {transition}"
-
-
-def _observe(cell: Cell, manager: ControllerManager, spawned: Spawning) -> Step:
-    waits_for = tuple(f"controller {_node(manager)} {name} inactive" for name in spawned.controllers)
-    name = f"observe_{manager.name}" + ("" if spawned.only is None else f"_{spawned.only}")
-    return _switch(cell, manager, "observe", name, waits_for, spawned.observing, spawned.only)
-
-
-def _claim(cell: Cell, manager: ControllerManager, spawned: Spawning) -> Step:
-    waits_for = (
-        *(f"controller {_node(manager)} {name} inactive" for name in spawned.claiming),
-        *(f"topic {name}" for name in _joint_states(cell, manager)),
-        *(f"transform {group.base_link} {group.tip_frame}" for group in cell.groups),
-        *_states(cell),
+    return _step(
+        BringUpPhase.START,
+        f"activate_{node.name}",
+        node.host,
+        [_lifecycle(node, "inactive"), *(_transform(WORLD, parent) for parent in parents)],
+        Transition(kind="transition", node=node.full_name, transition="activate"),
+        [_lifecycle(node, "active")],
     )
-    name = f"claim_{manager.name}" + ("" if spawned.only is None else f"_{spawned.only}")
-    return _switch(cell, manager, "claim", name, waits_for, spawned.claiming, spawned.only)
 
 
-def _switch(
-    cell: Cell,
-    manager: ControllerManager,
-    stage: str,
-    name: str,
-    waits_for: tuple[str, ...],
-    controllers: tuple[str, ...],
-    only: str | None,
-) -> Step:
-    # Strict: all of them or none, so that a cell is never half claimed.
-    command = f"ros2 control switch_controllers --activate {' '.join(controllers)} --strict -c {_node(manager)}"
-    return Step(stage, name, manager.host, waits_for, command, only)
+def _observe(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[BringUpStep]:
+    """Yield the step that activates what reads states; of hardware that a person activates it sees none yet."""
+    spawned = [one.name for one in manager.controllers if target in one.targets]
+    observing = tuple(one.name for one in _active(manager, target) if not one.command_interfaces)
+    if spawned:
+        later = _activated_by_a_person(cell, manager, target)
+        components = (
+            _hardware(manager, device, "unconfigured" if device in later else "active")
+            for device in _components(cell, manager, target)
+        )
+        yield _step(
+            BringUpPhase.START,
+            f"observe_{manager.name}",
+            manager.host,
+            [*components, *(_controller(manager, name, "inactive") for name in spawned)],
+            Activation(kind="controllers", manager=manager.node, controllers=observing) if observing else None,
+            [_controller(manager, name, "active") for name in observing],
+        )
 
 
-def _joint_states(cell: Cell, manager: ControllerManager) -> Iterator[str]:
+def _activate_hardware(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[BringUpStep]:
+    """Yield what takes hardware to active that moves by it, and restarts what read the states before it was there."""
+    devices = _activated_by_a_person(cell, manager, target)
+    for device in devices:
+        yield _step(
+            BringUpPhase.ACTIVATE,
+            f"activate_{device.name}",
+            manager.host,
+            [_hardware(manager, device, "unconfigured")],
+            HardwareActivation(kind="hardware", manager=manager.node, component=_component(device)),
+            [_hardware(manager, device, "active")],
+        )
+    observing = tuple(one.name for one in _active(manager, target) if not one.command_interfaces)
+    if devices and observing:
+        yield _step(
+            BringUpPhase.ACTIVATE,
+            f"observe_{manager.name}_again",
+            manager.host,
+            [_controller(manager, name, "active") for name in observing],
+            Restart(kind="restart", manager=manager.node, controllers=observing),
+            [_controller(manager, name, "active") for name in observing],
+        )
+
+
+def _claim(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[BringUpStep]:
+    claiming = tuple(one.name for one in _active(manager, target) if one.command_interfaces)
+    if claiming:
+        yield _step(
+            BringUpPhase.CLAIM,
+            f"claim_{manager.name}",
+            manager.host,
+            [
+                *(_hardware(manager, device, "active") for device in _components(cell, manager, target)),
+                *(_controller(manager, name, "inactive") for name in claiming),
+                *_joint_states(cell, manager),
+                *(_transform(group.base_link, group.tip_frame) for group in cell.groups),
+                *_managed_nodes(cell),
+                *(_listening(cell, manager) if target == "real" else ()),
+            ],
+            Activation(kind="controllers", manager=manager.node, controllers=claiming),
+            [_controller(manager, name, "active") for name in claiming],
+        )
+
+
+def _move(cell: Cell, target: Target) -> BringUpStep:
+    """Return what must show before a node that asks for motion is started: claims, actions, states.
+
+    For the mock that no manager runs anything but the mock: a target is a word, and the description is what moves.
+    """
+    asking = {node.name for node in motion_clients(cell)}
+    plugins = tuple(sorted({one.hardware.plugins["mock"] for one in cell.devices if _on(one, "mock") and one.hardware}))
+    mocked = [MockProof(kind="mock", node=node, plugins=plugins) for node in description_nodes(cell)]
+    claimed = (
+        _controller(manager, one.name, "active")
+        for manager in cell.managers
+        for one in _active(manager, target)
+        if one.command_interfaces
+    )
+    actions = (
+        ActionProof(kind="action", action=one.name)
+        for one in cell.interfaces
+        if one.kind is InterfaceKind.ACTION and target in one.targets and any(end.node in asking for end in one.sinks)
+    )
+    proof = [*(mocked if target == "mock" else ()), *claimed, *actions, *_managed_nodes(cell)]
+    return _step(BringUpPhase.MOVE, "move", "", proof, None, [])
+
+
+def _step(
+    phase: BringUpPhase, name: str, host: str, proof: list[Proof], request: Request | None, effect: list[Proof]
+) -> BringUpStep:
+    return BringUpStep(
+        name=name,
+        phase=phase,
+        host=host,
+        proof=tuple(proof),
+        request=request,
+        effect=tuple(effect),
+        deadline_s=DEADLINE_S,
+    )
+
+
+def _active(manager: ControllerManager, target: Target) -> Iterator[Controller]:
+    return (one for one in manager.controllers if one.active and target in one.targets)
+
+
+def _components(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[Device]:
+    return (device for device in map(cell.device, manager.devices) if _on(device, target))
+
+
+def _on(device: Device, target: str) -> bool:
+    return device.hardware is not None and target in device.hardware.targets
+
+
+def _activated_by_a_person(cell: Cell, manager: ControllerManager, target: Target) -> tuple[Device, ...]:
+    # TODO: facts of the catalogue
+    return ()
+
+
+def _listening(cell: Cell, manager: ControllerManager) -> Iterator[TopicProof]:
+    return iter(())
+
+
+def _watches(cell: Cell) -> Iterator[Watch]:
+    return iter(())
+
+
+def _component(device: Device) -> str:
+    assert device.hardware is not None
+    return device.hardware.name
+
+
+def _hardware(manager: ControllerManager, device: Device, state: HardwareState) -> HardwareProof:
+    return HardwareProof(kind="hardware", manager=manager.node, component=_component(device), state=state)
+
+
+def _controller(manager: ControllerManager, name: str, state: ManagedState) -> ControllerProof:
+    return ControllerProof(kind="controller", manager=manager.node, controller=name, state=state)
+
+
+def _lifecycle(node: Node, state: ManagedState) -> LifecycleProof:
+    return LifecycleProof(kind="lifecycle", node=node.full_name, state=state)
+
+
+def _transform(parent: str, child: str) -> TransformProof:
+    return TransformProof(kind="transform", parent=parent, child=child)
+
+
+def _joint_states(cell: Cell, manager: ControllerManager) -> Iterator[TopicProof]:
     own = {controller.full_name for controller in manager.controllers}
     for interface in cell.interfaces:
         if interface.type == JOINT_STATE_TYPE and any(end.full_name in own for end in interface.sources):
-            yield interface.name
+            yield TopicProof(kind="topic", topic=interface.name, type=interface.type)
 
 
-def _states(cell: Cell) -> Iterator[str]:
-    for node in cell.nodes:
-        if node.lifecycle and not asks_for_motion(cell, node):
-            yield f"lifecycle {node.full_name} active"
-
-
-def _node(manager: ControllerManager) -> str:
-    return f"{manager.namespace}/controller_manager"
+def _managed_nodes(cell: Cell) -> Iterator[LifecycleProof]:
+    return (_lifecycle(node, "active") for node in cell.nodes if node.lifecycle and not asks_for_motion(cell, node))
 
 
 @dataclass(frozen=True, slots=True)
 class Spawning:
-    """What one spawner loads and configures, and what is activated of it; alternates are never.
+    """What one spawner loads and configures; alternates too.
 
     Args:
         controllers: all that the spawner is given.
-        observing: those to activate that read states and claim nothing.
-        claiming: those to activate that claim command interfaces.
         only: the one target on which they are spawned; None for every target. On the others their hardware is no
             component, or lacks what they need, and a spawner would fail.
     """
 
     controllers: tuple[str, ...]
-    observing: tuple[str, ...]
-    claiming: tuple[str, ...]
     only: str | None
-
-    def on(self, target: str) -> bool:
-        """Tell whether it is started on a target."""
-        return self.only in (None, target)
 
 
 def spawnings(manager: ControllerManager) -> Iterator[Spawning]:
     """Yield what the spawners of a manager are given, in order; the first failure in a list stops the rest of it."""
     for only in (None, *TARGETS):
-        controllers = [one for one in manager.controllers if _only_target(one) == only]
+        controllers = tuple(one.name for one in manager.controllers if _only_target(one) == only)
         if controllers:
-            active = [one for one in controllers if one.active]
-            yield Spawning(
-                tuple(one.name for one in controllers),
-                tuple(one.name for one in active if not one.command_interfaces),
-                tuple(one.name for one in active if one.command_interfaces),
-                only,
-            )
+            yield Spawning(controllers, only)
 
 
 def _only_target(controller: Controller) -> str | None:

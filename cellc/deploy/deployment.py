@@ -10,8 +10,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from cellc.cell.interface import Node, Qos
+from cellc.contract.bring_up import BringUp
 from cellc.contract.manifest import ConfigurationInputs
-from cellc.deploy.bringup import Step, steps
+from cellc.deploy.bringup import bring_up
 from cellc.deploy.configuration import (
     OpenQuestion,
     configuration_id,
@@ -38,7 +39,7 @@ class Deployment:
         questions: what nobody has answered and blocks the real target, versions first.
         hosts: those on which something is started; empty where all runs in one place.
         motion_clients: nodes that a person starts or activates before anything moves.
-        steps: the bring-up in the order of its stages.
+        bring_up: the steps from processes to motion, on each target.
         promotion: gates G0 to G7.
         network: layers L1 to L6.
         recorded: every recorded topic with a profile that each of its publishers satisfies.
@@ -51,7 +52,7 @@ class Deployment:
     questions: tuple[OpenQuestion, ...]
     hosts: tuple[str, ...]
     motion_clients: tuple[Node, ...]
-    steps: tuple[Step, ...]
+    bring_up: BringUp
     promotion: tuple[Gate, ...]
     network: tuple[Gate, ...]
     recorded: Mapping[str, Qos]
@@ -69,7 +70,7 @@ def plan_deployment(graph: CellGraph) -> Deployment:
         questions=open_questions(graph),
         hosts=launch_hosts(cell),
         motion_clients=motion_clients(cell),
-        steps=steps(cell),
+        bring_up=bring_up(cell),
         promotion=promotion_gates(graph, header),
         network=network_gates(graph, header),
         recorded=recorded_topics(cell),

@@ -9,6 +9,12 @@ from cellc.cell.interface import TARGETS, Node
 REHEARSALS = "rehearsals.json"
 """What the mock executes."""
 
+BRING_UP = "config/bring_up.json"
+"""The steps of the bring-up."""
+
+BRING_UP_PROGRAM = "scripts/bring_up"
+"""What takes them; installed as a program of the package."""
+
 RECORDING = "config/recording_qos.yaml"
 """QoS with which an attempt is recorded."""
 

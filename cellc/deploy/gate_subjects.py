@@ -7,15 +7,17 @@ from collections.abc import Callable, Iterator, Mapping
 from cellc.cell.cell import Cell
 from cellc.cell.interface import Endpoint, Interface, InterfaceKind
 from cellc.cell.site import UNKNOWN
+from cellc.deploy.bringup import bring_up, phases
 from cellc.deploy.configuration import version_tuple
 from cellc.deploy.processes import asks_for_motion, description_nodes, motion_clients, started_by_a_person
 from cellc.deploy.recording import record_command
-from cellc.deploy.releases import move_mock, move_real, start_mock, start_real
+from cellc.deploy.releases import ACTIVATE, CLAIM, Release, move_mock, move_real, release_once, start_mock, start_real
 from cellc.formats.escape import shell_word
 from cellc.formats.header import Header
 from cellc.formats.numbers import shortest
 from cellc.graph.cell_graph import CellGraph
 from cellc.link.derived import JOINT_STATE_TYPE
+from cellc.vocabulary import BringUpPhase
 
 Row = Mapping[str, str]
 Values = tuple[str, ...]
@@ -126,6 +128,12 @@ def _stop_reasons(graph: CellGraph) -> Iterator[Values]:
     return ((reason,) for reason in (() if first is None else first.stop_if))
 
 
+def _released(graph: CellGraph, release: Release, phase: BringUpPhase) -> Iterator[Values]:
+    """Yield the one command of a release, where the real target has a step in its phase."""
+    if phase in phases(bring_up(graph.cell), "real"):
+        yield (release_once(graph.cell, release),)
+
+
 def _real_actions(graph: CellGraph) -> Iterator[Values]:
     return ((one.name,) for one in _on_real(graph) if one.kind is InterfaceKind.ACTION)
 
@@ -212,6 +220,8 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "first_motion": (("joint", "direction", "max_delta", "velocity", "timeout"), _first_motion),
     "missing_first_motion": ((), _missing_first_motion),
     "stop_reason": (("reason",), _stop_reasons),
+    "real_activation": (("command",), lambda graph: _released(graph, ACTIVATE, BringUpPhase.ACTIVATE)),
+    "real_claim": (("command",), lambda graph: _released(graph, CLAIM, BringUpPhase.CLAIM)),
     "real_motion": (("command",), lambda graph: _each(move_real(graph.cell))),
     "real_action": (("action",), _real_actions),
     "cancel": (("action", "seconds"), _cancels),

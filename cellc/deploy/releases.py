@@ -1,16 +1,57 @@
-"""Commands that start the cell at a gate, and the words with which a person opens the real target."""
+"""What a person releases at a gate: the launch file, the word that opens it, and the command."""
 
 from __future__ import annotations
+
+from dataclasses import dataclass
 
 from cellc.cell.cell import Cell
 from cellc.deploy.bringup import activation
 from cellc.deploy.processes import launch_hosts, motion_clients, started_by_a_person
 
-CONFIRMATION = "I_HAVE_PASSED_GATES_G0_TO_G2"
-"""Releases the real target: connecting, reading, claiming."""
 
-MOTION_CONFIRMATION = "I_HAVE_PASSED_GATES_G0_TO_G6"
-"""Releases motion on the real target: what sends goals is started."""
+@dataclass(frozen=True, slots=True)
+class Release:
+    """One release of the real target.
+
+    Args:
+        file: the launch file.
+        argument: what a person states, and ``word`` is the only value that opens.
+        about: what the person states with it.
+    """
+
+    file: str
+    argument: str
+    word: str
+    about: str
+
+
+START = Release(
+    "cell",
+    "confirm_real",
+    "I_HAVE_PASSED_GATES_G0_TO_G2",
+    "Stated by the person who releases the real target: gates G0 to G2 have their evidence, drives are disabled.",
+)
+ACTIVATE = Release(
+    "activate",
+    "confirm_activation",
+    "I_HAVE_PASSED_GATES_G0_TO_G4_AND_THE_AREA_IS_EMPTY",
+    "Stated by the person who releases hardware that moves as it is activated: gates G0 to G4 have their evidence, "
+    "nobody is in reach, nothing is held, no program of the robot is running.",
+)
+CLAIM = Release(
+    "claim",
+    "confirm_claim",
+    "I_HAVE_PASSED_GATES_G0_TO_G6",
+    "Stated by the person who releases claims on the real target: gates G0 to G6 have their evidence, the robot "
+    "listens as its vendor says, nobody will jog it.",
+)
+MOVE = Release(
+    "move",
+    "confirm_motion",
+    "I_HAVE_PASSED_GATES_G0_TO_G6",
+    "Stated by the person who releases motion on the real target: gates G0 to G6 have their evidence, the observer "
+    "stands at the stop.",
+)
 
 
 def start_mock(cell: Cell) -> str:
@@ -19,9 +60,14 @@ def start_mock(cell: Cell) -> str:
 
 
 def start_real(cell: Cell) -> tuple[str, ...]:
-    """Return what a person starts on each host: it connects, reads and claims, and enables nothing."""
-    command = f"{start_mock(cell)} target:=real confirm_real:={CONFIRMATION}"
+    """Return what a person starts on each host: it connects and reads; it claims and enables nothing."""
+    command = f"{start_mock(cell)} target:=real {START.argument}:={START.word}"
     return tuple(f"{command} host:={host}" for host in launch_hosts(cell)) or (command,)
+
+
+def release_once(cell: Cell, release: Release) -> str:
+    """Return what a person starts once, on one host: it asks, proves and ends."""
+    return f"ros2 launch {cell.name} {release.file}.launch.xml {release.argument}:={release.word}"
 
 
 def move_mock(cell: Cell) -> tuple[str, ...]:
@@ -31,7 +77,7 @@ def move_mock(cell: Cell) -> tuple[str, ...]:
 
 def move_real(cell: Cell) -> tuple[str, ...]:
     """Return what a person starts or activates before motion, on each host."""
-    command = f"ros2 launch {cell.name} move.launch.xml target:=real confirm_motion:={MOTION_CONFIRMATION}"
+    command = f"ros2 launch {cell.name} move.launch.xml target:=real {MOVE.argument}:={MOVE.word}"
     launched = tuple(f"{command} host:={host}" for host in launch_hosts(cell)) or (command,)
     managed = tuple(activation(node) for node in motion_clients(cell) if node.lifecycle)
     return (*(launched if _launched(cell) else ()), *managed)

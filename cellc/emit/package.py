@@ -14,14 +14,17 @@ from xml.etree.ElementTree import Element
 from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
 from cellc.deploy.deployment import Deployment
-from cellc.deploy.files import plans
+from cellc.deploy.files import BRING_UP_PROGRAM, plans
 from cellc.formats.urdf.hardware import share_folders
 from cellc.formats.xml_text import comment, element, render
 from cellc.graph.cell_graph import CellGraph
 
 _ALWAYS = ("ros2launch", "xacro")
 _CONTROL = ("controller_manager", "hardware_interface", "ros2controlcli")
-_WAITED_WITH = ("ros2cli_common_extensions", "tf2_ros")  # what the steps of the bring-up ask with
+# What the program of the bring-up imports: it asks the controller managers and managed nodes, and hears transforms.
+_BRING_UP = ("controller_manager_msgs", "lifecycle_msgs", "rcl_interfaces", "rclpy", "tf2_msgs")
+# What the commands of the gates call; the keys of rosdep.
+_GATES = ("liburdfdom-tools", "ros2bag", "ros2cli_common_extensions", "rosbag2_storage_mcap", "tf2_ros")
 _PLANNING = (
     "moveit_kinematics",
     "moveit_planners_ompl",
@@ -63,13 +66,14 @@ def _dependencies(cell: Cell) -> tuple[str, ...]:
     """Return package names in alphabetical order, so that a new device shows as new lines alone."""
     controllers = (controller.package for controller in cell.controllers)
     hardware = (device.packages.driver for device in cell.devices if device.hardware is not None)
-    names = {*_ALWAYS, *(node.package for node in cell.nodes)}
+    names = {*_ALWAYS, *_BRING_UP, *_GATES, *(node.package for node in cell.nodes)}
     names |= {name for name in (*controllers, *hardware) if name}
     names |= {package for device in cell.devices for package in share_folders(device)}
     if plans(cell):
         names |= set(_PLANNING)
     if cell.managers:
-        names |= {*_CONTROL, *_WAITED_WITH}
+        names |= set(_CONTROL)
+        # Every topic that the bring-up listens to is one whose type it imports.
     return tuple(sorted(names))
 
 
@@ -81,9 +85,10 @@ def _build_file(cell: Cell) -> Iterator[str]:
     yield ""
     yield from _install("DIRECTORY", (*_FOLDERS, *((_ON_HOSTS,) if cell.hosts else ())))
     yield from _install("FILES", _FILES)
+    yield from _install("PROGRAMS", (BRING_UP_PROGRAM,), "lib")
     yield ""
     yield "ament_package()"
 
 
-def _install(kind: str, names: tuple[str, ...]) -> list[str]:
-    return [f"install({kind}", *(f"  {name}" for name in names), "  DESTINATION share/${PROJECT_NAME}", ")"]
+def _install(kind: str, names: tuple[str, ...], place: str = "share") -> list[str]:
+    return [f"install({kind}", *(f"  {name}" for name in names), f"  DESTINATION {place}/${{PROJECT_NAME}}", ")"]

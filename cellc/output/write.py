@@ -130,3 +130,6 @@ def fill(staging: Path, artifacts: Sequence[Artifact]) -> None:
             file.write(artifact.text.encode())
             file.flush()
             os.fsync(file.fileno())
+        if artifact.executable:
+            mode = path.stat().st_mode
+            path.chmod(mode | (mode & 0o444) >> 2)

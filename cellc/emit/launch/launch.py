@@ -1,10 +1,11 @@
 """``launch/*.launch.xml``: starts the cell on the mock, or on real hardware up to where a human takes over.
 
 Launch XML for ``ros2 launch``, Humble to Lyrical: only actions and substitutions that all of them know.
-``cell.launch.xml`` discovers, configures, observes and claims; it enables no drive and starts nothing that asks for
-motion, on any target. With several hosts it includes the file of the one that it is told; ``move.launch.xml`` starts
-what sends goals. The real target passes a gate in each: a file whose argument has no default and one choice. Left out:
-enabling, which is a step of the vendor's procedure.
+``cell.launch.xml`` discovers, configures and observes, and on the mock claims; it enables no drive and starts nothing
+that asks for motion, on any target. With several hosts it includes the file of the one that it is told.
+``activate.launch.xml`` and ``claim.launch.xml`` are released by a person on the real target: hardware that moves as it
+is activated, and claims. ``move.launch.xml`` starts what sends goals. The real target passes a gate in each: an
+argument without a default and with one choice. Left out: enabling, which is a step of the vendor's procedure.
 """
 
 from __future__ import annotations
@@ -14,40 +15,27 @@ from xml.etree.ElementTree import Element
 
 from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
+from cellc.deploy.bringup import phases
 from cellc.deploy.deployment import Deployment
 from cellc.deploy.processes import started_by_a_person
-from cellc.deploy.releases import CONFIRMATION, MOTION_CONFIRMATION
-from cellc.emit.launch.processes import HOST, ON_REAL, TARGET, moving_node, on_host, share
-from cellc.emit.launch.stages import bring_up, stages
+from cellc.deploy.releases import ACTIVATE, CLAIM, MOVE, START, Release
+from cellc.emit.launch.processes import HOST, ON_REAL, moving_node, on_host, share
+from cellc.emit.launch.stages import before_motion, bring_up, program_and_plan, stages
 from cellc.formats.escape import launch_text
 from cellc.formats.header import Header
 from cellc.formats.parameter_file import spec_path
 from cellc.formats.xml_text import comment, element, render
 from cellc.graph.cell_graph import CellGraph
+from cellc.vocabulary import BringUpPhase
 
 _VERSION = {"version": "0.1.1"}
 _CELL = "launch/cell.launch.xml"
-_REAL_GATE = "launch/real_gate.launch.xml"
 _MOVE = "launch/move.launch.xml"
-_MOVE_GATE = "launch/move_gate.launch.xml"
 
 _EVERYWHERE = "all"
 """The choice of ``host`` that starts the whole cell on one computer, which only the mock allows."""
 
 _NOT_YET = "no"
-_CONFIRM_REAL = "confirm_real"
-_CONFIRM_MOTION = "confirm_motion"
-_RELEASES = {
-    _CONFIRM_REAL: (
-        CONFIRMATION,
-        "Stated by the person who releases the real target: gates G0 to G2 have their evidence, drives are disabled.",
-    ),
-    _CONFIRM_MOTION: (
-        MOTION_CONFIRMATION,
-        "Stated by the person who releases motion on the real target: gates G0 to G6 have their evidence, the "
-        "observer stands at the stop.",
-    ),
-}
 
 
 def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
@@ -58,15 +46,29 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
         actions = [*_arguments(cell), *_gate(cell, {"host": host}), *stages(cell, plan, host)]
         yield _file(plan.header, _host_file(host), actions)
     demanded = [_stated_host_argument(plan.hosts)] if plan.hosts else []
-    yield _file(plan.header, _REAL_GATE, [_gate_argument(_CONFIRM_REAL), *demanded])
-    yield bring_up(cell, plan)
+    yield _file(plan.header, _gate_file(START), [_gate_argument(START), *demanded])
+    yield from program_and_plan(plan)
+    released = phases(plan.bring_up, "real")
+    for release, phase in ((ACTIVATE, BringUpPhase.ACTIVATE), (CLAIM, BringUpPhase.CLAIM)):
+        if phase in released:
+            yield _file(plan.header, f"launch/{release.file}.launch.xml", _released(cell, release, phase))
     if plan.motion_clients:
         yield _file(plan.header, _MOVE, _moving(cell, plan))
-        yield _file(plan.header, _MOVE_GATE, [_gate_argument(_CONFIRM_MOTION)])
+        yield _file(plan.header, _gate_file(MOVE), [_gate_argument(MOVE)])
 
 
 def _file(header: Header, path: str, actions: Iterator[Element] | list[Element]) -> Artifact:
     return Artifact(path, render(element("launch", _VERSION, actions), header.text))
+
+
+def _gate_file(release: Release) -> str:
+    return f"launch/{'real' if release is START else release.file}_gate.launch.xml"
+
+
+def _released(cell: Cell, release: Release, phase: BringUpPhase) -> Iterator[Element]:
+    yield _gate_argument(release)
+    yield comment("it proves what must hold, asks once, looks at the effect, and ends; on one computer for all")
+    yield bring_up(cell, "real", [phase], conditional=False)
 
 
 def _host_file(host: str) -> str:
@@ -75,13 +77,13 @@ def _host_file(host: str) -> str:
 
 def _arguments(cell: Cell) -> Iterator[Element]:
     yield _target_argument()
-    yield _release_argument(_CONFIRM_REAL)
+    yield _release_argument(START)
     yield from _address_arguments(cell)
 
 
 def _gate(cell: Cell, more: dict[str, str]) -> Iterator[Element]:
     yield comment("the gate before real hardware: unless a person opens it nothing below is started")
-    yield _include(cell, _REAL_GATE, {_CONFIRM_REAL: f"$(var {_CONFIRM_REAL})"} | more, {"if": ON_REAL})
+    yield _include(cell, _gate_file(START), {START.argument: f"$(var {START.argument})"} | more, {"if": ON_REAL})
 
 
 def _whole(cell: Cell, plan: Deployment) -> Iterator[Element]:
@@ -95,7 +97,7 @@ def _by_host(cell: Cell, hosts: tuple[str, ...]) -> Iterator[Element]:
     yield _host_argument(hosts)
     yield from _gate(cell, {"host": HOST})
     yield comment("what each computer starts; the steps of one wait for what shows from the others")
-    passed = {name: f"$(var {name})" for name in ("target", _CONFIRM_REAL, *addresses(cell))}
+    passed = {name: f"$(var {name})" for name in ("target", START.argument, *addresses(cell))}
     for host in hosts:
         yield _include(cell, _host_file(host), passed, {"if": on_host(host)})
 
@@ -108,16 +110,16 @@ def _include(cell: Cell, path: str, arguments: dict[str, str], condition: dict[s
 
 def _moving(cell: Cell, plan: Deployment) -> Iterator[Element]:
     yield _target_argument()
-    yield _release_argument(_CONFIRM_MOTION)
+    yield _release_argument(MOVE)
     if plan.hosts:
         yield _host_argument(plan.hosts)
     yield comment("the gate before motion on real hardware: unless a person opens it nothing below is started")
-    yield _include(cell, _MOVE_GATE, {_CONFIRM_MOTION: f"$(var {_CONFIRM_MOTION})"}, {"if": ON_REAL})
+    yield _include(cell, _gate_file(MOVE), {MOVE.argument: f"$(var {MOVE.argument})"}, {"if": ON_REAL})
     yield comment("what asks for motion; each waits for claims, actions and states, on the mock for the mock itself")
     for node in plan.motion_clients:
         if started_by_a_person(cell, node):
             yield comment(spec_path(node.path))
-            yield moving_node(cell, node, plan.hosts, f"bash {share(cell, 'launch/bring_up.bash')} move_{TARGET}")
+            yield moving_node(cell, node, plan.hosts, before_motion(cell))
 
 
 def _target_argument() -> Element:
@@ -125,14 +127,14 @@ def _target_argument() -> Element:
     return _argument("target", "mock", "What the hardware interfaces reach: mock or real hardware.", "mock", "real")
 
 
-def _release_argument(name: str) -> Element:
+def _release_argument(release: Release) -> Element:
     """Return the argument with which a person releases something; alone it releases nothing."""
-    return _argument(name, _NOT_YET, f"{_RELEASES[name][1]} Not needed on the mock.", _NOT_YET, _RELEASES[name][0])
+    return _argument(release.argument, _NOT_YET, f"{release.about} Not needed on the mock.", _NOT_YET, release.word)
 
 
-def _gate_argument(name: str) -> Element:
+def _gate_argument(release: Release) -> Element:
     """Return the same argument as a gate demands it: without a default, and with the one word that opens it."""
-    return _argument(name, None, _RELEASES[name][1], _RELEASES[name][0])
+    return _argument(release.argument, None, release.about, release.word)
 
 
 def _host_argument(hosts: tuple[str, ...]) -> Element:

@@ -1,49 +1,90 @@
-"""The stages of bring-up as actions of a launch file, and the script ``launch/bring_up.bash`` that takes their steps.
+"""The stages of bring-up as actions of a launch file, and the program and plan with which their steps are taken.
 
-Discover, configure, observe, claim. The processes of the first stage are started at once and prove nothing by that.
-Every step after it waits for what it needs, one condition a line of the script; the last one claims, and none enables a
-drive or asks for motion. The script exists because launch XML has no event handlers (ros2/launch issue 658), and
-`lifecycle_node` with its transitions only from Lyrical on (launch_ros pull request 482): the command-line tools are the
-same from Humble on. A transition that fails leaves 0 as its exit status there, so that the next step looks at the
-state.
+The processes are started at once and prove nothing by that. ``lib/<package>/bring_up`` takes the steps of
+``config/bring_up.json`` one after the other, each with its proof, its deadline and a last word. One process lives
+through them: each call of a command-line tool is a new participant of the network that must be discovered first. None
+of its steps enables a drive or asks for motion.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from xml.etree.ElementTree import Element
 
 from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
-from cellc.cell.interface import TARGETS, Node, NodeSource
-from cellc.deploy.bringup import MOVE, Step, ready_to_move
+from cellc.cell.interface import Node, NodeSource
+from cellc.contract.bring_up import Target
+from cellc.deploy.bringup import WATCH, phases
 from cellc.deploy.deployment import Deployment
+from cellc.deploy.files import BRING_UP, BRING_UP_PROGRAM
 from cellc.deploy.processes import bring_up_enclave, started_by_a_person
-from cellc.emit.launch.processes import cell_node, control, driver_node, only_on, robot_state_publisher, share, spawners
+from cellc.emit.launch.processes import (
+    TARGET,
+    cell_node,
+    control,
+    driver_node,
+    enclave,
+    only_on,
+    robot_state_publisher,
+    share,
+    spawners,
+)
+from cellc.formats.json_text import render
 from cellc.formats.parameter_file import spec_path
 from cellc.formats.xml_text import comment, element
 from cellc.link.frames import ROBOT_STATE_PUBLISHER
+from cellc.vocabulary import BringUpPhase
 
-FILE = "launch/bring_up.bash"
-_CONDITIONS = Path(__file__).with_name("readiness.bash")
-_ABOUT = {
-    "configure": "every controller is loaded and configured, none is active; managed nodes likewise",
-    "observe": "states are published and looked at; nothing is claimed",
-    "claim": "command interfaces get their owners, after states, transforms and lifecycle states have shown",
-}
+PROGRAM = "bring_up"
+_SOURCE = Path(__file__).with_name("bring_up_program.py")
 
 
 def stages(cell: Cell, plan: Deployment, host: str | None) -> Iterator[Element]:
     """Yield the actions of one host, or of all of them."""
     yield comment("discover: processes come up in any order; what follows waits for proof, not for them")
     yield from _discover(cell, host)
-    for stage, about in _ABOUT.items():
-        actions = [*(_spawners(cell, host) if stage == "configure" else ()), *_steps(cell, plan, host, stage)]
-        if actions:
-            yield comment(f"{stage}: {about}")
-            yield from actions
-    yield comment("enable and move are steps of people: gates/promotion.md, G5 to G7")
+    if spawned := [*_spawners(cell, host)]:
+        yield comment("configure: every controller is loaded and configured, none is active")
+        yield from spawned
+    if mock := phases(plan.bring_up, "mock", host):
+        yield comment("configure and observe; on the mock claim too")
+        yield bring_up(cell, "mock", [phase for phase in mock if phase is not BringUpPhase.MOVE], host)
+    if BringUpPhase.START in phases(plan.bring_up, "real", host):
+        yield bring_up(cell, "real", [BringUpPhase.START], host)
+    if plan.bring_up.watches and host in (None, *(manager.host for manager in cell.managers)):
+        yield comment("claims go when the robot no longer listens, and come back by a person alone")
+        yield bring_up(cell, "real", [WATCH], host)
+    yield comment("what a person releases: gates/promotion.md, G5 to G7")
+
+
+def bring_up(
+    cell: Cell, target: Target, taken: Sequence[str], host: str | None = None, *, conditional: bool = True
+) -> Element:
+    """Return the process that takes phases on a target, started on that target alone unless the file is for one."""
+    words = [*_words(cell, target), *([] if host is None else ["--host", host]), *taken]
+    return element(
+        "node",
+        {
+            "pkg": cell.name,
+            "exec": PROGRAM,
+            "args": " ".join(words),
+            "output": "both",
+            **enclave(bring_up_enclave(cell)),
+            **(only_on(target) if conditional else {}),
+        },
+    )
+
+
+def before_motion(cell: Cell) -> str:
+    """Return the prefix of a node that asks for motion: it is started when all shows, and ended when a claim goes."""
+    program = f"$(find-pkg-prefix {cell.name})/lib/{cell.name}/{PROGRAM}"
+    return " ".join([program, *_words(cell, TARGET), BringUpPhase.MOVE, "--"])
+
+
+def _words(cell: Cell, target: str) -> tuple[str, ...]:
+    return ("--plan", share(cell, BRING_UP), "--target", target)
 
 
 def _discover(cell: Cell, host: str | None) -> Iterator[Element]:
@@ -74,59 +115,12 @@ def _spawners(cell: Cell, host: str | None) -> Iterator[Element]:
             yield from spawners(cell, manager)
 
 
-def _steps(cell: Cell, plan: Deployment, host: str | None, stage: str) -> Iterator[Element]:
-    return (_step(cell, one) for one in plan.steps if one.stage == stage and _here(host, one.host))
-
-
-def _step(cell: Cell, step: Step) -> Element:
-    command = f"bash {share(cell, FILE)} {step.name}"
-    return element("executable", {"name": step.name, "cmd": command, "output": "both", **only_on(step.only)})
-
-
 def _here(host: str | None, of: str) -> bool:
     return host is None or host == of
 
 
-def bring_up(cell: Cell, plan: Deployment) -> Artifact:
-    """Return the script of a cell."""
-    parts = [
-        plan.header.commented("#").rstrip("\n"),
-        "set -eu",
-        f'step="${{1:?which step: {", ".join(_names(plan))}}}"',
-        f'enclave="{bring_up_enclave(cell)}" # of what is asked here, where security is on',
-        "",
-        _CONDITIONS.read_text(encoding="utf-8").rstrip("\n"),
-        "",
-        'case "$step" in',
-        *(line for step in plan.steps for line in _case(step)),
-        *_move(cell, plan),
-        "  *)",
-        '    echo "there is no step $step" >&2',
-        "    exit 2",
-        "    ;;",
-        "esac",
-    ]
-    return Artifact(FILE, "\n".join(parts) + "\n")
-
-
-def _names(plan: Deployment) -> Iterator[str]:
-    yield from (step.name for step in plan.steps)
-    if plan.motion_clients:
-        yield from (f"{MOVE}_{target}" for target in TARGETS)
-
-
-def _case(step: Step) -> Iterator[str]:
-    yield f"  {step.name}) # {step.stage}"
-    yield from (f"    needs {condition}" for condition in step.waits_for)
-    yield f"    act {step.command}"
-    yield "    ;;"
-
-
-def _move(cell: Cell, plan: Deployment) -> Iterator[str]:
-    if plan.motion_clients:
-        for target in TARGETS:
-            yield f"  {MOVE}_{target}) # by a person; what stands behind the step is started then"
-            yield from (f"    needs {condition}" for condition in ready_to_move(cell, target))
-            yield "    shift"
-            yield '    exec "$@"'
-            yield "    ;;"
+def program_and_plan(plan: Deployment) -> Iterator[Artifact]:
+    """Yield the program and the steps that it takes."""
+    yield Artifact(BRING_UP, render(plan.bring_up))
+    first, _, rest = _SOURCE.read_text(encoding="utf-8").partition("\n")
+    yield Artifact(BRING_UP_PROGRAM, f"{first}\n{plan.header.commented('#')}{rest}", executable=True)

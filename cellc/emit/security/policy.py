@@ -1,7 +1,7 @@
 """``security/policy.xml``: who may publish, subscribe, serve and call; everything else is denied.
 
 SROS2 policy 0.2.0, read by ``ros2 security create_permission``. One enclave a node, one for the controller manager's
-process with its controllers and hardware nodes, one for the spawners, one for the tools of the bring-up. Only the
+process with its controllers and hardware nodes, one for the spawners, one for the program of the bring-up. Only the
 clients that the spec declares may call an action and only its sources may publish a topic. Left out: keys and
 certificates, which belong into no repository, and what people type at a shell, which needs an enclave of their own.
 """
@@ -20,7 +20,7 @@ from cellc.deploy.deployment import Deployment
 from cellc.deploy.processes import bring_up_enclave, enclave_of, manager_enclave, spawner_enclave
 from cellc.emit.security.rights import (
     Profile,
-    bring_up_profiles,
+    bring_up_profile,
     manager_client,
     manager_process,
     node_profile,
@@ -34,18 +34,18 @@ _VERSION = {"version": "0.2.0"}
 
 def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     """Yield the policy."""
-    enclaves = element("enclaves", children=_enclaves(graph.cell))
+    enclaves = element("enclaves", children=_enclaves(graph.cell, plan))
     yield Artifact("security/policy.xml", render(element("policy", _VERSION, [enclaves]), plan.header.text))
 
 
-def _enclaves(cell: Cell) -> Iterator[Element]:
+def _enclaves(cell: Cell, plan: Deployment) -> Iterator[Element]:
     for node in cell.nodes:
         if node.source is not NodeSource.STANDARD or node.name != "controller_manager":
             yield _enclave(enclave_of(cell, node), [node_profile(cell, node)])
     for manager in cell.managers:
         yield _enclave(manager_enclave(cell, manager), manager_process(cell, manager))
         yield _enclave(spawner_enclave(cell, manager), _spawners(cell, manager))
-    yield _enclave(bring_up_enclave(cell), [*bring_up_profiles(cell)])
+    yield _enclave(bring_up_enclave(cell), [bring_up_profile(cell, plan.bring_up)])
 
 
 def _spawners(cell: Cell, manager: ControllerManager) -> Iterator[Profile]:

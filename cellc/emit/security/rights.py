@@ -12,9 +12,9 @@ from xml.etree.ElementTree import Element
 from cellc.cell.cell import Cell
 from cellc.cell.control import Controller, ControllerManager
 from cellc.cell.interface import InterfaceKind, Node, NodeSource
+from cellc.contract.bring_up import TARGETS, BringUp, TopicProof
 from cellc.deploy.processes import description_nodes
 from cellc.formats.xml_text import element
-from cellc.link.derived import JOINT_STATE_TYPE
 from cellc.link.nodes import JOINT_STATES
 from cellc.vocabulary import Feature, features
 
@@ -52,10 +52,9 @@ _MANAGER = (
 _OF_SPAWNER = ("configure_controller", "list_controllers", "load_controller")  # what `spawner --inactive` calls
 _CLEANUP = "cleanup_controller"
 _CONTROLLER_STATE = "~/controller_state"
-# What `ros2 lifecycle get|set`, `ros2 control list_controllers|switch_controllers` and `ros2 param get` call.
-_OF_MANAGED = ("change_state", "get_available_transitions", "get_state")
-_OF_MANAGER = ("list_controllers", "switch_controller")
-_TOOLS_DESCRIPTION = "/_ros2cli_*/get_type_description"  # of each tool's own node, named after its process
+# What the program of the bring-up calls.
+_OF_MANAGED = ("change_state", "get_state")
+_OF_MANAGER = ("list_controllers", "list_hardware_components", "set_hardware_component_state", "switch_controller")
 
 
 @dataclass(frozen=True, slots=True)
@@ -203,26 +202,20 @@ def _names(cell: Cell, full_name: str, kind: InterfaceKind, side: str) -> Iterat
             yield interface.name
 
 
-def bring_up_profiles(cell: Cell) -> tuple[Profile, Profile]:
-    """Return the rights of the command-line tools and of ``tf2_echo``."""
+def bring_up_profile(cell: Cell, plan: BringUp) -> Profile:
+    """Return the rights of the program that takes the steps of the bring-up."""
     common = _common_profile(cell)
     managed = (f"{node.full_name}/{one}" for node in cell.nodes if node.lifecycle for one in _OF_MANAGED)
     described = (f"{node}/get_parameters" for node in description_nodes(cell))
-    managers = (f"{one.namespace}/controller_manager/{name}" for one in cell.managers for name in _OF_MANAGER)
-    seen = (interface.name for interface in cell.interfaces if interface.type == JOINT_STATE_TYPE)
-    tools = Profile(
+    managers = (f"{one.node}/{name}" for one in cell.managers for name in _OF_MANAGER)
+    proofs = [proof for target in TARGETS for step in plan.steps(target) for proof in step.proof]
+    watched = (one.while_holds for one in plan.watches)
+    heard = (one.topic for one in (*proofs, *watched) if isinstance(one, TopicProof))
+    return Profile(
         namespace="",
         node="bring_up",
         publish=common.publish,
-        subscribe=(*common.subscribe, *seen),
-        reply=(_TOOLS_DESCRIPTION,) if Feature.TYPE_DESCRIPTION in features(cell.distro) else (),
+        subscribe=(*common.subscribe, *heard, "/tf", "/tf_static"),
+        reply=common.reply,
         request=(*managed, *managers, *described),
     )
-    listener = Profile(
-        namespace="",
-        node="tf2_echo",
-        publish=common.publish,
-        subscribe=(*common.subscribe, "/tf", "/tf_static"),
-        reply=common.reply,
-    )
-    return tools, listener

@@ -1,0 +1,160 @@
+"""``config/bring_up.json``: the steps from processes that came up to a cell that may move, and the proof of each.
+
+Read by ``lib/<package>/bring_up`` on the robot's computers and by the mock, so that what is rehearsed is what is done.
+"""
+
+from typing import Literal
+
+from pydantic import Field
+
+from cellc.contract.base import ContractModel
+from cellc.vocabulary import BringUpPhase
+
+Target = Literal["mock", "real"]
+
+TARGETS: tuple[Target, ...] = ("mock", "real")
+
+ManagedState = Literal["inactive", "active"]
+
+HardwareState = Literal["unconfigured", "inactive", "active"]
+
+
+class NodeProof(ContractModel):
+    """A node is seen in the ROS graph."""
+
+    kind: Literal["node"]
+    node: str = Field(description="Full name of the node.")
+
+
+class LifecycleProof(ContractModel):
+    """A managed node says that it is in a state."""
+
+    kind: Literal["lifecycle"]
+    node: str = Field(description="Full name of the node.")
+    state: ManagedState = Field(description="State that it must say.")
+
+
+class ControllerProof(ContractModel):
+    """A controller manager lists a controller in a state."""
+
+    kind: Literal["controller"]
+    manager: str = Field(description="Full name of the controller manager.")
+    controller: str = Field(description="Name of the controller.")
+    state: ManagedState = Field(description="State that it must be in.")
+
+
+class HardwareProof(ContractModel):
+    """A controller manager lists a hardware component in a state."""
+
+    kind: Literal["hardware"]
+    manager: str = Field(description="Full name of the controller manager.")
+    component: str = Field(description="Name of the hardware component.")
+    state: HardwareState = Field(description="State that it must be in.")
+
+
+class TopicProof(ContractModel):
+    """A message arrives; where ``field`` is given, the newest one must hold ``value`` in it."""
+
+    kind: Literal["topic"]
+    topic: str = Field(description="Full name of the topic.")
+    type: str = Field(description="Type of the message.")
+    field: str | None = Field(None, description="Field of the message that is looked at.")
+    value: bool | int | None = Field(None, description="What it must hold.")
+
+
+class ActionProof(ContractModel):
+    """An action has a server."""
+
+    kind: Literal["action"]
+    action: str = Field(description="Full name of the action.")
+
+
+class TransformProof(ContractModel):
+    """The transforms that arrive connect two frames."""
+
+    kind: Literal["transform"]
+    parent: str = Field(description="Frame that the other one is found in.")
+    child: str = Field(description="Frame that is found.")
+
+
+class MockProof(ContractModel):
+    """The description that a node holds names no hardware plugin but those of the mock."""
+
+    kind: Literal["mock"]
+    node: str = Field(description="Full name of the node with the parameter `robot_description`.")
+    plugins: tuple[str, ...] = Field(description="Plugins that touch no hardware.")
+
+
+Proof = (
+    NodeProof | LifecycleProof | ControllerProof | HardwareProof | TopicProof | ActionProof | TransformProof | MockProof
+)
+
+
+class Transition(ContractModel):
+    """Ask a managed node for a transition."""
+
+    kind: Literal["transition"]
+    node: str = Field(description="Full name of the node.")
+    transition: Literal["configure", "activate"] = Field(description="Transition of lifecycle_msgs/msg/Transition.")
+
+
+class Activation(ContractModel):
+    """Ask a controller manager to activate controllers: all of them or none."""
+
+    kind: Literal["controllers"]
+    manager: str = Field(description="Full name of the controller manager.")
+    controllers: tuple[str, ...] = Field(description="Controllers to activate, strict.")
+
+
+class Restart(ContractModel):
+    """Ask a controller manager to deactivate and activate controllers, so that they read interfaces that are new."""
+
+    kind: Literal["restart"]
+    manager: str = Field(description="Full name of the controller manager.")
+    controllers: tuple[str, ...] = Field(description="Controllers to restart, strict.")
+
+
+class HardwareActivation(ContractModel):
+    """Ask a controller manager to take a hardware component to active; it configures it first where it must."""
+
+    kind: Literal["hardware"]
+    manager: str = Field(description="Full name of the controller manager.")
+    component: str = Field(description="Name of the hardware component.")
+
+
+Request = Transition | Activation | Restart | HardwareActivation
+
+
+class BringUpStep(ContractModel):
+    """One step: what must show before it, what is asked for, and what must show after it."""
+
+    name: str = Field(description="Name of the step.")
+    phase: BringUpPhase = Field(description="Phase that a person or the launch file releases.")
+    host: str = Field(description="Computer that takes it; empty where the cell names none.")
+    proof: tuple[Proof, ...] = Field(description="What must show before it.")
+    request: Request | None = Field(None, description="What is asked for; null where only the proof counts.")
+    effect: tuple[Proof, ...] = Field((), description="What must show after it; looked at before it is asked for, too.")
+    deadline_s: float = Field(description="Time until the proof, and again until the effect.", gt=0.0)
+
+
+class Watch(ContractModel):
+    """Controllers that are deactivated as soon as a robot no longer listens; nothing activates them again by itself."""
+
+    manager: str = Field(description="Full name of the controller manager.")
+    controllers: tuple[str, ...] = Field(description="Controllers that are deactivated.")
+    while_holds: TopicProof = Field(description="What must hold for them to stay active.")
+
+
+class BringUp(ContractModel):
+    """The whole plan."""
+
+    format: Literal[1] = Field(description="Format of this file.")
+    cell: str = Field(description="Name of the cell.")
+    enclave: str = Field(description="SROS2 enclave of what asks.")
+    mock: tuple[BringUpStep, ...] = Field(description="Steps on the mock, in order.")
+    real: tuple[BringUpStep, ...] = Field(description="Steps on the real target, in order.")
+    watches: tuple[Watch, ...] = Field((), description="What the stopper watches on the real target.")
+
+    def steps(self, target: Target) -> tuple[BringUpStep, ...]:
+        """Return the steps on a target."""
+        return self.mock if target == "mock" else self.real

@@ -1,0 +1,427 @@
+#!/usr/bin/env python3
+"""Takes the steps of config/bring_up.json: waits for the proof of each, asks once, and looks at the effect.
+
+    bring_up --plan FILE --target mock|real [--host HOST] PHASE...          take the steps of these phases
+    bring_up --plan FILE --target mock|real move -- PROGRAM ARGUMENT...     prove, then run PROGRAM while claims hold
+    bring_up --plan FILE --target real watch                                deactivate claims when the robot is deaf
+
+One process lives through all of it: a new participant for each call needs up to 3 s to be discovered, and then some are
+not. A step that fails says what is missing and ends this with 1; steps after it are not taken. Nothing here enables a
+drive, and what was deactivated stays so until a person releases the claim again.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+ANSWER_S = 3.0
+"""How long one answer is waited for; an unanswered question is asked again."""
+UNSEEN_S = 10.0
+"""A participant that has not seen a service for this long is made anew."""
+LOOK_S = 0.2
+"""How often what is missing is looked for."""
+LOST = 3
+"""Looks in a row that must miss a claim before the program behind it is stopped; one may be a late answer."""
+PATIENCE_S = float(os.environ.get("CELL_WAIT_S", "0"))
+"""In place of the deadlines of the plan, where it is set."""
+STRICT = 2
+"""controller_manager_msgs/srv/SwitchController: all of it or nothing."""
+BEST_EFFORT = 1
+TRANSITIONS = {"configure": 1, "activate": 3}
+"""lifecycle_msgs/msg/Transition."""
+ACTIVE = 3
+"""lifecycle_msgs/msg/State."""
+
+
+class Unanswered(Exception):  # noqa: N818 - an answer of the world, no error of this program
+    """A service is not there, or says nothing; the text says which."""
+
+
+class Graph:
+    """One participant of the ROS graph, and what it has heard."""
+
+    def __init__(self, name: str, enclave: str) -> None:
+        self._name, self._enclave = name, enclave
+        self._unseen_since: dict[str, float] = {}
+        self._join()
+
+    def _join(self) -> None:
+        import rclpy
+        from rclpy.context import Context
+        from rclpy.executors import SingleThreadedExecutor
+
+        self._context = Context()
+        rclpy.init(args=["--ros-args", "--enclave", self._enclave], context=self._context, domain_id=None)
+        self._node = rclpy.create_node(self._name, context=self._context, start_parameter_services=False)
+        self._executor = SingleThreadedExecutor(context=self._context)
+        self._executor.add_node(self._node)
+        self._clients: dict[str, Any] = {}
+        self._heard: dict[str, Any] = {}
+        self._parents: dict[str, str] = {}
+        self._listened: set[str] = set()
+
+    def leave(self) -> None:
+        """Leave the graph."""
+        self._node.destroy_node()
+        self._context.try_shutdown()
+
+    def spin(self, seconds: float) -> None:
+        """Take what arrives within a time."""
+        until = time.monotonic() + seconds
+        while (left := until - time.monotonic()) > 0:
+            self._executor.spin_once(timeout_sec=left)
+
+    def nodes(self) -> set[str]:
+        """Return the full names of all nodes that are seen."""
+        return {f"{space.rstrip('/')}/{name}" for name, space in self._node.get_node_names_and_namespaces()}
+
+    def serves(self, name: str) -> bool:
+        """Tell whether a service is seen; those of actions are services too."""
+        return any(name == seen for seen, _ in self._node.get_service_names_and_types())
+
+    def ask(self, kind: str, name: str, answer_s: float = ANSWER_S, /, **fields: Any) -> Any:
+        """Ask a service once and return its answer.
+
+        Raises:
+            Unanswered: it is not there, or did not answer in time.
+        """
+        service = _loaded(kind)
+        client = self._clients.setdefault(name, None) or self._node.create_client(service, name)
+        self._clients[name] = client
+        if not client.service_is_ready():
+            self._miss(name)
+            raise Unanswered(f"no service {name}")
+        self._unseen_since.pop(name, None)
+        future = client.call_async(service.Request(**fields))
+        until = time.monotonic() + answer_s
+        while not future.done():
+            if time.monotonic() > until:
+                client.remove_pending_request(future)
+                raise Unanswered(f"{name} does not answer within {answer_s:g} s")
+            self._executor.spin_once(timeout_sec=0.05)
+        return future.result()
+
+    def _miss(self, name: str) -> None:
+        since = self._unseen_since.setdefault(name, time.monotonic())
+        if time.monotonic() - since > UNSEEN_S:
+            self._unseen_since.clear()
+            self.leave()
+            self._join()
+
+    def heard(self, topic: str, kind: str) -> Any:
+        """Return the newest message of a topic since it was first asked for, or None."""
+        if topic not in self._listened and (found := self._node.get_publishers_info_by_topic(topic)):
+            from rclpy.qos import DurabilityPolicy
+
+            latched = all(one.qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL for one in found)
+            self._listen(topic, kind, latched, lambda message: self._heard.update({topic: message}))
+        # What nobody publishes any more is no news, even where the last message said what was wanted.
+        return self._heard.get(topic) if self._node.count_publishers(topic) else None
+
+    def connects(self, parent: str, child: str) -> bool:
+        """Tell whether the transforms heard so far connect two frames."""
+        for topic, latched in (("/tf", False), ("/tf_static", True)):
+            if topic not in self._listened:
+                self._listen(topic, "tf2_msgs/msg/TFMessage", latched, self._place)
+        return bool(self._above(parent) & self._above(child))
+
+    def _place(self, message: Any) -> None:
+        for one in message.transforms:
+            self._parents[one.child_frame_id.lstrip("/")] = one.header.frame_id.lstrip("/")
+
+    def _above(self, frame: str) -> set[str]:
+        known = {frame} if frame in self._parents or frame in self._parents.values() else set()
+        while known and frame in self._parents and self._parents[frame] not in known:
+            frame = self._parents[frame]
+            known.add(frame)
+        return known
+
+    def _listen(self, topic: str, kind: str, latched: bool, take: Any) -> None:
+        from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+
+        qos = QoSProfile(
+            depth=100,
+            reliability=ReliabilityPolicy.RELIABLE if latched else ReliabilityPolicy.BEST_EFFORT,
+            durability=DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE,
+        )
+        self._node.create_subscription(_loaded(kind), topic, take, qos)
+        self._listened.add(topic)
+
+
+def _loaded(kind: str) -> Any:
+    """Return the class of an interface type such as ``std_msgs/msg/Bool``."""
+    package, part, name = kind.split("/")
+    return getattr(importlib.import_module(f"{package}.{part}"), name)
+
+
+# What misses: each returns an empty text where the proof holds, else what is there in its place.
+
+
+def _node(graph: Graph, proof: SimpleNamespace) -> str:
+    return "" if proof.node in graph.nodes() else f"no node {proof.node}"
+
+
+def _lifecycle(graph: Graph, proof: SimpleNamespace) -> str:
+    state = graph.ask("lifecycle_msgs/srv/GetState", f"{proof.node}/get_state").current_state.label
+    return "" if state == proof.state else f"{proof.node} must be {proof.state}, is {state}"
+
+
+def _controller(graph: Graph, proof: SimpleNamespace) -> str:
+    listed = graph.ask("controller_manager_msgs/srv/ListControllers", f"{proof.manager}/list_controllers").controller
+    state = next((one.state for one in listed if one.name == proof.controller), "not loaded")
+    return "" if state == proof.state else f"controller {proof.controller} must be {proof.state}, is {state}"
+
+
+def _hardware(graph: Graph, proof: SimpleNamespace) -> str:
+    service = f"{proof.manager}/list_hardware_components"
+    listed = graph.ask("controller_manager_msgs/srv/ListHardwareComponents", service).component
+    state = next((one.state.label for one in listed if one.name == proof.component), "not there")
+    return "" if state == proof.state else f"hardware {proof.component} must be {proof.state}, is {state}"
+
+
+def _topic(graph: Graph, proof: SimpleNamespace) -> str:
+    message, field = graph.heard(proof.topic, proof.type), getattr(proof, "field", None)
+    if message is None:
+        return f"no message on {proof.topic}"
+    value = None if field is None else getattr(message, field)
+    return "" if field is None or value == proof.value else f"{proof.topic} must say {proof.value}, says {value}"
+
+
+def _action(graph: Graph, proof: SimpleNamespace) -> str:
+    return "" if graph.serves(f"{proof.action}/_action/send_goal") else f"no server of {proof.action}"
+
+
+def _transform(graph: Graph, proof: SimpleNamespace) -> str:
+    return "" if graph.connects(proof.parent, proof.child) else f"no transform from {proof.parent} to {proof.child}"
+
+
+def _mock(graph: Graph, proof: SimpleNamespace) -> str:
+    service = f"{proof.node}/get_parameters"
+    answer = graph.ask("rcl_interfaces/srv/GetParameters", service, names=["robot_description"])
+    text = answer.values[0].string_value if answer.values else ""
+    used = {part.partition("</plugin>")[0].strip() for part in text.split("<plugin>")[1:]}
+    foreign = ", ".join(sorted(used - set(proof.plugins)))
+    return "" if used and not foreign else f"{proof.node} must describe the mock alone, has {foreign or 'no hardware'}"
+
+
+PROOFS = {
+    "node": _node,
+    "lifecycle": _lifecycle,
+    "controller": _controller,
+    "hardware": _hardware,
+    "topic": _topic,
+    "action": _action,
+    "transform": _transform,
+    "mock": _mock,
+}
+
+
+def missing(graph: Graph, proofs: Sequence[SimpleNamespace]) -> str:
+    """Return the first thing that is missing, empty where every proof holds."""
+    try:
+        found = (PROOFS[proof.kind](graph, proof) for proof in proofs)
+        return next((absent for absent in found if absent), "")
+    except Unanswered as unanswered:
+        return str(unanswered)
+
+
+def request(graph: Graph, wanted: SimpleNamespace, answer_s: float) -> str:
+    """Ask for what a step does; return an empty text, or why it was refused.
+
+    Raises:
+        Unanswered: nobody said whether it was done.
+    """
+    if wanted.kind == "transition":
+        transition = _loaded("lifecycle_msgs/msg/Transition")(id=TRANSITIONS[wanted.transition])
+        service, name = "lifecycle_msgs/srv/ChangeState", f"{wanted.node}/change_state"
+        answer = graph.ask(service, name, answer_s, transition=transition)
+        return "" if answer.success else f"{wanted.node} refused to {wanted.transition}"
+    if wanted.kind == "hardware":
+        state = _loaded("lifecycle_msgs/msg/State")(id=ACTIVE, label="active")
+        service, name = "controller_manager_msgs/srv/SetHardwareComponentState", "set_hardware_component_state"
+        answer = graph.ask(service, f"{wanted.manager}/{name}", answer_s, name=wanted.component, target_state=state)
+        return "" if answer.ok else f"{wanted.manager} could not activate hardware {wanted.component}"
+    stopped = wanted.controllers if wanted.kind == "restart" else []
+    done = switch(graph, wanted.manager, wanted.controllers, stopped, STRICT, answer_s)
+    return "" if done else f"{wanted.manager} refused to {wanted.kind.rstrip('s')} {', '.join(wanted.controllers)}"
+
+
+def switch(
+    graph: Graph, manager: str, start: Sequence[str], stop: Sequence[str], strictness: int, answer_s: float
+) -> bool:
+    """Ask a controller manager to deactivate and activate controllers; return its answer.
+
+    Raises:
+        Unanswered: it did not answer.
+    """
+    service, name = "controller_manager_msgs/srv/SwitchController", f"{manager}/switch_controller"
+    answer = graph.ask(
+        service,
+        name,
+        answer_s,
+        activate_controllers=list(start),
+        deactivate_controllers=list(stop),
+        strictness=strictness,
+    )
+    return bool(answer.ok)
+
+
+def take(graph: Graph, step: SimpleNamespace) -> str:
+    """Take one step; return an empty text, or why it ended."""
+    deadline_s = PATIENCE_S or step.deadline_s
+    effect = getattr(step, "effect", [])
+    wanted = getattr(step, "request", None)
+    restarts = wanted is not None and wanted.kind == "restart"
+    if wanted is not None and effect and not restarts and not missing(graph, effect):
+        return ""  # it was done before: by an earlier try, or by a person
+    if absent := _awaited(graph, step.proof, deadline_s):
+        return absent
+    return "" if wanted is None else _asked(graph, wanted, effect, deadline_s)
+
+
+def _awaited(graph: Graph, proofs: Sequence[SimpleNamespace], deadline_s: float) -> str:
+    until = time.monotonic() + deadline_s
+    while absent := missing(graph, proofs):
+        if time.monotonic() > until:
+            return absent
+        graph.spin(LOOK_S)
+    return ""
+
+
+def _asked(graph: Graph, wanted: SimpleNamespace, effect: Sequence[SimpleNamespace], deadline_s: float) -> str:
+    until = time.monotonic() + deadline_s
+    while True:
+        left = max(until - time.monotonic(), ANSWER_S)
+        try:
+            if refused := request(graph, wanted, left if wanted.kind == "hardware" else ANSWER_S):
+                return refused
+            return _awaited(graph, effect, max(until - time.monotonic(), ANSWER_S))
+        except Unanswered as unanswered:
+            absent = str(unanswered)
+        if not missing(graph, effect):
+            return ""  # it was done, and the answer was lost
+        if time.monotonic() > until:
+            return absent
+        graph.spin(LOOK_S)
+
+
+def take_all(graph: Graph, steps: Sequence[SimpleNamespace]) -> bool:
+    """Take steps up to the first that fails; tell whether all were taken."""
+    for number, step in enumerate(steps):
+        begun = time.monotonic()
+        ended = take(graph, step)
+        after_s = time.monotonic() - begun
+        if ended:
+            later = ", ".join(one.name for one in steps[number + 1 :])
+            rest = f" Not taken: {later}." if later else ""
+            print(f"{step.name} stops after {after_s:.1f} s: {ended}.{rest}", file=sys.stderr, flush=True)
+            return False
+        print(f"{step.name} done after {after_s:.1f} s", flush=True)
+    return True
+
+
+def run_while_claimed(graph: Graph, step: SimpleNamespace, command: Sequence[str]) -> int:
+    """Run a program as long as the controllers that it needs stay active; return its exit status, or 1."""
+    claims = [proof for proof in step.proof if proof.kind == "controller"]
+    child = subprocess.Popen(command)
+    signal.signal(signal.SIGTERM, lambda number, frame: child.send_signal(number))
+    misses = 0
+    try:
+        while (status := child.poll()) is None:
+            graph.spin(LOOK_S)
+            lost = missing(graph, claims)
+            misses = misses + 1 if lost else 0
+            if misses >= LOST:
+                print(f"{command[0]} is stopped: {lost}", file=sys.stderr, flush=True)
+                return 1
+        return status if status >= 0 else 128 - status
+    finally:
+        _stop(child)
+
+
+def _stop(child: subprocess.Popen[bytes]) -> None:
+    """End a program that still runs: it is asked twice, then killed."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
+        if child.poll() is not None:
+            return
+        child.send_signal(number)
+        try:
+            child.wait(timeout=5.0)
+        except subprocess.TimeoutExpired:
+            continue
+
+
+def watch(graph: Graph, watches: Sequence[SimpleNamespace]) -> Iterator[str]:
+    """Deactivate controllers whose robot does not listen, for ever; yield what was done or could not be."""
+    while True:
+        graph.spin(LOOK_S)
+        for one in watches:
+            if (absent := missing(graph, [one.while_holds])) and (active := _active(graph, one)):
+                yield f"{', '.join(active)}: {_deactivated(graph, one.manager, active)}: {absent}"
+
+
+def _active(graph: Graph, one: SimpleNamespace) -> list[str]:
+    """Return the watched controllers that are active; none where the manager does not say."""
+    try:
+        service = f"{one.manager}/list_controllers"
+        listed = graph.ask("controller_manager_msgs/srv/ListControllers", service).controller
+    except Unanswered:
+        return []
+    return [entry.name for entry in listed if entry.name in one.controllers and entry.state == "active"]
+
+
+def _deactivated(graph: Graph, manager: str, controllers: Sequence[str]) -> str:
+    try:
+        done = switch(graph, manager, [], controllers, BEST_EFFORT, ANSWER_S)
+    except Unanswered as unanswered:
+        return f"not deactivated, tried again ({unanswered})"
+    return "deactivated, a person releases the claim again" if done else "not deactivated, tried again (refused)"
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Take phases, run a program behind its proof, or watch; return the exit status."""
+    own = list(arguments[: arguments.index("--ros-args")] if "--ros-args" in arguments else arguments)
+    command: list[str] = []
+    if "--" in arguments:
+        place = arguments.index("--")
+        own, command = list(arguments[:place]), list(arguments[place + 1 :])
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--plan", type=Path, required=True, help="config/bring_up.json of the package")
+    parser.add_argument("--target", choices=("mock", "real"), required=True)
+    parser.add_argument("--host", default="", help="take the steps of this computer alone")
+    parser.add_argument("phases", nargs="+", choices=("start", "activate", "claim", "move", "watch"))
+    read = parser.parse_args(own)
+    plan = json.loads(read.plan.read_text(encoding="utf-8"), object_hook=lambda entry: SimpleNamespace(**entry))
+    steps = [
+        step
+        for step in getattr(plan, read.target)
+        if step.phase in read.phases and (not read.host or step.host in ("", read.host))
+    ]
+    graph = Graph("claim_watch" if "watch" in read.phases else f"bring_up_{read.phases[-1]}", plan.enclave)
+    try:
+        if "watch" in read.phases:
+            for said in watch(graph, plan.watches):
+                print(said, file=sys.stderr, flush=True)
+        if not take_all(graph, steps):
+            return 1
+        return run_while_claimed(graph, steps[-1], command) if command else 0
+    finally:
+        graph.leave()
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main(sys.argv[1:]))
+    except KeyboardInterrupt:
+        sys.exit(130)
