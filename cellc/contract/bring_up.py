@@ -27,7 +27,7 @@ class NodeProof(ContractModel):
 
 
 class LifecycleProof(ContractModel):
-    """A managed node says that it is in a state."""
+    """A managed node says that it is in a state, or in one that comes after it."""
 
     kind: Literal["lifecycle"]
     node: str = Field(description="Full name of the node.")

@@ -14,6 +14,7 @@ from cellc.cell.cell import Cell
 from cellc.cell.control import Controller
 from cellc.cell.frame import FrameKind
 from cellc.cell.interface import Interface, InterfaceKind
+from cellc.deploy.bringup import phases
 from cellc.deploy.configuration import OpenQuestion
 from cellc.deploy.deployment import Deployment
 from cellc.deploy.files import NETWORK_CHECKLIST, PROMOTION_CHECKLIST, plans
@@ -23,6 +24,7 @@ from cellc.deploy.releases import start_mock
 from cellc.formats.escape import code, markdown, markdown_comment
 from cellc.formats.parameter_file import spec_path
 from cellc.graph.cell_graph import CellGraph
+from cellc.vocabulary import BringUpPhase
 
 _BAR = "\\|"
 _OPEN = "Before real hardware"
@@ -52,6 +54,13 @@ _FILES = (
     ("config/recording_qos.yaml", "what an attempt records, and the command that does it"),
     ("manifest.json", "version tuple, hash of every file, configuration id"),
 )
+
+
+_RELEASED = {
+    "launch/activate.launch.xml": BringUpPhase.ACTIVATE,
+    "launch/claim.launch.xml": BringUpPhase.CLAIM,
+    "launch/move.launch.xml": BringUpPhase.MOVE,
+}
 
 
 def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
@@ -139,7 +148,8 @@ def _present(cell: Cell, plan: Deployment, name: str) -> bool:
         return bool(cell.groups)
     if name == "middleware/":
         return bool(cell.hosts)
-    return name != "launch/move.launch.xml" or bool(plan.motion_clients)
+    phase = _RELEASED.get(name)
+    return phase is None or phase in phases(plan.bring_up, "real")
 
 
 def _sentence(cell: Cell) -> str:

@@ -12,7 +12,8 @@ from xml.etree.ElementTree import Element, fromstring
 
 from tests.consumers.launch_text import LaunchError, World, condition, expand, unescaped
 
-_NODE = {"pkg", "exec", "name", "namespace", "output", "args", "ros_args", "respawn", "launch-prefix", "if", "unless"}
+_NODE = {"pkg", "exec", "name", "namespace", "output", "args", "ros_args", "respawn", "on_exit", "launch-prefix"}
+_NODE |= {"if", "unless"}
 _EXECUTABLE = {"name", "cmd", "output", "if", "unless"}
 _OUTPUTS = {"screen", "log", "both", "own_log", "full"}
 
@@ -39,6 +40,7 @@ class Process:
     remaps: Mapping[str, str]
     respawn: bool
     prefix: tuple[str, ...] = ()
+    on_exit: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -166,7 +168,7 @@ class Launch:
                 executable=self._text(action.attrib["exec"]),
                 name=self._text(action.attrib["name"]) if "name" in action.attrib else None,
                 namespace=self._in(self._text(action.get("namespace", ""))),
-                arguments=tuple(shlex.split(self._text(action.get("args", "")))),
+                arguments=self._words(action.get("args", "")),
                 ros_arguments=tuple(shlex.split(self._text(action.get("ros_args", "")))),
                 files=tuple(self._file(self._text(one.attrib["from"])) for one in parameters if "from" in one.attrib),
                 values={
@@ -177,6 +179,7 @@ class Launch:
                 remaps={one.attrib["from"]: self._text(one.attrib["to"]) for one in action.findall("remap")},
                 respawn=condition(self._text(action.get("respawn", "false"))),
                 prefix=self._words(action.get("launch-prefix", "")),
+                on_exit=action.get("on_exit"),
             )
         )
 

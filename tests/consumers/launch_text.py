@@ -79,6 +79,9 @@ def _value(name: str, arguments: list[str], world: World) -> str:
     if name == "find-pkg-share":
         (package,) = arguments
         return f"/share/{package}"
+    if name == "find-pkg-prefix":
+        (package,) = arguments
+        return f"/prefix/{package}"
     if name == "command":
         return world.run(arguments[0])
     if name == "eval":

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import re
+import json
 from functools import lru_cache
 from typing import Any
 from xml.etree.ElementTree import fromstring
 
-from tests.consumers.launch_interpreter import Command, Launch, Process
+from tests.consumers.launch_interpreter import Launch, Process
 from tests.consumers.matrix import SPECS, Build, build
 from tests.foreign_yaml import safe_load
 
@@ -51,12 +51,6 @@ def processes(cell: str, distro: str, target: str) -> tuple[Process, ...]:
     return (*(one for launch in bring_ups(built, target) for one in launch.processes), *moves(built, target))
 
 
-@lru_cache(maxsize=64)
-def commands(cell: str, distro: str, target: str) -> tuple[Command, ...]:
-    """Return the steps of the bring-up that launching a target starts."""
-    return tuple(one for launch in bring_ups(build(cell, distro), target) for one in launch.commands)
-
-
 def node_name(process: Process) -> str:
     """Return the fully qualified name of the node of a process."""
     return f"{process.namespace}/{process.name or OWN_NAMES.get(process.executable, process.executable)}"
@@ -79,10 +73,14 @@ def written_managers(cell: str) -> list[tuple[str, Any]]:
     return [(manager.get("namespace", ""), manager) for manager in managers]
 
 
+@lru_cache(maxsize=64)
+def plan(cell: str, distro: str) -> Any:
+    """Return the plan of the bring-up, read as the program reads it."""
+    return json.loads(build(cell, distro).texts["config/bring_up.json"])
+
+
 def activated(cell: str, distro: str, target: str, manager: str) -> list[str]:
-    """Return the controllers that the steps of a target activate, by the full name of their manager."""
-    text = build(cell, distro).texts["launch/bring_up.bash"]
-    steps = dict(re.findall(r"^  (\w+)\) # .*\n((?:    (?!;;).*\n)+)", text, re.MULTILINE))
-    bodies = "\n".join(steps.get(one.name, "") for one in commands(cell, distro, target))
-    lines = re.findall(rf"--activate (.*) --strict -c {manager}$", bodies, re.MULTILINE)
-    return [name for line in lines for name in line.split()]
+    """Return the controllers that the steps of a target activate for the first time, by the node of their manager."""
+    requests = (step.get("request") or {} for step in plan(cell, distro)[target])
+    wanted = (one for one in requests if one.get("kind") == "controllers" and one["manager"] == manager)
+    return [name for one in wanted for name in one["controllers"]]

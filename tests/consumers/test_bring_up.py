@@ -1,41 +1,57 @@
-"""The steps of the bring-up: what they wait for exists, and they do nothing before it shows, whoever is first."""
+"""The plan of the bring-up and the program that takes it: proof first, one request, the effect, and a last word."""
 
 from __future__ import annotations
 
-import os
-import re
-import subprocess
+import ast
+import json
+import stat
+import sys
+from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 from xml.etree.ElementTree import fromstring
 
 import pytest
 
-from tests.consumers.launch_interpreter import Command
-from tests.consumers.matrix import HERE, build, every_build
-from tests.consumers.starting import activated, bring_ups, commands, moves, written, written_managers
+from tests.consumers.matrix import build, every_build
+from tests.consumers.stand_in_graph import StandIn, messages_of, program
+from tests.consumers.starting import activated, bring_ups, moves, plan, processes, written, written_managers
 from tests.emit.cells import contract_data
 from tests.foreign_yaml import safe_load
 
-_FILE = "launch/bring_up.bash"
-_CONDITION = re.compile(r"^    needs (.+)$", re.MULTILINE)
+TARGETS = ("mock", "real")
 
 
-def steps(cell: str, distro: str) -> dict[str, str]:
-    """Return the text of every step by its name."""
-    text = build(cell, distro).texts[_FILE]
-    return dict(re.findall(r"^  (\w+)\) # .*\n((?:    (?!;;).*\n)+)", text, re.MULTILINE))
+def every_proof(cell: str, distro: str) -> Iterator[Any]:
+    """Yield all proofs and effects of both targets."""
+    for target in TARGETS:
+        for step in plan(cell, distro)[target]:
+            yield from (*step["proof"], *step.get("effect", ()))
 
 
 @every_build
-def test_script_is_bash_and_launching_starts_every_step(cell: str, distro: str) -> None:
-    text = build(cell, distro).texts[_FILE]
-    subprocess.run(["bash", "-n"], input=text, text=True, check=True, capture_output=True)
-    built = build(cell, distro)
-    started = [one for target in ("mock", "real") for one in commands(cell, distro, target)]
-    assert all(one.words == ("bash", _FILE, one.name) for one in started)
-    prefixes = [one.prefix for target in ("mock", "real") for one in moves(built, target)]
-    assert all(prefix[:2] == ("bash", _FILE) for prefix in prefixes)
-    assert {one.name for one in started} | {prefix[2] for prefix in prefixes} == set(steps(cell, distro))
+def test_launching_takes_every_phase_of_its_target(cell: str, distro: str) -> None:
+    for target in TARGETS:
+        taken = [one.arguments for one in processes(cell, distro, target) if one.executable == "bring_up"]
+        assert all(words[:4] == ("--plan", "config/bring_up.json", "--target", target) for words in taken)
+        phases = {step["phase"] for step in plan(cell, distro)[target]}
+        launched = {"start", "claim", "activate"} & phases if target == "mock" else {"start"} & phases
+        assert {word for words in taken for word in words[4:]} & {"start", "activate", "claim"} == launched
+        for process in moves(build(cell, distro), target):
+            assert process.prefix[-2:] == ("move", "--")
+            assert target in process.prefix
+
+
+@every_build
+def test_real_target_is_claimed_by_a_person_alone(cell: str, distro: str) -> None:
+    texts = build(cell, distro).texts
+    claims = [step for step in plan(cell, distro)["real"] if step["phase"] == "claim"]
+    assert bool(claims) is ("launch/claim.launch.xml" in texts)
+    if claims:
+        (argument,) = fromstring(texts["launch/claim.launch.xml"]).findall("arg")
+        assert "default" not in argument.attrib
+        assert len(argument.findall("choice")) == 1
 
 
 @every_build
@@ -50,17 +66,19 @@ def test_conditions_name_what_the_cell_has(cell: str, distro: str) -> None:
     }
     managed = {f"/{name}" for name, node in written(cell).get("nodes", {}).items() if node.get("lifecycle")}
     kinds = {name: one["kind"] for name, one in contract["interfaces"].items()}
-    for condition in _CONDITION.findall(texts[_FILE]):
-        kind, *named = condition.split()
-        if kind == "controller":
-            assert (named[0], named[1]) in controllers
-            assert named[2] in ("inactive", "active")
-        elif kind in ("topic", "action"):
-            assert kinds[named[0]] == kind
-        elif kind == "transform":
-            assert set(named) <= frames
+    descriptions = {path: fromstring(text) for path, text in texts.items() if path.endswith(".urdf")}
+    components = {one.attrib["name"] for root in descriptions.values() for one in root.findall("ros2_control")}
+    for proof in every_proof(cell, distro):
+        if proof["kind"] == "controller":
+            assert (proof["manager"], proof["controller"]) in controllers
+        elif proof["kind"] in ("topic", "action"):
+            assert kinds[proof[proof["kind"]]] == proof["kind"]
+        elif proof["kind"] == "transform":
+            assert {proof["parent"], proof["child"]} <= frames
+        elif proof["kind"] == "hardware":
+            assert proof["component"] in components
         else:
-            assert kind == "mocked" or named[0] in managed, condition
+            assert proof["kind"] == "mock" or proof["node"] in managed, proof
 
 
 @every_build
@@ -69,13 +87,14 @@ def test_mover_of_the_mock_looks_at_the_description_of_every_manager(cell: str, 
     managers = [namespace for namespace, _ in written_managers(cell)]
     alone = f"/{'robot_state' if len(managers) == 1 else 'description'}_publisher"
     asked = "/controller_manager" if distro == "humble" else alone
-    step = steps(cell, distro).get("move_mock", "")
-    assert re.findall(r"needs mocked (\S+)\n", step) == ([f"{one}{asked}" for one in managers] if step else [])
+    moving = [step for step in plan(cell, distro)["mock"] if step["phase"] == "move"]
+    looked = [proof["node"] for step in moving for proof in step["proof"] if proof["kind"] == "mock"]
+    assert looked == ([f"{one}{asked}" for one in managers] if moving else [])
 
 
 @every_build
 def test_everything_is_activated_once_and_alternates_never(cell: str, distro: str) -> None:
-    for target in ("mock", "real"):
+    for target in TARGETS:
         for namespace, manager in written_managers(cell):
             spawned = _spawned(cell, distro, target, namespace)
             wanted = [n for n, one in manager["controllers"].items() if one.get("active", True) and n in spawned]
@@ -94,133 +113,212 @@ def _spawned(cell: str, distro: str, target: str, namespace: str) -> set[str]:
 
 @every_build
 def test_policy_lets_the_steps_ask_and_act(cell: str, distro: str) -> None:
-    texts = build(cell, distro).texts
-    (path,) = re.findall('^enclave="(.+?)"', texts[_FILE], re.MULTILINE)
-    policy = fromstring(texts["security/policy.xml"])
-    (enclave,) = [one for one in policy.iter("enclave") if one.attrib["path"] == path]
+    policy = fromstring(build(cell, distro).texts["security/policy.xml"])
+    (enclave,) = [one for one in policy.iter("enclave") if one.attrib["path"] == plan(cell, distro)["enclave"]]
     may = {entry.text for profile in enclave.iter("profile") for kind in profile for entry in kind}
-    for kind, *named in (condition.split() for condition in _CONDITION.findall(texts[_FILE])):
-        if kind == "topic":
-            assert named[0] in may
-        elif kind == "controller":
-            assert {f"{named[0]}/{one}" for one in ("list_controllers", "switch_controller")} <= may
-        elif kind == "lifecycle":
-            assert {f"{named[0]}/{one}" for one in ("get_state", "change_state", "get_available_transitions")} <= may
-        elif kind == "mocked":
-            assert f"{named[0]}/get_parameters" in may
+    for proof in every_proof(cell, distro):
+        if proof["kind"] == "topic":
+            assert proof["topic"] in may
+        elif proof["kind"] == "controller":
+            assert {f"{proof['manager']}/{one}" for one in ("list_controllers", "switch_controller")} <= may
+        elif proof["kind"] == "hardware":
+            assert f"{proof['manager']}/list_hardware_components" in may
+        elif proof["kind"] == "lifecycle":
+            assert {f"{proof['node']}/{one}" for one in ("get_state", "change_state")} <= may
+        elif proof["kind"] == "mock":
+            assert f"{proof['node']}/get_parameters" in may
     assert {"/tf", "/tf_static"} <= may
     # To wait is not to move: neither a goal nor a command may come from here.
     assert not [kind for profile in enclave.iter("profile") for kind in profile if kind.tag == "actions"]
 
 
-class Stack:
-    """A graph of one managed node and three controllers, as the pick cell has them, behind a `ros2` of our own."""
-
-    def __init__(self, folder: Path) -> None:
-        self.state = folder / "state"
-        for name in ("nodes", "controllers", "refuses"):
-            (self.state / name).mkdir(parents=True)
-        (self.state / "log").touch()
-        (self.state / "actions").write_text("/move_action\n/gripper_action/gripper_cmd\n")
-        (self.state / "description").mkdir()
-        (self.state / "description" / "robot_state_publisher").write_text(
-            "<plugin>mock_components/GenericSystem</plugin>"
-        )
-        tools = folder / "bin"
-        tools.mkdir()
-        (tools / "ros2").write_text((HERE / "fake_ros2.bash").read_text(encoding="utf-8"))
-        (tools / "sleep").write_text("#!/bin/sh\nexec /bin/sleep 0.05\n")
-        for tool in tools.iterdir():
-            tool.chmod(0o755)
-        (folder / "bring_up.bash").write_text(build("ur5e_pick", "jazzy").texts[_FILE])
-        self.script = folder / "bring_up.bash"
-        self.environment = os.environ | {"PATH": f"{tools}:{os.environ['PATH']}", "STATE": str(self.state)}
-
-    def start(self, *words: str, wait_s: int = 20) -> subprocess.Popen[str]:
-        return subprocess.Popen(
-            ["bash", str(self.script), *words],
-            env=self.environment | {"CELL_WAIT_S": str(wait_s)},
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-        )
-
-    def spawn(self) -> None:
-        for name in ("joint_states", "arm_trajectory", "gripper_action"):
-            (self.state / "controllers" / name).write_text("inactive\n")
-
-    @property
-    def log(self) -> list[str]:
-        return (self.state / "log").read_text().splitlines()
+def test_program_is_python_of_the_oldest_distribution_and_may_be_executed() -> None:
+    text = build("ur5e_pick", "humble").texts["scripts/bring_up"]
+    ast.parse(text, feature_version=(3, 10))
+    assert text.startswith("#!/usr/bin/env python3\n")
+    (folder,) = [one for one in Path(__file__).parents if (one / "generated").is_dir()]
+    for file in folder.glob("generated/*/scripts/bring_up"):
+        assert file.stat().st_mode & stat.S_IXUSR
 
 
-def _bring_up() -> list[Command]:
-    return list(commands("ur5e_pick", "jazzy", "mock"))
-
-
-def test_steps_started_in_the_wrong_order_act_in_the_right_one(tmp_path: Path) -> None:
-    stack = Stack(tmp_path)
-    started = [stack.start(step.name) for step in reversed(_bring_up())]
-    stack.spawn()
-    (stack.state / "nodes" / "perception").write_text("unconfigured\n")
-    for process in started:
-        _, errors = process.communicate(timeout=60)
-        assert process.returncode == 0, errors
-    log = stack.log
-    assert sorted(log[:2]) == ["claim joint_states", "configure /perception"]  # neither waits for the other
-    assert log[2:] == ["activate /perception", "claim arm_trajectory", "claim gripper_action"]
-
-
-@pytest.mark.parametrize("missing", ["spawner", "perception"])
-def test_nothing_is_claimed_without_proof_and_the_missing_proof_is_named(tmp_path: Path, missing: str) -> None:
-    stack = Stack(tmp_path)
-    if missing != "spawner":
-        stack.spawn()
-        (stack.state / "refuses" / "perception").touch()
-    (stack.state / "nodes" / "perception").write_text("unconfigured\n")
-    ended = {step.name: stack.start(step.name, wait_s=2) for step in _bring_up()}
-    errors = {name: process.communicate(timeout=60)[1] for name, process in ended.items()}
-    assert ended["claim_control"].returncode == 1
-    assert "claim arm_trajectory" not in stack.log
-    condition = (
-        "controller /controller_manager arm_trajectory inactive"
-        if missing == "spawner"
-        else "lifecycle /perception active"
+def started() -> StandIn:
+    """Return the pick cell with its processes up and nothing configured."""
+    module = program()
+    messages_of(module)
+    return StandIn(
+        module,
+        nodes_={"/perception": "unconfigured", "/robot_state_publisher": ""},
+        controllers=dict.fromkeys(("joint_states", "arm_trajectory", "gripper_action"), "inactive"),
+        hardware={"arm_hardware": "active", "gripper_hardware": "active"},
+        messages={"/joint_states": SimpleNamespace()},
+        servers={"/move_action", "/gripper_action/gripper_cmd"},
+        frames={"world", "camera_color_optical_frame", "arm_base_link", "tcp"},
     )
-    assert errors["claim_control"].strip().endswith(f"there is no {condition}")
 
 
-@pytest.mark.parametrize("target", ["mock", "real"])
-def test_mover_of_the_mock_is_not_started_on_real_hardware(tmp_path: Path, target: str) -> None:
-    stack = Stack(tmp_path)
-    stack.spawn()
-    for name in ("arm_trajectory", "gripper_action"):
-        (stack.state / "controllers" / name).write_text("active\n")
-    (stack.state / "nodes" / "perception").write_text("active\n")
-    if target == "real":
-        plugins = "<plugin>mock_components/GenericSystem</plugin><plugin>a_driver/Hardware</plugin>"
-        (stack.state / "description" / "robot_state_publisher").write_text(plugins)
-    mover = stack.start("move_mock", "echo", "it moves", wait_s=1)
-    said, _ = mover.communicate(timeout=60)
-    assert ("it moves" in said) is (target == "mock")
-    assert mover.returncode == (0 if target == "mock" else 1)
+@pytest.fixture
+def graph() -> StandIn:
+    """The pick cell with its processes up and nothing configured."""
+    return started()
 
 
-def test_mover_waits_for_its_claims(tmp_path: Path) -> None:
-    stack = Stack(tmp_path)
-    stack.spawn()
-    (stack.state / "nodes" / "perception").write_text("active\n")
-    said, errors = stack.start("move_real", "echo", "it moves", wait_s=1).communicate(timeout=60)
-    assert "it moves" not in said
-    assert "there is no controller /controller_manager arm_trajectory active" in errors
+def run(graph: StandIn, tmp_path: Path, *words: str, wait_s: float = 20.0) -> int:
+    """Run the program of the pick cell on a graph, with its own plan."""
+    module = graph.module
+    module.Graph = lambda name, enclave: graph
+    module.LOOK_S = 0.0
+    module.ANSWER_S = 0.0
+    module.PATIENCE_S = wait_s
+    file = tmp_path / "bring_up.json"
+    file.write_text(json.dumps(plan("ur5e_pick", "jazzy")))
+    ended = module.main(["--plan", str(file), *words])
+    assert isinstance(ended, int)
+    return ended
 
 
-def test_mover_starts_on_real_hardware_once_everything_shows(tmp_path: Path) -> None:
-    stack = Stack(tmp_path)
-    stack.spawn()
-    (stack.state / "nodes" / "perception").write_text("active\n")
-    mover = stack.start("move_real", "echo", "it moves")
-    for name in ("arm_trajectory", "gripper_action"):
-        (stack.state / "controllers" / name).write_text("active\n")
-    said, errors = mover.communicate(timeout=60)
-    assert (said.splitlines()[-1], mover.returncode, errors) == ("it moves", 0, "")
+def test_steps_are_taken_in_the_order_of_their_proofs(graph: StandIn, tmp_path: Path) -> None:
+    assert run(graph, tmp_path, "--target", "mock", "start", "claim") == 0
+    assert graph.log == [
+        "/perception inactive",
+        "activate joint_states",
+        "/perception active",
+        "activate arm_trajectory",
+        "activate gripper_action",
+        "leave",
+    ]
+
+
+def test_steps_that_were_taken_before_are_not_asked_for_again(graph: StandIn, tmp_path: Path) -> None:
+    run(graph, tmp_path, "--target", "mock", "start", "claim")
+    graph.log.clear()
+    assert run(graph, tmp_path, "--target", "mock", "start", "claim") == 0
+    assert graph.log == ["leave"]
+
+
+def test_starting_the_real_target_claims_nothing(graph: StandIn, tmp_path: Path) -> None:
+    assert run(graph, tmp_path, "--target", "real", "start") == 0
+    assert graph.controllers == {"joint_states": "active", "arm_trajectory": "inactive", "gripper_action": "inactive"}
+
+
+def test_processes_that_come_up_late_are_waited_for(graph: StandIn, tmp_path: Path) -> None:
+    controllers, graph.controllers = graph.controllers, {}
+    graph.on_spin = lambda times: graph.controllers.update(controllers) if times == 5 else None
+    assert run(graph, tmp_path, "--target", "mock", "start", "claim") == 0
+
+
+@pytest.mark.parametrize(
+    ("kind", "said"),
+    [
+        ("spawner", "controller joint_states must be inactive, is not loaded"),
+        ("hardware", "hardware gripper_hardware must be active, is unconfigured"),
+        ("transform", "no transform from arm_base_link to tcp"),
+        ("states", "no message on /joint_states"),
+        ("refusal", "/perception refused to configure"),
+        ("switch", "/controller_manager refused to activate arm_trajectory, gripper_action"),
+    ],
+)
+def test_nothing_is_claimed_without_proof_and_what_is_missing_is_said(
+    graph: StandIn, tmp_path: Path, capsys: pytest.CaptureFixture[str], kind: str, said: str
+) -> None:
+    if kind == "spawner":
+        graph.controllers.clear()
+    elif kind == "hardware":
+        graph.hardware["gripper_hardware"] = "unconfigured"
+    elif kind == "transform":
+        graph.frames.discard("tcp")
+    elif kind == "states":
+        graph.messages.clear()
+    else:
+        graph.refuses |= {"/perception"} if kind == "refusal" else {"arm_trajectory"}
+    assert run(graph, tmp_path, "--target", "mock", "start", "claim", wait_s=0.05) == 1
+    assert "activate arm_trajectory" not in graph.log
+    error = capsys.readouterr().err
+    assert said in error
+    assert kind in ("transform", "states", "switch") or "Not taken: " in error
+
+
+def test_lost_answer_of_a_request_that_was_done_is_no_failure(graph: StandIn, tmp_path: Path) -> None:
+    graph.silent = 2
+    assert run(graph, tmp_path, "--target", "mock", "start", "claim") == 0
+    assert graph.log.count("activate arm_trajectory") == 1
+
+
+@pytest.mark.parametrize("plugins", ["mock_components/GenericSystem", "a_driver/Hardware", ""])
+def test_mover_of_the_mock_is_not_started_on_real_hardware(
+    graph: StandIn, tmp_path: Path, capfd: pytest.CaptureFixture[str], plugins: str
+) -> None:
+    run(graph, tmp_path, "--target", "mock", "start", "claim")
+    graph.plugins = f"<plugin>{plugins}</plugin><plugin>mock_components/GenericSystem</plugin>" if plugins else ""
+    ended = run(graph, tmp_path, "--target", "mock", "move", "--", "echo", "it moves", wait_s=0.05)
+    mocked = plugins == "mock_components/GenericSystem"
+    assert ("it moves" in capfd.readouterr().out) is mocked
+    assert ended == (0 if mocked else 1)
+
+
+def test_mover_waits_for_its_claims(graph: StandIn, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    run(graph, tmp_path, "--target", "real", "start")
+    assert run(graph, tmp_path, "--target", "real", "move", "--", "echo", "it moves", wait_s=0.05) == 1
+    said = capfd.readouterr()
+    assert "it moves" not in said.out
+    assert "controller arm_trajectory must be active, is inactive" in said.err
+
+
+def test_mover_does_not_survive_its_claims(graph: StandIn, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    run(graph, tmp_path, "--target", "mock", "start", "claim")
+    graph.on_spin = lambda times: graph.controllers.update(arm_trajectory="inactive")
+    program = "import time; print('up', flush=True); time.sleep(600)"
+    assert run(graph, tmp_path, "--target", "real", "move", "--", sys.executable, "-c", program) == 1
+    assert "is stopped: controller arm_trajectory must be active, is inactive" in capfd.readouterr().err
+
+
+def test_exit_status_of_the_mover_is_passed_on(graph: StandIn, tmp_path: Path) -> None:
+    run(graph, tmp_path, "--target", "mock", "start", "claim")
+    command = [sys.executable, "-c", "raise SystemExit(7)", "--ros-args", "-r", "__node:=task"]
+    assert run(graph, tmp_path, "--target", "real", "move", "--", *command) == 7
+
+
+WATCH = SimpleNamespace(
+    manager="/controller_manager",
+    controllers=["arm_trajectory"],
+    while_holds=SimpleNamespace(
+        kind="topic", topic="/program_running", type="std_msgs/msg/Bool", field="data", value=True
+    ),
+)
+
+
+def test_claims_go_when_the_robot_does_not_listen_and_never_come_back_by_themselves(graph: StandIn) -> None:
+    module = graph.module
+    module.LOOK_S = 0.0
+    graph.controllers["arm_trajectory"] = "active"
+    running = {1: True, 3: False, 6: True}
+
+    def world(times: int) -> None:
+        if times in running:
+            graph.messages["/program_running"] = SimpleNamespace(data=running[times])
+        if times == 12:
+            raise KeyboardInterrupt
+
+    graph.on_spin = world
+    said: list[str] = []
+    with pytest.raises(KeyboardInterrupt):
+        said += module.watch(graph, [WATCH])
+    assert graph.log == ["deactivate arm_trajectory"]
+    assert graph.controllers["arm_trajectory"] == "inactive"
+
+
+def test_claims_of_a_robot_that_was_never_heard_go_too(graph: StandIn) -> None:
+    graph.module.LOOK_S = 0.0
+    graph.controllers["arm_trajectory"] = "active"
+    said = next(graph.module.watch(graph, [WATCH]))
+    assert graph.log == ["deactivate arm_trajectory"]
+    assert "no message on /program_running" in said
+
+
+def test_claim_that_cannot_be_taken_away_is_told_and_tried_again(graph: StandIn) -> None:
+    graph.module.LOOK_S = 0.0
+    graph.controllers["arm_trajectory"] = "active"
+    graph.refuses = {"arm_trajectory"}
+    watched = graph.module.watch(graph, [WATCH])
+    assert "not deactivated, tried again" in next(watched)
+    graph.refuses.clear()
+    assert "deactivated, a person releases the claim again" in next(watched)

@@ -51,7 +51,8 @@ def test_build_installs_every_folder_that_something_reads_at_run_time() -> None:
     artifacts = artifacts_of("ur5e_pick")
     installed = artifacts["CMakeLists.txt"].split()
     folders = {path.partition("/")[0] for path in artifacts if "/" in path}
-    assert folders - {"graph", "gates"} <= set(installed)
+    assert folders - {"graph", "gates", "scripts"} <= set(installed)
+    assert "scripts/bring_up" in installed
     assert {"contract.json", "rehearsals.json", "manifest.json"} <= set(installed)
 
 
@@ -89,20 +90,28 @@ def test_package_depends_on_what_it_starts_and_loads() -> None:
         "cell_perception",
         "cell_tasks",
         "controller_manager",
+        "controller_manager_msgs",
         "hardware_interface",
         "joint_state_broadcaster",
+        "liburdfdom-tools",
+        "lifecycle_msgs",
         "moveit_kinematics",
         "moveit_planners_ompl",
         "moveit_ros_move_group",
         "moveit_simple_controller_manager",
         "parallel_gripper_controller",
         "pilz_industrial_motion_planner",
+        "rcl_interfaces",
+        "rclpy",
         "realsense2_camera",
         "robot_state_publisher",
         "robotiq_driver",
+        "ros2bag",
         "ros2cli_common_extensions",
         "ros2controlcli",
         "ros2launch",
+        "rosbag2_storage_mcap",
+        "tf2_msgs",
         "tf2_ros",
         "ur_client_library",
         "ur_controllers",

@@ -75,7 +75,10 @@ def test_mock_target_starts_no_driver_and_real_target_needs_a_person() -> None:
     only_real = "$(eval \"'$(var target)' == 'real'\")"
     drivers = {"ur_robot_driver", "realsense2_camera"}
     assert {node.get("if") for node in launch.findall("node") if node.get("pkg") in drivers} == {only_real}
-    assert {node.get("if") for node in launch.findall("node") if node.get("pkg") not in drivers} == {None}
+    started = {node.get("args", "").split(" --target ")[-1]: node for node in launch.findall("node")}
+    assert started["real start"].get("if") == started["mock start claim"].get("unless") == only_real
+    others = [node for node in launch.findall("node") if node.get("pkg") not in {*drivers, "ur5e_pick"}]
+    assert {node.get("if") for node in others} == {None}
     gate = launch.find("include")
     assert gate is not None
     assert gate.get("if") == only_real
@@ -103,8 +106,9 @@ def test_alternates_are_configured_and_not_activated(tmp_path: Path) -> None:
     launch = ElementTree.fromstring(artifacts["launch/cell.launch.xml"])
     spawners = [node.get("args") for node in launch.findall("node") if node.get("exec") == "spawner"]
     assert spawners == ["joint_states arm_trajectory arm_forward gripper_action -c /controller_manager --inactive"]
-    activated = re.findall(r"--activate (.*) --strict", artifacts["launch/bring_up.bash"])
-    assert activated == ["joint_states", "arm_trajectory gripper_action"]
+    plan = json.loads(artifacts["config/bring_up.json"])
+    activated = [step["request"]["controllers"] for step in plan["mock"] if step.get("request")]
+    assert activated == [["joint_states"], ["arm_trajectory", "gripper_action"]]
 
 
 @pytest.mark.parametrize("cell", CELLS)

