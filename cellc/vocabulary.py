@@ -41,6 +41,7 @@ class Feature(Enum):
     TRAJECTORIES_END_AT_REST = "a trajectory must end with zero velocity unless the controller is told otherwise"
     SCALED_STATE = "JointTrajectoryControllerState has the speed scaling factor in place of desired and actual"
     PLUGIN_LISTS = "MoveIt takes planning plugins and their adapters as lists"
+    EXIT_ENDS_LAUNCH = 'launch XML knows `on_exit="shutdown"`'
     RECORD_TOPICS_OPTION = "`ros2 bag record` takes the topics after --topics"
 
 
@@ -55,6 +56,7 @@ _SINCE: Mapping[Feature, Distro] = {
     Feature.LIMITED_COMMANDS: Distro.JAZZY,
     Feature.LIMITED_BY_DEFAULT: Distro.KILTED,
     Feature.PREEMPTED_GOALS: Distro.JAZZY,
+    Feature.EXIT_ENDS_LAUNCH: Distro.JAZZY,  # ros2/launch pull request 751
     Feature.TRAJECTORIES_END_AT_REST: Distro.JAZZY,
     Feature.SCALED_STATE: Distro.JAZZY,
     Feature.PLUGIN_LISTS: Distro.JAZZY,
@@ -238,8 +240,6 @@ class BringUpPhase(Term):
     ACTIVATE = "activate"
     CLAIM = "claim"
     MOVE = "move"
-
-
 
 
 class GateCode(Term):

@@ -39,6 +39,7 @@ from tests.consumers import (
 )
 from tests.consumers.corruption import corruptions
 from tests.consumers.matrix import Build, build, in_place
+from tests.consumers.stand_in_graph import StandIn
 from tests.oracles import needs_upstream
 
 _SEED = 20260822
@@ -96,9 +97,10 @@ _CHECKS: tuple[Callable[[str, str], None], ...] = (
     test_xsd.test_xml_is_what_its_readers_declare,
     test_xsd.test_launch_files_follow_their_grammar,
     test_launch.test_nothing_asks_for_motion_before_a_person_releases_it,
-    test_bring_up.test_script_is_bash_and_launching_starts_every_step,
     test_bring_up.test_conditions_name_what_the_cell_has,
     test_bring_up.test_everything_is_activated_once_and_alternates_never,
+    test_bring_up.test_launching_takes_every_phase_of_its_target,
+    test_bring_up.test_real_target_is_claimed_by_a_person_alone,
     test_walk.test_pages_and_table_have_every_gate_once_and_in_order,
     test_walk.test_table_says_what_the_sections_say_and_leads_to_them,
     test_walk.test_every_gate_leaves_evidence_of_its_own,
@@ -123,13 +125,13 @@ _CHECKS: tuple[Callable[[str, str], None], ...] = (
     test_pages.test_people_of_the_spec_answer_for_what_it_says,
     test_pages.test_audit_expects_the_nodes_that_are_launched_with_what_they_are_told,
 )
-_SCRIPT = "launch/bring_up.bash"
-_RUNS: tuple[Callable[[Path], None], ...] = (
-    test_bring_up.test_steps_started_in_the_wrong_order_act_in_the_right_one,
-    partial(test_bring_up.test_mover_of_the_mock_is_not_started_on_real_hardware, target="mock"),
-    partial(test_bring_up.test_mover_of_the_mock_is_not_started_on_real_hardware, target="real"),
-    test_bring_up.test_mover_waits_for_its_claims,
-    test_bring_up.test_mover_starts_on_real_hardware_once_everything_shows,
+_BRING_UP = ("scripts/bring_up", "config/bring_up.json")
+_RUNS: tuple[Callable[[StandIn, Path], None], ...] = (
+    test_bring_up.test_steps_are_taken_in_the_order_of_their_proofs,
+    test_bring_up.test_starting_the_real_target_claims_nothing,
+    test_bring_up.test_processes_that_come_up_late_are_waited_for,
+    test_bring_up.test_lost_answer_of_a_request_that_was_done_is_no_failure,
+    test_bring_up.test_exit_status_of_the_mover_is_passed_on,
 )
 _CHECKS_OF_TARGETS: tuple[Callable[[str, str, str], None], ...] = (
     test_launch.test_spawners_follow_the_spec_and_activate_nothing,
@@ -152,7 +154,8 @@ def caught_by(built: Build) -> str:
                         return check_of.__name__
     finally:
         _forget()
-    if built.texts.get(_SCRIPT) != build(_CELL, _DISTRO).texts[_SCRIPT] and _fails(partial(_brought_up, built)):
+    changed = any(built.texts.get(file) != build(_CELL, _DISTRO).texts[file] for file in _BRING_UP)
+    if changed and _fails(partial(_brought_up, built)):
         return _brought_up.__name__
     found = verify(built.artifacts, built.graph)
     return found[0].code if found else ""
@@ -161,14 +164,14 @@ def caught_by(built: Build) -> str:
 def _forget() -> None:
     """Forget what was launched from another build of the same cell."""
     starting.processes.cache_clear()
-    starting.commands.cache_clear()
+    starting.plan.cache_clear()
 
 
 def _brought_up(built: Build) -> None:
-    """Run the steps of the bring-up, which takes seconds, so that only another script than the emitted one is run."""
+    """Run the steps of the bring-up, where they are not those that were emitted."""
     with TemporaryDirectory() as folder, in_place(built):
         for check in _RUNS:
-            check(Path(mkdtemp(dir=folder)))
+            check(test_bring_up.started(), Path(mkdtemp(dir=folder)))
 
 
 def _fails(check: Callable[[], None]) -> bool:

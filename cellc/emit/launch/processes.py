@@ -164,6 +164,8 @@ def _manager(cell: Cell, manager: ControllerManager) -> Element:
         parameters.append(_description_parameter(share(cell, manager_description_file(cell, manager, TARGET))))
     topic = f"{description_home(manager) if len(cell.managers) > 1 else ''}/{_TOPIC}"
     (node,) = (node for node in cell.nodes if node.full_name == manager.node)
+    # Without its update loop a cell only looks alive.
+    required = {"on_exit": "shutdown"} if Feature.EXIT_ENDS_LAUNCH in features(cell.distro) else {}
     return element(
         "node",
         {
@@ -171,6 +173,7 @@ def _manager(cell: Cell, manager: ControllerManager) -> Element:
             "exec": "ros2_control_node",
             **place,
             "output": "both",
+            **required,
             **enclave(manager_enclave(cell, manager)),
         },
         [
