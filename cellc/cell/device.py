@@ -95,6 +95,17 @@ class HardwareComponent:
     at_once: bool = False
     command_timeout_s: float | None = None
 
+    @property
+    def moves_as_it_is_activated(self) -> bool:
+        """Whether its activation moves something or lets a part fall, so that it is a release of its own."""
+        effect = self.effects.get(Moment.ACTIVATE)
+        return effect is not None and (effect.drops_part or effect.motion not in (Motion.NONE, Motion.HOLDS))
+
+    @property
+    def comes_up(self) -> str:
+        """The state in which the controller manager is to bring it up, on every target."""
+        return "unconfigured" if self.moves_as_it_is_activated else self.initial_state
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DeviceDriver:

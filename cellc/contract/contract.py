@@ -34,6 +34,7 @@ class ContractFiles(ContractModel):
     parameters: dict[str, str] = Field(description="Parameter file of each controller manager, by manager.")
     srdf: str | None = Field(None, description="Pairs of links whose collision is not checked, for planning groups.")
     rehearsals: str = Field(description="What the mock executes.")
+    bring_up: str = Field(description="Steps from processes to motion, of the mock and of the real target.")
 
 
 class ContractCalibration(ContractModel):

@@ -118,10 +118,11 @@ def _observe(cell: Cell, manager: ControllerManager, target: Target) -> Iterator
     spawned = [one.name for one in manager.controllers if target in one.targets]
     observing = tuple(one.name for one in _active(manager, target) if not one.command_interfaces)
     if spawned:
-        later = _activated_by_a_person(cell, manager, target)
+        later = _activated_later(cell, manager, target)
         components = (
-            _hardware(manager, device, "unconfigured" if device in later else "active")
+            _hardware(manager, device, "active")
             for device in _components(cell, manager, target)
+            if device not in later  # or a person was faster
         )
         yield _step(
             BringUpPhase.START,
@@ -135,13 +136,13 @@ def _observe(cell: Cell, manager: ControllerManager, target: Target) -> Iterator
 
 def _activate_hardware(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[BringUpStep]:
     """Yield what takes hardware to active that moves by it, and restarts what read the states before it was there."""
-    devices = _activated_by_a_person(cell, manager, target)
+    devices = _activated_later(cell, manager, target)
     for device in devices:
         yield _step(
             BringUpPhase.ACTIVATE,
             f"activate_{device.name}",
             manager.host,
-            [_hardware(manager, device, "unconfigured")],
+            [],
             HardwareActivation(kind="hardware", manager=manager.node, component=_component(device)),
             [_hardware(manager, device, "active")],
         )
@@ -226,9 +227,9 @@ def _on(device: Device, target: str) -> bool:
     return device.hardware is not None and target in device.hardware.targets
 
 
-def _activated_by_a_person(cell: Cell, manager: ControllerManager, target: Target) -> tuple[Device, ...]:
-    # TODO: facts of the catalogue
-    return ()
+def _activated_later(cell: Cell, manager: ControllerManager, target: Target) -> tuple[Device, ...]:
+    """Return what does not come up active: its activation moves something, or must be one call."""
+    return tuple(one for one in _components(cell, manager, target) if one.hardware and one.hardware.comes_up != "active")
 
 
 def _listening(cell: Cell, manager: ControllerManager) -> Iterator[TopicProof]:

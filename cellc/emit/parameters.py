@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cellc.artifact import Artifact
+from cellc.cell.cell import Cell
 from cellc.cell.control import Controller, ControllerManager
 from cellc.cell.interface import NodeSource, ParameterValue
 from cellc.deploy.deployment import Deployment
@@ -32,18 +33,22 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
 
 def _of_managers(graph: CellGraph, header: Header) -> Iterator[Artifact]:
     for manager in graph.cell.managers:
-        yield Artifact(controllers_file(graph.cell, manager), parameter_file(header, _sections(manager)))
+        yield Artifact(controllers_file(graph.cell, manager), parameter_file(header, _sections(graph.cell, manager)))
 
 
-def _sections(manager: ControllerManager) -> Iterator[NodeParameters]:
-    yield NodeParameters(f"{manager.namespace}/controller_manager", manager.path, _of_manager(manager))
+def _sections(cell: Cell, manager: ControllerManager) -> Iterator[NodeParameters]:
+    yield NodeParameters(f"{manager.namespace}/controller_manager", manager.path, _of_manager(cell, manager))
     for controller in manager.controllers:
         yield _of_controller(manager, controller)
 
 
-def _of_manager(manager: ControllerManager) -> dict[str, ParameterValue]:
+def _of_manager(cell: Cell, manager: ControllerManager) -> dict[str, ParameterValue]:
     # An update_rate with a decimal point makes the manager abort.
     rate: dict[str, ParameterValue] = {"update_rate": round(manager.update_rate_hz)}
+    for state in ("unconfigured", "inactive"):
+        components = (cell.device(name).hardware for name in manager.devices)
+        if named := tuple(one.name for one in components if one is not None and one.comes_up == state):
+            rate[f"hardware_components_initial_state.{state}"] = named
     return rate | {f"{controller.name}.type": controller.plugin for controller in manager.controllers}
 
 

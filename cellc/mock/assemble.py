@@ -112,6 +112,7 @@ def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int) -> Plant:
     published = RobotStatePublisher(memory.model.links, feeds, PUBLISH_FREQUENCY_HZ, horizon_s, clocks, tf_edge)
     plant = Plant(
         contract=contract,
+        bring_up=folder.bring_up,
         simulation=simulation,
         clocks=clocks,
         network=network,

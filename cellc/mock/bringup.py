@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from cellc.contract.bring_up import HardwareActivation, Restart, Transition
 from cellc.contract.contract import ContractManager
 from cellc.mock.bus.qos import hears, unmatched_pairs
 from cellc.mock.control import ControllerManager
@@ -10,6 +11,7 @@ from cellc.mock.nodes.robot_state_publisher import NODE
 from cellc.mock.plant import Plant
 from cellc.mock.result import StageEvidence
 from cellc.mock.tf.buffer import Transform
+from cellc.vocabulary import BringUpPhase
 
 _LEVELS = ("WARN", "ERROR", "FATAL")
 
@@ -35,13 +37,19 @@ class LogMark:
         return "; ".join(" ".join(line.text.split()) for line in lines if line.level.value in _LEVELS)
 
 
-def activate(plant: Plant, manager_name: str, controllers: tuple[str, ...]) -> Waiting[tuple[str, ...]]:
-    """Activate controllers of one manager one after the other; return the problems, in the words of the manager."""
+def activate(
+    plant: Plant, manager_name: str, controllers: tuple[str, ...], *, again: bool = False
+) -> Waiting[tuple[str, ...]]:
+    """Activate controllers of one manager one after the other; return the problems, in the words of the manager.
+
+    Args:
+        again: they are active, and are deactivated by the same request, to read interfaces that are new.
+    """
     manager = plant.control.managers[manager_name]
     problems: list[str] = []
     for controller in controllers:
         mark = LogMark(manager)
-        response = manager.switch_controllers([controller], [])
+        response = manager.switch_controllers([controller], [controller] if again else [])
         until_ns = plant.now_ns + _SETTLE_CYCLES * manager.period_ns
         while plant.now_ns < until_ns:
             yield Wait(until_ns)
@@ -50,6 +58,28 @@ def activate(plant: Plant, manager_name: str, controllers: tuple[str, ...]) -> W
             reason = mark.reasons() or response.message or f"it is {states.get(controller, 'not loaded')}"
             problems.append(f"`{controller}` cannot be activated: {reason}")
     return tuple(problems)
+
+
+def take(plant: Plant, *phases: BringUpPhase) -> Waiting[tuple[tuple[str, ...], tuple[str, ...]]]:
+    """Carry out what the steps of some phases ask controller managers for; return what was done, and the problems.
+
+    Transitions of managed nodes are left out: the nodes of the mock are up when they have started.
+    """
+    names = {f"{entry.namespace}/controller_manager": name for name, entry in plant.contract.managers.items()}
+    facts: list[str] = []
+    problems: list[str] = []
+    for step in plant.bring_up:
+        asked = step.request
+        if step.phase not in phases or asked is None or isinstance(asked, Transition):
+            continue
+        manager = names[asked.manager]
+        if isinstance(asked, HardwareActivation):
+            answer = plant.control.managers[manager].set_hardware_component_state(asked.component, "active")
+            told = f"hardware component `{asked.component}` is {answer.state or 'unknown'}"
+            (facts if answer.ok else problems).append(told)
+        else:
+            problems += yield from activate(plant, manager, asked.controllers, again=isinstance(asked, Restart))
+    return tuple(facts), tuple(problems)
 
 
 def discover(plant: Plant) -> Waiting[StageEvidence]:
@@ -96,21 +126,14 @@ def configure(plant: Plant) -> Waiting[StageEvidence]:
 
 def observe(plant: Plant) -> Waiting[StageEvidence]:
     """Wait for joint states of every group's joints and for a transform of every fixed frame and link."""
-    problems: list[str] = []
-    for name, manager in plant.contract.managers.items():
-        publishing = tuple(
-            controller
-            for controller, entry in manager.controllers.items()
-            if entry.active and not entry.command_interfaces and "mock" in entry.targets
-        )
-        problems += yield from activate(plant, name, publishing)
+    facts, problems = yield from take(plant, BringUpPhase.START, BringUpPhase.ACTIVATE)
     if problems:
-        return StageEvidence("observe", (), tuple(problems))
+        return StageEvidence("observe", facts, problems)
     until_ns = plant.now_ns + _PATIENCE_NS
     while (missing := _missing_joints(plant)) and plant.now_ns < until_ns:
         yield Wait(plant.now_ns + _LOOK_NS)
     if missing:
-        return StageEvidence("observe", (), tuple(f"no state of joint `{joint}` is published" for joint in missing))
+        return StageEvidence("observe", facts, tuple(f"no state of joint `{joint}` is published" for joint in missing))
     watched_until_ns = plant.now_ns + _WATCH_NS
     while plant.now_ns < watched_until_ns:
         yield Wait(watched_until_ns)
@@ -121,8 +144,8 @@ def observe(plant: Plant) -> Waiting[StageEvidence]:
         hears_moving=hears(plant.contract, "/tf", NODE, task),
     )
     plant.robot_state_publisher.catch_up(plant.now_ns)
-    facts = [_freshness(plant), *plant.task.buffer.conflicts]
-    return StageEvidence("observe", tuple(facts), tuple(_missing_frames(plant)))
+    seen = (*facts, _freshness(plant), *plant.task.buffer.conflicts)
+    return StageEvidence("observe", seen, tuple(_missing_frames(plant)))
 
 
 def _missing_joints(plant: Plant) -> tuple[str, ...]:
@@ -155,14 +178,10 @@ def _missing_frames(plant: Plant) -> list[str]:
 def claim(plant: Plant) -> Waiting[StageEvidence]:
     """Activate the commanding controllers and adapters, and compare the claims of controllers with the contract."""
     facts: list[str] = []
-    problems: list[str] = []
+    taken, refused = yield from take(plant, BringUpPhase.CLAIM)
+    facts += taken
+    problems = list(refused)
     for name, entry in plant.contract.managers.items():
-        commanding = tuple(
-            controller
-            for controller, facts_of in entry.controllers.items()
-            if facts_of.active and facts_of.command_interfaces and "mock" in facts_of.targets
-        )
-        problems += yield from activate(plant, name, commanding)
         claims = _claims(plant.control.managers[name])
         facts += [f"`{interface}` is claimed by `{owner}`" for interface, owner in sorted(claims.items())]
         if not problems:

@@ -13,6 +13,7 @@ from typing import TypeVar
 import yaml
 from pydantic import BaseModel
 
+from cellc.contract.bring_up import BringUp, BringUpStep, Transition
 from cellc.contract.contract import Contract
 from cellc.contract.manifest import Manifest
 from cellc.contract.reading import FormatError, read_json
@@ -38,6 +39,7 @@ class GeneratedFolder:
         description: what it says.
         allowed_collisions: pairs of links whose collision is not checked, from the SRDF.
         parameters: text of the parameter file of each controller manager, by manager.
+        bring_up: the steps of the mock.
         notes: what is odd but no reason to stop, such as a file edited by hand.
     """
 
@@ -47,6 +49,7 @@ class GeneratedFolder:
     description: Description
     allowed_collisions: tuple[tuple[str, str], ...]
     parameters: dict[str, str]
+    bring_up: tuple[BringUpStep, ...]
     notes: tuple[str, ...]
 
 
@@ -76,8 +79,21 @@ def read_folder(folder: Path) -> GeneratedFolder:
         description=_described(urdf, contract.files.urdf_mock),
         allowed_collisions=tuple(_allowed_collisions(folder, contract.files.srdf)),
         parameters={name: _read_text(folder, path) for name, path in contract.files.parameters.items()},
+        bring_up=_bring_up(folder, contract),
         notes=tuple(_notes(folder, contract, manifest)),
     )
+
+
+def _bring_up(folder: Path, contract: Contract) -> tuple[BringUpStep, ...]:
+    """Return the steps of the mock, each for controllers and components of a manager that the contract has."""
+    file = contract.files.bring_up
+    plan = _read_model(folder, file, BringUp)
+    known = {f"{manager.namespace}/controller_manager" for manager in contract.managers.values()}
+    for step in plan.mock:
+        asked = None if isinstance(step.request, Transition | None) else step.request.manager
+        if asked is not None and asked not in known:
+            raise MockError(file, f"step `{step.name}` asks `{asked}`, which the contract does not have")
+    return plan.mock
 
 
 def _described(urdf: str, file: str) -> Description:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from cellc.contract.bring_up import BringUpStep
 from cellc.contract.contract import Contract
 from cellc.mock.bus.network import Network
 from cellc.mock.clocks import Clocks
@@ -58,6 +59,7 @@ class Plant:
     """
 
     contract: Contract
+    bring_up: tuple[BringUpStep, ...]
     simulation: Simulation
     clocks: Clocks
     network: Network

@@ -73,7 +73,7 @@ def test_nothing_asks_for_motion_before_a_person_releases_it(cell: str, distro: 
         started = {node_name(one) for launch in bring_ups(built, target) for one in launch.processes}
         assert not started & {f"/{name}" for name in clients}
         assert {node_name(one) for one in moves(built, target)} == {f"/{name}" for name in clients}
-        assert all(one.prefix[2] == f"move_{target}" for one in moves(built, target))
+        assert all(one.prefix[-4:] == ("--target", target, "move", "--") for one in moves(built, target))
     if clients:
         for given in ({"target": "real"}, {"target": "real", "confirm_motion": "yes"}):
             with pytest.raises(LaunchError, match="confirm_motion"):
@@ -107,7 +107,8 @@ def test_processes_of_the_pick_cell_start_in_this_order(target: str) -> None:
     drivers = ["/arm_dashboard_client", "/arm_state_helper", "/camera"] if target == "real" else []
     names = [node_name(process) for process in processes("ur5e_pick", "jazzy", target)]
     nodes = ["/perception", "/move_group"]
-    assert names == ["/robot_state_publisher", "/controller_manager", *nodes, *drivers, "/spawner", "/task"]
+    started = ["/robot_state_publisher", "/controller_manager", *nodes, *drivers, "/spawner", "/bring_up"]
+    assert names == [*started, "/task"]
 
 
 @every_build

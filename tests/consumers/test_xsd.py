@@ -73,6 +73,7 @@ def _take_newer_away(action: Element) -> None:
     if action.tag in ("node", "executable"):
         assert action.attrib.pop("output", "both") == "both"
         action.attrib.pop("ros_args", None)
+        assert action.attrib.pop("on_exit", "shutdown") == "shutdown"
 
 
 @every_build

@@ -25,7 +25,7 @@ from cellc.contract.contract import (
     ContractSafety,
 )
 from cellc.deploy.deployment import Deployment
-from cellc.deploy.files import REHEARSALS, controllers_file, description_file, semantic_file
+from cellc.deploy.files import BRING_UP, REHEARSALS, controllers_file, description_file, semantic_file
 from cellc.emit.contract.clocks import clock_of, clocks
 from cellc.emit.contract.devices import adapters, devices, simulated_joints
 from cellc.emit.contract.motion import (
@@ -86,6 +86,7 @@ def _files(cell: Cell) -> ContractFiles:
         parameters={manager.name: controllers_file(cell, manager) for manager in cell.managers},
         srdf=semantic_file(cell) if cell.groups else None,
         rehearsals=REHEARSALS,
+        bring_up=BRING_UP,
     )
 
 
