@@ -149,7 +149,7 @@ def started() -> StandIn:
         module,
         nodes_={"/perception": "unconfigured", "/robot_state_publisher": ""},
         controllers=dict.fromkeys(("joint_states", "arm_trajectory", "gripper_action"), "inactive"),
-        hardware={"arm_hardware": "active", "gripper_hardware": "active"},
+        hardware={"arm_hardware": "active", "gripper_hardware": "unconfigured"},
         messages={"/joint_states": SimpleNamespace()},
         servers={"/move_action", "/gripper_action/gripper_cmd"},
         frames={"world", "camera_color_optical_frame", "arm_base_link", "tcp"},
@@ -177,11 +177,14 @@ def run(graph: StandIn, tmp_path: Path, *words: str, wait_s: float = 20.0) -> in
 
 
 def test_steps_are_taken_in_the_order_of_their_proofs(graph: StandIn, tmp_path: Path) -> None:
-    assert run(graph, tmp_path, "--target", "mock", "start", "claim") == 0
+    assert run(graph, tmp_path, "--target", "mock", "start", "activate", "claim") == 0
     assert graph.log == [
         "/perception inactive",
         "activate joint_states",
         "/perception active",
+        "activate gripper_hardware",
+        "deactivate joint_states",
+        "activate joint_states",
         "activate arm_trajectory",
         "activate gripper_action",
         "leave",
@@ -189,10 +192,11 @@ def test_steps_are_taken_in_the_order_of_their_proofs(graph: StandIn, tmp_path: 
 
 
 def test_steps_that_were_taken_before_are_not_asked_for_again(graph: StandIn, tmp_path: Path) -> None:
-    run(graph, tmp_path, "--target", "mock", "start", "claim")
+    run(graph, tmp_path, "--target", "mock", "start", "activate", "claim")
     graph.log.clear()
-    assert run(graph, tmp_path, "--target", "mock", "start", "claim") == 0
-    assert graph.log == ["leave"]
+    assert run(graph, tmp_path, "--target", "mock", "start", "activate", "claim") == 0
+    # What reads states is restarted each time: whether it has read the new ones cannot be asked.
+    assert graph.log == ["deactivate joint_states", "activate joint_states", "leave"]
 
 
 def test_starting_the_real_target_claims_nothing(graph: StandIn, tmp_path: Path) -> None:
@@ -200,17 +204,25 @@ def test_starting_the_real_target_claims_nothing(graph: StandIn, tmp_path: Path)
     assert graph.controllers == {"joint_states": "active", "arm_trajectory": "inactive", "gripper_action": "inactive"}
 
 
+def test_hardware_that_moves_as_it_is_activated_waits_for_a_person(graph: StandIn, tmp_path: Path) -> None:
+    run(graph, tmp_path, "--target", "real", "start")
+    assert graph.hardware["gripper_hardware"] == "unconfigured"
+    assert run(graph, tmp_path, "--target", "real", "claim", wait_s=0.05) == 1
+    assert run(graph, tmp_path, "--target", "real", "activate") == 0
+    assert run(graph, tmp_path, "--target", "real", "claim") == 0
+
+
 def test_processes_that_come_up_late_are_waited_for(graph: StandIn, tmp_path: Path) -> None:
     controllers, graph.controllers = graph.controllers, {}
     graph.on_spin = lambda times: graph.controllers.update(controllers) if times == 5 else None
-    assert run(graph, tmp_path, "--target", "mock", "start", "claim") == 0
+    assert run(graph, tmp_path, "--target", "mock", "start", "activate", "claim") == 0
 
 
 @pytest.mark.parametrize(
     ("kind", "said"),
     [
         ("spawner", "controller joint_states must be inactive, is not loaded"),
-        ("hardware", "hardware gripper_hardware must be active, is unconfigured"),
+        ("hardware", "hardware arm_hardware must be active, is inactive"),
         ("transform", "no transform from arm_base_link to tcp"),
         ("states", "no message on /joint_states"),
         ("refusal", "/perception refused to configure"),
@@ -223,14 +235,14 @@ def test_nothing_is_claimed_without_proof_and_what_is_missing_is_said(
     if kind == "spawner":
         graph.controllers.clear()
     elif kind == "hardware":
-        graph.hardware["gripper_hardware"] = "unconfigured"
+        graph.hardware["arm_hardware"] = "inactive"
     elif kind == "transform":
         graph.frames.discard("tcp")
     elif kind == "states":
         graph.messages.clear()
     else:
         graph.refuses |= {"/perception"} if kind == "refusal" else {"arm_trajectory"}
-    assert run(graph, tmp_path, "--target", "mock", "start", "claim", wait_s=0.05) == 1
+    assert run(graph, tmp_path, "--target", "mock", "start", "activate", "claim", wait_s=0.05) == 1
     assert "activate arm_trajectory" not in graph.log
     error = capsys.readouterr().err
     assert said in error
@@ -239,7 +251,7 @@ def test_nothing_is_claimed_without_proof_and_what_is_missing_is_said(
 
 def test_lost_answer_of_a_request_that_was_done_is_no_failure(graph: StandIn, tmp_path: Path) -> None:
     graph.silent = 2
-    assert run(graph, tmp_path, "--target", "mock", "start", "claim") == 0
+    assert run(graph, tmp_path, "--target", "mock", "start", "activate", "claim") == 0
     assert graph.log.count("activate arm_trajectory") == 1
 
 
@@ -247,7 +259,7 @@ def test_lost_answer_of_a_request_that_was_done_is_no_failure(graph: StandIn, tm
 def test_mover_of_the_mock_is_not_started_on_real_hardware(
     graph: StandIn, tmp_path: Path, capfd: pytest.CaptureFixture[str], plugins: str
 ) -> None:
-    run(graph, tmp_path, "--target", "mock", "start", "claim")
+    run(graph, tmp_path, "--target", "mock", "start", "activate", "claim")
     graph.plugins = f"<plugin>{plugins}</plugin><plugin>mock_components/GenericSystem</plugin>" if plugins else ""
     ended = run(graph, tmp_path, "--target", "mock", "move", "--", "echo", "it moves", wait_s=0.05)
     mocked = plugins == "mock_components/GenericSystem"
@@ -264,7 +276,7 @@ def test_mover_waits_for_its_claims(graph: StandIn, tmp_path: Path, capfd: pytes
 
 
 def test_mover_does_not_survive_its_claims(graph: StandIn, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
-    run(graph, tmp_path, "--target", "mock", "start", "claim")
+    run(graph, tmp_path, "--target", "mock", "start", "activate", "claim")
     graph.on_spin = lambda times: graph.controllers.update(arm_trajectory="inactive")
     program = "import time; print('up', flush=True); time.sleep(600)"
     assert run(graph, tmp_path, "--target", "real", "move", "--", sys.executable, "-c", program) == 1
@@ -272,7 +284,7 @@ def test_mover_does_not_survive_its_claims(graph: StandIn, tmp_path: Path, capfd
 
 
 def test_exit_status_of_the_mover_is_passed_on(graph: StandIn, tmp_path: Path) -> None:
-    run(graph, tmp_path, "--target", "mock", "start", "claim")
+    run(graph, tmp_path, "--target", "mock", "start", "activate", "claim")
     command = [sys.executable, "-c", "raise SystemExit(7)", "--ros-args", "-r", "__node:=task"]
     assert run(graph, tmp_path, "--target", "real", "move", "--", *command) == 7
 

@@ -76,7 +76,7 @@ def test_mock_target_starts_no_driver_and_real_target_needs_a_person() -> None:
     drivers = {"ur_robot_driver", "realsense2_camera"}
     assert {node.get("if") for node in launch.findall("node") if node.get("pkg") in drivers} == {only_real}
     started = {node.get("args", "").split(" --target ")[-1]: node for node in launch.findall("node")}
-    assert started["real start"].get("if") == started["mock start claim"].get("unless") == only_real
+    assert started["real start"].get("if") == started["mock start activate claim"].get("unless") == only_real
     others = [node for node in launch.findall("node") if node.get("pkg") not in {*drivers, "ur5e_pick"}]
     assert {node.get("if") for node in others} == {None}
     gate = launch.find("include")
@@ -107,7 +107,8 @@ def test_alternates_are_configured_and_not_activated(tmp_path: Path) -> None:
     spawners = [node.get("args") for node in launch.findall("node") if node.get("exec") == "spawner"]
     assert spawners == ["joint_states arm_trajectory arm_forward gripper_action -c /controller_manager --inactive"]
     plan = json.loads(artifacts["config/bring_up.json"])
-    activated = [step["request"]["controllers"] for step in plan["mock"] if step.get("request")]
+    requests = [step["request"] for step in plan["mock"] if "request" in step]
+    activated = [one["controllers"] for one in requests if one["kind"] == "controllers"]
     assert activated == [["joint_states"], ["arm_trajectory", "gripper_action"]]
 
 
