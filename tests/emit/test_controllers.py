@@ -71,6 +71,8 @@ def test_manager_learns_rate_and_plugins() -> None:
     assert manager == {
         "ros__parameters": {
             "update_rate": 500,
+            # Its activation moves the fingers: robotiq_driver hardware_interface.cpp, on_activate.
+            "hardware_components_initial_state": {"unconfigured": ["gripper_hardware"]},
             "joint_states": {"type": "joint_state_broadcaster/JointStateBroadcaster"},
             "arm_trajectory": {"type": "ur_controllers/ScaledJointTrajectoryController"},
             "gripper_action": {"type": "parallel_gripper_action_controller/GripperActionController"},

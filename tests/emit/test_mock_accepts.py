@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+
 import pytest
 
 from cellc.mock import control
@@ -22,5 +24,9 @@ def test_every_controller_becomes_active(cell: str, distro: str) -> None:
         distro=Distro(distro),
         plugin_behaviours=contract["plugin_behaviours"],
     )
+    later = [one["request"] for one in json.loads(artifacts["config/bring_up.json"])["mock"] if "request" in one]
+    for request in later:
+        if request["kind"] == "hardware":
+            assert machine.set_hardware_component_state(request["component"], "active").ok
     spawned = machine.spawn(list(manager["controllers"]))
     assert spawned.ok, (spawned, machine.log.lines())
