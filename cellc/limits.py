@@ -69,6 +69,8 @@ class Limits:
     )
     mesh_seconds: int = _row(10, "s", 3600, "processor time of reading all meshes of one description")
     mesh_memory: int = _row(1024 * MIB, "bytes", 64 * 1024 * MIB, "memory of reading them")
+    robot_links: int = _row(1000, "links", 20_000, "links of one URDF")
+    robot_joints: int = _row(200, "joints", 2000, "joints of one URDF that move")
     folder_bytes: int = _row(4 * MIB, "bytes", 64 * MIB, "one file of a generated folder")
     folder_total_bytes: int = _row(256 * MIB, "bytes", 16 * 1024 * MIB, "all files of a generated folder together")
     folder_depth: int = _row(32, "levels", 100, "nesting of values in JSON and parameters of a generated folder")
@@ -79,6 +81,7 @@ class Limits:
     mock_samples: int = _row(
         10_000_000, "values", 10_000_000_000, "update cycles of one run times their joints, and what a buffer keeps"
     )
+    campaign_runs: int = _row(10_000, "runs", 1_000_000, "runs of a campaign, and pairs and processes asked for")
     mock_events: int = _row(1_000_000, "events", 1_000_000_000, "images, messages and timers of one run")
 
 

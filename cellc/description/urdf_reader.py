@@ -43,6 +43,7 @@ from cellc.description.urdf_values import (
 from cellc.description.xml_tree import XmlElement, read_xml
 from cellc.diagnostics import Diagnostic, Outcome, Severity, Span, did_you_mean
 from cellc.diagnostics.unsafe_text import hidden, substitution
+from cellc.limits import limits, option
 
 _READ = ("link", "joint", "material", "ros2_control")
 JOINT_TYPES = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
@@ -74,6 +75,8 @@ def read_urdf(text: str, file: str, origins: Origins | None = None, *, from_user
     if root.tag != "robot":
         message = f"the root element is `<{root.tag}>`, a URDF begins with `<robot>`"
         return Outcome(None, (Diagnostic("urdf-not-a-robot", Severity.ERROR, message, root.span),))
+    if too_many := _too_many(root):
+        return Outcome(None, (too_many,))
     _move_spans(root, origins or {})
     found: list[Diagnostic] = []
     name = _read_each([root], lambda element: required(element, "name"), found)
@@ -87,6 +90,19 @@ def read_urdf(text: str, file: str, origins: Origins | None = None, *, from_user
         return Outcome(None, tuple(found))
     hardware, hardware_error = read_hardware(root)
     return Outcome(Description(name[0], tuple(links), tuple(joints), hardware, hardware_error))
+
+
+def _too_many(root: XmlElement) -> Diagnostic | None:
+    """Refuse more links than the limits allow, or more joints that move: what is made of them grows with the square."""
+    moving = [joint for joint in root.all("joint") if joint.attributes.get("type") != "fixed"]
+    for count, most, what, limit in (
+        (len(root.all("link")), limits().robot_links, "links", "robot-links"),
+        (len(moving), limits().robot_joints, "joints that move", "robot-joints"),
+    ):
+        if count > most:
+            message = f"the description has {count} {what}, at most {most} are read"
+            return Diagnostic("xml-too-large", Severity.ERROR, message, root.span, help=option(limit))
+    return None
 
 
 def _read_each(elements: Iterable[XmlElement], read: Callable[[XmlElement], _T], found: list[Diagnostic]) -> list[_T]:

@@ -21,6 +21,7 @@ class _Parser(argparse.ArgumentParser):
 
 def main() -> int:
     """Parse the command line and run; the import stands inside, so that Ctrl-C while it loads ends well too."""
+    from cellc.limits import LimitError, raised, use
     from cellc.mock.command.options import MockOptions, run_mock
 
     parser = _Parser(prog="python -m cellc.mock", description="Run the rehearsals of a generated folder.")
@@ -40,7 +41,14 @@ def main() -> int:
     parser.add_argument("--records", metavar="FILE", help="write the attempt records as JSON lines")
     parser.add_argument("--evidence", metavar="FOLDER", help="write bags, records, key figures and a report")
     parser.add_argument("--seed", type=int, default=0, help="seed of everything drawn (default 0)")
+    parser.add_argument(
+        "--limit", action="append", default=[], metavar="NAME=VALUE", help="raise a limit of docs/limits.md; repeatable"
+    )
     given = parser.parse_args()
+    try:
+        use(raised(given.limit))
+    except LimitError as unknown:
+        parser.error(str(unknown))
     options = MockOptions(
         folder=given.folder,
         program="python -m cellc.mock",

@@ -16,6 +16,7 @@ from pydantic import BaseModel
 from cellc.contract.bring_up import BringUp, BringUpStep, Transition
 from cellc.contract.contract import Contract
 from cellc.contract.manifest import Manifest
+from cellc.contract.quantities import LARGEST
 from cellc.contract.reading import FormatError, read_json
 from cellc.contract.rehearsals import RehearsalEntry, Rehearsals
 from cellc.description.model import Description
@@ -100,7 +101,8 @@ def _described(urdf: str, file: str) -> Description:
     read = read_urdf(urdf, file)
     if read.value is None:
         found = read.diagnostics[0]
-        raise MockError(file, f"line {found.span.line}: {found.message}")
+        advice = f"; {found.help}" if "--limit" in found.help else ""
+        raise MockError(file, f"line {found.span.line}: {found.message}{advice}")
     return read.value
 
 
@@ -204,13 +206,13 @@ def path_tolerances(parameters: Mapping[str, str]) -> dict[str, float]:
 
 def _tolerances(text: str) -> Iterator[tuple[str, float]]:
     try:
-        nodes = yaml.safe_load(text)
-    except yaml.YAMLError:
+        nodes = yaml.load(text, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+    except (yaml.YAMLError, ValueError, RecursionError):
         return  # the controller manager says what is wrong with it
     for node in nodes.values() if isinstance(nodes, dict) else ():
         parameters = node.get("ros__parameters") if isinstance(node, dict) else None
         constraints = parameters.get("constraints") if isinstance(parameters, dict) else None
         for joint, constraint in constraints.items() if isinstance(constraints, dict) else ():
             value = constraint.get("trajectory") if isinstance(constraint, dict) else None
-            if isinstance(value, (int, float)) and not isinstance(value, bool) and value > 0.0:
+            if isinstance(value, (int, float)) and not isinstance(value, bool) and 0.0 < value <= LARGEST:
                 yield str(joint), float(value)

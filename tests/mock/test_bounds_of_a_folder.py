@@ -179,3 +179,43 @@ def test_damaged_numbers_end_in_a_refusal_or_an_outcome(folder: Path, name: str)
             code = run_mock(MockOptions(folder=str(folder), rehearsals=("cancelled",)))
         assert code in (0, 1, 2), (path, value)
         assert (code == 2) == (len(error.getvalue().splitlines()) == 1), (path, value, error.getvalue())
+
+
+@pytest.mark.parametrize(
+    ("kind", "count", "limit"), [("fixed", 20_000, "robot-links"), ("revolute", 201, "robot-joints")]
+)
+def test_chain_of_links_is_bounded(folder: Path, kind: str, count: int, limit: str) -> None:
+    file = folder / "urdf/ur5e_pick.mock.urdf"
+    chain = "".join(
+        f'<link name="l{i}"/><joint name="j{i}" type="{kind}"><parent link="l{i - 1}"/><child link="l{i}"/></joint>'
+        for i in range(count)
+    )
+    file.write_text(file.read_text().replace("</robot>", f'<link name="l-1"/>{chain}</robot>'))
+    error = refusal(folder)
+    assert error.file == "urdf/ur5e_pick.mock.urdf"
+    assert f"`--limit {limit}=N` raises it" in error.reason
+
+
+@pytest.mark.parametrize("value", ["1e300", "1e21", "nan", "inf", "-1e7", "1" + "0" * 400])
+def test_length_of_a_description_is_bounded(folder: Path, value: str) -> None:
+    file = folder / "urdf/ur5e_pick.mock.urdf"
+    file.write_text(file.read_text().replace('<origin xyz="', f'<origin xyz="{value} 0 0" rpy="', 1))
+    assert refusal(folder).file == "urdf/ur5e_pick.mock.urdf"
+
+
+@pytest.mark.parametrize("value", ["nan", "inf", "-inf", "1e300", "1e400", "0x1p3", "1_0", "x"])
+def test_initial_value_that_hardware_cannot_have_fails_the_bring_up(folder: Path, value: str) -> None:
+    file = folder / "urdf/ur5e_pick.mock.urdf"
+    before = '<param name="initial_value">-1.5707963267948966</param>'
+    assert before in file.read_text()
+    file.write_text(file.read_text().replace(before, f'<param name="initial_value">{value}</param>', 1))
+    assert load(folder).run("pick_and_place").outcome is RunFailure.BRINGUP_FAILURE
+
+
+@pytest.mark.parametrize("options", [{"pairs": 10**9}, {"jobs": 10**9}, {"pairs": 10**400}])
+def test_number_of_runs_asked_for_is_bounded(
+    built_folder: Path, options: dict[str, int], capsys: pytest.CaptureFixture[str]
+) -> None:
+    asked = MockOptions(folder=str(built_folder), campaign=True, **options)  # type: ignore[arg-type]  # of whole numbers
+    assert run_mock(asked) == 2
+    assert "at most 10000; `--limit campaign-runs=N` raises it" in capsys.readouterr().err

@@ -13,6 +13,7 @@ from multiprocessing import resource_tracker
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 
+from cellc.limits import Limits, limits, use
 from cellc.mock.campaign.limits import LimitsReport, check_limits, merge
 from cellc.mock.campaign.plan import CampaignPlan, CampaignRun, RunEnd
 from cellc.mock.cell import MockCell, cell_of
@@ -84,6 +85,7 @@ class Assignment:
     folder: GeneratedFolder
     runs: tuple[CampaignRun, ...]
     seed: int
+    limits: Limits
 
 
 def usable_cores() -> int:
@@ -167,6 +169,7 @@ def _work(connection: Connection) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
         assignment: Assignment = connection.recv()
+        use(assignment.limits)
         cell = cell_of(assignment.folder)
         while True:
             number = connection.recv()
@@ -243,7 +246,7 @@ def conduct(
     Raises:
         MockError: a run cannot be executed.
     """
-    assignment = Assignment(cell.folder, tuple(runs), seed)
+    assignment = Assignment(cell.folder, tuple(runs), seed, limits())
     arriving = run_here(cell, assignment) if jobs == 1 else run_in_workers(assignment, jobs)
     ends: dict[int, RunEnd] = {}
     failed = 0

@@ -7,11 +7,13 @@ import shlex
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
+from itertools import islice
 from pathlib import Path
 from time import perf_counter
 
 from cellc.diagnostics import nearest
 from cellc.diagnostics.unsafe_text import harmless_json
+from cellc.limits import limits, option
 from cellc.mock.campaign.campaign import Campaign, conduct, make_plan, usable_cores
 from cellc.mock.campaign.plan import CampaignPlan, CampaignRun
 from cellc.mock.campaign.summary import campaign_json, campaign_lines, end_lines
@@ -100,10 +102,19 @@ def list_runs(options: MockOptions) -> int:
     try:
         cell = load_checked(options)
         plan, _ = make_plan(cell, possible_faults(cell.contract), options.seed)
+        runs = _all_runs(plan, options)
     except MockError as stop:
         return stopped(stop)
-    show(*(run.identifier for run in (*plan.singles(), *plan.pairs(options.pairs, options.seed))))
+    show(*(run.identifier for run in runs))
     return 0
+
+
+def _all_runs(plan: CampaignPlan, options: MockOptions) -> Sequence[CampaignRun]:
+    most = limits().campaign_runs
+    runs = (*islice(plan.singles(), most + 1), *plan.pairs(options.pairs, options.seed))
+    if len(runs) > most:
+        raise MockError("", f"the campaign has more than {most} runs; {option('campaign-runs')}")
+    return runs
 
 
 def load_checked(options: MockOptions) -> MockCell:
@@ -115,16 +126,16 @@ def load_checked(options: MockOptions) -> MockCell:
     ):
         if value is not None and value < least:
             raise MockError("", f"the {name} is {value}; it must be {least} or greater")
+    most = limits().campaign_runs
+    for name, value in (("number of pairs", options.pairs), ("number of jobs", options.jobs)):
+        if value is not None and value > most:
+            raise MockError("", f"the {name} is {value}; it must be at most {most}; {option('campaign-runs')}")
     return load(Path(options.folder))
 
 
 def conduct_all(cell: MockCell, options: MockOptions) -> Campaign:
     """Conduct the whole campaign; raise MockError where a run cannot be executed."""
-
-    def all_runs(plan: CampaignPlan) -> Sequence[CampaignRun]:
-        return (*plan.singles(), *plan.pairs(options.pairs, options.seed))
-
-    return _conduct(cell, all_runs, options)
+    return _conduct(cell, lambda plan: _all_runs(plan, options), options)
 
 
 def _conduct(cell: MockCell, choose: Choice, options: MockOptions) -> Campaign:
