@@ -16,7 +16,7 @@ from tests.robustness.fuzz import oracle
 from tests.robustness.fuzz.inputs import KINDS, make_input
 from tests.robustness.fuzz.oracle import Sandbox, judge
 
-COUNTS = {"spec": 80, "device": 80, "description": 80, "folder": 40, "cache": 15}
+COUNTS = {"spec": 60, "device": 60, "description": 60, "folder": 50, "cache": 8}
 
 
 @pytest.fixture(name="sandbox")

@@ -104,7 +104,7 @@ def _garbled(folder: Path, entries: Sequence[Path], chance: random.Random) -> No
 
 @cache
 def _bomb() -> bytes:
-    return zlib.compress(b" " * 150_000_000)
+    return zlib.compress(b" " * 60_000_000)
 
 
 def _folders(folder: Path, entries: Sequence[Path], chance: random.Random) -> None:
