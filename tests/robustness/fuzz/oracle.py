@@ -149,9 +149,12 @@ def _built(checked: Checked, sandbox: Sandbox | None) -> Iterator[Find]:
             yield Find("artifact", f"{artifact.path} differs between two builds")
     if sandbox is not None:
         sandbox.write({f"{FOLDER}/{one.path}": one.text.encode() for one in outcome.value})
-        cell = load(Path(FOLDER))
-        for name in cell.rehearsals[:1]:
-            cell.run(name)
+        try:
+            cell = load(Path(FOLDER))
+            for name in cell.rehearsals[:1]:
+                cell.run(name)
+        except MockError as error:
+            yield Find("artifact", f"the mock refuses what was built: {error}")
 
 
 def _unreadable(artifacts: Sequence[Artifact]) -> Iterator[Find]:
