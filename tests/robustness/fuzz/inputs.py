@@ -58,8 +58,8 @@ def _times(chance: random.Random) -> int:
 
 
 def _base(items: Sequence[Tree], small: int, chance: random.Random) -> Tree:
-    """Return a copy of an item, in two cases of three one of the first, which are small."""
-    return copied(chance.choice(items[:small] if chance.random() < 0.66 else items))
+    """Return a copy of an item, in four cases of five one of the first, which are small."""
+    return copied(chance.choice(items[:small] if chance.random() < 0.8 else items))
 
 
 def _mutated(tree: Tree, others: Sequence[Tree], chance: random.Random) -> bytes:
@@ -89,7 +89,7 @@ def _spec(number: int, chance: random.Random) -> FuzzInput:
 
 def _device(number: int, chance: random.Random) -> FuzzInput:
     devices = bases.devices()
-    base = chance.choice(devices[:4] if chance.random() < 0.66 else devices)
+    base = chance.choice(devices[:4] if chance.random() < 0.75 else devices)
     facts = _mutated(copied(base.facts), [one.facts for one in devices], chance)
     spec = write_yaml(base.spec).encode()
     return FuzzInput(
@@ -99,7 +99,7 @@ def _device(number: int, chance: random.Random) -> FuzzInput:
 
 def _description(number: int, chance: random.Random) -> FuzzInput:
     devices = bases.devices()
-    index = chance.randrange(4 if chance.random() < 0.66 else len(devices))
+    index = chance.randrange(4 if chance.random() < 0.75 else len(devices))
     base, draw = devices[index], chance.random()
     files = {SPEC: write_yaml(base.spec).encode()}
     if draw < 0.3:
