@@ -1,5 +1,6 @@
 """A neutral controller kind: its plugin in each distribution, what it claims and serves, and its parameters."""
 
+import re
 from typing import Literal
 
 from pydantic import Field
@@ -47,6 +48,11 @@ class ParameterFacts(CatalogModel):
     def declared_in(self, distro: Distro) -> bool:
         """Tell whether the distribution knows the parameter; an unknown one is ignored without a word."""
         return not self.only or distro in self.only
+
+    def as_in(self, distro: Distro) -> "ParameterFacts":
+        """Return what a distribution declares."""
+        variant = self.differs.get(distro)
+        return self if variant is None else self.model_copy(update=variant.model_dump(exclude_unset=True))
 
 
 class ControllerAction(CatalogModel):
@@ -98,3 +104,18 @@ class ControllerKind(CatalogModel):
     topics: tuple[ControllerTopic, ...] = ()
     services: tuple[ControllerService, ...] = ()
     parameters: dict[Text, ParameterFacts]
+
+    def parameters_in(self, distro: Distro) -> dict[str, ParameterFacts]:
+        """Return the parameters that the distribution declares, as it declares them."""
+        return {name: facts.as_in(distro) for name, facts in self.parameters.items() if facts.declared_in(distro)}
+
+    def parameter(self, name: str, distro: Distro) -> ParameterFacts | None:
+        """Return the declaration of a parameter by the name that a user writes; None where there is none."""
+        declared = self.parameters_in(distro)
+        return declared.get(name) or next((facts for key, facts in declared.items() if is_named(key, name)), None)
+
+
+def is_named(declared: str, name: str) -> bool:
+    """Whether a written name is that of a declared parameter; ``<joint>`` is any name, which may itself hold dots."""
+    parts = (re.escape(part) for part in re.split(r"<[a-z_]+>", declared))
+    return re.fullmatch(".+".join(parts), name) is not None

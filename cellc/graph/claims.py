@@ -118,6 +118,13 @@ class WrittenParameter:
     value: ParameterValue
     path: YamlPath
 
+    def items(self) -> Iterator[tuple[YamlPath, ParameterValue]]:
+        """Yield each item of a list with its place, or the value itself."""
+        if isinstance(self.value, tuple):
+            yield from (((*self.path, index), item) for index, item in enumerate(self.value))
+        else:
+            yield self.path, self.value
+
 
 def written_parameters(cell: Cell) -> Iterator[WrittenParameter]:
     """Yield every parameter under ``parameters:`` of a controller."""

@@ -20,7 +20,7 @@ def unknown_name(
     """Report a reference to something that does not exist, with the nearest names that do.
 
     Args:
-        kind: singular noun, such as ``frame``; its plural is formed with ``s``.
+        kind: singular noun, such as ``frame``, or several: ``camera or device with joints``.
         path: where the reference is written.
     """
     return Diagnostic(
@@ -29,8 +29,13 @@ def unknown_name(
         message=f"there is no {kind} `{name}`",
         span=document.locate(path),
         yaml_path=path,
-        help=did_you_mean(name, candidates, f"{kind}s of this cell"),
+        help=did_you_mean(name, candidates, f"{_plural(kind)} of this cell"),
     )
+
+
+def _plural(kind: str) -> str:
+    nouns = (noun.partition(" with ") for noun in kind.split(" or "))
+    return " or ".join(f"{head}s{joint}{rest}" for head, joint, rest in nouns)
 
 
 def home_host(spec: CellSpec) -> str:

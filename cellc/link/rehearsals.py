@@ -6,7 +6,7 @@ A fault is bound to what it hits, under the name that the contract has for it, t
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeVar
 
 from cellc.cell.control import ControllerManager
@@ -161,6 +161,9 @@ def _step(step: StepSpec, document: SourceDocument, path: YamlPath, names: _Name
         gripper = step.device or (names.grippers[0] if len(names.grippers) == 1 else "")
         at = (*path, "device") if step.device else path
         problem = _missing("unknown-device", gripper, "gripper", names.grippers, document, at)
+        if not gripper:
+            message = f"`grip` names no gripper, and the cell has {len(names.grippers) or 'none'}"
+            problem = tuple(replace(one, message=message) for one in problem)
         return Outcome(Step(name=gripper, path=path, span=span, kind="grip", command=step.grip), problem)
     if isinstance(step, AcknowledgeStep):
         return Outcome(Step(name=step.acknowledge, path=path, span=span, kind="acknowledge"))

@@ -7,6 +7,7 @@ called ``.<name>.tmp-<process>``; one that a killed process left behind still ho
 from __future__ import annotations
 
 import contextlib
+import errno
 import os
 import shutil
 from dataclasses import dataclass, field
@@ -127,12 +128,14 @@ def write_whole(file: Path, text: str) -> None:
     """Write a text; a reader sees the old file or the new one, and a failure leaves nothing behind.
 
     Raises:
-        OSError: the disk is full, or writing is refused; it names ``file``.
+        OSError: a link stands at the file or its folder, the disk is full, or writing is refused; it names the place.
     """
-    real = Path(os.path.realpath(file))
+    for place in (file, file.parent):
+        if place.is_symlink():  # as builds do: a link of somebody else's leads anywhere
+            raise OSError(errno.ELOOP, "is a symbolic link; name the place itself", str(place))
     try:
-        real.parent.mkdir(parents=True, exist_ok=True)
-        replace_whole(real, text.encode())
+        file.parent.mkdir(parents=True, exist_ok=True)
+        replace_whole(file, text.encode())
     except OSError as error:
         raise OSError(error.errno, error.strerror, str(file)) from error
 

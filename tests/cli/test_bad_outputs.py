@@ -57,6 +57,35 @@ def test_cell_folder_that_is_a_link_is_refused(tmp_path: Path) -> None:
     assert everything_below(tmp_path / "elsewhere") == []
 
 
+@pytest.mark.parametrize(
+    ("arguments", "name"),
+    [
+        (INIT, "cell.yaml"),
+        ((*INIT[:-1], "--force", "-o"), "cell.yaml"),
+        (("schema", "-o"), "cell.schema.json"),
+        (("explain", "--all", "-o"), "README.md"),
+    ],
+    ids=["init", "init --force", "schema", "explain"],
+)
+def test_nothing_is_written_through_a_link(arguments: tuple[str, ...], name: str, tmp_path: Path) -> None:
+    (tmp_path / "victim").write_text("mine")
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / name).symlink_to(tmp_path / "victim")
+    (tmp_path / "linked").symlink_to(tmp_path / "out")
+
+    def code(folder: str) -> int:
+        place = tmp_path / folder
+        return run(*arguments, (place / name if arguments[0] == "init" else place).as_posix()).code
+
+    assert code("out") != 0
+    assert code("linked") != 0
+    (tmp_path / "out" / name).unlink()
+    (tmp_path / "out" / name).symlink_to(tmp_path / "new")  # a link to nothing makes its target
+    assert code("out") != 0
+    assert (tmp_path / "victim").read_text() == "mine"
+    assert not (tmp_path / "new").exists()
+
+
 @pytest.mark.parametrize("limit_bytes", [100, 4096])
 def test_full_disk_leaves_nothing_of_a_first_build(limit_bytes: int, tmp_path: Path) -> None:
     ran = _with_small_disk("build", MINIMAL, "-o", (tmp_path / "out").as_posix(), limit_bytes=limit_bytes)

@@ -75,6 +75,7 @@ def test_acknowledge_step_names_who_acknowledges(tmp_path: Path) -> None:
     ("inject", "code", "message", "help_"),
     [
         ("{freeze: camra, at: 1 s}", "unknown-device", "there is no camera or device with joints `camra`", "`camera`"),
+        ("{freeze: nobody, at: 1 s}", "unknown-device", "`nobody`", "use one of the cameras or devices with joints of"),
         ("{jump_clock: contrl_pc, by: 1 s, at: 1 s}", "unknown-clock", "there is no clock `contrl_pc`", "`control_pc`"),
         ("{mismatch_qos: /object_pos, at: 1 s}", "unknown-interface", "no interface `/object_pos`", "`/object_pose`"),
         ("{unresponsive: movegroup, at: 1 s}", "unknown-node", "there is no server `movegroup`", "`move_group`"),

@@ -33,14 +33,21 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
-    """Yield numbers of the spec below or above what the declaration allows, and texts that it does not list."""
+    """Yield numbers below or above what the declaration allows, items of lists too, and texts that it does not list."""
     for written in written_parameters(graph.cell):
         kind = written.controller.declared
-        facts = None if kind is None else kind.parameters.get(written.name)
-        reason = "" if facts is None else _refusal(facts, written.value)
-        if reason:
-            message = f"`{written.name}` of `{written.controller.name}` {reason}, got `{written.value}`"
-            yield found(graph, written.path, message)
+        facts = None if kind is None else kind.parameter(written.name, graph.cell.distro)
+        if facts is None:
+            continue
+        subject = f"`{written.name}` of `{written.controller.name}`"
+        if facts.not_empty and written.value in ("", ()):
+            yield found(graph, written.path, f"{subject} must not be empty")
+        seen: list[ParameterValue] = []
+        for path, item in written.items():
+            reason = _refusal(facts, item) or ("must not repeat an item" if facts.unique and item in seen else "")
+            seen.append(item)
+            if reason:
+                yield found(graph, path, f"{subject} {reason}, got `{item}`")
 
 
 def _refusal(facts: ParameterFacts, value: ParameterValue) -> str:
@@ -51,6 +58,7 @@ def _refusal(facts: ParameterFacts, value: ParameterValue) -> str:
             return f"must be more than {facts.exclusive_minimum:g}"
         if facts.maximum is not None and value > facts.maximum:
             return f"must be at most {facts.maximum:g}"
-    if isinstance(value, str) and facts.one_of and value not in facts.one_of:
-        return "must be one of " + ", ".join(facts.one_of)
+    choices = facts.one_of or facts.subset_of
+    if isinstance(value, str) and choices and value not in choices:
+        return "must be one of " + ", ".join(choices)
     return ""

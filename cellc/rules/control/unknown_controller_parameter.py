@@ -25,8 +25,7 @@ Source: docs/principles.md#facts-of-the-catalog
 
 from __future__ import annotations
 
-import re
-
+from cellc.catalog.controller_kind import is_named
 from cellc.graph.claims import written_parameters
 from cellc.rules.kit import CellGraph, Findings, Severity, did_you_mean, found, rule
 
@@ -38,14 +37,7 @@ def check(graph: CellGraph) -> Findings:
         kind = written.controller.declared
         if kind is None:
             continue
-        here = {name for name, facts in kind.parameters.items() if not facts.only or graph.cell.distro in facts.only}
-        here |= written.controller.plugin_parameters
-        if not any(_matches(declared, written.name) for declared in here):
+        here = {*kind.parameters_in(graph.cell.distro), *written.controller.plugin_parameters}
+        if not any(is_named(declared, written.name) for declared in here):
             message = f"`{written.controller.kind}` has no parameter `{written.name}` in {graph.cell.distro}"
             yield found(graph, written.path, message, did_you_mean(written.name, here, "parameters"))
-
-
-def _matches(declared: str, name: str) -> bool:
-    # `<joint>` stands for any name, which may itself hold dots.
-    parts = (re.escape(part) for part in re.split(r"<[a-z_]+>", declared))
-    return re.fullmatch(".+".join(parts), name) is not None

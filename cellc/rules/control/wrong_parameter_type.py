@@ -25,25 +25,38 @@ Source: docs/principles.md#facts-of-the-catalog
 
 from __future__ import annotations
 
+from cellc.cell.interface import ParameterValue
 from cellc.graph.claims import written_parameters
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
-_TYPES: dict[str, tuple[type, ...]] = {"bool": (bool,), "int": (int,), "double": (float,), "string": (str,)}
+_TYPES: dict[str, type] = {"bool": bool, "int": int, "double": float, "string": str}
+_ARRAY = "_array"
 
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
-    """Yield scalar parameters of the spec whose value has another type."""
+    """Yield parameters of the spec whose value has another type than the declared one."""
     for written in written_parameters(graph.cell):
-        kind = written.controller.declared
-        facts = None if kind is None else kind.parameters.get(written.name)
-        expected = None if facts is None else facts.type
-        value = written.value
-        if expected in _TYPES and type(value) not in _TYPES[expected]:
-            message = f"`{written.name}` of `{written.controller.name}` must be of type {expected}, got `{value}`"
-            advice = (
-                f"write `{float(value)}`"
-                if expected == "double" and isinstance(value, int)
-                else f"write a value of type {expected}"
-            )
-            yield found(graph, written.path, message, advice)
+        kind, value = written.controller.declared, written.value
+        facts = None if kind is None else kind.parameter(written.name, graph.cell.distro)
+        expected = "none" if facts is None else facts.type
+        item_type = _TYPES.get(expected.removesuffix(_ARRAY))
+        is_list = isinstance(value, tuple)
+        if item_type is None or (
+            is_list == expected.endswith(_ARRAY) and all(type(item) is item_type for _, item in written.items())
+        ):
+            continue
+        message = f"`{written.name}` of `{written.controller.name}` must be of type {expected}, got `{_shown(value)}`"
+        yield found(graph, written.path, message, f"write {_mended(value, expected)}")
+
+
+def _mended(value: ParameterValue, expected: str) -> str:
+    items = value if isinstance(value, tuple) else (value,)
+    if expected.startswith("double") and all(type(item) is int for item in items):
+        doubles = tuple(float(item) for item in items)
+        return f"`{_shown(doubles if expected.endswith(_ARRAY) else doubles[0])}`"
+    return f"a value of type {expected}"
+
+
+def _shown(value: ParameterValue) -> str:
+    return f"[{', '.join(map(str, value))}]" if isinstance(value, tuple) else str(value)
