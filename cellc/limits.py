@@ -81,6 +81,7 @@ class Limits:
     mock_samples: int = _row(
         10_000_000, "values", 10_000_000_000, "update cycles of one run times their joints, and what a buffer keeps"
     )
+    mock_stop_cycles: int = _row(20_000, "cycles", 10_000_000, "update cycles that a stop of a trajectory takes")
     campaign_runs: int = _row(10_000, "runs", 1_000_000, "runs of a campaign, and pairs and processes asked for")
     mock_events: int = _row(1_000_000, "events", 1_000_000_000, "images, messages and timers of one run")
 

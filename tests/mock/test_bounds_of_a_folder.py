@@ -11,11 +11,14 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from cellc.limits import DEFAULTS, in_force
 from cellc.mock import MockCell, MockError, load
 from cellc.mock.command.options import MockOptions, run_mock
+from cellc.mock.control.controllers.joint_trajectory.motion import stop_points
+from cellc.mock.errors import LimitReachedError
 from cellc.mock.result import RunFailure
 from tests.mock.conftest import LoadWith
 
@@ -182,7 +185,7 @@ def test_damaged_numbers_end_in_a_refusal_or_an_outcome(folder: Path, name: str)
 
 
 @pytest.mark.parametrize(
-    ("kind", "count", "limit"), [("fixed", 20_000, "robot-links"), ("revolute", 201, "robot-joints")]
+    ("kind", "count", "limit"), [("fixed", 1001, "robot-links"), ("revolute", 201, "robot-joints")]
 )
 def test_chain_of_links_is_bounded(folder: Path, kind: str, count: int, limit: str) -> None:
     file = folder / "urdf/ur5e_pick.mock.urdf"
@@ -216,6 +219,23 @@ def test_initial_value_that_hardware_cannot_have_fails_the_bring_up(folder: Path
 def test_number_of_runs_asked_for_is_bounded(
     built_folder: Path, options: dict[str, int], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    asked = MockOptions(folder=str(built_folder), campaign=True, **options)  # type: ignore[arg-type]  # of whole numbers
-    assert run_mock(asked) == 2
+    pairs, jobs = options.get("pairs", 0), options.get("jobs")
+    assert run_mock(MockOptions(folder=str(built_folder), campaign=True, pairs=pairs, jobs=jobs)) == 2
     assert "at most 10000; `--limit campaign-runs=N` raises it" in capsys.readouterr().err
+
+
+def test_stop_that_takes_for_ever_is_refused_before_it_is_computed() -> None:
+    slow = np.array([1e-9])
+    with pytest.raises(LimitReachedError, match="a stop takes 5e\\+11 update cycles, at most 20000 are simulated"):
+        stop_points(np.zeros(1), np.ones(1), slow, 2_000_000)
+
+
+def test_lack_of_memory_is_told_in_one_line(
+    built_folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def out_of_memory(_: Path) -> MockCell:
+        raise MemoryError
+
+    monkeypatch.setattr("cellc.mock.command.rehearsals.load", out_of_memory)
+    assert run_mock(MockOptions(folder=str(built_folder))) == 2
+    assert capsys.readouterr().err.startswith("error: the folder asks for more memory than there is")

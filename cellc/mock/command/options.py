@@ -11,6 +11,7 @@ from typing import BinaryIO
 
 from cellc.mock.errors import MockError
 from cellc.mock.result import AttemptRecord, to_json_lines
+from cellc.printing import refuse
 from cellc.store.swap import replace_whole
 
 _LONGEST_RECORD = 1 << 20
@@ -82,6 +83,14 @@ def run_mock(options: MockOptions) -> int:
     Returns:
         0 where all is as it must be, 1 where something is not, 2 where the folder or an option is unusable.
     """
+    try:
+        return _run(options)
+    except MemoryError:
+        refuse("the folder asks for more memory than there is; docs/limits.md has what bounds it")
+        return 2
+
+
+def _run(options: MockOptions) -> int:
     # Imported here: planning libraries load for as long as a rehearsal runs, and Ctrl-C meanwhile ends in one line.
     if not options.modes():
         from cellc.mock.command.rehearsals import run_rehearsals

@@ -8,12 +8,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from cellc.limits import limits
 from cellc.mock.control.controllers.joint_trajectory.interfaces import JointInterfaces
 from cellc.mock.control.controllers.joint_trajectory.spline import Indices, Spline, StartState
 from cellc.mock.control.interfaces import Array, Flags, Times
 from cellc.mock.control.log import Log
 from cellc.mock.control.messages import JointTolerance, TrajectoryGoal, TrajectoryPoint, TrajectoryStateResponse
 from cellc.mock.control.parameters import ParameterSet
+from cellc.mock.errors import LimitReachedError
 
 
 @dataclass(frozen=True, slots=True)
@@ -305,7 +307,11 @@ def stop_points(position: Array, velocity: Array, deceleration: Array, period_ns
         Points with positions, velocities and accelerations, from the present state to rest of the last joint.
     """
     stop_s = np.abs(velocity) / deceleration
-    count = math.ceil(float(stop_s.max()) * 1e9 / period_ns) + 1
+    longest = float(stop_s.max()) * 1e9 / period_ns
+    if not longest <= limits().mock_stop_cycles:
+        text = f"a stop takes {longest:.3g} update cycles, at most {limits().mock_stop_cycles} are simulated"
+        raise LimitReachedError(text, "mock-stop-cycles")
+    count = math.ceil(longest) + 1
     rest = position + velocity * np.abs(velocity) / (2.0 * deceleration)
     points = []
     for index in range(count + 1):
