@@ -4,7 +4,7 @@ from pydantic import Field
 
 from cellc.catalog.catalog_model import BehaviourName, CatalogModel, DistroName, Text
 from cellc.catalog.controller_kind import ControllerKind, ControllerService, ControllerTopic, ParameterFacts
-from cellc.catalog.device_interfaces import InterfaceName, PluginUse
+from cellc.catalog.device_interfaces import InterfaceName, PluginUse, counted
 from cellc.vocabulary import PASSIVE
 
 
@@ -14,7 +14,7 @@ class DeviceController(CatalogModel):
     ``behaviour`` is the neutral kind that it acts as; then ``command_interfaces`` are what it claims of each joint
     where the spec says nothing, empty for those of the neutral kind. ``broadcaster`` and ``service`` act as no other:
     such a kind tells itself what it ``claims`` and ``reads``, by full interface names, and what it declares, publishes
-    and serves. ``real_only`` where the mock lacks what it needs.
+    and serves; ``name_[0..3]`` stands for four of them. ``real_only`` where the mock lacks what it needs.
     """
 
     behaviour: BehaviourName
@@ -48,3 +48,7 @@ class DeviceController(CatalogModel):
             services=self.services,
             parameters=self.parameters,
         )
+
+    def taken(self, plugin: PluginUse) -> tuple[tuple[str, ...], tuple[str, ...]]:
+        """Return the interfaces that a passive controller claims and reads, those of one distribution last."""
+        return tuple(counted((*self.claims, *plugin.claims))), tuple(counted((*self.reads, *plugin.reads)))

@@ -1,6 +1,7 @@
 """What a device offers: joints and their interfaces, plugins, drivers, topics, services, actions and cameras."""
 
 import re
+from collections.abc import Iterable, Iterator
 from typing import Annotated, Literal, Union
 
 from pydantic import Field
@@ -18,6 +19,7 @@ from cellc.catalog.catalog_model import (
     Token,
 )
 from cellc.catalog.effects import EffectFacts, StartFacts
+from cellc.pins import same_version
 from cellc.spec.base import MOST
 from cellc.spec.quantity import Duration, Frequency
 from cellc.vocabulary import Distro
@@ -26,25 +28,36 @@ InterfaceName = Text
 """The part after the slash: ``position``, ``force.x``, ``speed_scaling_factor``."""
 
 
-_COMMIT = re.compile(r"(?=.*[a-f])[0-9a-f]{7,40}|[0-9a-f]{40}")
+_COUNTED = re.compile(r"(.*)\[(\d+)\.\.(\d+)\]")
 
 
-def is_commit(version: str) -> bool:
-    """Whether a version is the hash of a commit, in full or cut short: a number alone is none."""
-    return _COMMIT.fullmatch(version) is not None
+def counted(names: Iterable[str]) -> Iterator[str]:
+    """Yield interfaces with ``name_[0..3]`` written out as four of them."""
+    for name in names:
+        match = _COUNTED.fullmatch(name)
+        if match is None:
+            yield name
+        else:
+            yield from (f"{match[1]}{number}" for number in range(int(match[2]), int(match[3]) + 1))
 
 
-def same_version(pinned: str, known: str) -> bool:
-    """Whether a pin names a version of the catalog; a commit may be cut short."""
-    return pinned == known or (is_commit(pinned) and is_commit(known) and known.startswith(pinned))
+class JointInterfaces(CatalogModel):
+    """Command and state interfaces of a joint."""
+
+    command: tuple[InterfaceName, ...] = ()
+    state: tuple[InterfaceName, ...] = ()
 
 
 class HardwareRelease(CatalogModel):
-    """What the plugin of some releases of the driver is given beside what all are given; ``drivers`` are versions."""
+    """What is so with some releases of the driver alone; ``drivers`` are versions.
+
+    ``parameters`` are given to the plugin beside those of all releases, ``exports`` are further interfaces of gpios.
+    """
 
     distro: DistroName
     drivers: tuple[Text, ...] = Field(min_length=1)
     parameters: dict[Text, Text] = Field(default_factory=dict)
+    exports: dict[Token, JointInterfaces] = Field(default_factory=dict)
     source: Text
 
 
@@ -79,17 +92,11 @@ class HardwareByTarget(CatalogModel):
     mock: HardwareFacts
 
 
-class JointInterfaces(CatalogModel):
-    """Command and state interfaces of a joint."""
-
-    command: tuple[InterfaceName, ...] = ()
-    state: tuple[InterfaceName, ...] = ()
-
-
 class GroupInterfaces(CatalogModel):
     """Interfaces of a ``<sensor>`` or ``<gpio>``; ``initial`` values are what a mock starts from.
 
-    ``fixed_name`` where the hardware exports them under this very name, whatever prefix the device has.
+    ``fixed_name`` where the hardware exports them under this very name, whatever prefix the device has. ``undeclared``
+    where it exports them although no description lists them.
     """
 
     command: tuple[InterfaceName, ...] = ()
@@ -97,6 +104,7 @@ class GroupInterfaces(CatalogModel):
     initial: dict[InterfaceName, Annotated[float, Field(allow_inf_nan=False)]] = Field(default_factory=dict)
     real_only: bool = False
     fixed_name: bool = False
+    undeclared: bool = False
 
 
 class ControlFacts(CatalogModel):
@@ -115,10 +123,15 @@ class ControlFacts(CatalogModel):
 
 
 class PluginUse(CatalogModel):
-    """A controller plugin in one distribution; ``behaviour`` where it does otherwise than the kind is called."""
+    """A controller plugin in one distribution; ``behaviour`` where it does otherwise than the kind is called.
+
+    ``claims`` and ``reads`` are what a passive controller of a device takes besides what it takes everywhere.
+    """
 
     type: Text
     package: Token
+    claims: tuple[Text, ...] = ()
+    reads: tuple[Text, ...] = ()
     behaviour: BehaviourName | None = None
     parameters: dict[Text, ParameterFact] = Field(default_factory=dict)
 
@@ -156,16 +169,34 @@ QosUse = Union[Token, QosFacts]
 """Name of a profile in ``qos_profiles.yaml``, or the settings themselves."""
 
 
+class EndpointFacts(CatalogModel):
+    """What a program has at the ROS graph besides what every node has: names as it says them, ``~/`` below its own."""
+
+    publishes: tuple[GraphName, ...] = ()
+    subscribes: tuple[GraphName, ...] = ()
+    serves: tuple[GraphName, ...] = ()
+    requests: tuple[GraphName, ...] = ()
+    executes: tuple[GraphName, ...] = ()
+    source: Text
+
+
 class NodeFacts(CatalogModel):
     """A node of the driver for the real target; ``publishes_tf`` where it is an authority for frames.
 
-    ``effect`` is what the start of its process does.
+    ``remaps`` are names that its program gives to others → the names that they have in the cell. Without a controller
+    of the kind ``needs_controller`` on this device, it would wait for ever and is not started; with a firmware older
+    than ``firmware`` says for a product, its program ends, and it is not started either. ``effect`` is what the start
+    of its process does.
     """
 
     name: NodeName
     package: Token
     executable: FileName
     parameters: dict[Text, ParameterFact] = Field(default_factory=dict)
+    remaps: dict[GraphName, GraphName] = Field(default_factory=dict)
+    needs_controller: Token | None = None
+    firmware: dict[Token, Text] = Field(default_factory=dict)
+    endpoints: EndpointFacts | None = None
     publishes_tf: bool = False
     provides: Literal["real", "every_target"] = "real"
     effect: EffectFacts | None = None
@@ -193,11 +224,15 @@ class ServiceFacts(CatalogModel):
 
 
 class ActionFacts(CatalogModel):
-    """An action that the device executes; ``effect`` where it acts past every controller."""
+    """An action that the device executes; ``effect`` where it acts past every controller.
+
+    ``only`` empty means every distribution.
+    """
 
     name: GraphName
     type: Text
     server: GraphName
+    only: tuple[DistroName, ...] = ()
     effect: EffectFacts | None = None
 
 

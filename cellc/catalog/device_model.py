@@ -1,10 +1,11 @@
 """A device of the catalog: what ``device.yaml`` says beyond what its description holds.
 
 Texts may carry placeholders that link fills in: ``{device}`` the name in the spec, ``{prefix}`` that of its ROS names,
-``{bare_prefix}`` the prefix without its last underscore, ``{stem}`` the same or, where there is none, the name,
-``{address}`` and ``{port}`` of the connection, ``{host_address}`` of the host's card, ``{carrier_address}`` that of the
-device on which this one is mounted, ``{share:PACKAGE}`` the share folder of an installed package. Links, joints,
-sensors and gpios are named without prefix.
+``{bare_prefix}`` the prefix without its last underscore, ``{prefix_namespace}`` the same as a namespace, ``{stem}`` the
+same or, where there is none, the name, ``{address}`` and ``{port}`` of the connection, ``{host_address}`` of the host's
+card, ``{carrier_address}`` that of the device on which this one is mounted, ``{controller_KIND}`` the full name of the
+cell's controller of that kind on this device, ``{share:PACKAGE}`` the share folder of an installed package. Links,
+joints, sensors and gpios are named without prefix.
 """
 
 from typing import Literal

@@ -43,13 +43,17 @@ class DeviceJoint(Entity):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InterfaceGroup:
-    """A ros2_control ``<sensor>`` or ``<gpio>``: prefixed name, interfaces, and values that a mock starts from."""
+    """A ros2_control ``<sensor>`` or ``<gpio>``: prefixed name, interfaces, and values that a mock starts from.
+
+    One that is not ``declared`` is exported by the real hardware without a tag in the description.
+    """
 
     name: str
     command_interfaces: tuple[str, ...]
     state_interfaces: tuple[str, ...]
     initial: Mapping[str, float]
     real_only: bool
+    declared: bool = True
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

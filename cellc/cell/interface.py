@@ -27,6 +27,17 @@ class NodeSource(str, Enum):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class NodeEndpoints:
+    """What a driver's program has at the ROS graph beside its offers, by its own names, ``~/`` below its own."""
+
+    publishes: tuple[str, ...] = ()
+    subscribes: tuple[str, ...] = ()
+    serves: tuple[str, ...] = ()
+    requests: tuple[str, ...] = ()
+    executes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Node(Entity):
     """A node; ``name`` is its bare name, ``namespace`` empty or with a leading slash.
 
@@ -49,6 +60,7 @@ class Node(Entity):
     device: str | None = None
     parameters: Mapping[str, ParameterValue]
     remaps: Mapping[str, str] = field(default_factory=dict)
+    endpoints: NodeEndpoints = field(default_factory=NodeEndpoints)
 
     @property
     def full_name(self) -> str:

@@ -41,7 +41,7 @@ from cellc.contract.bring_up import (
 )
 from cellc.deploy.processes import asks_for_motion, bring_up_enclave, description_nodes, motion_clients
 from cellc.link.derived import JOINT_STATE_TYPE
-from cellc.vocabulary import BringUpPhase
+from cellc.vocabulary import PASSIVE, BringUpPhase
 
 WATCH = "watch"
 """What the program of the bring-up is told to do where it deactivates claims of a robot that no longer listens."""
@@ -116,9 +116,9 @@ def _activate(cell: Cell, node: Node) -> BringUpStep:
 def _observe(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[BringUpStep]:
     """Yield the step that activates what reads states; of hardware that a person activates it sees none yet."""
     spawned = [one.name for one in manager.controllers if target in one.targets]
-    observing = tuple(one.name for one in _active(manager, target) if not one.command_interfaces)
+    later = _activated_later(cell, manager, target)
+    observing = tuple(one.name for one in _active(manager, target) if not _claims(one, later))
     if spawned:
-        later = _activated_later(cell, manager, target)
         components = (
             _hardware(manager, device, "active")
             for device in _components(cell, manager, target)
@@ -159,7 +159,8 @@ def _activate_hardware(cell: Cell, manager: ControllerManager, target: Target) -
 
 
 def _claim(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[BringUpStep]:
-    claiming = tuple(one.name for one in _active(manager, target) if one.command_interfaces)
+    later = _activated_later(cell, manager, target)
+    claiming = tuple(one.name for one in _active(manager, target) if _claims(one, later))
     if claiming:
         yield _step(
             BringUpPhase.CLAIM,
@@ -217,6 +218,16 @@ def _step(
 
 def _active(manager: ControllerManager, target: Target) -> Iterator[Controller]:
     return (one for one in manager.controllers if one.active and target in one.targets)
+
+
+def _claims(controller: Controller, later: tuple[Device, ...]) -> bool:
+    """Whether a controller is activated with those that command joints, not before them.
+
+    One that answers services is wanted before anybody claims: it says what mode the robot is in. It waits where its
+    hardware comes up later.
+    """
+    served_early = controller.behaviour in PASSIVE and controller.device not in {device.name for device in later}
+    return bool(controller.command_interfaces) and not served_early
 
 
 def _components(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[Device]:

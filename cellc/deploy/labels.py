@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from itertools import groupby
 
 from cellc.cell.cell import Cell
 from cellc.cell.control import Controller, ControllerManager
 from cellc.cell.device import Device, DeviceDriver
 from cellc.cell.interface import Interface, InterfaceKind
 from cellc.formats.numbers import shortest
+from cellc.vocabulary import PASSIVE
 
 TF_RATE_HZ = 20.0
 """Default of robot_state_publisher's ``publish_frequency``; the launch file states it."""
@@ -105,7 +107,7 @@ def claim_facts(cell: Cell, manager: ControllerManager, controller: Controller) 
     """Yield interfaces, frame, unit, rate, time source, owner, failure behavior and hardware of a claim."""
     device = cell.device(controller.device) if controller.device is not None else None
     rate = controller.update_rate_hz or manager.update_rate_hz
-    yield ", ".join(controller.command_interfaces)
+    yield ", ".join(folded(controller.command_interfaces))
     yield (
         f"frame joints, unit {units(cell, controller)}, {shortest(rate)} Hz, time of the update loop on "
         f"{manager.host or 'its host'}"
@@ -146,7 +148,17 @@ def units(cell: Cell, controller: Controller) -> str:
         _UNITS[kind][types[joint] == "prismatic"] if joint in types and kind in _UNITS else f"as {kind} of the device"
         for joint, _, kind in (name.rpartition("/") for name in controller.command_interfaces)
     )
-    return ", ".join(dict.fromkeys(found))
+    return "as its services" if controller.behaviour in PASSIVE else ", ".join(dict.fromkeys(found))
+
+
+def folded(names: Iterable[str]) -> Iterator[str]:
+    """Yield names with those that count up under one stem as one, such as ``output_[0..17]``."""
+    for stem, numbered in groupby(names, key=lambda name: name.rstrip("0123456789")):
+        counts = [name.removeprefix(stem) for name in numbered]
+        if len(counts) > 1 and counts == [str(int(counts[0]) + step) for step in range(len(counts))]:
+            yield f"{stem}[{counts[0]}..{counts[-1]}]"
+        else:
+            yield from (stem + count for count in counts)
 
 
 def watchdog(cell: Cell, controller: Controller) -> str:

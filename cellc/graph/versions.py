@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import Enum
@@ -13,8 +12,8 @@ from cellc.catalog.tables import DistroFacts
 from cellc.cell.cell import Cell
 from cellc.cell.site import UNKNOWN
 from cellc.diagnostics import YamlPath
+from cellc.pins import version_number, version_numbers
 
-_NUMBER = re.compile(r"\d+(?:\.\d+)*")
 _DEVICE_PARTS = ("revision", "firmware", "driver", "sdk", "description")
 
 
@@ -58,18 +57,6 @@ def device_pins(cell: Cell) -> Iterator[Pin]:
             text = device.versions.part(part)
             if text != UNKNOWN or absent.get(part, part) is not None:
                 yield Pin(device.name, part, text, (*device.path, part))
-
-
-def version_number(text: str) -> str:
-    """Return the version in a pin such as ``driver_package 3.8.0``; empty where there is none."""
-    last = text.split()[-1] if text.split() else ""
-    match = _NUMBER.search(last)
-    return match.group() if match else ""
-
-
-def version_numbers(text: str) -> tuple[int, ...]:
-    """Return a version as numbers that compare."""
-    return tuple(int(part) for part in version_number(text).split(".") if part)
 
 
 def distribution(cell: Cell) -> DistroFacts | None:

@@ -214,8 +214,8 @@ def _interfaces(joints: tuple[str, ...], written: ControllerSpec, chosen: _Chose
     kind, bound, own = chosen.kind, chosen.bound, chosen.own
     if bound is not None and own is not None and own.behaviour in PASSIVE:
         # It drives no joint, and names what it takes in full.
-        fill = bound.names.fill
-        return _Interfaces((), (), (), tuple(map(fill, own.claims)), tuple(map(fill, own.reads)))
+        command, state = (tuple(map(bound.names.fill, names)) for names in own.taken(chosen.plugin))
+        return _Interfaces((), (), (), command, state)
     if kind.kind is Behaviour.GPIO_COMMAND:
         command, state = (_of_gpios(written, which, bound) for which in ("command", "state"))
         return _Interfaces((), (), (), command, state)

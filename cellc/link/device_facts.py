@@ -23,7 +23,7 @@ from cellc.cell.device import (
     Stamp,
     VendorSafety,
 )
-from cellc.link.hardware import offered_interfaces, started_nodes
+from cellc.link.hardware import offered_interfaces, run_nodes, started_nodes
 from cellc.link.names import Placeholders
 from cellc.link.quantities import joint_figure, si, vector
 from cellc.link.site import bind_clock
@@ -52,6 +52,7 @@ def with_catalog(
 ) -> Device:
     """Return a device with what the catalog knows of it: what it offers, asks of its cell, and cannot prove."""
     prefix, limits, control = device.prefix, facts.limits, facts.control
+    nodes = run_nodes(facts, known, written.firmware)
     return replace(
         device,
         home={prefix + joint: position.si for joint, position in (facts.home or {}).items()},
@@ -62,8 +63,8 @@ def with_catalog(
         speed_scaling=None if facts.speed_scaling is None else known.fill(facts.speed_scaling.state_interface),
         gripper=_gripper(facts, prefix),
         camera=_camera(facts, written, known, prefix),
-        offers=tuple(offered_interfaces(facts, known, distro)),
-        starts=started_nodes(facts, known, distro),
+        offers=tuple(offered_interfaces(facts, nodes, known, distro)),
+        starts=started_nodes(nodes, known, distro),
         network=_network_needs(facts),
         safety=_vendor_safety(facts),
         packages=_packages(facts),

@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
-from cellc.catalog.device_interfaces import GroupInterfaces, HardwareFacts
+from cellc.catalog.device_interfaces import (
+    GroupInterfaces,
+    HardwareFacts,
+    HardwareRelease,
+    JointInterfaces,
+    NodeFacts,
+    counted,
+)
 from cellc.catalog.device_model import DeviceModel
 from cellc.catalog.effects import EffectFacts
 from cellc.cell.device import DeviceDriver, Effect, HardwareComponent, InterfaceGroup, OfferedInterface
 from cellc.cell.interface import InterfaceKind
 from cellc.link.names import Placeholders
+from cellc.pins import older
 from cellc.vocabulary import Distro, Unmet
 
 
@@ -27,21 +35,24 @@ def hardware_component(
     if control is None:
         return None
     real = control.hardware.real
+    release = None if real is None or distro is None else real.release(distro, driver)
+    parameters = {"mock": _parameters(control.hardware.mock, known, None)}
+    if real is not None:
+        parameters["real"] = _parameters(real, known, release)
     by_target = {"mock": control.hardware.mock} | ({} if real is None else {"real": real})
     component = HardwareComponent(
         name=known.fill(control.component),
         targets=tuple(by_target),
         plugins={target: hardware.plugin for target, hardware in by_target.items()},
-        parameters={target: _parameters(one, known, distro, driver) for target, one in by_target.items()},
+        parameters=parameters,
         sensors=_groups(control.sensors, prefix),
-        gpios=_groups(control.gpios, prefix),
+        gpios=_groups(control.gpios, prefix, None if release is None else release.exports),
     )
     return component if real is None else _with_effects(component, real, distro)
 
 
-def _parameters(hardware: HardwareFacts, known: Placeholders, distro: Distro | None, driver: str) -> dict[str, str]:
+def _parameters(hardware: HardwareFacts, known: Placeholders, release: HardwareRelease | None) -> dict[str, str]:
     """Return what the plugin is given: what all releases read, and what the one that runs here reads besides."""
-    release = None if distro is None else hardware.release(distro, driver.split()[-1])
     own = {} if release is None else release.parameters
     filled = {key: known.fill(value) for key, value in {**hardware.parameters, **own}.items()}
     return {key: value for key, value in filled.items() if value or key not in hardware.left_out_when_empty}
@@ -71,27 +82,55 @@ def effect(facts: EffectFacts, distro: Distro | None) -> Effect:
     )
 
 
-def started_nodes(facts: DeviceModel, known: Placeholders, distro: Distro | None) -> dict[str, Effect]:
+def run_nodes(facts: DeviceModel, known: Placeholders, firmware: str) -> tuple[NodeFacts, ...]:
+    """Return the nodes of the driver that this cell runs: none that would wait for ever, or end at once.
+
+    Args:
+        firmware: that of the device as written, its product first.
+    """
+    return tuple(
+        node
+        for node in facts.nodes
+        if (node.needs_controller is None or f"controller_{node.needs_controller}" in known.values)
+        and not any(
+            firmware.split()[0] == product and older(firmware, least) for product, least in node.firmware.items()
+        )
+    )
+
+
+def started_nodes(nodes: Iterable[NodeFacts], known: Placeholders, distro: Distro | None) -> dict[str, Effect]:
     """Return what the start of each node of the driver does, by its full name, where the catalog tells."""
-    told = ((node.name, node.effect) for node in facts.nodes)
+    told = ((node.name, node.effect) for node in nodes)
     return {f"/{known.fill(name)}": effect(one, distro) for name, one in told if one is not None}
 
 
-def offered_interfaces(facts: DeviceModel, known: Placeholders, distro: Distro | None) -> Iterator[OfferedInterface]:
-    """Yield what the driver offers, topics first, then services and actions."""
+def offered_interfaces(
+    facts: DeviceModel, nodes: Iterable[NodeFacts], known: Placeholders, distro: Distro | None
+) -> Iterator[OfferedInterface]:
+    """Yield what the driver offers in this distribution, topics first, then services and actions.
+
+    Args:
+        nodes: those that run; what another one would offer is not there.
+    """
+    absent = {node.name for node in facts.nodes} - {node.name for node in nodes}
     offered = (
         *((InterfaceKind.TOPIC, topic.name, topic.type, topic.publisher, None) for topic in facts.topics),
         *((InterfaceKind.SERVICE, one.name, one.type, one.server, one.effect) for one in facts.services),
-        *((InterfaceKind.ACTION, one.name, one.type, one.server, one.effect) for one in facts.actions),
+        *(
+            (InterfaceKind.ACTION, one.name, one.type, one.server, one.effect)
+            for one in facts.actions
+            if not one.only or distro in one.only
+        ),
     )
     for kind, name, type_, node, does in offered:
-        yield OfferedInterface(
-            kind=kind,
-            name=known.fill(name),
-            type=type_,
-            node="/" + known.fill(node),
-            effect=None if does is None else effect(does, distro),
-        )
+        if node not in absent:
+            yield OfferedInterface(
+                kind=kind,
+                name=known.fill(name),
+                type=type_,
+                node="/" + known.fill(node),
+                effect=None if does is None else effect(does, distro),
+            )
 
 
 def device_driver(facts: DeviceModel, known: Placeholders) -> DeviceDriver | None:
@@ -109,14 +148,19 @@ def device_driver(facts: DeviceModel, known: Placeholders) -> DeviceDriver | Non
     )
 
 
-def _groups(groups: Mapping[str, GroupInterfaces], prefix: str) -> tuple[InterfaceGroup, ...]:
+def _groups(
+    groups: Mapping[str, GroupInterfaces], prefix: str, further: Mapping[str, JointInterfaces] | None = None
+) -> tuple[InterfaceGroup, ...]:
+    """Return sensors or gpios; ``further`` are interfaces that one release of the driver exports besides."""
+    more = {} if further is None else further
     return tuple(
         InterfaceGroup(
             name=name if entry.fixed_name else prefix + name,
-            command_interfaces=entry.command,
-            state_interfaces=entry.state,
+            command_interfaces=tuple(counted((*entry.command, *(more[name].command if name in more else ())))),
+            state_interfaces=tuple(counted((*entry.state, *(more[name].state if name in more else ())))),
             initial=dict(entry.initial),
             real_only=entry.real_only,
+            declared=not entry.undeclared,
         )
         for name, entry in groups.items()
     )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from cellc.cell.interface import ParameterValue
@@ -87,8 +87,19 @@ def placeholders(name: str, prefix: str, written: DeviceSpec, spec: CellSpec) ->
             "port": (connection.port if connection is not None else None) or UNKNOWN,
             "host_address": host_address,
             "carrier_address": _carrier_address(written, spec),
+            "prefix_namespace": "/" + prefix.removesuffix("_") if prefix.removesuffix("_") else "",
+            **{f"controller_{kind}": name for kind, name in _controllers(name, spec)},
         }
     )
+
+
+def _controllers(device: str, spec: CellSpec) -> Iterator[tuple[str, str]]:
+    """Yield kind and full name of every controller of a device, the first of a kind last: its name is the one used."""
+    managers = (*(() if spec.control is None else (spec.control,)), *spec.managers.values())
+    for manager in reversed(managers):
+        for name, controller in reversed(manager.controllers.items()):
+            if controller.device == device:
+                yield controller.type, f"{manager.namespace}/{name}"
 
 
 def _carrier_address(written: DeviceSpec, spec: CellSpec) -> str:

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
+from cellc.catalog.device_interfaces import EndpointFacts
 from cellc.cell.control import ControllerManager
 from cellc.cell.device import Device
-from cellc.cell.interface import Node, NodeSource
+from cellc.cell.interface import Node, NodeEndpoints, NodeSource
 from cellc.diagnostics import Diagnostic, Outcome, Severity, Span, YamlPath
 from cellc.link.devices import BoundDevice
 from cellc.link.frames import ROBOT_STATE_PUBLISHER
-from cellc.link.names import home_host, unknown_name
+from cellc.link.hardware import run_nodes
+from cellc.link.names import Placeholders, home_host, unknown_name
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
 
@@ -130,7 +132,7 @@ def _description_publisher(spec: CellSpec, name: str, path: YamlPath, span: Span
 def _driver_nodes(spec: CellSpec, devices: tuple[BoundDevice, ...]) -> Iterator[Node]:
     for bound in devices:
         device, known = bound.device, bound.names
-        for entry in bound.facts.nodes:
+        for entry in run_nodes(bound.facts, known, device.versions.firmware):
             namespace, _, name = f"/{known.fill(entry.name)}".rpartition("/")
             yield Node(
                 name=name,
@@ -146,8 +148,26 @@ def _driver_nodes(spec: CellSpec, devices: tuple[BoundDevice, ...]) -> Iterator[
                 real_only=entry.provides == "real",
                 device=device.name,
                 parameters=known.fill_parameters(entry.parameters),
-                remaps=_joined(device, f"{namespace}/{name}"),
+                remaps=_joined(device, f"{namespace}/{name}") | _named(entry.remaps, known),
+                endpoints=_endpoints(entry.endpoints, known),
             )
+
+
+def _named(remaps: Mapping[str, str], known: Placeholders) -> dict[str, str]:
+    return {known.fill(name): known.fill(target) for name, target in remaps.items()}
+
+
+def _endpoints(facts: EndpointFacts | None, known: Placeholders) -> NodeEndpoints:
+    """Return what a program has at the graph, by its own names."""
+    if facts is None:
+        return NodeEndpoints()
+    return NodeEndpoints(
+        publishes=tuple(map(known.fill, facts.publishes)),
+        subscribes=tuple(map(known.fill, facts.subscribes)),
+        serves=tuple(map(known.fill, facts.serves)),
+        requests=tuple(map(known.fill, facts.requests)),
+        executes=tuple(map(known.fill, facts.executes)),
+    )
 
 
 def _joined(device: Device, node: str) -> dict[str, str]:

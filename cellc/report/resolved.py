@@ -13,6 +13,7 @@ from cellc.cell.control import Controller
 from cellc.cell.device import Device, DeviceJoint, HardwareComponent
 from cellc.cell.entity import Entity
 from cellc.cell.frame import Frame
+from cellc.cell.interface import Node
 from cellc.cell.site import JointFigure
 from cellc.diagnostics import YamlPath
 from cellc.transforms import Pose
@@ -28,6 +29,7 @@ _HIDDEN = {
         *("controller_kinds", "speed_scaling", "gripper", "camera", "offers", "network", "safety", "packages"),
         *("version_rows", "mock_cannot_prove", "starts"),
     },
+    Node: {"endpoints"},
     HardwareComponent: {"effects", "initial_state", "at_once", "command_timeout_s"},
 }
 _DERIVED = {"measured_on", "joints"}

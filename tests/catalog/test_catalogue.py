@@ -28,7 +28,10 @@ from tests.foreign_yaml import safe_load
 from tests.oracles import UPSTREAM
 
 PARAMETERS = UPSTREAM / "parameters"
-PLACEHOLDERS = {"device", "prefix", "bare_prefix", "stem", "address", "port", "host_address", "carrier_address"}
+PLACEHOLDERS = {
+    *("device", "prefix", "bare_prefix", "prefix_namespace", "stem"),
+    *("address", "port", "host_address", "carrier_address"),
+}
 ARMS = ("franka_fr3", "ur5e")
 # Upstream files behind each kind; on humble the gripper comes from another package.
 DECLARATIONS = {
@@ -70,7 +73,9 @@ def test_device_loads_under_its_own_name(name: str) -> None:
 def test_device_text_uses_known_placeholders_only(name: str) -> None:
     text = (CATALOG / "devices" / name / "device.yaml").read_text(encoding="utf-8")
     for placeholder in re.findall(r'"[^"\n]*?\{([a-z_:]+)\}', text):
-        assert placeholder in PLACEHOLDERS or placeholder.startswith("share:")
+        kind = placeholder.removeprefix("controller_")
+        own = kind != placeholder and kind in _device(name).model.controllers
+        assert own or placeholder in PLACEHOLDERS or placeholder.startswith("share:")
 
 
 @pytest.mark.parametrize("name", device_names())

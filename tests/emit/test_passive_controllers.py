@@ -70,9 +70,9 @@ def test_service_claims_interfaces_of_its_device_on_real_hardware_alone() -> Non
 def test_each_target_spawns_what_it_has() -> None:
     lists = {node.attrib["args"].split(" -c ")[0]: node.attrib for node in _spawners("ur5e_pick")}
     both = "scaling joint_states arm_trajectory gripper_action"
-    assert set(lists) == {both, "activation"}
+    assert set(lists) == {both, "activation arm_io"}
     assert not {"if", "unless"} & set(lists[both])
-    assert "real" in lists["activation"]["if"]
+    assert "real" in lists["activation arm_io"]["if"]
     alone = {node.attrib["args"].split(" -c ")[0]: node.attrib for node in _spawners("fr3_hand")}
     assert "if" in alone["arm_state"]
     assert "unless" in alone["hand_action"]

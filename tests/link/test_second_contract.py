@@ -86,7 +86,7 @@ def test_parameter_names_carry_the_prefix(tmp_path: Path) -> None:
     assert not [name for name in parameters if "{" in name]
     arm = prefixed.device("arm").hardware
     assert arm is not None
-    assert (arm.name, arm.parameters["real"]["arm_prefix"]) == ("left_FrankaHardwareInterface", "left_")
+    assert (arm.name, arm.parameters["real"]["prefix"]) == ("left_FrankaHardwareInterface", "left_")
 
 
 def test_claims_of_the_spec_come_before_those_of_the_kind(tmp_path: Path) -> None:

@@ -60,6 +60,17 @@ def test_every_interface_of_the_description_is_one_that_the_plugin_exports(case:
 
 
 @every_case
+def test_every_interface_that_the_cell_counts_on_is_one_that_the_plugin_exports(case: Case) -> None:
+    # Those that no description lists, too.
+    target = real_target(case)
+    hardware = target.cell.device(target.device).hardware
+    assert hardware is not None
+    for group in (*hardware.sensors, *hardware.gpios):
+        for side, names in (("command", group.command_interfaces), ("state", group.state_interfaces)):
+            assert set(names) <= exports(case.release, side, target.prefix).get(group.name, set()), (group.name, side)
+
+
+@every_case
 def test_everything_that_a_controller_claims_or_reads_of_the_device_is_exported(case: Case) -> None:
     target = real_target(case)
     device = target.cell.device(target.device)

@@ -8,7 +8,7 @@ from cellc.cell.cell import Cell
 from cellc.cell.control import Controller, ControllerManager
 from cellc.cell.interface import Endpoint, Interface, InterfaceKind, Node, NodeSource
 from cellc.deploy.files import QOS_OVERRIDES, controllers_file, is_planner, parameter_files, plans
-from cellc.deploy.labels import failure_label, frame_label, interface_facts, rate_label, units, watchdog
+from cellc.deploy.labels import failure_label, folded, frame_label, interface_facts, rate_label, units, watchdog
 from cellc.formats.escape import code, markdown
 from cellc.formats.numbers import shortest
 from cellc.formats.parameter_file import qos_parameters
@@ -44,7 +44,7 @@ def command_section(graph: CellGraph) -> str:
 def _owners(cell: Cell) -> Iterator[tuple[str, ...]]:
     people = {node.name: node.owner for node in cell.nodes}
     for controller in cell.controllers:
-        for name in controller.command_interfaces:
+        for name in folded(controller.command_interfaces):
             client = controller.client or "nobody"
             state = "" if controller.active else " (inactive)"
             yield code(name), f"{controller.label}{state}", client, people.get(client, _NOT_STATED)

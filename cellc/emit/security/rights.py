@@ -104,11 +104,17 @@ def _driver(cell: Cell, node: Node, granted: Profile) -> Profile:
         names = (one.name for one in device.offers if one.kind is kind and one.node == node.full_name)
         return tuple(node.remaps.get(name, name) for name in names)
 
+    def told(names: tuple[str, ...]) -> tuple[str, ...]:
+        return tuple(node.remaps.get(name, name) for name in names)
+
+    has = node.endpoints
     return replace(
         granted,
-        publish=(*granted.publish, *own(InterfaceKind.TOPIC)),
-        reply=(*granted.reply, *own(InterfaceKind.SERVICE)),
-        execute=(*granted.execute, *own(InterfaceKind.ACTION)),
+        publish=(*granted.publish, *own(InterfaceKind.TOPIC), *told(has.publishes)),
+        subscribe=(*granted.subscribe, *told(has.subscribes)),
+        reply=(*granted.reply, *own(InterfaceKind.SERVICE), *told(has.serves)),
+        request=(*granted.request, *told(has.requests)),
+        execute=(*granted.execute, *own(InterfaceKind.ACTION), *told(has.executes)),
     )
 
 

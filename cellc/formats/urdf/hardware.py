@@ -33,9 +33,13 @@ def ros2_control(device: Device, hardware: HardwareComponent, target: str, start
         [
             _hardware(hardware, target),
             *_joints(device, start),
-            *(_group(tag, group, target) for tag, group in groups if target == "real" or not group.real_only),
+            *(_group(tag, group, target) for tag, group in groups if _has_tag(group, target)),
         ],
     )
+
+
+def _has_tag(group: InterfaceGroup, target: str) -> bool:
+    return group.declared and (target == "real" or not group.real_only)
 
 
 def share_folders(device: Device) -> tuple[str, ...]:

@@ -22,7 +22,7 @@ Source: docs/principles.md#facts-of-the-catalog
 
 from __future__ import annotations
 
-from cellc.graph.versions import version_numbers
+from cellc.pins import version_numbers
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 

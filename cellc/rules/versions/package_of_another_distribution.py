@@ -25,7 +25,8 @@ Source:
 
 from __future__ import annotations
 
-from cellc.graph.versions import cell_pins, distribution, version_numbers
+from cellc.graph.versions import cell_pins, distribution
+from cellc.pins import version_numbers
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 

@@ -21,7 +21,7 @@ Source: docs/principles.md#pinned-versions
 
 from __future__ import annotations
 
-from cellc.graph.versions import version_number
+from cellc.pins import version_number
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 

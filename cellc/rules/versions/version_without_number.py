@@ -22,7 +22,8 @@ Source: docs/principles.md#pinned-versions
 
 from __future__ import annotations
 
-from cellc.graph.versions import cell_pins, device_pins, version_number
+from cellc.graph.versions import cell_pins, device_pins
+from cellc.pins import is_commit, last_word, version_number
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _NUMBERED = ("os", "kernel", "rmw", "ros2_control", "moveit", "firmware", "driver", "sdk", "description")
@@ -32,6 +33,7 @@ _NUMBERED = ("os", "kernel", "rmw", "ros2_control", "moveit", "firmware", "drive
 def check(graph: CellGraph) -> Findings:
     """Yield parts of the tuple without a version number."""
     for pin in (*cell_pins(graph.cell), *device_pins(graph.cell)):
-        if pin.known and pin.part in _NUMBERED and not version_number(pin.text):
+        versioned = version_number(pin.text) or is_commit(last_word(pin.text))
+        if pin.known and pin.part in _NUMBERED and not versioned:
             message = f"`{pin.part}` of `{pin.holder}` is `{pin.text}`, without a version"
             yield found(graph, pin.path, message, f"write `{pin.text.split()[0]}` and its version")

@@ -1,0 +1,44 @@
+"""Pins of the version tuple, such as ``driver_package 3.8.0``: the version in them, as a number or as a commit."""
+
+from __future__ import annotations
+
+import re
+
+_NUMBER = re.compile(r"\d+(?:\.\d+)*")
+_COMMIT = re.compile(r"(?=.*[a-f])[0-9a-f]{7,40}|[0-9a-f]{40}")
+
+
+def last_word(text: str) -> str:
+    """Return the version of a pin as it is written; empty where nothing is."""
+    return text.split()[-1] if text.split() else ""
+
+
+def is_commit(version: str) -> bool:
+    """Whether a version is the hash of a commit, in full or cut short; what has digits alone is a number."""
+    return _COMMIT.fullmatch(version) is not None
+
+
+def version_number(text: str) -> str:
+    """Return the number in a pin; empty where there is none, as in one that names a commit."""
+    last = last_word(text)
+    match = None if is_commit(last) else _NUMBER.search(last)
+    return match.group() if match else ""
+
+
+def version_numbers(text: str) -> tuple[int, ...]:
+    """Return a version as numbers that compare; empty for a commit."""
+    return tuple(int(part) for part in version_number(text).split(".") if part)
+
+
+def same_version(text: str, known: str) -> bool:
+    """Whether a pin names a version of the catalog; a commit may be cut short."""
+    pinned = last_word(text)
+    if is_commit(known):
+        return is_commit(pinned) and known.startswith(pinned)
+    return not is_commit(pinned) and version_number(text) == version_number(known) != ""
+
+
+def older(text: str, minimum: str) -> bool:
+    """Whether a pin has a number below a minimum; one without a number is not."""
+    ours = version_numbers(text)
+    return bool(ours) and ours < version_numbers(minimum)
