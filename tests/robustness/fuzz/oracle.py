@@ -17,11 +17,8 @@ import yaml
 
 from cellc.artifact import Artifact
 from cellc.deploy.deployment import plan_deployment
-from cellc.description import read_description
-from cellc.description.xacro_expansion import Expansion, expand_here
 from cellc.diagnose.diagnose import diagnose
 from cellc.diagnostics import Diagnostic, Severity
-from cellc.diagnostics.diagnostic import Outcome
 from cellc.diagnostics.unsafe_text import HIDDEN
 from cellc.emit.audit.audit import emit as emit_audit
 from cellc.emit.emit_all import emit_all
@@ -38,6 +35,7 @@ from cellc.report.text_report import render_text
 from cellc.store.cache import OFF
 from tests.robustness.fuzz.bases import PARTS
 from tests.robustness.fuzz.cache_damage import damage_cache
+from tests.robustness.fuzz.forked_child import forking
 from tests.robustness.fuzz.inputs import FOLDER, SPEC, FuzzInput
 
 SHARES = {"render": 0.05, "show": 0.2, "build": 0.12, "mock": 0.1, "forgetful": 0.1, "rehearse": 0.1}
@@ -101,12 +99,12 @@ def judge(given: FuzzInput, sandbox: Sandbox, *, in_child: bool = False) -> list
     """Take an input through the public entry points and return what does not hold.
 
     Args:
-        in_child: expand xacro in a child with limits, as commands do; a process for each input takes long.
+        in_child: start the children that read what strangers wrote, as commands do; forks of this process are faster.
     """
     with _inside(sandbox.folder), warnings.catch_warnings():
         warnings.simplefilter("error")  # what reaches standard error in words of a library is no answer
         try:
-            with nullcontext() if in_child else _expanding_here():
+            with nullcontext() if in_child else forking():
                 sandbox.write(given.files)
                 judged = {"folder": _generated, "cache": _remembered}.get(given.kind, _spec)
                 return list(judged(given, sandbox))
@@ -266,18 +264,3 @@ def _keeping_nothing() -> Iterator[None]:
         yield
     finally:
         os.environ.pop(OFF) if before is None else os.environ.update({OFF: before})
-
-
-@contextmanager
-def _expanding_here() -> Iterator[None]:
-    """Expand xacro in this process; what that does not end goes through the child once more."""
-
-    def expand(file: Path, arguments: Mapping[str, str], root: Path) -> Outcome[Expansion]:
-        return expand_here(file.as_posix(), arguments, root.as_posix())
-
-    before = vars(read_description)["expand_xacro"]
-    vars(read_description)["expand_xacro"] = expand
-    try:
-        yield
-    finally:
-        vars(read_description)["expand_xacro"] = before
