@@ -10,7 +10,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 from tests.cells import CELLS, CORPUS, ROOT, spec_text
-from tests.robustness.fuzz.tree import Tree, read_yaml
+from tests.robustness.fuzz.tree import Tree, copied, read_yaml
 
 PARTS = CORPUS / "valid" / "parts"
 _CATALOG = ROOT / "cellc" / "catalog"
@@ -69,6 +69,7 @@ def specs() -> tuple[Tree, ...]:
     return (*map(read_yaml, TINY), *cells, *corpus)
 
 
+@cache
 def _merged(file: Path) -> Tree:
     """Return a spec of the corpus with its includes merged in, as a spec beside a folder ``parts``."""
     folder = "" if file.parent.name == "parts" else "parts/"
@@ -76,7 +77,7 @@ def _merged(file: Path) -> Tree:
     assert isinstance(root, dict)
     include = root.pop("include", [])
     for name in include if isinstance(include, list) else [include]:
-        part = _merged(file.parent / str(name))
+        part = copied(_merged((file.parent / str(name)).resolve()))
         assert isinstance(part, dict), folder
         for section, content in part.items():
             here = root.setdefault(section, {} if isinstance(content, dict) else content)

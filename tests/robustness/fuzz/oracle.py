@@ -22,7 +22,7 @@ from cellc.diagnostics import Diagnostic, Severity
 from cellc.diagnostics.unsafe_text import HIDDEN
 from cellc.emit.audit.audit import emit as emit_audit
 from cellc.emit.emit_all import emit_all
-from cellc.feasibility import disabled_links, motion_answer
+from cellc.feasibility import compute, disabled_links, motion_answer
 from cellc.mock.cell import load
 from cellc.mock.errors import MockError
 from cellc.pipeline import Checked, check, compile_cell
@@ -38,7 +38,7 @@ from tests.robustness.fuzz.cache_damage import damage_cache
 from tests.robustness.fuzz.forked_child import forking
 from tests.robustness.fuzz.inputs import FOLDER, SPEC, FuzzInput
 
-SHARES = {"render": 0.05, "show": 0.2, "build": 0.12, "mock": 0.1, "forgetful": 0.1, "rehearse": 0.1}
+SHARES = {"render": 0.05, "show": 0.1, "build": 0.08, "mock": 0.1, "forgetful": 0.05, "rehearse": 0.05}
 """How many of the inputs that come so far go through what a check does not need."""
 
 
@@ -104,7 +104,7 @@ def judge(given: FuzzInput, sandbox: Sandbox, *, in_child: bool = False) -> list
     with _inside(sandbox.folder), warnings.catch_warnings():
         warnings.simplefilter("error")  # what reaches standard error in words of a library is no answer
         try:
-            with nullcontext() if in_child else forking():
+            with nullcontext() if in_child else forking(), _few_samples():
                 sandbox.write(given.files)
                 judged = {"folder": _generated, "cache": _remembered}.get(given.kind, _spec)
                 return list(judged(given, sandbox))
@@ -244,6 +244,17 @@ def _rendered(checked: Checked) -> Iterator[Find]:
     render_sarif(findings.diagnostics, Path.cwd()).encode()
     if (found := HIDDEN.search(printed)) is not None:
         yield Find("message", f"prints {found[0]!a}")
+
+
+@contextmanager
+def _few_samples() -> Iterator[None]:
+    """Draw as many configurations as for the largest cells, a twentieth of those for a small one."""
+    before = compute.SAMPLES
+    vars(compute)["SAMPLES"] = compute.LEAST_SAMPLES
+    try:
+        yield
+    finally:
+        vars(compute)["SAMPLES"] = before
 
 
 @contextmanager
