@@ -36,6 +36,11 @@ def launch_text(text: str) -> str:
     return re.sub(r"[\\$]", lambda found: f"\\{found[0]}", text)
 
 
+def launch_words(*words: str) -> str:
+    """Return words of a command line in a launch file, which takes escapes out and then splits as a shell does."""
+    return launch_text(" ".join(map(shell_word, words)))
+
+
 def shell_word(text: str) -> str:
     """Return one word of a command, in quotes where it needs them."""
     return shlex.quote(one_line(text))

@@ -5,15 +5,20 @@ A share of ``python -m tests.emit.taint --all``, which gives every payload to ev
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from cellc.deploy.deployment import plan_deployment
+from cellc.emit.launch.launch import emit
+from cellc.graph.cell_graph import CellGraph
+from tests.cells import graph_of, spec_of
 from tests.emit.taint.cells import variants
 from tests.emit.taint.judge import differences
 from tests.emit.taint.judges import readings
 from tests.emit.taint.payloads import PAYLOADS, twin_of
-from tests.emit.taint.rounds import run
+from tests.emit.taint.rounds import behind_the_readers, run
 
 # Each with another part of the payloads; places of descriptions take the longest, and are tried by the script.
 _ROUNDS = (("ur5e_pick-humble", "single", 2), ("fr3_hand-lyrical", "single", 7), ("complete", "family", 1))
@@ -27,6 +32,37 @@ def test_every_place_refuses_a_hostile_text_or_it_is_text_everywhere(
     assert not done.faults
     assert len(done.trial.refused) > 200
     assert len(done.trial.taken) > 10
+
+
+def test_what_launch_and_xacro_would_evaluate_is_text_even_where_a_reader_lets_it_in(tmp_path: Path) -> None:
+    with behind_the_readers():
+        done = run(tmp_path, variants()["ur5e_pick-jazzy"], "single", 0, (".yaml",))
+    assert not done.faults
+    assert any("$(" in text for text in done.trial.taken.values())
+
+
+@pytest.mark.parametrize("payload", list(PAYLOADS.values()), ids=list(PAYLOADS))
+def test_names_of_nodes_and_their_topics_are_text_in_launch_files_whatever_readers_refuse(payload: str) -> None:
+    if "\0" in payload or not payload.isprintable():
+        pytest.skip("no XML holds it")
+    text = f"tq0001q{payload}"
+    harmless = twin_of(text)
+    assert not list(differences(_launched_with(text), _launched_with(harmless), {harmless: text}))
+
+
+def _launched_with(name: str) -> dict[str, str]:
+    """Return the launch files of a cell whose nodes, topics and addresses have a name that no reader lets in."""
+    graph = graph_of(spec_of("ur5e_pick"))
+    nodes = tuple(
+        replace(node, name=name, namespace=f"/{name}", remaps={name: name}) if node.path[0] == "nodes" else node
+        for node in graph.cell.nodes
+    )
+    devices = tuple(
+        replace(one, connection=one.connection and replace(one.connection, address=name)) for one in graph.cell.devices
+    )
+    changed: CellGraph = replace(graph, cell=replace(graph.cell, nodes=nodes, devices=devices))
+    made = {artifact.path: artifact.text for artifact in emit(changed, plan_deployment(graph))}
+    return {path: text for path, text in made.items() if path.endswith(".launch.xml")}
 
 
 @pytest.mark.parametrize(

@@ -166,5 +166,5 @@ def addresses(cell: Cell) -> dict[str, str]:
 
 def _argument(name: str, default: str | None, description: str, *choices: str) -> Element:
     stated = {} if default is None else {"default": launch_text(default)}
-    attributes = {"name": name, **stated, "description": description}
+    attributes = {"name": launch_text(name), **stated, "description": launch_text(description)}
     return element("arg", attributes, [element("choice", {"value": launch_text(choice)}) for choice in choices])

@@ -26,7 +26,7 @@ from cellc.deploy.files import (
 )
 from cellc.deploy.labels import TF_RATE_HZ
 from cellc.deploy.processes import enclave_of, manager_enclave, spawner_enclave
-from cellc.formats.escape import launch_text
+from cellc.formats.escape import launch_text, launch_words
 from cellc.formats.numbers import decimal
 from cellc.formats.parameter_file import qos_parameters
 from cellc.formats.xml_text import element
@@ -68,7 +68,7 @@ def enclave(path: str) -> dict[str, str]:
 
     Without security it has no effect; with it, a process outside of its enclave is denied everything.
     """
-    return {"ros_args": f"--enclave {path}"}
+    return {"ros_args": launch_words("--enclave", path)}
 
 
 def _description_parameter(file: str) -> Element:
@@ -78,7 +78,7 @@ def _description_parameter(file: str) -> Element:
 
 def remap(source: str, target: str) -> Element:
     """Return ``<remap>``."""
-    return element("remap", {"from": source, "to": target})
+    return element("remap", {"from": launch_text(source), "to": launch_text(target)})
 
 
 def remaps(node: Node) -> Iterator[Element]:
@@ -88,12 +88,12 @@ def remaps(node: Node) -> Iterator[Element]:
 
 def identity(cell: Cell, node: Node) -> dict[str, str]:
     """Return the attributes that say what a node is: its program, names, output and enclave."""
-    place = {"namespace": node.namespace} if node.namespace else {}
+    place = {"namespace": launch_text(node.namespace)} if node.namespace else {}
     again = {"respawn": "true"} if node.respawn else {}
     return {
         "pkg": launch_text(node.package),
         "exec": launch_text(node.executable),
-        "name": node.name,
+        "name": launch_text(node.name),
         **place,
         "output": "both",
         **again,
@@ -158,7 +158,7 @@ def _description_publisher(cell: Cell, manager: ControllerManager, node: Node) -
 
 def _manager(cell: Cell, manager: ControllerManager) -> Element:
     # Without a name: it would apply to the nodes of the hardware as well.
-    place = {"namespace": manager.namespace} if manager.namespace else {}
+    place = {"namespace": launch_text(manager.namespace)} if manager.namespace else {}
     parameters = [element("param", {"from": share(cell, controllers_file(cell, manager))})]
     if Feature.DESCRIPTION_TOPIC not in features(cell.distro):
         parameters.append(_description_parameter(share(cell, manager_description_file(cell, manager, TARGET))))
@@ -196,7 +196,7 @@ def spawners(cell: Cell, manager: ControllerManager) -> Iterator[Element]:
             {
                 "pkg": "controller_manager",
                 "exec": "spawner",
-                "args": " ".join([*one.controllers, "-c", manager.node, "--inactive"]),
+                "args": launch_words(*one.controllers, "-c", manager.node, "--inactive"),
                 "output": "both",
                 **enclave(spawner_enclave(cell, manager)),
                 **only_on(one.only),

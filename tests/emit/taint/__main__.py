@@ -11,7 +11,7 @@ from pathlib import Path
 
 from tests.emit.taint.cells import variants
 from tests.emit.taint.payloads import PAYLOADS
-from tests.emit.taint.rounds import KINDS, run
+from tests.emit.taint.rounds import KINDS, behind_the_readers, run
 
 
 def main() -> int:
@@ -30,6 +30,8 @@ def main() -> int:
             for turn in turns:
                 for kind in KINDS:
                     count += _round(name, files, kind, turn)
+                with behind_the_readers():
+                    count += _round(f"{name} behind the readers", files, KINDS[0], turn)
     print(f"{dict(count)} in {time.perf_counter() - begin:.0f} s")
     return 1 if count["faults"] else 0
 

@@ -19,7 +19,11 @@ def variants() -> dict[str, Mapping[str, str]]:
         f"{cell}-{distro}": {"cell.yaml": spec_for(cell, distro)} for cell, distro in _SPECS
     }
     found |= {f"{name} with its devices": _with_devices(spec_text(name)) for name in ("ur5e_pick", "fr3_hand")}
-    return found | {name: _from_corpus(name) for name in _CORPUS}
+    more = _from_corpus("complete")
+    for path, (old, new) in _MORE.items():
+        assert old in more[path]
+        more[path] = more[path].replace(old, new)
+    return found | {"more": more} | {name: _from_corpus(name) for name in _CORPUS}
 
 
 _SPECS = (
@@ -29,7 +33,29 @@ _SPECS = (
     ("fr3_hand", "lyrical"),
     ("two_arms", "jazzy"),
 )
-_CORPUS = ("complete", "every_fault", "more_fields", "parameters_of_every_type", "direct_sdk_with_adapter")
+_CORPUS = (
+    "complete",
+    "every_fault",
+    "more_fields",
+    "parameters_of_every_type",
+    "direct_sdk_with_adapter",
+    "unicast_with_peers",
+    "zenoh",
+)
+# What no spec and no description of the corpus has.
+_MORE = {
+    "parts/hosts_control_pc.yaml": (".10/24, carries: [control]", ".10/24, interface: enp3s0, carries: [control]"),
+    "parts/interfaces_object_pose.yaml": ("wants: newest", "wants: newest\n    unit: m\n    owner: perception"),
+    "parts/demo_camera/demo_camera.urdf": (
+        '<link name="color_optical"/>',
+        """<material name="grey"><color rgba="0.5 0.5 0.5 1"/></material>
+  <link name="color_optical">
+    <visual name="lens"><geometry><mesh filename="package://demo_camera/lens.stl"/></geometry>
+      <material name="glass"><color rgba="0 0 1 1"/></material></visual>
+    <visual name="cap"><geometry><box size="0.01 0.01 0.01"/></geometry><material name="grey"/></visual>
+  </link>""",
+    ),
+}
 
 
 def _with_devices(spec: str) -> dict[str, str]:

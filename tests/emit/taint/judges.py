@@ -9,6 +9,7 @@ from __future__ import annotations
 import html
 import json
 import re
+import shlex
 from collections.abc import Callable, Iterator
 from typing import Any
 from xml.etree import ElementTree
@@ -28,6 +29,9 @@ _SPACE = re.compile(r"\s+")
 _HASH = re.compile(r"\b(cfg-)?[0-9a-f]{12,64}\b")
 _BOX = re.compile(r'(\w+)\["(.*)"\]')
 _EDGE = re.compile(r'(\w+) (?:(--|==) "(.*)" (-->|==>)|(-->|-\.->) \|"(.*)"\|) (\w+)')
+
+# What launch splits into words as a shell does.
+_SPLIT = ("args", "cmd", "launch-prefix", "ros_args")
 
 Reading = Any
 """Nested lists, mappings and texts."""
@@ -68,7 +72,8 @@ def launched(text: str) -> Reading:
     for node in root.iter():
         for name, value in node.attrib.items():
             told = node.tag == "choice" or (node.tag == "arg" and name in ("name", "description"))
-            node.attrib[name] = unescaped(value) if told else expand(value, seen)
+            taken = unescaped(value) if told else expand(value, seen)
+            node.attrib[name] = "\n".join(shlex.split(taken)) if name in _SPLIT else taken
     return list(_element(root))
 
 
@@ -193,7 +198,7 @@ def plain(text: str) -> Reading:
 
 
 _READERS: dict[str, tuple[Callable[[str], Reading], ...]] = {
-    ".urdf": (xml, processed),
+    ".urdf": (processed,),
     ".svg": (pictured,),
     ".launch.xml": (launched,),
     ".xml": (xml,),

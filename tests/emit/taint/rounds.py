@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from unittest.mock import patch
 
 from cellc.pipeline import Checked, compile_cell
 from tests.emit.taint.judge import differences
@@ -15,6 +17,16 @@ from tests.emit.taint.trial import Files, Trial, checked_with, errors_of, tried
 
 KINDS = ("single", "family")
 """Each place alone, or a name at once with what refers to it."""
+
+
+@contextmanager
+def behind_the_readers() -> Iterator[None]:
+    """Let texts in that other programs evaluate, so that what writes files is held by itself."""
+    with (
+        patch("cellc.source.compose.substitution", lambda text: None),
+        patch("cellc.description.urdf_reader.substitution", lambda text: None),
+    ):
+        yield
 
 
 @dataclass(frozen=True, slots=True)
