@@ -6,6 +6,7 @@ for the text itself.
 
 from __future__ import annotations
 
+import ast
 import html
 import json
 import re
@@ -192,6 +193,11 @@ def _shown(text: str) -> str:
     return html.unescape(re.sub(r"#(\d+);", r"&#\1;", re.sub(r"#([A-Za-z]\w*);", r"&\1;", text)))
 
 
+def python(text: str) -> Reading:
+    """Return the program and its comments."""
+    return [ast.dump(ast.parse(text)), re.findall(r"^\s*#.*", text, re.M)]
+
+
 def plain(text: str) -> Reading:
     """Return the text itself, of a format in which nothing of a spec may stand but names."""
     return text
@@ -211,6 +217,7 @@ _READERS: dict[str, tuple[Callable[[str], Reading], ...]] = {
     ".sh": (shell,),
     ".mmd": (mermaid,),
     "CMakeLists.txt": (plain,),
+    "scripts/bring_up": (python,),
 }
 
 
