@@ -53,49 +53,78 @@ def _write(artifacts: Sequence[Artifact], folder: Path, *, force: bool) -> Outco
     refused = tuple(check_places(artifacts, folder))
     if refused:
         return Outcome(None, refused)
+    busy = _busy(folder)
+    if busy:
+        return Outcome(None, busy)
     stagings = others(folder)
-    if any(is_alive(staging) for staging in stagings):
-        message = f"another build is writing `{folder.as_posix()}`"
-        return Outcome(None, (finding("output-busy", message, folder),))
     planned = plan(artifacts, folder, _hashes_of_interrupted(stagings))
     if planned.edited and not force:
         return Outcome(None, tuple(_edited(path, folder) for path in planned.edited))
-    for staging in stagings if not (planned.write or planned.remove) else ():
-        discard(staging)
-    if planned.write or planned.remove:
-        _carry_out(planned, folder, stagings)
-    written = tuple(artifact.path for artifact in planned.write)
-    return Outcome(WriteReport(written, planned.remove, planned.unchanged))
+    if not (planned.write or planned.remove):
+        _forget(stagings, planned, folder)
+        return Outcome(WriteReport((), (), planned.unchanged))
+    return _carry_out(artifacts, folder, force=force)
 
 
-def _carry_out(planned: Plan, folder: Path, stale: Sequence[Path]) -> None:
+def _busy(folder: Path) -> tuple[Diagnostic, ...]:
+    if any(is_alive(staging) for staging in others(folder)):
+        return (finding("output-busy", f"another build is writing `{folder.as_posix()}`", folder),)
+    return ()
+
+
+def _carry_out(artifacts: Sequence[Artifact], folder: Path, *, force: bool) -> Outcome[WriteReport]:
+    """Replace files, after it was settled who does.
+
+    The staging folder is what tells others of this build. Of two that begin at once, the later one to make its own sees
+    the other's, so that never both go on; and what there is to write is asked again, now that nobody else changes it.
+    """
     staging = staging_of(folder)
     try:
         try:
-            _replace(planned, Swap(folder, staging))
+            return _in_turn(artifacts, folder, staging, force=force)
         finally:
             discard(staging)
     finally:
         discard(staging)  # again, because an interrupt may have cut the first one short
-    # Only now: until here they are what tells half-replaced files from edited ones.
-    for leftover in stale:
-        discard(leftover)
-    _prune(planned.former, folder)
 
 
-def _replace(planned: Plan, swap: Swap) -> None:
+def _in_turn(artifacts: Sequence[Artifact], folder: Path, staging: Path, *, force: bool) -> Outcome[WriteReport]:
+    swap = Swap(folder, staging)
     try:
-        swap.make_folder(swap.folder.parent)
-        fill(swap.staging, planned.write)
-        swap.make_folder(swap.folder)
-        for path in planned.remove:
-            swap.remove(path)
-        for artifact in planned.write:
-            swap.put(artifact.path)
-        swap.settle()
+        swap.make_folder(folder.parent)
+        os.mkdir(staging)
+        refused, stale = _busy(folder), others(folder)
+        planned = plan(artifacts, folder, _hashes_of_interrupted(stale))
+        if not refused and not force:
+            refused = tuple(_edited(path, folder) for path in planned.edited)
+        if not refused:
+            _replace(planned, swap)
     except BaseException:  # Ctrl-C too: what was replaced is put back
         swap.undo()
         raise
+    if refused:
+        swap.undo()
+        return Outcome(None, refused)
+    _forget(stale, planned, folder)
+    written = tuple(artifact.path for artifact in planned.write)
+    return Outcome(WriteReport(written, planned.remove, planned.unchanged))
+
+
+def _forget(stale: Sequence[Path], planned: Plan, folder: Path) -> None:
+    """Let go what killed builds left, now that nothing needs it to tell half-replaced files from edited ones."""
+    _prune(planned.former, folder)
+    for staging in stale:
+        discard(staging)
+
+
+def _replace(planned: Plan, swap: Swap) -> None:
+    fill(swap.staging, planned.write)
+    swap.make_folder(swap.folder)
+    for path in planned.remove:
+        swap.remove(path)
+    for artifact in planned.write:
+        swap.put(artifact.path)
+    swap.settle()
 
 
 def _prune(former: Sequence[str], folder: Path) -> None:
@@ -112,8 +141,9 @@ def _edited(path: str, folder: Path) -> Diagnostic:
 
 
 def _hashes_of_interrupted(stagings: Sequence[Path]) -> tuple[Mapping[str, str], ...]:
-    """Return the hashes of the files that killed builds were writing."""
-    return tuple(hashes_in(content_of(staging / "new" / MANIFEST)) for staging in stagings)
+    """Return the hashes of the files that killed builds were writing, and of those that they replaced."""
+    manifests = (staging / which / MANIFEST for staging in stagings for which in ("new", "old"))
+    return tuple(hashes_in(content_of(manifest)) for manifest in manifests)
 
 
 def fill(staging: Path, artifacts: Sequence[Artifact]) -> None:
@@ -122,7 +152,6 @@ def fill(staging: Path, artifacts: Sequence[Artifact]) -> None:
     Raises:
         OSError: the disk is full, or writing is refused.
     """
-    os.mkdir(staging)
     for artifact in artifacts:
         path = staging / "new" / artifact.path
         path.parent.mkdir(parents=True, exist_ok=True)

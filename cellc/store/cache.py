@@ -6,11 +6,11 @@ entry is packed, put in place in one step, and checked when it is read.
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import os
 import stat
 import sys
-import tempfile
 import zlib
 from collections.abc import Callable, Mapping
 from functools import cache
@@ -20,6 +20,7 @@ from typing import TypeVar
 
 from pydantic import TypeAdapter, ValidationError
 
+from cellc.store.swap import replace_whole
 from cellc.version import __version__
 
 OFF = "CELLC_NO_CACHE"
@@ -158,18 +159,11 @@ def write_entry(name: str, content: bytes) -> None:
     if folder is None or len(packed) >= MAX_BYTES or len(content) > MAX_CONTENT_BYTES:
         return
     file = folder / name
-    try:
+    # The folder may be damaged, full or another's.
+    with contextlib.suppress(OSError):
         file.parent.mkdir(parents=True, exist_ok=True)
-        handle, part = tempfile.mkstemp(dir=file.parent, prefix=".", suffix=".part")
-    except OSError:
-        return
-    try:
-        with os.fdopen(handle, "wb") as stream:
-            stream.write(_digest(name, packed) + b"\n" + packed)
-        os.replace(part, file)  # no other process reads half of it
+        replace_whole(file, _digest(name, packed) + b"\n" + packed)
         _prune(file.parent)
-    except OSError:
-        Path(part).unlink(missing_ok=True)
 
 
 def _digest(name: str, packed: bytes) -> bytes:

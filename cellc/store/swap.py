@@ -1,7 +1,7 @@
 """Put files in place at once or not at all: those of a folder, or one.
 
 New files are made ready in a staging folder beside it, then moved; or every old file is put back. The staging folder is
-called ``.<name>.tmp-<process>``; one that a killed process left behind still holds what it was about to write.
+called ``.<name>.tmp-<run>-<process>``; one that a killed process left behind still holds what it was about to write.
 """
 
 from __future__ import annotations
@@ -9,9 +9,14 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
+import re
 import shutil
 from dataclasses import dataclass, field
 from pathlib import Path
+
+_MAKER = re.compile("(?:[0-9a-f]{8}-)?[0-9]{1,10}")
+_RUN = os.urandom(4).hex()
+"""Tells this run from a killed one whose process had the same number, as every run in a container has."""
 
 
 @dataclass
@@ -48,7 +53,12 @@ class Swap:
             return
         self.make_folder(folder.parent)
         self._made.append(folder)
-        os.mkdir(folder)
+        try:
+            os.mkdir(folder)
+        except FileExistsError:
+            self._made.pop()
+            if not folder.is_dir():  # another process made it meanwhile
+                raise
 
     def settle(self) -> None:
         """Have the system put the names of the changed files on the disk, before the old files are let go."""
@@ -91,20 +101,27 @@ class Swap:
 
 
 def staging_of(folder: Path) -> Path:
-    """Return the staging folder of this process for a folder."""
-    return folder.parent / f".{folder.name}.tmp-{os.getpid()}"
+    """Return where this process makes ready what shall stand in the place of a folder or file."""
+    return folder.parent / f".{folder.name}.tmp-{_RUN}-{os.getpid()}"
 
 
 def others(folder: Path) -> tuple[Path, ...]:
     """Return staging folders that other processes made for the same folder."""
-    found = folder.parent.glob(f".{_literal(folder.name)}.tmp-*")
-    return tuple(sorted(path for path in found if path.is_dir() and not path.is_symlink()))
+    own = staging_of(folder)
+    return tuple(path for path in _temporaries(folder) if path != own and path.is_dir() and not path.is_symlink())
+
+
+def _temporaries(path: Path) -> tuple[Path, ...]:
+    """Return what processes made beside a file or folder to put it in place; names of another form are somebody's."""
+    prefix = f".{path.name}.tmp-"
+    found = (one for one in path.parent.glob(".*") if one.name.startswith(prefix))
+    return tuple(sorted(one for one in found if _MAKER.fullmatch(one.name[len(prefix) :])))
 
 
 def is_alive(staging: Path) -> bool:
     """Whether the process that made the staging folder still runs."""
     number = staging.name.rpartition("-")[2]
-    if os.name != "posix" or not number.isdigit() or int(number) in (0, os.getpid()):
+    if os.name != "posix" or int(number) in (0, os.getpid()):
         return False
     try:
         os.kill(int(number), 0)
@@ -118,10 +135,6 @@ def is_alive(staging: Path) -> bool:
 def discard(staging: Path) -> None:
     """Remove a staging folder as far as the system lets."""
     shutil.rmtree(staging, ignore_errors=True)
-
-
-def _literal(name: str) -> str:
-    return "".join(f"[{char}]" if char in "*?[" else char for char in name)
 
 
 def write_whole(file: Path, text: str) -> None:
@@ -146,8 +159,10 @@ def replace_whole(file: Path, content: bytes) -> None:
     Raises:
         OSError: the disk is full, or writing is refused.
     """
-    part = file.with_name(f".{file.name}.tmp-{os.getpid()}")
-    _remove(part)  # what a killed process of the same number left; of a link, the link alone
+    part = staging_of(file)
+    for left in _temporaries(file):
+        if not is_alive(left):
+            _remove(left)  # what a killed process left; of a link, the link alone
     try:
         with part.open("xb") as stream:  # a new file always, never one behind a link
             stream.write(content)

@@ -69,6 +69,9 @@ class EvidenceFolder:
             (self._staging / "new").mkdir()
         except OSError as error:
             raise self._unwritable(error) from None
+        if any(is_alive(staging) for staging in others(folder)):  # one that began at the same moment
+            self.discard()
+            raise MockError(folder.as_posix(), "another run is writing its evidence there")
 
     def open(self, name: str) -> BinaryIO:
         """Open a new file of the folder for writing; a name of one part, as `file_names` gives them."""

@@ -1,0 +1,1 @@
+"""Kills, full disks, forbidden folders, many writers and damaged caches, counted."""

@@ -1,0 +1,143 @@
+"""What killed processes leave is taken away by the next one, and what people own is not; of two at once, one writes."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from cellc.mock.command.options import write_records
+from cellc.mock.errors import MockError
+from cellc.mock.evidence.folder import EvidenceFolder
+from cellc.output.write import write
+from cellc.store.cache import read_entry, write_entry
+from cellc.store.swap import write_whole
+from tests.output.building import as_contents, build_of, contents
+
+_DEAD = 2**22 + 1
+"""No process has this number: it is above the largest that Linux gives out."""
+
+FIRST = build_of(a_txt="one\n", b_txt="two\n")
+SECOND = build_of(a_txt="changed\n", b_txt="two\n")
+THIRD = build_of(a_txt="one\n", b_txt="2\n", c_txt="three\n")
+
+
+@pytest.mark.parametrize("maker", [str(_DEAD), f"0123abcd-{_DEAD}"])
+def test_half_a_file_of_a_killed_process_goes_with_the_next_one(maker: str, tmp_path: Path) -> None:
+    for name in ("cell.yaml", "records.jsonl"):
+        (tmp_path / f".{name}.tmp-{maker}").write_text("half")
+    write_whole(tmp_path / "cell.yaml", "text\n")
+    write_records(tmp_path / "records.jsonl", ())
+    assert contents(tmp_path) == {"cell.yaml": "text\n", "records.jsonl": ""}
+
+
+def test_half_an_entry_of_a_killed_process_goes_with_the_next_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    monkeypatch.delenv("CELLC_NO_CACHE", raising=False)
+    with monkeypatch.context() as killed:
+        killed.setattr(os, "getpid", lambda: _DEAD)
+        killed.setattr(os, "replace", lambda *_paths: None)
+        killed.setattr(Path, "unlink", lambda *_paths, **_options: None)
+        write_entry("kind/entry.json", b"content")
+    assert len([path for path in tmp_path.rglob("*") if path.is_file()]) == 1
+    write_entry("kind/entry.json", b"content")
+    assert [path.name for path in tmp_path.rglob("*") if path.is_file()] == ["entry.json"]
+    assert read_entry("kind/entry.json") == b"content"
+
+
+def test_half_a_file_of_a_process_that_runs_is_left_to_it(tmp_path: Path) -> None:
+    # Process 1 is alive on every POSIX system.
+    (tmp_path / ".cell.yaml.tmp-1").write_text("half")
+    write_whole(tmp_path / "cell.yaml", "text\n")
+    assert contents(tmp_path) == {".cell.yaml.tmp-1": "half", "cell.yaml": "text\n"}
+
+
+@pytest.mark.parametrize("name", [".small.tmp-mine", ".small.tmp-", ".small.tmp-1a", ".smaller.tmp-4194305"])
+def test_a_name_that_only_looks_temporary_is_somebodys_own(name: str, tmp_path: Path) -> None:
+    (tmp_path / name).mkdir()
+    (tmp_path / name / "notes.txt").write_text("mine")
+    assert write(FIRST, tmp_path / "small").ok
+    assert (tmp_path / name / "notes.txt").read_text() == "mine"
+
+
+def test_a_killed_build_whose_process_had_the_same_number_is_healed(tmp_path: Path) -> None:
+    # As every first process of a container has the number 1.
+    folder, left = tmp_path / "small", tmp_path / f".small.tmp-{os.getpid()}"
+    write(SECOND, tmp_path / "other" / "small")
+    write(FIRST, folder)
+    left.mkdir()
+    (tmp_path / "other" / "small").rename(left / "new")
+    (folder / "a.txt").write_text("changed\n")  # it had replaced this one, and not yet the manifest
+    assert write(THIRD, folder).ok
+    assert _files(tmp_path) == {f"small/{path}": text for path, text in as_contents(THIRD).items()}
+
+
+def test_of_two_builds_that_begin_at_once_the_later_writes_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = tmp_path / "small"
+    write(FIRST, folder)
+    _meanwhile(monkeypatch, lambda: (tmp_path / ".small.tmp-1").mkdir())
+    assert [found.code for found in write(SECOND, folder).diagnostics] == ["output-busy"]
+    assert contents(tmp_path) == {
+        ".small.tmp-1/": "",
+        **{f"small/{path}": text for path, text in as_contents(FIRST).items()},
+    }
+
+
+def test_a_build_that_another_one_overtook_leaves_no_mixture(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    folder = tmp_path / "small"
+    write(FIRST, folder)
+    _meanwhile(monkeypatch, lambda: write(THIRD, folder))
+    assert write(SECOND, folder).ok
+    assert contents(folder) == as_contents(SECOND)
+
+
+def test_a_folder_that_another_build_makes_meanwhile_is_no_refusal(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    parent = tmp_path / "generated"
+    _meanwhile(monkeypatch, parent.mkdir, "generated")
+    assert write(FIRST, parent / "small").ok
+    assert contents(parent / "small") == as_contents(FIRST)
+
+
+def test_an_edit_made_while_a_build_began_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    folder = tmp_path / "small"
+    write(FIRST, folder)
+    _meanwhile(monkeypatch, lambda: (folder / "a.txt").write_text("mine\n"))
+    assert [found.code for found in write(SECOND, folder).diagnostics] == ["edited-by-hand"]
+    assert contents(tmp_path) == {
+        f"small/{path}": text for path, text in {**as_contents(FIRST), "a.txt": "mine\n"}.items()
+    }
+
+
+def test_of_two_runs_that_begin_at_once_the_later_writes_no_evidence(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    _meanwhile(monkeypatch, lambda: (tmp_path / ".evidence.tmp-1").mkdir())
+    with pytest.raises(MockError, match="another run is writing"):
+        EvidenceFolder(tmp_path / "evidence", ["report.html"])
+    assert contents(tmp_path) == {".evidence.tmp-1/": ""}
+
+
+def _files(folder: Path) -> dict[str, str]:
+    return {path: text for path, text in contents(folder).items() if not path.endswith("/")}
+
+
+def _meanwhile(monkeypatch: pytest.MonkeyPatch, act: Callable[[], object], before: str = ".tmp-") -> None:
+    """Let something happen once, right before a process makes a folder: its staging folder."""
+    real = os.mkdir
+    happened: list[Path] = []
+
+    def mkdir(path: Path, *arguments: int) -> None:
+        if before in Path(path).name and not happened:
+            happened.append(path)
+            act()
+        real(path, *arguments)
+
+    monkeypatch.setattr(os, "mkdir", mkdir)
