@@ -12,6 +12,7 @@ _DOOR = "cellc/printing.py"
 _PAST_IT = {
     "cellc/description/mesh_child.py": "the child process answers its parent there, in numbers",
     "cellc/description/xacro_expansion.py": "the child process answers its parent there, and nobody reads it",
+    "cellc/emit/launch/bring_up_program.py": "it runs on the robot's host, without cellc",
     "cellc/signals.py": "one line of its own, past the buffers of a program that was stopped anywhere",
 }
 _PRINTING = {
