@@ -175,7 +175,8 @@ def _managers(folder: GeneratedFolder, seed: int) -> Mapping[str, ControllerMana
 
 
 def _adapters(contract: Contract) -> Mapping[str, AdapterServer]:
-    clocks = {device: contract.clocks[name].domain for device, name in contract.clock_of.items()}
+    known = contract.clocks
+    clocks = {device: known[name].domain for device, name in contract.clock_of.items() if name in known}
     return {
         device: AdapterServer(device, facts, contract.joint_limits, clocks.get(device, DEFAULT))
         for device, facts in contract.adapters.items()

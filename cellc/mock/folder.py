@@ -66,6 +66,7 @@ def read_folder(folder: Path) -> GeneratedFolder:
     if not (folder / CONTRACT_FILE).exists():
         raise MockError(folder.as_posix(), f"holds no {CONTRACT_FILE}; name a folder that `cellc build` wrote")
     contract = _read_model(folder, CONTRACT_FILE, Contract)
+    _refuse_dangling(contract)
     rehearsals = _read_model(folder, contract.files.rehearsals, Rehearsals)
     _check_rehearsals(contract.files.rehearsals, rehearsals)
     manifest = _read_model(folder, MANIFEST_FILE, Manifest)
@@ -119,6 +120,22 @@ def _allowed_collisions(folder: Path, file: str | None) -> Iterator[tuple[str, s
         if first is None or second is None:
             raise MockError(file, f"line {pair.span.line}: expected `link1` and `link2`")
         yield first, second
+
+
+def _refuse_dangling(contract: Contract) -> None:
+    """Refuse a name in the contract of a group or device that it does not have."""
+    named = [(f"goals.{name}.group", goal.group) for name, goal in contract.goals.items()]
+    named += [
+        (f"poses.{name}[{at}].group", one.group) for name, pose in contract.poses.items() for at, one in enumerate(pose)
+    ]
+    for path, group in named:
+        if group not in contract.groups:
+            raise MockError(CONTRACT_FILE, f"`{path}` must be a group of the contract, got `{group}`")
+    for of, manager in contract.managers.items():
+        for name, controller in manager.controllers.items():
+            if controller.device is not None and controller.device not in contract.devices:
+                path = f"managers.{of}.controllers.{name}.device"
+                raise MockError(CONTRACT_FILE, f"`{path}` must be a device of the contract, got `{controller.device}`")
 
 
 def _check_rehearsals(file: str, rehearsals: Rehearsals) -> None:

@@ -21,7 +21,8 @@ GRASP_TOLERANCE_M = 0.03
 
 def grip(context: TaskContext, attempt: Attempt, device: str, command: str) -> Waiting[None]:
     """Open or close a gripper; raise AttemptError where it does not get there."""
-    facts = context.contract.devices[device].gripper
+    named = context.contract.devices.get(device)
+    facts = None if named is None else named.gripper
     if facts is None or facts.controller is None:
         raise AttemptError(AttemptOutcome.GOAL_REJECTION, f"no controller drives gripper {device}")
     between = _object_between(context, device) if command == "close" else None
