@@ -12,9 +12,10 @@ import os
 import re
 import shutil
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from enum import Enum
 from typing import TextIO
@@ -236,23 +237,46 @@ class _ProgressLine:
         self._clock = clock
         self._next_s = clock() + _SILENT_S
         self._width = 0
+        self._lock = threading.Lock()
+        self._later: threading.Timer | None = None
 
     def update(self, step: str) -> None:
-        """Show the step that begins now, unless the line was drawn a moment ago."""
+        """Show the step that begins now, a second later where it is too early; not if one was drawn a moment ago."""
+        with self._lock:
+            if self._later is not None:
+                self._later.cancel()
+                self._later = None
+            if self._stream is not None and not self._shown(step) and not self._width:
+                # Nobody else may call for a long time: one cell with heavy meshes is one step.
+                self._later = threading.Timer(_SILENT_S, self._show_later, (step,))
+                self._later.daemon = True
+                self._later.start()
+
+    def _show_later(self, step: str) -> None:
+        with self._lock, suppress(OSError, ValueError):  # a terminal that was closed
+            if self._later is not None:
+                self._shown(step)
+
+    def _shown(self, step: str) -> bool:
         now_s = self._clock()
-        if self._stream is None or now_s < self._next_s:
-            return
+        if now_s < self._next_s:
+            return False
         self._next_s = now_s + _REDRAW_S
         # The last cell stays free: some terminals wrap after it. Escapes of wide text may need two cells a character.
         room = shutil.get_terminal_size().columns - 1
         text = harmless_line(escaped(f"{self._label}: {step}"))
         text = text[: room if text.isascii() else room // 2]
         self._draw(text)
+        return True
 
     def erase(self) -> None:
         """Leave the terminal as it was."""
-        if self._width:
-            self._draw("")
+        with self._lock:
+            if self._later is not None:
+                self._later.cancel()
+                self._later = None
+            if self._width:
+                self._draw("")
 
     def _draw(self, text: str) -> None:
         width = len(text) if text.isascii() else 2 * len(text)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import threading
 
 import pytest
 
@@ -54,6 +55,24 @@ def test_progress_is_silent_for_a_second_and_erased_at_the_end() -> None:
         assert terminal.getvalue() == "\r\rbuild: frames"
     assert terminal.getvalue().endswith("\r" + " " * len("build: frames") + "\r")
     assert "\x1b" not in terminal.getvalue()
+
+
+def test_progress_of_one_long_step_shows_without_another_call() -> None:
+    clock, drawn = _Clock(), threading.Event()
+
+    class Watched(_Terminal):
+        def write(self, text: str) -> int:
+            if "check: cell.yaml" in text:
+                drawn.set()
+            return super().write(text)
+
+    terminal = Watched()
+    with progress("check", terminal, clock) as update:
+        update("cell.yaml")
+        assert terminal.getvalue() == ""
+        clock.now_s = 1.1
+        assert drawn.wait(timeout=60)
+    assert terminal.getvalue().endswith(" \r")
 
 
 def test_progress_is_erased_when_the_work_fails() -> None:
