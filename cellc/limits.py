@@ -67,7 +67,7 @@ class Limits:
     mesh_triangles_together: int = _row(
         500_000, "triangles", 20_000_000, "all meshes of one description, each once for each scale"
     )
-    mesh_seconds: int = _row(10, "s", 3600, "processor time of reading all meshes of one description")
+    mesh_seconds: int = _row(8, "s", 3600, "processor time of reading all meshes of one description")
     mesh_memory: int = _row(1024 * MIB, "bytes", 64 * 1024 * MIB, "memory of reading them")
     robot_links: int = _row(1000, "links", 20_000, "links of one URDF")
     robot_joints: int = _row(200, "joints", 2000, "joints of one URDF that move")

@@ -191,7 +191,7 @@ def _find(name: str, roots: Sequence[Path], shelves: Sequence[Path]) -> Path:
         return _regular(_absolute(Path(path), roots, shelves))
     for shelf in shelves:
         if os.path.lexists(file := shelf.joinpath(*parts)):
-            return _regular(file)
+            return _regular(Path(os.path.realpath(file)))
     for root, folder in _packages(parts, roots):
         if os.path.lexists(file := folder.joinpath(*parts[1:])):
             return _regular(_within(file, root))
@@ -218,27 +218,28 @@ def _absolute(file: Path, roots: Sequence[Path], shelves: Sequence[Path]) -> Pat
     if not file.is_absolute():
         message = "must have an absolute path behind `file://`"
         raise MeshError(MESH_OUTSIDE_ROOT, message, "write `package://PACKAGE/FILE`")
-    if any(lies_under(file.as_posix(), root.as_posix()) for root in (*roots, *shelves)):
-        return file
-    if any(file.is_relative_to(os.path.abspath(shelf)) for shelf in shelves):
-        return file  # a link of a package that the user chose
+    real = os.path.realpath(file)
+    chosen = any(file.is_relative_to(os.path.abspath(shelf)) for shelf in shelves)  # links of such packages are usual
+    if chosen or any(lies_under(real, root.as_posix()) for root in (*roots, *shelves)):
+        return Path(real)
     message = f"must lie in the folder of the spec or in {_SHELVES}"
     raise MeshError(MESH_OUTSIDE_ROOT, message, "put the file in a package beside the spec, and name it `package://…`")
 
 
 def _within(file: Path, root: Path) -> Path:
-    if not lies_under(file.as_posix(), root.as_posix()):
+    # Links are followed once: one that changes after this look is not followed again.
+    real = os.path.realpath(file)
+    if not lies_under(real, root.as_posix()):
         message = "must lie in the folder of the spec, and is a link that leads out of it"
         raise MeshError(MESH_OUTSIDE_ROOT, message, "put a copy of the file in its place")
-    return file
+    return Path(real)
 
 
-def _regular(file: Path) -> Path:
-    """Return the real path of a regular file that is none of the operating system's."""
-    real = Path(os.path.realpath(file))
+def _regular(real: Path) -> Path:
+    """Return a real path where a regular file lies that is none of the operating system's."""
     if any(real.is_relative_to(folder) for folder in _OF_THE_SYSTEM):
         raise MeshError(MESH_OUTSIDE_ROOT, "must not be a file of the operating system", "name a mesh file")
-    mode = os.stat(real).st_mode
+    mode = os.lstat(real).st_mode
     if not stat.S_ISREG(mode):
         got = "a folder" if stat.S_ISDIR(mode) else "something else"
         raise MeshError(MESH_NOT_FOUND, f"must be a regular file, got {got}", "name a mesh file")

@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from cellc.description import meshes
 from cellc.description.mesh_numbers import MeshNumbers, pack_numbers, read_answers, read_meshes
 from cellc.description.meshes import (
     MeshError,
@@ -133,6 +134,21 @@ def test_fifo_that_takes_the_place_of_a_file_is_not_waited_for(tmp_path: Path) -
     os.mkfifo(tmp_path / "part.stl")
     with pytest.raises(OSError, match="not a regular file"):
         next(read_pieces(tmp_path / "part.stl"))
+
+
+def test_link_that_changes_after_it_was_judged_is_not_followed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    root = _cell(tmp_path)
+    file = root / "parts" / "part.stl"
+    judged = meshes.lies_under
+
+    def swapped(path: str, folder: str) -> bool:
+        answer = judged(path, folder)
+        file.unlink()
+        file.symlink_to(tmp_path / "secret" / "part.stl")
+        return answer
+
+    monkeypatch.setattr(meshes, "lies_under", swapped)
+    assert _refusal("package://parts/part.stl", (root,)) == "mesh-not-found"
 
 
 def test_file_that_changes_after_it_was_hashed_is_not_read(tmp_path: Path) -> None:
