@@ -238,7 +238,7 @@ def results_fixture(tmp_path_factory: pytest.TempPathFactory) -> dict[str, MeshN
     """Read every file by one child: one that crashed or looped would leave those after it without an answer."""
     folder = tmp_path_factory.mktemp("meshes")
     with zipfile.ZipFile(folder / "archive.dae", "w", zipfile.ZIP_DEFLATED) as archive:
-        archive.writestr("a.dae", b" " * 10_000_000)
+        archive.writestr("a.dae", _COLLADA.format("", "0 0 0 1 0 0 0 2 0") + " " * 10_000_000)
     for name, content in (SHAPES | MALFORMED).items():
         (folder / name).write_bytes(content)
     files = tuple(identify(f"file://{file}", (folder,), {}) for file in sorted(folder.iterdir()))
