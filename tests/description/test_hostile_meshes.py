@@ -13,7 +13,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cellc.description import meshes
 from cellc.description.mesh_numbers import MeshNumbers, pack_numbers, read_answers, read_meshes
 from cellc.description.meshes import (
     MeshError,
@@ -26,6 +25,7 @@ from cellc.description.meshes import (
     unusable,
 )
 from cellc.description.model import Mesh
+from cellc.description.packages import lies_under
 from cellc.limits import DEFAULTS, in_force
 
 TRIANGLE = "solid t\nfacet normal 0 0 1\nouter loop\n{}\nendloop\nendfacet\nendsolid t\n"
@@ -139,15 +139,14 @@ def test_fifo_that_takes_the_place_of_a_file_is_not_waited_for(tmp_path: Path) -
 def test_link_that_changes_after_it_was_judged_is_not_followed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     root = _cell(tmp_path)
     file = root / "parts" / "part.stl"
-    judged = meshes.lies_under
 
     def swapped(path: str, folder: str) -> bool:
-        answer = judged(path, folder)
+        answer = lies_under(path, folder)
         file.unlink()
         file.symlink_to(tmp_path / "secret" / "part.stl")
         return answer
 
-    monkeypatch.setattr(meshes, "lies_under", swapped)
+    monkeypatch.setattr("cellc.description.meshes.lies_under", swapped)
     assert _refusal("package://parts/part.stl", (root,)) == "mesh-not-found"
 
 

@@ -40,7 +40,7 @@ def shelf_fixture(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def _shown(geometry: Any) -> list[tuple[object, ...]]:
-    shapes = []
+    shapes: list[tuple[object, ...]] = []
     for each in geometry.geometryObjects:
         placement = np.asarray(each.placement.homogeneous).round(12).tolist()
         shape = each.geometry
