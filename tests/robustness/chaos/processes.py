@@ -19,7 +19,7 @@ from tests.cells import ROOT
 
 OLD, NEW = "old", "new"
 _TOLERANCE = {OLD: "0.01 rad", NEW: "0.02 rad"}
-_HANG_S = 120.0
+_HANG_S = 600.0
 
 Tree = dict[str, bytes]
 
