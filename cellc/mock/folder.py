@@ -131,6 +131,12 @@ def _refuse_dangling(contract: Contract) -> None:
     for path, group in named:
         if group not in contract.groups:
             raise MockError(CONTRACT_FILE, f"`{path}` must be a group of the contract, got `{group}`")
+    for name, pose in contract.poses.items():
+        for at, one in enumerate(pose):
+            wanted = len(contract.groups[one.group].joints)
+            if len(one.positions) != wanted:
+                path = f"poses.{name}[{at}].positions"
+                raise MockError(CONTRACT_FILE, f"`{path}` must be {wanted} positions, got {len(one.positions)}")
     for of, manager in contract.managers.items():
         for name, controller in manager.controllers.items():
             if controller.device is not None and controller.device not in contract.devices:

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cellc.planning.motion_law import MotionLaw, ParameterBounds, fastest_bounds, jerk_changes, moving, rest_to_rest
-from cellc.planning.problem import Array, Configuration, JointLimits, JointPath
+from cellc.planning.problem import Array, Configuration, JointLimits, JointPath, LimitsError
 from cellc.planning.splines import SectionCurve, extremes, quintic_coefficients
 
 # Planned use of the limits: room for the rounding of times to nanoseconds.
@@ -25,6 +25,8 @@ _LEAST_USE = 1.0 - 1e-3
 # Points closer than this would let rounding of positions look like jerk: 60 * 2e-16 rad / (1e-4 s)^3 = 0.01 rad/s^3.
 _LEAST_SPACING_NS = 100_000
 _MAX_RESCALINGS = 8
+# Three years; 64 bits hold the nanoseconds of many such sections.
+_LONGEST_S = 1e8
 
 
 @dataclass(frozen=True, slots=True)
@@ -188,7 +190,13 @@ def _sample(curve: SectionCurve, law: MotionLaw, limits: JointLimits) -> TimedSe
 
 
 def _spaced(changes: list[float], crossings: list[float]) -> list[int]:
-    """Round instants to nanoseconds and leave out those too close to others; the ends stay, crossings yield first."""
+    """Round instants to nanoseconds and leave out those too close to others; the ends stay, crossings yield first.
+
+    Raises:
+        LimitsError: the motion takes longer than nanoseconds can count.
+    """
+    if not changes[-1] <= _LONGEST_S:
+        raise LimitsError(f"a motion within the limits takes {changes[-1]:.3g} s, at most {_LONGEST_S:g} s are planned")
     end = -int(-changes[-1] * 1e9 // 1)  # upwards: the motion is over at the last point
     kept = [0, max(end, _LEAST_SPACING_NS)]
     for instant in (*changes, *crossings):

@@ -113,9 +113,12 @@ def recall(
     content = read_entry(name)
     if content is not None:
         try:
-            return adapter.validate_json(content)
+            kept = adapter.validate_json(content)
+            if adapter.dump_json(kept) == content:
+                return kept
         except ValidationError:
-            pass  # of another release whose code looked the same
+            pass
+        # Not as this program writes it: of another release whose code looked the same.
     computed = compute()
     if is_current():
         write_entry(name, adapter.dump_json(computed))

@@ -13,7 +13,8 @@ import pytest
 from cellc.mock import MockCell, MockError, load
 from cellc.pipeline import check
 from cellc.vocabulary import AttemptOutcome
-from tests.cells import generated, written
+from tests.cells import build_into, generated, written
+from tests.robustness.fuzz import bases
 from tests.robustness.fuzz.bases import PARTS
 
 HEAD = "format: 1\ncell: found\nversions: {ros: jazzy}\n"
@@ -26,6 +27,7 @@ IN_A_DEVICE = [
         "demo_camera", "optical_frames: [color_optical]", "optical_frames: [nobody]", id="device 337: an optical frame"
     ),
     pytest.param("demo_camera", "      frame: color_optical", "      frame: nobody", id="the frame of a stream"),
+    pytest.param("stage", "{turn: {value: 5 rad/s^2", "{turn: {value: 0 rad/s^2", id="device 483: no acceleration"),
     pytest.param("demo_arm", "tool_frame: tool0", "tool_frame: nobody", id="the frame of tools"),
 ]
 
@@ -70,6 +72,62 @@ def test_a_clock_that_is_not_declared_counts_as_not_stated(tmp_path: Path) -> No
         contract["clock_of"] = {"arm": "nobody"}
 
     assert _folder_with(tmp_path, "minimal", change).run("ready").passed
+
+
+def _first_group(contract: Any) -> Any:
+    return next(iter(contract["groups"].values()))
+
+
+@pytest.mark.parametrize(
+    ("change", "reason"),
+    [
+        pytest.param(lambda group, pose: group.update(joints=[]), "`poses.ready", id="folder 3694: no joint"),
+        pytest.param(lambda group, pose: pose.update(positions=[0.0]), "must be 6 positions, got 1", id="folder 3195"),
+    ],
+)
+def test_a_group_and_its_poses_fit_each_other(change: Callable[[Any, Any], None], reason: str, tmp_path: Path) -> None:
+    def changed(contract: Any, rehearsals: Any) -> None:
+        change(_first_group(contract), contract["poses"]["ready"][0])
+
+    with pytest.raises(MockError, match=reason):
+        _folder_with(tmp_path, "minimal", changed)
+
+
+def test_a_group_without_a_joint_is_refused(tmp_path: Path) -> None:
+    def change(contract: Any, rehearsals: Any) -> None:
+        _first_group(contract)["joints"] = []
+        contract["poses"] = {}
+
+    with pytest.raises(MockError, match="group `manipulator` has no joint"):
+        _folder_with(tmp_path, "minimal", change)
+
+
+def test_a_motion_that_nanoseconds_cannot_count_is_not_planned(tmp_path: Path) -> None:
+    """`folder 944`."""
+
+    def change(contract: Any, rehearsals: Any) -> None:
+        for limits in contract["joint_limits"].values():
+            limits.update(velocity=1e-9, acceleration=1e-9, jerk=1e-9)
+
+    cell = _folder_with(tmp_path, "ur5e_pick", change)
+    result = cell.run(cell.rehearsals[0])
+    assert result.outcome == AttemptOutcome.PLANNING_FAILURE
+    assert "s are planned" in result.reason
+
+
+@pytest.mark.parametrize(
+    ("file", "old", "new"),
+    [
+        pytest.param("stage.urdf", 'upper="0.5"', 'upper="1e16"', id="description 3071: a limit that there is not"),
+        pytest.param("stage.urdf", 'velocity="1"', 'velocity="1e16"', id="a speed that there is not"),
+    ],
+)
+def test_what_exporters_write_for_no_limit_is_none(file: str, old: str, new: str, tmp_path: Path) -> None:
+    shutil.copytree(PARTS / "stage", tmp_path / "device")
+    text = (tmp_path / "device" / file).read_text(encoding="utf-8")
+    (tmp_path / "device" / file).write_text(text.replace(old, new, 1), encoding="utf-8")
+    spec = written(tmp_path, bases.TINY[1].replace("./parts/stage", "./device"))
+    assert load(build_into(tmp_path / "folder", spec)).run("there").passed
 
 
 @pytest.mark.parametrize("section", ["goals", "poses"])

@@ -18,6 +18,7 @@ from cellc.contract.contract import (
     ContractPoseTarget,
     ContractSwitch,
 )
+from cellc.contract.quantities import LARGEST
 from cellc.formats.numbers import rounded
 from cellc.formats.urdf.robot import described_frames
 from cellc.graph.claims import adapter_of_group
@@ -105,15 +106,18 @@ def managers(cell: Cell) -> dict[str, ContractManager]:
 
 
 def joint_limits(cell: Cell) -> dict[str, ContractJointLimits]:
-    """Return the limits of every joint that moves on its own and whose limits are all stated."""
+    """Return the limits of every joint that moves on its own and whose limits are all stated.
+
+    A figure past what any machine has, such as the 1e16 that exporters write, is no limit.
+    """
     limits: dict[str, ContractJointLimits] = {}
     for joint in (joint for device in cell.devices for joint in device.joints if joint.mimics is None):
         if joint.velocity is not None and joint.acceleration is not None and joint.jerk is not None:
-            bounded = joint.type != "continuous"
+            lower, upper = (None, None) if joint.type == "continuous" else (joint.lower, joint.upper)
             limits[joint.name] = ContractJointLimits(
-                lower=joint.lower if bounded else None,
-                upper=joint.upper if bounded else None,
-                velocity=joint.velocity,
+                lower=None if lower is None or lower < -LARGEST else lower,
+                upper=None if upper is None or upper > LARGEST else upper,
+                velocity=min(joint.velocity, LARGEST),
                 acceleration=joint.acceleration,
                 jerk=joint.jerk,
             )

@@ -77,6 +77,8 @@ def _group_model(
     missing = sorted(set(group.joints) - set(contract.joint_limits))
     if missing:
         raise MockError("contract.json", f"joint `{missing[0]}` of group `{name}` has no limits")
+    if not group.joints:
+        raise MockError("contract.json", f"group `{name}` has no joint")
     try:
         tip_link, transform_tip_to_link = _link_of(group.tip_frame, contract, robot)
         planning_group = PlanningGroup(name, group.joints, group.base_link, tip_link)

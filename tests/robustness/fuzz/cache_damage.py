@@ -30,7 +30,11 @@ def _summed(entry: Path, packed: bytes) -> bytes:
 
 
 def _content(entry: Path) -> object:
-    return json.loads(zlib.decompress(entry.read_bytes().partition(b"\n")[2]))
+    """Return what an entry holds; nothing where it is damaged already."""
+    try:
+        return json.loads(zlib.decompress(entry.read_bytes().partition(b"\n")[2]))
+    except (zlib.error, ValueError):
+        return None
 
 
 def _replaced(entry: Path, data: bytes) -> None:
@@ -41,13 +45,14 @@ def _replaced(entry: Path, data: bytes) -> None:
 def _cut(folder: Path, entries: Sequence[Path], chance: random.Random) -> None:
     for entry in entries:
         data = entry.read_bytes()
-        _replaced(entry, data[: chance.randrange(len(data))])
+        _replaced(entry, data[: chance.randrange(len(data) or 1)])
 
 
 def _noise(folder: Path, entries: Sequence[Path], chance: random.Random) -> None:
     for entry in entries:
         data = bytearray(entry.read_bytes())
-        data[chance.randrange(len(data))] ^= 1 << chance.randrange(8)
+        if data:
+            data[chance.randrange(len(data))] ^= 1 << chance.randrange(8)
         _replaced(entry, bytes(data))
 
 
@@ -105,6 +110,11 @@ def _garbled(folder: Path, entries: Sequence[Path], chance: random.Random) -> No
 @cache
 def _bomb() -> bytes:
     return zlib.compress(b" " * 60_000_000)
+
+
+def _huge(folder: Path, entries: Sequence[Path], chance: random.Random) -> None:
+    with chance.choice(entries).open("r+b") as file:
+        file.truncate(11_000_000)
 
 
 def _folders(folder: Path, entries: Sequence[Path], chance: random.Random) -> None:
@@ -166,7 +176,7 @@ _DAMAGES: Mapping[str, Damage] = {
     "folder": _folders,
     "link": _links,
     "fifo": _fifos,
-    "huge": _every(lambda entry: b"\0" * 11_000_000),
+    "huge": _huge,
     "bomb": _every(lambda entry: _summed(entry, _bomb())),
     "garbled": _garbled,
     "wrong shape": _other_shape,
