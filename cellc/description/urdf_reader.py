@@ -205,6 +205,9 @@ def _read_limit(element: XmlElement) -> JointLimit:
     lower, upper, velocity, effort = (
         optional_number(element, attribute) for attribute in ("lower", "upper", "velocity", "effort")
     )
+    if effort is not None and effort < 0.0:  # pinocchio refuses the whole description for it
+        message = f"`effort` of `<limit>` must be 0 or more, got {element.attributes['effort']}"
+        raise refused("urdf-bad-number", element, message, "write the magnitude")
     return JointLimit(lower, upper, velocity, effort)
 
 

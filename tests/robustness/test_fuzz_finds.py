@@ -32,10 +32,16 @@ IN_A_DEVICE = [
 ]
 
 
-@pytest.mark.parametrize(("device", "old", "new"), IN_A_DEVICE)
+IN_A_DESCRIPTION = [
+    pytest.param("stage", 'velocity="1" effort="10"/>\n  </joint>\n  <joint name="slide"',
+                 'velocity="1" effort="-1"/>\n  </joint>\n  <joint name="slide"', id="description 7276: effort"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("device", "old", "new"), [*IN_A_DEVICE, *IN_A_DESCRIPTION])
 def test_a_changed_device_is_told_on_its_line(device: str, old: str, new: str, tmp_path: Path) -> None:
     shutil.copytree(PARTS / device, tmp_path / "device")
-    file = tmp_path / "device" / "device.yaml"
+    file = tmp_path / "device" / (f"{device}.urdf" if "<joint" in old else "device.yaml")
     text = file.read_text(encoding="utf-8")
     assert text.count(old) == 1
     file.write_text(text.replace(old, new), encoding="utf-8")

@@ -203,7 +203,7 @@ def _damaged_artifact(name: str, data: bytes, chance: random.Random) -> bytes:
             .mutate(_times(chance))
             .encode("utf-8", "surrogatepass")
         )
-    except (ValueError, ElementTree.ParseError, SyntaxError):  # what was damaged before is damaged in its bytes
+    except (ValueError, RecursionError, SyntaxError):  # what was damaged before is damaged in its bytes
         return mutate_bytes(data, chance)
 
 
