@@ -112,10 +112,12 @@ class ControlFacts(CatalogModel):
 
     ``component`` is the tag's name, which is a node name too from Jazzy on; ``update_rates`` are those that the device
     accepts, none for any; ``joints`` are named without prefix, ``*`` stands for every joint that moves on its own.
+    ``enforce_command_limits`` is what the vendor tells its controller manager where that can enforce limits.
     """
 
     component: NodeName
     update_rates: tuple[Frequency, ...] = ()
+    enforce_command_limits: bool | None = None
     hardware: HardwareByTarget
     joints: dict[Text, JointInterfaces]
     sensors: dict[Token, GroupInterfaces] = Field(default_factory=dict)
@@ -249,9 +251,16 @@ class StreamFacts(CatalogModel):
 
 
 class CameraFacts(CatalogModel):
-    """A camera: its streams, and what its stamps mean."""
+    """A camera: its streams, and what its stamps mean.
+
+    ``exposure_parameters`` of its node are the exposure in the unit given for each, ``auto_exposure_parameters`` hand
+    it to the camera; ``serial_parameter`` tells the node which camera is meant, a text with an underscore before it.
+    """
 
     streams: dict[Token, StreamFacts] = Field(min_length=1)
     exposure: Duration | None = None
+    exposure_parameters: dict[Text, Duration] = Field(default_factory=dict)
+    auto_exposure_parameters: tuple[Text, ...] = ()
+    serial_parameter: Text | None = None
     hardware_clock: bool
     source: Text

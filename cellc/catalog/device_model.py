@@ -12,7 +12,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from cellc.catalog.catalog_model import CatalogModel, Date, DistroName, Text, Token
+from cellc.catalog.catalog_model import CatalogModel, Date, DistroName, FileName, Text, Token
 from cellc.catalog.device_controller import DeviceController
 from cellc.catalog.device_interfaces import (
     ActionFacts,
@@ -72,8 +72,20 @@ class SafetyFacts(CatalogModel):
     source: Text
 
 
+class RepositoryPin(CatalogModel):
+    """A repository at one commit or tag, as ``vcs import`` takes it; ``name`` is its folder in a workspace."""
+
+    name: FileName
+    url: Text
+    ref: FileName
+
+
 class VersionRow(CatalogModel):
-    """Versions that go together on one distribution; ``known`` are those that the source names."""
+    """Versions that go together on one distribution; ``known`` are those that the source names.
+
+    A version that the distribution does not release is ``built_from`` repositories, its own first. ``ambiguous`` says
+    why a version pins nothing.
+    """
 
     part: Literal["driver", "sdk", "description", "firmware"]
     distro: DistroName | None = None
@@ -81,6 +93,8 @@ class VersionRow(CatalogModel):
     known: tuple[Text, ...] = ()
     minimum: Text | None = None
     below: Text | None = None
+    built_from: tuple[RepositoryPin, ...] = ()
+    ambiguous: Text | None = None
     note: Text | None = None
     source: Text
     as_of: Date

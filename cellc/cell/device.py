@@ -85,6 +85,7 @@ class HardwareComponent:
         effects: what the real component does at each moment that the catalog tells of.
         initial_state: the state in which the real one is to come up.
         at_once: from there it must become active in one call, without a stay in between.
+        enforce_command_limits: what the vendor tells the controller manager of this; None where it says nothing.
         command_timeout_s: the longest silence before the device ends what it does; None where nobody told.
     """
 
@@ -97,6 +98,7 @@ class HardwareComponent:
     effects: Mapping[Moment, Effect] = field(default_factory=dict)
     initial_state: str = "active"
     at_once: bool = False
+    enforce_command_limits: bool | None = None
     command_timeout_s: float | None = None
 
     @property

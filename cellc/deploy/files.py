@@ -22,6 +22,9 @@ PROMOTION_CHECKLIST = "gates/promotion.md"
 NETWORK_CHECKLIST = "gates/network.md"
 """Checklists of gates G0 to G7 and of layers L1 to L6."""
 
+SOURCES = "sources.repos"
+"""Repositories of what no distribution releases, as vcstool reads them."""
+
 QOS_OVERRIDES = "config/qos_overrides.yaml"
 """QoS of the nodes that the spec names."""
 

@@ -1,4 +1,4 @@
-"""``package.xml`` and ``CMakeLists.txt``: the generated folder as a ROS package, read by colcon and rosdep.
+"""``package.xml``, ``CMakeLists.txt``, ``sources.repos``: the folder as a ROS package, read by colcon, rosdep and vcs.
 
 Format 3 of REP-149. Run-time dependencies follow from what is in use: nodes, controllers, hardware drivers. The version
 is that of the artifacts' format; what the cell was made from stands in ``manifest.json``. There is nothing to compile:
@@ -8,16 +8,20 @@ into a package beside this one; the artifacts are tested where they are made.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from xml.etree.ElementTree import Element
 
 from cellc.artifact import Artifact
+from cellc.catalog.device_model import RepositoryPin
 from cellc.cell.cell import Cell
 from cellc.deploy.deployment import Deployment
-from cellc.deploy.files import BRING_UP_PROGRAM, plans
+from cellc.deploy.files import BRING_UP_PROGRAM, SOURCES, plans
 from cellc.formats.urdf.hardware import share_folders
 from cellc.formats.xml_text import comment, element, render
+from cellc.formats.yaml_text import render as yaml
 from cellc.graph.cell_graph import CellGraph
+from cellc.graph.versions import compatibility
+from cellc.pins import version_number
 
 _ALWAYS = ("ros2launch", "xacro")
 _CONTROL = ("controller_manager", "hardware_interface", "ros2controlcli")
@@ -31,6 +35,7 @@ _PLANNING = (
     "moveit_simple_controller_manager",
     "pilz_industrial_motion_planner",
 )
+_MOVE_GROUP = "moveit_ros_move_group"
 _FOLDERS = ("config", "launch", "security", "urdf")
 _ON_HOSTS = "middleware"
 _FILES = ("contract.json", "manifest.json", "rehearsals.json")
@@ -41,10 +46,16 @@ _EMAIL = "maintainer@unset.invalid"
 def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     """Yield the package manifest and the build file."""
     yield Artifact("package.xml", render(_package(graph.cell), plan.header.text))
+    sources = _sources(graph.cell)
+    if sources:
+        told = {name: {"type": "git", "url": pin.url, "version": pin.ref} for name, pin in sources.items()}
+        text = "# versions, devices: `vcs import src < sources.repos` in the workspace that this package is built in\n"
+        yield Artifact(SOURCES, plan.header.commented("#") + text + yaml({"repositories": told}))
     yield Artifact("CMakeLists.txt", plan.header.commented("#") + "\n".join(_build_file(graph.cell)) + "\n")
 
 
 def _package(cell: Cell) -> Element:
+    pinned = _pinned(cell)
     return element(
         "package",
         {"format": "3"},
@@ -56,10 +67,31 @@ def _package(cell: Cell) -> Element:
             element("maintainer", {"email": _EMAIL}, text=cell.owners.approvals.graph),
             element("license", text="Apache-2.0"),
             element("buildtool_depend", text="ament_cmake"),
-            *(element("exec_depend", text=name) for name in _dependencies(cell)),
+            *(element("exec_depend", _at_least(name, pinned), text=name) for name in _dependencies(cell)),
             element("export", children=[element("build_type", text="ament_cmake")]),
         ],
     )
+
+
+def _at_least(name: str, pinned: Mapping[str, str]) -> dict[str, str]:
+    return {"version_gte": pinned[name]} if name in pinned else {}
+
+
+def _pinned(cell: Cell) -> dict[str, str]:
+    """Return the pinned number of each package that a part of the version tuple is; a commit is no number."""
+    parts: list[tuple[str | None, str]] = [(name, cell.versions.ros2_control) for name in _CONTROL]
+    parts += [(name, cell.versions.moveit) for name in (*_PLANNING, _MOVE_GROUP)]
+    for device in cell.devices:
+        packages, versions = device.packages, device.versions
+        parts += [(packages.driver, versions.driver), (packages.sdk, versions.sdk)]
+        parts += [(packages.description, versions.description)]
+    return {name: number for name, text in parts if name and (number := version_number(text))}
+
+
+def _sources(cell: Cell) -> dict[str, RepositoryPin]:
+    """Return the repositories that a workspace needs because no distribution releases what is pinned."""
+    pins = (pin for judged in compatibility(cell) for pin in judged.built_from)
+    return {pin.name: pin for pin in sorted(pins, key=lambda pin: pin.name)}
 
 
 def _dependencies(cell: Cell) -> tuple[str, ...]:

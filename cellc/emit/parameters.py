@@ -22,6 +22,7 @@ from cellc.deploy.files import QOS_OVERRIDES, controllers_file, node_file
 from cellc.formats.header import Header
 from cellc.formats.parameter_file import NodeParameters, parameter_file, qos_parameters
 from cellc.graph.cell_graph import CellGraph
+from cellc.vocabulary import Feature, features
 
 
 def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
@@ -49,6 +50,11 @@ def _of_manager(cell: Cell, manager: ControllerManager) -> dict[str, ParameterVa
         components = (cell.device(name).hardware for name in manager.devices)
         if named := tuple(one.name for one in components if one is not None and one.comes_up == state):
             rate[f"hardware_components_initial_state.{state}"] = named
+    hardware = [cell.device(name).hardware for name in manager.devices]
+    if Feature.LIMITED_COMMANDS in features(cell.distro) and any(
+        one is not None and one.enforce_command_limits is False for one in hardware
+    ):
+        rate["enforce_command_limits"] = False
     return rate | {f"{controller.name}.type": controller.plugin for controller in manager.controllers}
 
 

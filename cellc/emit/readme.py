@@ -17,7 +17,7 @@ from cellc.cell.interface import Interface, InterfaceKind
 from cellc.deploy.bringup import phases
 from cellc.deploy.configuration import OpenQuestion
 from cellc.deploy.deployment import Deployment
-from cellc.deploy.files import NETWORK_CHECKLIST, PROMOTION_CHECKLIST, plans
+from cellc.deploy.files import NETWORK_CHECKLIST, PROMOTION_CHECKLIST, SOURCES, plans
 from cellc.deploy.gates import Gate
 from cellc.deploy.labels import real_driver
 from cellc.deploy.releases import start_mock
@@ -46,6 +46,7 @@ _FILES = (
     ("launch/claim.launch.xml", "gives command interfaces their owners on real hardware; a person releases it"),
     ("config/bring_up.json", "each step of the bring-up: its proof, what it asks for, and the effect that must show"),
     ("scripts/bring_up", "the program that takes these steps"),
+    (SOURCES, "repositories at commits of what the distribution does not release: `vcs import src < sources.repos`"),
     ("contract.json", "what the interfaces promise: type, QoS, rate, age, owner, failure behavior"),
     ("rehearsals.json", "what the mock executes, and the outcome that each run must end in"),
     ("graph/responsibility.svg", "who tells what to whom, and who answers for it; `.mmd` says the same"),

@@ -6,13 +6,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import Enum
 
-from cellc.catalog.device_model import VersionRow
+from cellc.catalog.device_model import RepositoryPin, VersionRow
 from cellc.catalog.load import load_distros
 from cellc.catalog.tables import DistroFacts
 from cellc.cell.cell import Cell
 from cellc.cell.site import UNKNOWN
 from cellc.diagnostics import YamlPath
-from cellc.pins import version_number, version_numbers
+from cellc.pins import same_version, version_number, version_numbers
 
 _DEVICE_PARTS = ("revision", "firmware", "driver", "sdk", "description")
 
@@ -76,11 +76,15 @@ class Answer(str, Enum):
 
 @dataclass(frozen=True, slots=True)
 class Judgement:
-    """One part of the tuple with the answer, and what the answer rests on."""
+    """One part of the tuple with the answer, and what the answer rests on.
+
+    ``built_from`` are the repositories that it is built from where the distribution does not release it.
+    """
 
     pin: Pin
     answer: Answer
     evidence: str
+    built_from: tuple[RepositoryPin, ...] = ()
 
 
 def compatibility(cell: Cell) -> tuple[Judgement, ...]:
@@ -137,7 +141,8 @@ def _of_devices(cell: Cell) -> Iterator[Judgement]:
         rows = [row for row in devices[pin.holder].version_rows if row.part == pin.part]
         judge = _firmware_answer if pin.part == "firmware" else _package_answer
         answer, evidence = judge(pin, rows, cell.distro)
-        yield Judgement(pin, answer, evidence)
+        row = None if pin.part == "firmware" else named_row(pin, rows, cell.distro)
+        yield Judgement(pin, answer, evidence, () if row is None else row.built_from)
 
 
 def _firmware_answer(pin: Pin, rows: list[VersionRow], distro: str) -> tuple[Answer, str]:
@@ -153,18 +158,33 @@ def _firmware_answer(pin: Pin, rows: list[VersionRow], distro: str) -> tuple[Ans
 
 
 def _package_answer(pin: Pin, rows: list[VersionRow], distro: str) -> tuple[Answer, str]:
+    row = named_row(pin, rows, distro)
+    if row is not None:
+        return _known_answer(row, distro)
     here = [row for row in rows if row.distro in (None, distro) and row.known]
     elsewhere = [row for row in rows if row not in here and row.known]
-    ours = version_number(pin.text)
-    for row in here:
-        if ours in map(version_number, row.known):
-            return Answer.OK, f"{distro} knows {', '.join(row.known)}: {_origin(row)}"
     lines = {version_numbers(known)[:1] for row in here for known in row.known}
     for row in elsewhere:
         if lines and version_numbers(pin.text)[:1] not in lines and _has_line(row, pin):
             return Answer.INCOMPATIBLE, f"it is of {row.distro}: {_origin(row)}"
     known = ", ".join(known for row in here for known in row.known)
     return Answer.UNKNOWN, f"{distro} knows {known}: {_origin(here[0])}" if here else "no matrix names it"
+
+
+def named_row(pin: Pin, rows: list[VersionRow], distro: str) -> VersionRow | None:
+    """Return the row of a distribution that names the very version of a pin; None where none does."""
+    here = (row for row in rows if row.part == pin.part and row.distro in (None, distro))
+    return next((row for row in here if any(same_version(pin.text, known) for known in row.known)), None)
+
+
+def _known_answer(row: VersionRow, distro: str) -> tuple[Answer, str]:
+    if row.ambiguous is not None:
+        return Answer.UNKNOWN, f"{row.ambiguous}: {_origin(row)}"
+    if row.built_from:
+        own = row.built_from[0]
+        built = f"{distro} does not release it; `sources.repos` builds it from {own.name} at {own.ref[:12]}"
+        return Answer.UNKNOWN, f"{built}: {_origin(row)}"
+    return Answer.OK, f"{distro} knows {', '.join(row.known)}: {_origin(row)}"
 
 
 def _has_line(row: VersionRow, pin: Pin) -> bool:

@@ -15,8 +15,9 @@ from cellc.catalog.device_interfaces import (
 )
 from cellc.catalog.device_model import DeviceModel
 from cellc.catalog.effects import EffectFacts
-from cellc.cell.device import DeviceDriver, Effect, HardwareComponent, InterfaceGroup, OfferedInterface
-from cellc.cell.interface import InterfaceKind
+from cellc.cell.device import Device, DeviceDriver, Effect, HardwareComponent, InterfaceGroup, OfferedInterface
+from cellc.cell.interface import InterfaceKind, ParameterValue
+from cellc.cell.site import UNKNOWN
 from cellc.link.names import Placeholders
 from cellc.pins import older
 from cellc.vocabulary import Distro, Unmet
@@ -47,6 +48,7 @@ def hardware_component(
         parameters=parameters,
         sensors=_groups(control.sensors, prefix),
         gpios=_groups(control.gpios, prefix, None if release is None else release.exports),
+        enforce_command_limits=control.enforce_command_limits,
     )
     return component if real is None else _with_effects(component, real, distro)
 
@@ -96,6 +98,21 @@ def run_nodes(facts: DeviceModel, known: Placeholders, firmware: str) -> tuple[N
             firmware.split()[0] == product and older(firmware, least) for product, least in node.firmware.items()
         )
     )
+
+
+def camera_parameters(facts: DeviceModel, device: Device) -> dict[str, ParameterValue]:
+    """Return what the node of a camera is told of the exposure and the serial that the spec states."""
+    camera, serial = facts.camera, device.versions.serial
+    if camera is None:
+        return {}
+    told: dict[str, ParameterValue] = {}
+    exposure = None if device.stamp is None else device.stamp.exposure_s
+    if exposure is not None:
+        told |= dict.fromkeys(camera.auto_exposure_parameters, False)
+        told |= {name: round(exposure / unit.si) for name, unit in camera.exposure_parameters.items()}
+    if camera.serial_parameter is not None and serial != UNKNOWN:
+        told[camera.serial_parameter] = f"_{serial}"
+    return told
 
 
 def started_nodes(nodes: Iterable[NodeFacts], known: Placeholders, distro: Distro | None) -> dict[str, Effect]:

@@ -13,7 +13,7 @@ from cellc.cell.interface import Node, NodeEndpoints, NodeSource
 from cellc.diagnostics import Diagnostic, Outcome, Severity, Span, YamlPath
 from cellc.link.devices import BoundDevice
 from cellc.link.frames import ROBOT_STATE_PUBLISHER
-from cellc.link.hardware import run_nodes
+from cellc.link.hardware import camera_parameters, run_nodes
 from cellc.link.names import Placeholders, home_host, unknown_name
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
@@ -147,7 +147,7 @@ def _driver_nodes(spec: CellSpec, devices: tuple[BoundDevice, ...]) -> Iterator[
                 language="cpp",
                 real_only=entry.provides == "real",
                 device=device.name,
-                parameters=known.fill_parameters(entry.parameters),
+                parameters=known.fill_parameters(entry.parameters) | camera_parameters(bound.facts, device),
                 remaps=_joined(device, f"{namespace}/{name}") | _named(entry.remaps, known),
                 endpoints=_endpoints(entry.endpoints, known),
             )

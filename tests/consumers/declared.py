@@ -24,6 +24,7 @@ _FILES = {
     "force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster": (
         "force_torque_sensor_broadcaster__force_torque_sensor_broadcaster"
     ),
+    "ur_controllers/GPIOController": "../ur/gpio_controller",
     "controller_manager": "controller_manager__controller_manager",
 }
 # Declared in code, not in a parameter file: scaled_joint_trajectory_controller.cpp of Universal_Robots_ROS2_Driver.

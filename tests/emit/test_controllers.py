@@ -22,6 +22,7 @@ _DECLARED_IN = {
         "parallel_gripper_controller__gripper_action_controller"
     ),
     "position_controllers/GripperActionController": "gripper_controllers__gripper_action_controller",
+    "ur_controllers/GPIOController": "../ur/gpio_controller",
 }
 # Universal_Robots_ROS2_Driver, scaled_joint_trajectory_controller.cpp: declared in code, not in a parameter file.
 _OWN = {"ur_controllers/ScaledJointTrajectoryController": {"speed_scaling_interface_name": "string"}}
@@ -71,11 +72,14 @@ def test_manager_learns_rate_and_plugins() -> None:
     assert manager == {
         "ros__parameters": {
             "update_rate": 500,
+            # UR 3.8.0 ur_controllers.yaml: limits are taken from the lagging position.
+            "enforce_command_limits": False,
             # Its activation moves the fingers: robotiq_driver hardware_interface.cpp, on_activate.
             "hardware_components_initial_state": {"unconfigured": ["gripper_hardware"]},
             "joint_states": {"type": "joint_state_broadcaster/JointStateBroadcaster"},
             "arm_trajectory": {"type": "ur_controllers/ScaledJointTrajectoryController"},
             "gripper_action": {"type": "parallel_gripper_action_controller/GripperActionController"},
+            "arm_io": {"type": "ur_controllers/GPIOController"},
         }
     }
 

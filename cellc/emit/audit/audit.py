@@ -133,6 +133,8 @@ def _asked_of_device(cell: Cell, device: Device, part: str) -> tuple[str, str]:
 def _untested(cell: Cell) -> Iterator[tuple[str, ...]]:
     devices = {device.name: device for device in cell.devices}
     for judged in compatibility(cell):
+        if judged.built_from:
+            continue  # `sources.repos` answers it
         # Hardware revisions and kernels stand in no matrix of any supplier; the mock and the gates cover them.
         if judged.answer is Answer.UNKNOWN and judged.pin.known and judged.pin.part not in ("revision", "kernel"):
             yield _asked_for_matrix(cell, devices.get(judged.pin.holder), judged)

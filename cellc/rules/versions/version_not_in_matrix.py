@@ -21,7 +21,7 @@ Source: docs/principles.md#pinned-versions
 
 from __future__ import annotations
 
-from cellc.pins import version_number
+from cellc.pins import is_commit, last_word, same_version, version_number
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
@@ -35,7 +35,9 @@ def check(graph: CellGraph) -> Findings:
             here = {name for row in rows if row.distro in (None, graph.cell.distro) for name in row.known}
             elsewhere = {_line(name) for row in rows for name in row.known} - {_line(name) for name in here}
             ours = version_number(text)
-            if not ours or not rows or ours in here or (here and _line(ours) in elsewhere):
+            versioned = ours or is_commit(last_word(text))
+            known = any(same_version(text, name) for name in here)
+            if not versioned or not rows or known or (ours and here and _line(ours) in elsewhere):
                 continue
             names = ", ".join(sorted(here)) or "none"
             message = f"`{text}` of `{device.name}` is not in the matrix of {graph.cell.distro}, which knows {names}"
