@@ -27,6 +27,7 @@ _LEGAL = {
     "liveliness": {"automatic", "manual_by_topic"},
 }
 # What the drivers declare: ur_control.launch.py, rs_launch.py, franka_gripper's gripper.launch.py.
+_SENSORS = ("rgb_camera", "depth_module")
 _OF_DRIVERS = {
     "dashboard_client": {"robot_ip"},
     "robot_state_helper": {"robot_ip", "headless_mode"},
