@@ -12,7 +12,6 @@ from collections.abc import Iterator, Mapping
 from xml.etree.ElementTree import Element
 
 from cellc.artifact import Artifact
-from cellc.catalog.device_model import RepositoryPin
 from cellc.cell.cell import Cell
 from cellc.deploy.deployment import Deployment
 from cellc.deploy.files import BRING_UP_PROGRAM, SOURCES, plans
@@ -20,7 +19,7 @@ from cellc.formats.urdf.hardware import share_folders
 from cellc.formats.xml_text import comment, element, render
 from cellc.formats.yaml_text import render as yaml
 from cellc.graph.cell_graph import CellGraph
-from cellc.graph.versions import compatibility
+from cellc.graph.versions import unreleased
 from cellc.pins import version_number
 
 _ALWAYS = ("ros2launch", "xacro")
@@ -46,7 +45,7 @@ _EMAIL = "maintainer@unset.invalid"
 def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     """Yield the package manifest and the build file."""
     yield Artifact("package.xml", render(_package(graph.cell), plan.header.text))
-    sources = _sources(graph.cell)
+    sources = unreleased(graph.cell)
     if sources:
         told = {name: {"type": "git", "url": pin.url, "version": pin.ref} for name, pin in sources.items()}
         text = "# versions, devices: `vcs import src < sources.repos` in the workspace that this package is built in\n"
@@ -86,12 +85,6 @@ def _pinned(cell: Cell) -> dict[str, str]:
         parts += [(packages.driver, versions.driver), (packages.sdk, versions.sdk)]
         parts += [(packages.description, versions.description)]
     return {name: number for name, text in parts if name and (number := version_number(text))}
-
-
-def _sources(cell: Cell) -> dict[str, RepositoryPin]:
-    """Return the repositories that a workspace needs because no distribution releases what is pinned."""
-    pins = (pin for judged in compatibility(cell) for pin in judged.built_from)
-    return {pin.name: pin for pin in sorted(pins, key=lambda pin: pin.name)}
 
 
 def _dependencies(cell: Cell) -> tuple[str, ...]:

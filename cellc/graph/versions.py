@@ -92,6 +92,12 @@ def compatibility(cell: Cell) -> tuple[Judgement, ...]:
     return (*_of_cell(cell), *_of_devices(cell))
 
 
+def unreleased(cell: Cell) -> dict[str, RepositoryPin]:
+    """Return the repositories that a workspace needs because the distribution does not release what is pinned."""
+    pins = (pin for judged in compatibility(cell) for pin in judged.built_from)
+    return {pin.name: pin for pin in sorted(pins, key=lambda pin: pin.name)}
+
+
 def _of_cell(cell: Cell) -> Iterator[Judgement]:
     facts, table = distribution(cell), load_distros().value
     for pin in cell_pins(cell):
