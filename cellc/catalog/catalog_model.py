@@ -10,6 +10,7 @@ from cellc.vocabulary import (
     Behaviour,
     CommandAuthority,
     Distro,
+    GateCode,
     ManagerLock,
     Moment,
     Motion,
@@ -33,6 +34,7 @@ AuthorityName = Annotated[CommandAuthority, Strict(False)]
 LockName = Annotated[ManagerLock, Strict(False)]
 NeedName = Annotated[Need, Strict(False)]
 UnmetName = Annotated[Unmet, Strict(False)]
+GateName = Annotated[GateCode, Strict(False)]
 ParameterFact = Union[bool, int, float, str, tuple[Union[bool, int, float, str], ...]]
 """A ROS parameter's value; an int where a double is declared is a mistake."""
 

@@ -12,7 +12,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from cellc.catalog.catalog_model import CatalogModel, Date, DistroName, FileName, Text, Token
+from cellc.catalog.catalog_model import CatalogModel, Date, DistroName, FileName, GateName, Text, Token
 from cellc.catalog.device_controller import DeviceController
 from cellc.catalog.device_interfaces import (
     ActionFacts,
@@ -108,6 +108,19 @@ class DescriptionFacts(CatalogModel):
     arguments: dict[Token, Text] = Field(default_factory=dict)
 
 
+class CommissioningStep(CatalogModel):
+    """What a person does at the real device in a gate, by its vendor's procedure; ``only`` on some distributions.
+
+    ``shows`` where it is what must be seen once the release of that gate has been made.
+    """
+
+    gate: GateName
+    does: Text
+    shows: bool = False
+    only: tuple[DistroName, ...] = ()
+    source: Text
+
+
 class PackageFacts(CatalogModel):
     """ROS package or library names as they stand in the version tuple; None where there is none."""
 
@@ -197,5 +210,6 @@ class DeviceModel(CatalogModel):
     actions: tuple[ActionFacts, ...] = ()
     network: NetworkFacts | None = None
     safety: SafetyFacts | None = None
+    commissioning: tuple[CommissioningStep, ...] = ()
     versions: tuple[VersionRow, ...] = ()
     mock_cannot_prove: tuple[Text, ...] = ()

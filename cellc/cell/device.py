@@ -12,7 +12,7 @@ from cellc.cell.interface import InterfaceKind
 from cellc.cell.site import UNKNOWN, Clock, JointFigure
 from cellc.description.model import Description
 from cellc.transforms import Pose, Vector3, identity
-from cellc.vocabulary import CommandAuthority, ManagerLock, Moment, Motion, Need, Unmet
+from cellc.vocabulary import CommandAuthority, GateCode, ManagerLock, Moment, Motion, Need, Unmet
 
 EVERY_JOINT = "*"
 """Name of what the mock adds to every joint that is commanded."""
@@ -281,6 +281,18 @@ class VendorSafety:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class CommissioningStep:
+    """What a person does at the real device in a gate, by its vendor's procedure.
+
+    ``shows`` where it is what must be seen once the release of that gate has been made.
+    """
+
+    gate: GateCode
+    does: str
+    shows: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Packages:
     """Packages or libraries of the vendor as they stand in the version tuple; None where there is none."""
 
@@ -314,6 +326,7 @@ class Device(Entity):
         offers: what the driver offers whether the spec names it or not.
         starts: full name of a node of the driver → what the start of its process does.
         version_rows: the matrix of versions that go together.
+        commissioning: what people do at the real one, in the vendor's order.
         mock_cannot_prove: what no mock shows of it.
     """
 
@@ -353,6 +366,7 @@ class Device(Entity):
     network: NetworkNeeds | None = None
     safety: VendorSafety = field(default_factory=VendorSafety)
     packages: Packages = field(default_factory=Packages)
+    commissioning: tuple[CommissioningStep, ...] = ()
     version_rows: tuple[VersionRow, ...] = ()
     mock_cannot_prove: tuple[str, ...] = ()
 

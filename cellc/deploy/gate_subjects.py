@@ -35,6 +35,7 @@ def cell_row(cell: Cell, header: Header, code: str) -> Row:
     """Return what every text and command may name; ``record`` is for a bag of one gate."""
     stop = cell.safety.stop
     return {
+        "gate": code,
         "cell": cell.name,
         "build": header.command,
         "description": f"generated/{cell.name}/urdf/{cell.name}.real.urdf",
@@ -126,6 +127,14 @@ def _missing_first_motion(graph: CellGraph) -> Iterator[Values]:
 def _stop_reasons(graph: CellGraph) -> Iterator[Values]:
     first = graph.cell.bringup.first_motion
     return ((reason,) for reason in (() if first is None else first.stop_if))
+
+
+def _by_vendors(graph: CellGraph, *, shows: bool) -> Iterator[Values]:
+    """Yield what the vendors have people do in the gates, or what must show there once something was released."""
+    for device in graph.cell.devices:
+        for step in device.commissioning:
+            if step.shows is shows:
+                yield device.name, step.does, step.gate
 
 
 def _released(graph: CellGraph, release: Release, phase: BringUpPhase) -> Iterator[Values]:
@@ -220,6 +229,8 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "first_motion": (("joint", "direction", "max_delta", "velocity", "timeout"), _first_motion),
     "missing_first_motion": ((), _missing_first_motion),
     "stop_reason": (("reason",), _stop_reasons),
+    "vendor_step": (("device", "does", "gate"), lambda graph: _by_vendors(graph, shows=False)),
+    "vendor_sign": (("device", "does", "gate"), lambda graph: _by_vendors(graph, shows=True)),
     "real_activation": (("command",), lambda graph: _released(graph, ACTIVATE, BringUpPhase.ACTIVATE)),
     "real_claim": (("command",), lambda graph: _released(graph, CLAIM, BringUpPhase.CLAIM)),
     "real_motion": (("command",), lambda graph: _each(move_real(graph.cell))),

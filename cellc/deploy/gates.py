@@ -161,8 +161,8 @@ def _owners(graph: CellGraph) -> Mapping[str, str]:
 
 
 def _checks(line: Line, graph: CellGraph, base: Row) -> Iterator[Check]:
-    repeated = tuple(_rows(line.each or CELL, graph))
-    for row in _rows(line.of, graph) if repeated else ():
+    repeated = tuple(_rows(line.each or CELL, graph, base["gate"]))
+    for row in _rows(line.of, graph, base["gate"]) if repeated else ():
         filled = {**base, **row}
         words = ({name: _word(name, value) for name, value in {**filled, **other}.items()} for other in repeated)
         commands = (command.format_map(known) for known in words for command in line.run)
@@ -178,10 +178,12 @@ def _word(field: str, value: str) -> str:
     return value if field in _COMMANDS else shell_word(value)
 
 
-def _rows(subject: str, graph: CellGraph) -> Iterator[Row]:
-    """Yield what a subject fills in, once for each of it; the cell itself is one."""
+def _rows(subject: str, graph: CellGraph, gate: str) -> Iterator[Row]:
+    """Yield what a subject fills in, once for each of it; the cell itself is one, and people act gate by gate."""
     if subject == CELL:
         yield {}
         return
     for values in ROWS[subject](graph):
-        yield dict(zip(FIELDS[subject], values, strict=True))
+        row = dict(zip(FIELDS[subject], values, strict=True))
+        if row.get("gate", gate) == gate:
+            yield row

@@ -1,8 +1,8 @@
 """``gates/promotion.md`` and ``gates/network.md``: G0–G7 and L1–L6 for this cell.
 
 Markdown checklists for the people at the cell. Commands read, or start what is released at that gate; what enables or
-moves anything is a step of the vendor's procedure and stands here as words. Left out: results, which belong into the
-evidence folder of an attempt.
+moves anything is a step of the vendor's procedure and stands here as words. The page is copied into the evidence folder
+of an attempt, where it is filled in and signed.
 """
 
 from __future__ import annotations
@@ -31,6 +31,9 @@ _WHERE = (
 )
 
 
+_RESULT = "Result (passed or stopped): ________ Name: ________________ Date, time: ________________ Signature: ________"
+
+
 def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     """Yield both checklists."""
     name = graph.cell.name
@@ -51,7 +54,7 @@ def _gate(gate: Gate) -> str:
         f"Evidence `{gate.evidence}`, signed by {markdown(gate.owner)}. **Stop on:** {markdown('; '.join(gate.stop))}."
     )
     checks = "\n".join(line for check in gate.checks for line in _check(check, gate.evidence)).rstrip("\n")
-    return "\n\n".join((f"## {gate.code} {gate.title}", passed, checks, signed))
+    return "\n\n".join((f"## {gate.code} {gate.title}", passed, checks, signed, _RESULT))
 
 
 def _check(check: Check, evidence: str) -> Iterator[str]:

@@ -9,6 +9,7 @@ from cellc.cell.device import (
     Adapter,
     Camera,
     CameraStream,
+    CommissioningStep,
     Connection,
     Device,
     DeviceVersions,
@@ -68,6 +69,11 @@ def with_catalog(
         network=_network_needs(facts),
         safety=_vendor_safety(facts),
         packages=_packages(facts),
+        commissioning=tuple(
+            CommissioningStep(gate=one.gate, does=known.fill(one.does), shows=one.shows)
+            for one in facts.commissioning
+            if not one.only or distro in one.only
+        ),
         version_rows=facts.versions,
         mock_cannot_prove=facts.mock_cannot_prove,
     )

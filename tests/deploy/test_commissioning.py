@@ -1,0 +1,70 @@
+"""What vendors have people do stands in the gates, at its place."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from tests.cells import DISTROS, ROOT
+from tests.emit.cells import CELLS, artifacts_of
+from tests.foreign_yaml import safe_load
+
+
+def _gates(cell: str, distro: str) -> dict[str, list[str]]:
+    """Return the lines to tick of each gate."""
+    artifacts = artifacts_of(cell, distro)
+    text = artifacts["gates/promotion.md"] + artifacts["gates/network.md"]
+    parts = re.split(r"^## ([GL]\d) .*$", text, flags=re.MULTILINE)[1:]
+    return {
+        code: re.findall(r"^- \[ \] (.*)$", body, re.MULTILINE)
+        for code, body in zip(parts[::2], parts[1::2], strict=True)
+    }
+
+
+def _bare(text: str) -> str:
+    return re.sub(r"[\\`*_]", "", text)
+
+
+def _place(lines: list[str], word: str) -> int:
+    return next(number for number, line in enumerate(lines) if word in line)
+
+
+@pytest.mark.parametrize("distro", DISTROS)
+@pytest.mark.parametrize("cell", CELLS)
+def test_every_step_of_a_vendor_stands_in_its_gate_once(cell: str, distro: str) -> None:
+    gates = _gates(cell, distro)
+    spec = safe_load((ROOT / "cells" / cell / "cell.yaml").read_text(encoding="utf-8"))
+    for name, device in spec["devices"].items():
+        file = ROOT / "cellc" / "catalog" / "devices" / device["model"] / "device.yaml"
+        for step in safe_load(file.read_text(encoding="utf-8")).get("commissioning", []):
+            begins = f"{name}: {_bare(step['does'])}"[:60]
+            holding = [code for code, lines in gates.items() for line in lines if _bare(line).startswith(begins)]
+            assert holding == [step["gate"]], step["does"]
+
+
+@pytest.mark.parametrize("distro", DISTROS)
+def test_nobody_releases_brakes_or_fingers_before_the_stop_was_tried_and_the_area_is_empty(distro: str) -> None:
+    lines = _gates("ur5e_pick", distro)["G5"]
+    safe = max(_place(lines, "was tried and the drives went off"), _place(lines, "Nobody and nothing is in the reach"))
+    assert safe < _place(lines, "releases the brakes")
+    assert safe < _place(lines, "no program of the arm plays") < _place(lines, "A person releases hardware that moves")
+
+
+@pytest.mark.parametrize("distro", DISTROS)
+def test_robot_listens_before_it_is_claimed_and_is_claimed_before_anything_asks_for_motion(distro: str) -> None:
+    # Universal_Robots_ROS2_Driver issue 1084: a claim before the program plays is a jump when it does.
+    gates = _gates("ur5e_pick", distro)
+    lines = gates["G7"]
+    play, claim, motion = (_place(lines, one) for one in ("presses Play", "releases the claims", "asks for motion"))
+    assert play < claim < motion
+    assert not [line for code in ("G3", "G4", "G5", "G6") for line in gates[code] if "releases the claims" in line]
+
+
+@pytest.mark.parametrize("cell", CELLS)
+def test_every_gate_has_a_place_for_result_name_date_and_signature(cell: str) -> None:
+    artifacts = artifacts_of(cell)
+    for file in ("gates/promotion.md", "gates/network.md"):
+        sections = artifacts[file].split("\n## ")[1:]
+        for section in sections:
+            assert all(word in section.splitlines()[-1] for word in ("Result", "Name", "Date", "Signature"))
