@@ -48,7 +48,7 @@ def test_two_words_name_the_same_input_in_every_process() -> None:
 
 def test_a_traceback_and_a_wrong_answer_are_seen(sandbox: Sandbox, monkeypatch: pytest.MonkeyPatch) -> None:
     whole = next(number for number in range(100) if not make_input("cache", number).damage)
-    monkeypatch.setattr(oracle, "_answers", iter([("before",), ("before",), ("before",), ("now",)]).__next__)
+    monkeypatch.setattr(oracle, "_answers", iter([("before",), ("before",), ("now",)]).__next__)
     assert [found.wrong for found in judge(make_input("cache", whole), sandbox)] == ["wrong answer"]
 
     def broken(path: str) -> pipeline.Checked:
