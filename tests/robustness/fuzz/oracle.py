@@ -65,6 +65,7 @@ class Sandbox:
         self.folder = folder / "cell"
         self.cache = folder / "kept" / "cellc"
         self.folder.mkdir()
+        self.cache.mkdir(parents=True)
         shutil.copytree(PARTS, self.folder / "parts")
         os.environ["XDG_CACHE_HOME"] = str(self.cache.parent)
         os.environ["ROS_PACKAGE_PATH"] = str(self.folder)
