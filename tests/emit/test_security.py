@@ -77,6 +77,7 @@ def test_controllers_live_in_the_enclave_of_their_process() -> None:
         "joint_states",
         "arm_trajectory",
         "gripper_action",
+        "arm_io",
         "arm_hardware",
         "gripper_hardware",
     ]
