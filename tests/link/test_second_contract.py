@@ -131,7 +131,7 @@ def test_cell_links_on_every_distribution(distro: str, tmp_path: Path) -> None:
     [
         ("humble", "scaled_joint_trajectory", "speed_scaling_interface_name"),
         ("jazzy", "scaled_joint_trajectory", "speed_scaling_interface_name"),
-        # The vendor's type is deprecated, then gone; upstream's reads the factor by its own parameter (facts/robots.md).
+        # The vendor's type is deprecated, then gone; upstream's has a parameter of its own (facts/robots.md).
         ("kilted", "joint_trajectory", "speed_scaling.state_interface"),
         ("lyrical", "joint_trajectory", "speed_scaling.state_interface"),
     ],
