@@ -224,7 +224,7 @@ def _resolve_mimics(description: Description) -> tuple[MimicJoint, ...]:
     direct = {
         joint.name: MimicJoint(joint.name, joint.mimic.joint, joint.mimic.multiplier, joint.mimic.offset)
         for joint in description.joints
-        if joint.mimic is not None
+        if joint.mimic is not None and joint.type != "fixed"  # a fixed joint follows nobody
     }
     for mimic in direct.values():
         if mimic.leader not in types:

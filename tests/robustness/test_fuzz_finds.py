@@ -12,6 +12,7 @@ import pytest
 
 from cellc.mock import MockCell, MockError, load
 from cellc.pipeline import check
+from cellc.planning import RobotModel
 from cellc.vocabulary import AttemptOutcome
 from tests.cells import build_into, generated, written
 from tests.robustness.fuzz import bases
@@ -106,6 +107,17 @@ def test_a_group_without_a_joint_is_refused(tmp_path: Path) -> None:
 
     with pytest.raises(MockError, match="group `manipulator` has no joint"):
         _folder_with(tmp_path, "minimal", change)
+
+
+def test_a_fixed_joint_follows_no_other() -> None:
+    """`folder 9018`; the joint is none to pinocchio."""
+    limits = '<limit lower="-1" upper="1" velocity="1" effort="1"/>'
+    turn = f'<joint name="turn" type="revolute"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/>{limits}</joint>'
+    stiff = '<joint name="stiff" type="fixed"><parent link="b"/><child link="c"/><mimic joint="turn"/></joint>'
+    robot = RobotModel.from_urdf(
+        f'<robot name="r"><link name="a"/><link name="b"/><link name="c"/>{turn}{stiff}</robot>'
+    )
+    assert robot.link_pose("c", {"turn": 0.5}, base_link="b").position == (0.0, 0.0, 0.0)
 
 
 def test_a_motion_that_nanoseconds_cannot_count_is_not_planned(tmp_path: Path) -> None:
