@@ -3,8 +3,9 @@
     python benchmarks/signals.py --count 300 --seed 1
 
 Counts what ended with 128 + N, what had finished before, and what the signal met before Python ran a line of cellc:
-such a process dies of the signal itself, which a shell reports as 128 + N too. Everything else is wrong, and printed:
-another code, more than one line, a process that is left, a folder that is neither the old one nor the new one.
+such a process dies of the signal itself, which a shell reports as 128 + N too, or of the traceback of Python's own
+start. Everything else is wrong, and printed: another code, more than one line, a process that is left, a folder that is
+neither the old one nor the new one.
 """
 
 from __future__ import annotations
@@ -115,7 +116,7 @@ def _verdict(code: int, told: str, number: int, listened: bool | None) -> str:
         return "128 + N" if interrupted else f"says {told!r}"
     if listened is None or (code in (0, 1) and "Traceback" not in told):
         return "had finished"
-    if code == -number and not listened:
+    if not listened:  # the signal's own end, or whatever Python's start makes of it
         return "before the first line of cellc"
     return f"ended with {code}: {told[-300:]!r}"
 

@@ -139,6 +139,23 @@ def deaf_children() -> Iterator[None]:
             signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
+def start_deaf_tracker() -> None:
+    """Start the process by which Python's multiprocessing follows what it has to clean up, to hear no signal at all.
+
+    It ignores SIGINT and SIGTERM by itself, and is ended by any other that reaches a whole group of processes: a closed
+    terminal's, or SIGXCPU of a batch system. Python then starts another, which complains of what it never heard of.
+    It uses no processor time, and ends with its last client. Call it before ``deaf_children``: Python opens SIGINT
+    again in the process that starts it.
+    """
+    if sys.platform == "win32":  # Python has none there
+        return
+    from multiprocessing import resource_tracker  # takes longer to load than most commands last
+
+    with deaf_children():
+        signal.pthread_sigmask(signal.SIG_BLOCK, STOPPING)
+        resource_tracker.ensure_running()
+
+
 def _listen() -> None:
     for number in STOPPING:
         # `nohup` and shells in the background start programs that are to ignore one.

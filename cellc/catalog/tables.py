@@ -39,6 +39,7 @@ class DistroTable(CatalogModel):
     distros: dict[DistroName, DistroFacts]
     dead_mock_parameters: dict[Text, Text]
     harmless_plugins: dict[Text, Text] = Field(min_length=1)
+    harmless_programs: dict[Text, Text] = Field(min_length=1)
 
 
 class ControllerManagerFacts(CatalogModel):

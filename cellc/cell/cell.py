@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 from cellc.cell.control import AdaptedDevice, Controller, ControllerManager
@@ -15,6 +15,7 @@ from cellc.cell.site import (
     TARGET_DEFAULTS,
     Bringup,
     Calibration,
+    HardwareStatement,
     Host,
     Kpis,
     Network,
@@ -35,7 +36,10 @@ class Cell:
     Args:
         places: where the user wrote what.
         distro: the pinned distribution.
-        harmless_plugins: hardware plugins that the catalog or a signed statement knows to touch no hardware.
+        mock_plugins: hardware plugin → what the user says of it.
+        mock_programs: package and executable of a device's node → what the user says of it.
+        harmless_plugins: plugins that the catalog or a signed statement knows to touch no hardware.
+        harmless_programs: the same of programs.
         behaviours: controller plugin type string → what it does, for the plugins in use.
     """
 
@@ -53,7 +57,10 @@ class Cell:
     kpis: Kpis = field(default_factory=Kpis)
     recording: Recording = field(default_factory=Recording)
     targets: Mapping[str, Target] = field(default_factory=lambda: dict(TARGET_DEFAULTS))
+    mock_plugins: Mapping[str, HardwareStatement] = field(default_factory=dict)
+    mock_programs: Mapping[str, HardwareStatement] = field(default_factory=dict)
     harmless_plugins: frozenset[str] = frozenset()
+    harmless_programs: frozenset[str] = frozenset()
     devices: tuple[Device, ...] = ()
     frames: tuple[Frame, ...] = ()
     scene: tuple[SceneBox, ...] = ()
@@ -81,6 +88,21 @@ class Cell:
     def text(self, *path: str | int) -> str:
         """Return the scalar at a YAML path as the user wrote it, such as ``5 deg``; empty where nothing is written."""
         return self.places.texts.get(path, "")
+
+    def signed_for_mock(self) -> Iterator[tuple[Device, str, HardwareStatement]]:
+        """Yield the plugins and programs that devices run on the mock, of which somebody in the spec says something."""
+        for device in self.devices:
+            plugin = "" if device.hardware is None else device.hardware.plugins["mock"]
+            if plugin in self.mock_plugins:
+                yield device, plugin, self.mock_plugins[plugin]
+            for program in self.programs_on_mock(device):
+                if program in self.mock_programs:
+                    yield device, program, self.mock_programs[program]
+
+    def programs_on_mock(self, device: Device) -> tuple[str, ...]:
+        """Return the programs that a device runs on every target, as ``package/executable``."""
+        own = (node for node in self.nodes if node.device == device.name and not node.real_only)
+        return tuple(f"{node.package}/{node.executable}" for node in own)
 
     @property
     def controllers(self) -> tuple[Controller, ...]:

@@ -43,6 +43,23 @@ class Clock:
     simulated_drift: float = 0.0
 
 
+@dataclass(frozen=True, slots=True)
+class HardwareStatement:
+    """What somebody says of a plugin or a program that runs on the mock; ``by`` or ``date`` may be UNKNOWN."""
+
+    touches_no_hardware: bool
+    by: str
+    date: str
+
+    def is_signed(self) -> bool:
+        """Whether somebody says, with a date, that it touches no hardware."""
+        try:
+            datetime.date.fromisoformat(self.date)
+        except ValueError:
+            return False
+        return self.touches_no_hardware and self.by.strip() not in ("", UNKNOWN)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NetworkCard:
     """A card of a host: ``address`` with prefix length as written, ``interface`` as the operating system names it."""

@@ -12,7 +12,7 @@ from cellc.artifact import Artifact
 from cellc.diagnostics.diagnostic import Findings
 from cellc.limits import Limits, in_force, limits
 from cellc.rules.shared_domain import Presence, presence_of, shared_domains
-from cellc.signals import deaf_children
+from cellc.signals import deaf_children, start_deaf_tracker
 
 Kind = Literal["check", "compile"]
 
@@ -101,6 +101,7 @@ def in_workers(kind: Kind, files: Sequence[str], number: int) -> Generator[CellR
     from concurrent.futures.process import BrokenProcessPool, ProcessPoolExecutor
     from multiprocessing import get_context
 
+    start_deaf_tracker()
     # Spawned on every platform: nothing of this process, its locks and threads above all, is copied into them.
     pool = ProcessPoolExecutor(number, get_context("spawn"))
     done = 0

@@ -81,6 +81,10 @@ def _calibrated_frames(graph: CellGraph) -> Iterator[Values]:
     return ((one.name, one.calibration) for one in graph.cell.frames if one.calibration is not None)
 
 
+def _mock_statements(graph: CellGraph) -> Iterator[Values]:
+    return ((device.name, name, said.by, said.date) for device, name, said in graph.cell.signed_for_mock())
+
+
 def _managers(graph: CellGraph) -> Iterator[Values]:
     return ((f"{manager.namespace}/controller_manager",) for manager in graph.cell.managers)
 
@@ -217,6 +221,7 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "visible_part": (("part", "version"), _visible),
     "unknown_part": (("part",), _unknown),
     "calibrated_frame": (("frame", "calibration"), _calibrated_frames),
+    "mock_statement": (("device", "loaded", "by", "date"), _mock_statements),
     "mock_motion": (("command",), lambda graph: _each(move_mock(graph.cell))),
     "manager": (("manager",), _managers),
     "mock_action": (("action",), _mock_actions),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from cellc.catalog.load import load_qos_profiles
+from cellc.catalog.load import load_distros, load_qos_profiles
 from cellc.catalog.tables import RMWS, Rmw
 from cellc.cell.cell import Cell
 from cellc.diagnostics import Diagnostic, Outcome, Severity, did_you_mean
@@ -21,7 +21,6 @@ from cellc.link.rehearsals import link_rehearsals
 from cellc.link.site import (
     bind_bringup,
     bind_calibrations,
-    bind_harmless_plugins,
     bind_hosts,
     bind_kpis,
     bind_network,
@@ -29,8 +28,10 @@ from cellc.link.site import (
     bind_places,
     bind_recording,
     bind_safety,
+    bind_statements,
     bind_targets,
     bind_versions,
+    harmless,
 )
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
@@ -96,6 +97,9 @@ def _link_with_devices(
 def _surroundings(spec: CellSpec, document: SourceDocument, distro: Distro) -> Cell:
     """Return the cell before anything stands in it: its hosts, network, owners, safety, figures, and all places."""
     places = bind_places(document)
+    table = load_distros().value
+    assert table is not None  # package data, held valid by the catalog's tests
+    plugins, programs = bind_statements(spec.mock_plugins), bind_statements(spec.mock_programs)
     return Cell(
         name=spec.cell,
         places=places,
@@ -111,7 +115,10 @@ def _surroundings(spec: CellSpec, document: SourceDocument, distro: Distro) -> C
         kpis=bind_kpis(spec),
         recording=bind_recording(spec),
         targets=bind_targets(spec),
-        harmless_plugins=bind_harmless_plugins(spec),
+        mock_plugins=plugins,
+        mock_programs=programs,
+        harmless_plugins=harmless(table.harmless_plugins, plugins),
+        harmless_programs=harmless(table.harmless_programs, programs),
     )
 
 

@@ -6,9 +6,8 @@ Defaults, ``standard`` lists and units are decided here.
 from __future__ import annotations
 
 import datetime
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
-from cellc.catalog.load import load_distros
 from cellc.cell.entity import Places
 from cellc.cell.site import (
     ATTEMPT_FIELDS,
@@ -18,6 +17,7 @@ from cellc.cell.site import (
     Calibration,
     Clock,
     FirstMotion,
+    HardwareStatement,
     Host,
     Kpis,
     Network,
@@ -38,6 +38,7 @@ from cellc.source.document import Node, SourceDocument
 from cellc.spec.cell_spec import CellSpec
 from cellc.spec.devices import StampSpec
 from cellc.spec.hosts import ClockSpec
+from cellc.spec.rehearsals import HardwareStatementSpec
 from cellc.spec.safety import FirstMotionSpec
 from cellc.vocabulary import NETWORK_GATES, PROMOTION_GATES
 
@@ -200,12 +201,14 @@ def bind_recording(spec: CellSpec) -> Recording:
     )
 
 
-def bind_harmless_plugins(spec: CellSpec) -> frozenset[str]:
-    """Return the hardware plugins that may be a mock: those of the catalog, and those that somebody signs for."""
-    table = load_distros().value
-    assert table is not None  # package data, held valid by the catalog's tests
-    signed = (plugin for plugin, statement in spec.mock_plugins.items() if statement.is_signed())
-    return frozenset((*table.harmless_plugins, *signed))
+def bind_statements(written: Mapping[str, HardwareStatementSpec]) -> Mapping[str, HardwareStatement]:
+    """Return what the user says of plugins, or of programs, that run on the mock."""
+    return {name: HardwareStatement(one.touches_no_hardware, one.by, one.date) for name, one in written.items()}
+
+
+def harmless(known: Iterable[str], statements: Mapping[str, HardwareStatement]) -> frozenset[str]:
+    """Return what may run on the mock: what the catalog knows, and what somebody signs for."""
+    return frozenset((*known, *(name for name, statement in statements.items() if statement.is_signed())))
 
 
 def bind_targets(spec: CellSpec) -> Mapping[str, Target]:

@@ -86,7 +86,8 @@ def resolved_tree(cell: Cell) -> dict[str, Tree]:
         "goals": _entities(cell, cell.goals),
     }
     tree["rehearsals"] = _entities(cell, cell.rehearsals)
-    for section in ("owners", "safety", "bringup", "kpis", "recording", "targets"):
+    sections = ("owners", "safety", "bringup", "kpis", "recording", "targets", "mock_plugins", "mock_programs")
+    for section in sections:
         tree[section] = _section(cell, getattr(cell, section), (section,))
     return tree
 

@@ -10,7 +10,7 @@ from cellc.spec.devices import DeviceSpec
 from cellc.spec.frames import BoxSpec, CalibrationSpec, FrameSpec
 from cellc.spec.hosts import HostSpec, NetworkSpec, VersionsSpec
 from cellc.spec.interfaces import InterfaceSpec, NodeSpec
-from cellc.spec.rehearsals import KpisSpec, MockPluginSpec, RecordingSpec, RehearsalSpec, TargetSpec
+from cellc.spec.rehearsals import HardwareStatementSpec, KpisSpec, RecordingSpec, RehearsalSpec, TargetSpec
 from cellc.spec.safety import BringupSpec, OwnersSpec, SafetySpec
 
 TopicName = Annotated[str, StringConstraints(min_length=1, max_length=255)]
@@ -102,8 +102,13 @@ class CellSpec(SpecModel):
     targets: dict[Literal["mock", "sim", "real"], TargetSpec] = Field(
         default_factory=dict, description="What differs between targets.", examples=[{"sim": {"clock": "sim"}}]
     )
-    mock_plugins: dict[Text, MockPluginSpec] = Field(
+    mock_plugins: dict[Text, HardwareStatementSpec] = Field(
         default_factory=dict,
         description="Hardware plugins beside those of the catalog that may stand in for a device in the mock.",
         examples=[{"my_arm/Simulation": {"touches_no_hardware": True, "by": "controls", "date": "2026-07-01"}}],
+    )
+    mock_programs: dict[Text, HardwareStatementSpec] = Field(
+        default_factory=dict,
+        description="Programs of devices, as `package/executable`, beside those of the catalog that may run on the mock.",
+        examples=[{"my_camera/rectify": {"touches_no_hardware": True, "by": "perception", "date": "2026-07-01"}}],
     )

@@ -1,6 +1,5 @@
 """What the mock executes, what it must end in, what is measured and what is recorded."""
 
-import datetime
 from typing import Annotated, Literal, Union
 
 from pydantic import Discriminator, Field, Tag
@@ -113,22 +112,12 @@ class RecordingSpec(SpecModel):
     )
 
 
-class MockPluginSpec(SpecModel):
-    """What somebody signs of a hardware plugin that `device.yaml` names for the mock; UNKNOWN signs nothing."""
+class HardwareStatementSpec(SpecModel):
+    """What somebody signs of a plugin or program that `device.yaml` has run on the mock; UNKNOWN signs nothing."""
 
-    touches_no_hardware: bool = Field(
-        ..., description="Whether the plugin opens no connection to a device.", examples=[True]
-    )
+    touches_no_hardware: bool = Field(..., description="Whether it opens no connection to a device.", examples=[True])
     by: Text = Field("UNKNOWN", description="Who says so.", examples=["controls"])
     date: Pin = Field("UNKNOWN", description="Since when, YYYY-MM-DD.", examples=["2026-07-01"])
-
-    def is_signed(self) -> bool:
-        """Whether somebody says, with a date, that the plugin touches no hardware."""
-        try:
-            datetime.date.fromisoformat(self.date)
-        except ValueError:
-            return False
-        return self.touches_no_hardware and self.by.strip() not in ("", "UNKNOWN")
 
 
 class TargetSpec(SpecModel):

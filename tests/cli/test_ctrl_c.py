@@ -24,11 +24,11 @@ _START = """
 import os, signal, sys
 from importlib import import_module
 
-moments, number, *arguments = sys.argv[1:]
+moments, number, group, *arguments = sys.argv[1:]
 
-def press(kill=os.kill, number=int(number), me=os.getpid(), tell=os.write):
+def press(kill=os.kill, number=int(number), me=0 if group else os.getpid(), tell=os.write):
     tell(2, b"pressed\\n")
-    kill(me, number)
+    kill(me, number)  # 0 is the whole group of processes
 
 def press_on_call(holder, name, number):
     original = getattr(holder, name)
@@ -66,19 +66,23 @@ main()
 """
 
 
-def _assert_interrupted(moments: str, arguments: list[str], number: signal.Signals = signal.SIGINT) -> None:
+def _assert_interrupted(
+    moments: str, arguments: list[str], number: signal.Signals = signal.SIGINT, *, group: bool = False
+) -> None:
     """Send a signal at moments of a command and hold that it ends as shells expect, with all its processes."""
-    ran = _signalled(moments, arguments, number)
+    ran = _signalled(moments, arguments, number, group=group)
     name = "" if number == signal.SIGINT else f" by {number.name}"
     pressed = "pressed\n" * (moments.count(",") + 1)
     assert ran.stderr == f"{pressed}error: interrupted{name}; nothing was left half-written\n"
     assert ran.returncode == 128 + number
 
 
-def _signalled(moments: str, arguments: list[str], number: int) -> subprocess.CompletedProcess[str]:
+def _signalled(
+    moments: str, arguments: list[str], number: int, *, group: bool = False
+) -> subprocess.CompletedProcess[str]:
     # Standard error is read to its end: no process that shares it is left.
-    command = [sys.executable, "-c", _START, moments, str(int(number)), *arguments]
-    return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    command = [sys.executable, "-c", _START, moments, str(int(number)), "group" if group else "", *arguments]
+    return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False, start_new_session=group)
 
 
 @pytest.mark.parametrize(
@@ -136,6 +140,12 @@ def test_signal_that_meets_a_finished_command_changes_nothing() -> None:
 def test_interrupted_check_of_many_cells_ends_its_workers(moment: str) -> None:
     cells = [file.as_posix() for file in sorted((ROOT / "tests/corpus/valid").glob("*.yaml"))]
     _assert_interrupted(moment, ["check", *cells])
+
+
+def test_signal_to_the_whole_group_is_told_in_one_line_too() -> None:
+    cells = [file.as_posix() for file in sorted((ROOT / "tests/corpus/valid").glob("*.yaml"))][:32]
+    moment = "cellc.rules.shared_domain:shared_domains"
+    _assert_interrupted(moment, ["check", *cells], signal.SIGHUP, group=True)
 
 
 @pytest.fixture(scope="module")

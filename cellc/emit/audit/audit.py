@@ -95,6 +95,9 @@ def _not_provable(cell: Cell) -> Iterator[str]:
     for device in cell.devices:
         of = f"{device.name} ({device.vendor} {device.model})"
         yield from (f"- {markdown(f'{of}: {text}')}" for text in device.mock_cannot_prove)
+    for device, name, said in cell.signed_for_mock():
+        signed = f"that {code(name)} touches no hardware is a statement of {said.by}, {said.date}"
+        yield f"- {markdown(f'{device.name}: {signed}')}"
 
 
 def _questions_section(graph: CellGraph, plan: Deployment) -> str:

@@ -9,7 +9,6 @@ import signal
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from multiprocessing import resource_tracker
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 
@@ -23,7 +22,7 @@ from cellc.mock.faults.cases import FaultCase
 from cellc.mock.folder import GeneratedFolder
 from cellc.mock.plant import Plant
 from cellc.mock.result import RehearsalResult, RunFailure, to_json_lines
-from cellc.signals import deaf_children
+from cellc.signals import deaf_children, start_deaf_tracker
 
 
 def execute(cell: MockCell, run: CampaignRun, seed: int) -> RunEnd:
@@ -109,7 +108,7 @@ def run_in_workers(assignment: Assignment, jobs: int) -> Iterator[Numbered]:
     Raises:
         MockError: a run cannot be executed, or a worker ended by itself.
     """
-    resource_tracker.ensure_running()  # it would open the ears of the first worker
+    start_deaf_tracker()
     workers: list[tuple[BaseProcess, Connection]] = []
     try:
         with deaf_children():
