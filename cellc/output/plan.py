@@ -13,11 +13,13 @@ from pathlib import Path, PurePosixPath
 from cellc.artifact import Artifact
 from cellc.diagnostics import Diagnostic
 from cellc.output.codes import finding
+from cellc.store.swap import link_above, link_on_the_way
 
 MANIFEST = "manifest.json"
 _FORMAT = 1
 # Forbidden in names of one of the common file systems.
 _RESERVED = frozenset('<>:"|?*\\')
+_LONGEST_NAME, _LONGEST_PATH = 255, 1000  # bytes; Linux takes 4095 with the folder's own path (limits.h, PATH_MAX)
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +62,7 @@ def plan(artifacts: Sequence[Artifact], folder: Path, interrupted: Sequence[Mapp
         if content is not None and artifact.path != MANIFEST and not _is_ours(artifact.path, content, known):
             edited.append(artifact.path)
     made = {artifact.path for artifact in artifacts}
-    former = sorted({path for hashes in known for path in hashes if _is_inside(path)} - made)
+    former = sorted({path for hashes in known for path in hashes if _is_inside(path, folder)} - made)
     remove = []
     for path in former:
         content = content_of(folder / path)
@@ -80,8 +82,9 @@ def content_of(path: Path) -> bytes | None:
 
 def check_places(artifacts: Sequence[Artifact], folder: Path) -> Iterator[Diagnostic]:
     """Yield a diagnostic for each link, file or folder that stands in the place of something else."""
-    if folder.is_symlink():
-        yield finding("output-symlink", f"`{folder.as_posix()}` is a symbolic link", folder)
+    linked = folder if folder.is_symlink() else link_on_the_way(folder)
+    if linked is not None:
+        yield finding("output-symlink", f"`{linked.as_posix()}` is a symbolic link", linked)
         return
     if folder.exists() and not folder.is_dir():
         yield finding("output-blocked", f"`{folder.as_posix()}` is no folder", folder)
@@ -102,9 +105,10 @@ def _is_ours(path: str, content: bytes, known: Sequence[Mapping[str, str]]) -> b
     return any(hashes.get(path) == sha256(content) for hashes in known)
 
 
-def _is_inside(path: str) -> bool:
-    # A manifest is data that others may have written: it must not make a build delete what lies elsewhere.
-    return bool(path) and not Path(path).is_absolute() and ".." not in Path(path).parts and "\0" not in path
+def _is_inside(path: str, folder: Path) -> bool:
+    # A manifest is data that others may have written, and so are the links in the folder: neither must make a build
+    # remove what lies elsewhere. Whoever made a file of cellc's had a path that cellc makes.
+    return not _reason(path) and link_above(path, folder) is None
 
 
 def sha256(content: bytes) -> str:
@@ -159,4 +163,5 @@ def _reason(path: str) -> str:
         return "leads out of the folder or has an empty part"
     if any(char in _RESERVED or not char.isprintable() for char in path):
         return "holds a character that not every file system allows"
-    return "is longer than file systems allow" if any(len(part.encode()) > 255 for part in parts) else ""
+    is_long = any(len(part.encode()) > _LONGEST_NAME for part in parts) or len(path.encode()) > _LONGEST_PATH
+    return "is longer than file systems allow" if is_long else ""

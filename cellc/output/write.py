@@ -11,7 +11,7 @@ from cellc.artifact import Artifact
 from cellc.diagnostics import Diagnostic, Outcome
 from cellc.output.codes import finding
 from cellc.output.plan import MANIFEST, Plan, check_paths, check_places, content_of, hashes_in, plan
-from cellc.store.swap import Swap, discard, is_alive, others, staging_of
+from cellc.store.swap import Swap, discard, is_alive, make_staging, others, staging_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +92,7 @@ def _in_turn(artifacts: Sequence[Artifact], folder: Path, staging: Path, *, forc
     swap = Swap(folder, staging)
     try:
         swap.make_folder(folder.parent)
-        os.mkdir(staging)
+        make_staging(folder)
         refused, stale = _busy(folder), others(folder)
         planned = plan(artifacts, folder, _hashes_of_interrupted(stale))
         if not refused and not force:

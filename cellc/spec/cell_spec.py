@@ -109,6 +109,6 @@ class CellSpec(SpecModel):
     )
     mock_programs: dict[Text, HardwareStatementSpec] = Field(
         default_factory=dict,
-        description="Programs of devices, as `package/executable`, beside those of the catalog that may run on the mock.",
+        description="Programs of devices beside those of the catalog that may run on the mock: `package/executable`.",
         examples=[{"my_camera/rectify": {"touches_no_hardware": True, "by": "perception", "date": "2026-07-01"}}],
     )

@@ -11,8 +11,10 @@ import errno
 import os
 import re
 import shutil
+import stat
+import sys
 from dataclasses import dataclass, field
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 _MAKER = re.compile("(?:[0-9a-f]{8}-)?[0-9]{1,10}")
 _RUN = os.urandom(4).hex()
@@ -38,8 +40,8 @@ class Swap:
 
     def put(self, path: str) -> None:
         """Move a new file into its place."""
-        self.make_folder((self.folder / path).parent)
         self._keep(path)
+        self.make_folder((self.folder / path).parent)
         os.replace(self.staging / "new" / path, self.folder / path)
 
     def remove(self, path: str) -> None:
@@ -87,6 +89,9 @@ class Swap:
                 folder.rmdir()
 
     def _keep(self, path: str) -> None:
+        linked = link_above(path, self.folder)
+        if linked is not None:
+            raise OSError(errno.ELOOP, "is a symbolic link", str(linked))
         here, kept = self.folder / path, self.staging / "old" / path
         if not os.path.lexists(here):
             self._absent.add(path)
@@ -105,10 +110,44 @@ def staging_of(folder: Path) -> Path:
     return folder.parent / f".{folder.name}.tmp-{_RUN}-{os.getpid()}"
 
 
+def make_staging(folder: Path) -> Path:
+    """Make the staging folder of this process, marked as made by cellc.
+
+    Raises:
+        OSError: something stands there, or writing is refused.
+    """
+    staging = staging_of(folder)
+    os.mkdir(staging, 0o1777)
+    return staging
+
+
 def others(folder: Path) -> tuple[Path, ...]:
-    """Return staging folders that other processes made for the same folder."""
+    """Return staging folders that other processes made for the same folder.
+
+    One that came with files of a stranger is none: it would keep every build away by the number of a process that
+    lives for ever, or pass edits of a person off as those of a killed build. The mark is the sticky bit, which git
+    stores of no folder, and which Linux sets as it makes one (mkdir(2)); other systems do not, and all count there.
+    """
     own = staging_of(folder)
-    return tuple(path for path in _temporaries(folder) if path != own and path.is_dir() and not path.is_symlink())
+    return tuple(path for path in _temporaries(folder) if path != own and _is_staging(path))
+
+
+def _is_staging(path: Path) -> bool:
+    mode = path.lstat().st_mode if os.path.lexists(path) else 0
+    return stat.S_ISDIR(mode) and (sys.platform != "linux" or bool(mode & stat.S_ISVTX))
+
+
+def link_above(path: str, folder: Path) -> Path | None:
+    """Return the link on the way from a folder to a path in it, which may lead anywhere; None where there is none."""
+    parents = (folder / parent for parent in reversed(PurePosixPath(path).parents) if parent.parts)
+    return next((place for place in parents if place.is_symlink()), None)
+
+
+def link_on_the_way(place: Path) -> Path | None:
+    """Return a link that the way to a place takes below the current folder: there it may be a stranger's."""
+    here = Path.cwd()
+    below = (one for one in (place, *place.parents) if not one.is_absolute() or here in one.parents)
+    return next((one for one in below if one.is_symlink()), None)
 
 
 def _temporaries(path: Path) -> tuple[Path, ...]:
@@ -143,9 +182,10 @@ def write_whole(file: Path, text: str) -> None:
     Raises:
         OSError: a link stands at the file or its folder, the disk is full, or writing is refused; it names the place.
     """
-    for place in (file, file.parent):
-        if place.is_symlink():  # as builds do: a link of somebody else's leads anywhere
-            raise OSError(errno.ELOOP, "is a symbolic link; name the place itself", str(place))
+    linked = file.parent if file.parent.is_symlink() else link_on_the_way(file)
+    linked = file if file.is_symlink() else linked
+    if linked is not None:  # as builds do: a link of somebody else's leads anywhere
+        raise OSError(errno.ELOOP, "is a symbolic link; name the place itself", str(linked))
     try:
         file.parent.mkdir(parents=True, exist_ok=True)
         replace_whole(file, text.encode())

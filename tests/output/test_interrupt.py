@@ -94,7 +94,7 @@ def test_edit_after_a_kill_is_still_an_edit(tmp_path: Path, monkeypatch: pytest.
 
 def test_folder_that_another_build_is_writing_is_left_alone(tmp_path: Path) -> None:
     # Process 1 is alive on every POSIX system.
-    (tmp_path / ".small.tmp-1").mkdir()
+    (tmp_path / ".small.tmp-1").mkdir(0o1777)  # marked as cellc marks it
     assert [d.code for d in write(FIRST, tmp_path / "small").diagnostics] == ["output-busy"]
     assert contents(tmp_path) == {".small.tmp-1/": ""}
 

@@ -11,7 +11,10 @@ from pathlib import Path
 import pytest
 
 from cellc.artifact import Artifact
+from cellc.mock.errors import MockError
+from cellc.mock.evidence.folder import EvidenceFolder
 from cellc.output.write import write
+from cellc.store.swap import Swap, make_staging, write_whole
 from tests.output.building import artifacts_of, as_contents, build_of, contents
 
 FIRST = build_of(a_txt="one\n", b_txt="two\n", config__c_yaml="c: 1\n", old__d_txt="d\n")
@@ -114,6 +117,60 @@ def test_manifest_cannot_make_a_build_delete_other_files(tmp_path: Path) -> None
     (folder / "manifest.json").write_text(json.dumps(manifest))
     assert write(SECOND, folder).ok
     assert other.read_text() == "mine\n"
+
+
+@pytest.mark.parametrize("force", [False, True])
+def test_manifest_and_a_link_cannot_make_a_build_delete_other_files(force: bool, tmp_path: Path) -> None:
+    folder, other = tmp_path / "small", tmp_path / "other" / "deep" / "precious.txt"
+    other.parent.mkdir(parents=True)
+    other.write_text("mine\n")
+    (tmp_path / "other" / "empty").mkdir()
+    write(FIRST, folder)
+    (folder / "link").symlink_to(tmp_path / "other")
+    manifest = json.loads((folder / "manifest.json").read_text())
+    digest = hashlib.sha256(b"mine\n").hexdigest()
+    manifest["files"] |= {"link/deep/precious.txt": digest, "link/empty/gone.txt": digest}
+    (folder / "manifest.json").write_text(json.dumps(manifest))
+    assert write(SECOND, folder, force=force).ok
+    assert contents(tmp_path / "other") == {"deep/precious.txt": "mine\n", "empty/": ""}
+
+
+def test_swap_removes_and_puts_nothing_behind_a_link(tmp_path: Path) -> None:
+    (tmp_path / "other").mkdir()
+    (tmp_path / "other" / "a.txt").write_text("mine\n")
+    (tmp_path / "small").mkdir()
+    (tmp_path / "small" / "link").symlink_to(tmp_path / "other")
+    swap = Swap(tmp_path / "small", make_staging(tmp_path / "small"))
+    with pytest.raises(OSError, match="is a symbolic link"):
+        swap.remove("link/a.txt")
+    with pytest.raises(OSError, match="is a symbolic link"):
+        swap.put("link/new/b.txt")
+    assert contents(tmp_path / "other") == {"a.txt": "mine\n"}
+
+
+@pytest.mark.parametrize("name", ["x\ud800", "x" * 300, "x/" * 2500 + "x", "x\u202ey"], ids=ascii)
+def test_name_in_a_manifest_that_no_build_makes_is_no_name_of_a_file(name: str, tmp_path: Path) -> None:
+    write(FIRST, tmp_path / "small")
+    manifest = json.loads((tmp_path / "small/manifest.json").read_text())
+    manifest["files"][name] = "0" * 64
+    (tmp_path / "small/manifest.json").write_text(json.dumps(manifest))
+    assert write(FIRST, tmp_path / "small").ok
+    assert contents(tmp_path / "small") == as_contents(FIRST)
+
+
+def test_link_above_the_folder_is_not_written_through(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "outside").mkdir()
+    (tmp_path / "checkout").mkdir()
+    (tmp_path / "checkout" / "generated").symlink_to(tmp_path / "outside")
+    monkeypatch.chdir(tmp_path / "checkout")
+    for folder in (Path("generated/deep/small"), Path.cwd() / "generated" / "small"):
+        outcome = write(FIRST, folder, force=True)
+        assert [found.code for found in outcome.diagnostics] == ["output-symlink"]
+        with pytest.raises(OSError, match="is a symbolic link"):
+            write_whole(folder / "records.jsonl", "text\n")
+        with pytest.raises(MockError, match="is not a folder that evidence can be written to"):
+            EvidenceFolder(folder / "evidence", ["report.html"])
+    assert contents(tmp_path / "outside") == {}
 
 
 @pytest.mark.parametrize(

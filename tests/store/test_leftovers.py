@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 import os
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -69,11 +72,26 @@ def test_a_killed_build_whose_process_had_the_same_number_is_healed(tmp_path: Pa
     folder, left = tmp_path / "small", tmp_path / f".small.tmp-{os.getpid()}"
     write(SECOND, tmp_path / "other" / "small")
     write(FIRST, folder)
-    left.mkdir()
+    left.mkdir(0o1777)
     (tmp_path / "other" / "small").rename(left / "new")
     (folder / "a.txt").write_text("changed\n")  # it had replaced this one, and not yet the manifest
     assert write(THIRD, folder).ok
     assert _files(tmp_path) == {f"small/{path}": text for path, text in as_contents(THIRD).items()}
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems make no folder with a sticky bit")
+def test_what_a_stranger_calls_a_staging_folder_neither_holds_builds_up_nor_excuses_an_edit(tmp_path: Path) -> None:
+    folder = tmp_path / "small"
+    write(FIRST, folder)
+    (tmp_path / ".small.tmp-1").mkdir()  # process 1 lives for ever
+    forged = tmp_path / ".small.tmp-4194305" / "new"  # above the highest number of a process, proc(5) pid_max
+    forged.mkdir(parents=True)
+    (folder / "a.txt").write_text("mine\n")
+    digest = hashlib.sha256(b"mine\n").hexdigest()
+    (forged / "manifest.json").write_text(json.dumps({"format": 1, "files": {"a.txt": digest}}))
+    assert [found.code for found in write(SECOND, folder).diagnostics] == ["edited-by-hand"]
+    (folder / "a.txt").write_text(as_contents(FIRST)["a.txt"])
+    assert write(SECOND, folder).ok
 
 
 def test_of_two_builds_that_begin_at_once_the_later_writes_nothing(
@@ -81,7 +99,7 @@ def test_of_two_builds_that_begin_at_once_the_later_writes_nothing(
 ) -> None:
     folder = tmp_path / "small"
     write(FIRST, folder)
-    _meanwhile(monkeypatch, lambda: (tmp_path / ".small.tmp-1").mkdir())
+    _meanwhile(monkeypatch, lambda: (tmp_path / ".small.tmp-1").mkdir(0o1777))
     assert [found.code for found in write(SECOND, folder).diagnostics] == ["output-busy"]
     assert contents(tmp_path) == {
         ".small.tmp-1/": "",
@@ -119,7 +137,7 @@ def test_an_edit_made_while_a_build_began_is_kept(tmp_path: Path, monkeypatch: p
 def test_of_two_runs_that_begin_at_once_the_later_writes_no_evidence(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    _meanwhile(monkeypatch, lambda: (tmp_path / ".evidence.tmp-1").mkdir())
+    _meanwhile(monkeypatch, lambda: (tmp_path / ".evidence.tmp-1").mkdir(0o1777))
     with pytest.raises(MockError, match="another run is writing"):
         EvidenceFolder(tmp_path / "evidence", ["report.html"])
     assert contents(tmp_path) == {".evidence.tmp-1/": ""}

@@ -12,9 +12,10 @@ from urllib.parse import quote
 
 from cellc.diagnostics.unsafe_text import harmless_json
 from cellc.mock.errors import MockError
-from cellc.store.swap import Swap, discard, is_alive, others, staging_of
+from cellc.store.swap import Swap, discard, is_alive, link_on_the_way, make_staging, others, staging_of
 
 _LONGEST = 100
+_LONGEST_NAME = 255  # bytes, as most file systems have it
 
 INDEX = "evidence.json"
 """Names every file of the folder with its hash, by which the next call tells its own files from those of others."""
@@ -56,7 +57,8 @@ class EvidenceFolder:
         self._folder = folder
         self._staging = staging_of(folder)
         self._names: list[str] = []
-        no_folder = folder.is_symlink() or (folder.exists() and not folder.is_dir())
+        is_linked = folder.is_symlink() or link_on_the_way(folder) is not None
+        no_folder = is_linked or (folder.exists() and not folder.is_dir())
         if no_folder or not Path(os.path.abspath(folder)).name:
             raise MockError(folder.as_posix(), "is not a folder that evidence can be written to")
         self._stale = others(folder)
@@ -65,7 +67,7 @@ class EvidenceFolder:
         self._refuse_edited(names)
         try:
             folder.parent.mkdir(parents=True, exist_ok=True)
-            self._staging.mkdir()  # fails where anything stands there, a link too
+            make_staging(folder)  # fails where anything stands there, a link too
             (self._staging / "new").mkdir()
         except OSError as error:
             raise self._unwritable(error) from None
@@ -154,9 +156,13 @@ def _hashes(folder: Path) -> dict[str, str]:
     """Return the hashes of an index; an index is data that others may have written, so that it names no other place."""
     try:
         files = json.loads((folder / INDEX).read_bytes())["files"]
-        return {str(name): str(sha256) for name, sha256 in files.items() if Path(str(name)).name == name}
+        return {name: str(sha256) for name, sha256 in files.items() if _is_name(name)}
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
         return {}
+
+
+def _is_name(name: str) -> bool:
+    return Path(name).name == name and name.isprintable() and len(name.encode()) <= _LONGEST_NAME
 
 
 def _sha256(path: Path) -> str:

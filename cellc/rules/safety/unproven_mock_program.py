@@ -41,5 +41,5 @@ def check(graph: CellGraph) -> Findings:
     for device in graph.cell.devices:
         for program in graph.cell.programs_on_mock(device):
             if program not in graph.cell.harmless_programs:
-                message = f"`{device.name}` runs `{program}` on the mock, of which nobody says that it touches no hardware"
+                message = f"`{device.name}` runs `{program}` on the mock, and nobody says that it touches no hardware"
                 yield found(graph, ("devices", device.name, "model"), message)
