@@ -80,7 +80,7 @@ CASES: list[tuple[str, Fault, str, str]] = [
     ("missed cycles", fault("skip_cycles", "", 1.0, cycles=5), "missed_cycle", "update cycles missed, 0 allowed"),
     ("update loop stops", fault("skip_cycles", "", 1.0, cycles=100_000), "missed_cycle", "cycles missed"),
     ("protective stop", fault("protective_stop", "arm", 1.0), "protective_stop", "arm_hardware is inactive"),
-    ("cancelled grip", fault("cancel", "grip", 1.0), "cancelled", ""),
+    ("cancelled grip", fault("cancel", "grip", 1.0), "cancelled", "the grip was canceled as asked"),
 ]
 
 
