@@ -13,12 +13,13 @@ from cellc.catalog.catalog_model import (
     FileName,
     GraphName,
     MomentName,
+    NeedName,
     NodeName,
     ParameterFact,
     Text,
     Token,
 )
-from cellc.catalog.effects import EffectFacts, StartFacts
+from cellc.catalog.effects import EffectFacts, StartFacts, ToldFacts
 from cellc.pins import same_version
 from cellc.spec.base import MOST
 from cellc.spec.quantity import Duration, Frequency
@@ -75,6 +76,7 @@ class HardwareFacts(CatalogModel):
     releases: tuple[HardwareRelease, ...] = ()
     effects: dict[MomentName, EffectFacts] = Field(default_factory=dict)
     start: StartFacts | None = None
+    told: dict[NeedName, ToldFacts] = Field(default_factory=dict)
     command_timeout: Duration | None = None
     source: Text
 

@@ -47,6 +47,21 @@ class EffectFacts(CatalogModel):
         return told.get(distro, Unmet.UNKNOWN) if isinstance(told, dict) else told
 
 
+class ToldFacts(CatalogModel):
+    """Where the cell hears whether a need holds: a topic that a controller of this device publishes.
+
+    ``controller`` is its kind, ``topic`` the name below its node, and ``field`` of the newest message holds ``value``
+    as long as the need holds.
+    """
+
+    controller: Text
+    topic: Text
+    type: Text
+    field: Text
+    value: Union[bool, int]
+    source: Text
+
+
 class StartFacts(CatalogModel):
     """How a hardware component is to be brought up where the usual way, active at once, is wrong.
 

@@ -77,6 +77,22 @@ class Effect:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Told:
+    """Where a cell hears whether a need holds: ``field`` of the newest message of a controller's topic is ``value``.
+
+    Args:
+        controller_kind: kind of the controller that publishes it.
+        topic: name of the topic below the controller's node.
+    """
+
+    controller_kind: str
+    topic: str
+    type: str
+    field: str
+    value: bool | int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class HardwareComponent:
     """A component of ros2_control; plugins and parameters by target (``mock``, ``real``).
 
@@ -86,6 +102,7 @@ class HardwareComponent:
         initial_state: the state in which the real one is to come up.
         at_once: from there it must become active in one call, without a stay in between.
         enforce_command_limits: what the vendor tells the controller manager of this; None where it says nothing.
+        told: where the cell hears whether a need holds.
         command_timeout_s: the longest silence before the device ends what it does; None where nobody told.
     """
 
@@ -100,6 +117,19 @@ class HardwareComponent:
     at_once: bool = False
     enforce_command_limits: bool | None = None
     command_timeout_s: float | None = None
+    told: Mapping[Need, Told] = field(default_factory=dict)
+
+    @property
+    def kept_by_a_claim(self) -> tuple[Need, ...]:
+        """Needs without which a claim keeps set points that are old, and are sent, once the need is met."""
+        claim = self.effects.get(Moment.CLAIM)
+        unmet = {} if claim is None else claim.needs
+        return tuple(need for need, otherwise in unmet.items() if otherwise is Unmet.KEEPS_SET_POINTS)
+
+    @property
+    def heard_before_a_claim(self) -> tuple[Told, ...]:
+        """Where the cell hears whether these needs hold, as far as the catalog tells."""
+        return tuple(self.told[need] for need in self.kept_by_a_claim if need in self.told)
 
     @property
     def moves_as_it_is_activated(self) -> bool:

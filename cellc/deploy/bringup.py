@@ -172,7 +172,7 @@ def _claim(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[B
                 *_joint_states(cell, manager),
                 *(_transform(group.base_link, group.tip_frame) for group in cell.groups),
                 *_managed_nodes(cell),
-                *(_listening(cell, manager) if target == "real" else ()),
+                *(proof for _, proof in (_listening(cell, manager) if target == "real" else ())),
             ],
             Activation(kind="controllers", manager=manager.node, controllers=claiming),
             [_controller(manager, name, "active") for name in claiming],
@@ -191,7 +191,7 @@ def _move(cell: Cell, target: Target) -> BringUpStep:
         _controller(manager, one.name, "active")
         for manager in cell.managers
         for one in _active(manager, target)
-        if one.command_interfaces
+        if _claims(one, ())
     )
     actions = (
         ActionProof(kind="action", action=one.name)
@@ -245,12 +245,28 @@ def _activated_later(cell: Cell, manager: ControllerManager, target: Target) -> 
     )
 
 
-def _listening(cell: Cell, manager: ControllerManager) -> Iterator[TopicProof]:
-    return iter(())
+def _listening(cell: Cell, manager: ControllerManager) -> Iterator[tuple[Device, TopicProof]]:
+    """Yield what says that a device of a manager follows set points, where a claim must wait for it."""
+    for device in _components(cell, manager, "real"):
+        for told in () if device.hardware is None else device.hardware.heard_before_a_claim:
+            for one in manager.controllers:
+                if (one.kind, one.device) == (told.controller_kind, device.name):
+                    topic = f"{one.full_name}/{told.topic}"
+                    proof = TopicProof(kind="topic", topic=topic, type=told.type, field=told.field, value=told.value)
+                    yield device, proof
 
 
 def _watches(cell: Cell) -> Iterator[Watch]:
-    return iter(())
+    """Yield the controllers that lose their claims when a device no longer follows set points."""
+    for manager in cell.managers:
+        for device, proof in _listening(cell, manager):
+            own = {joint.name for joint in device.joints}
+            claiming = tuple(
+                one.name
+                for one in manager.controllers
+                if "real" in one.targets and _claims(one, ()) and own & set(one.joints)
+            )
+            yield Watch(manager=manager.node, controllers=claiming, while_holds=proof)
 
 
 def _component(device: Device) -> str:

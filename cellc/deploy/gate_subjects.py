@@ -253,7 +253,7 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
 _OF_CELL = ("cell", "build", "description", "start_mock", "record", "domain", "stop_authority", "stop_path")
 
 FIELDS: Mapping[str, Values] = {
-    CELL: (*_OF_CELL, "observer", "attempt_fields"),
+    CELL: ("gate", *_OF_CELL, "observer", "attempt_fields"),
     **{name: fields for name, (fields, _) in _SUBJECTS.items()},
 }
 """What a text of each subject may name; what the cell has every text may name."""

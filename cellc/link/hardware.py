@@ -15,7 +15,15 @@ from cellc.catalog.device_interfaces import (
 )
 from cellc.catalog.device_model import DeviceModel
 from cellc.catalog.effects import EffectFacts
-from cellc.cell.device import Device, DeviceDriver, Effect, HardwareComponent, InterfaceGroup, OfferedInterface
+from cellc.cell.device import (
+    Device,
+    DeviceDriver,
+    Effect,
+    HardwareComponent,
+    InterfaceGroup,
+    OfferedInterface,
+    Told,
+)
 from cellc.cell.interface import InterfaceKind, ParameterValue
 from cellc.cell.site import UNKNOWN
 from cellc.link.names import Placeholders
@@ -68,6 +76,10 @@ def _with_effects(component: HardwareComponent, real: HardwareFacts, distro: Dis
         initial_state="active" if start is None else start.initial_state,
         at_once=start is not None and start.at_once,
         command_timeout_s=None if timeout is None else timeout.si,
+        told={
+            need: Told(controller_kind=one.controller, topic=one.topic, type=one.type, field=one.field, value=one.value)
+            for need, one in real.told.items()
+        },
     )
 
 

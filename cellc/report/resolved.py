@@ -30,7 +30,7 @@ _HIDDEN = {
         *("version_rows", "commissioning", "mock_cannot_prove", "starts"),
     },
     Node: {"endpoints"},
-    HardwareComponent: {"effects", "initial_state", "at_once", "command_timeout_s", "enforce_command_limits"},
+    HardwareComponent: {"effects", "told", "initial_state", "at_once", "command_timeout_s", "enforce_command_limits"},
 }
 _DERIVED = {"measured_on", "joints"}
 # What is shown of a device as the user states it.

@@ -212,6 +212,26 @@ def test_hardware_that_moves_as_it_is_activated_waits_for_a_person(graph: StandI
     assert run(graph, tmp_path, "--target", "real", "claim") == 0
 
 
+def test_ur_is_claimed_while_its_program_runs_and_loses_the_claim_when_it_stops(
+    graph: StandIn, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    # Universal_Robots_ROS2_Driver issue 1084: claimed, jogged, played, and the arm jumps to where it was claimed.
+    (watched,) = plan("ur5e_pick", "jazzy")["watches"]
+    assert watched["controllers"] == ["arm_trajectory"]
+    run(graph, tmp_path, "--target", "real", "start", "activate")
+    graph.messages["/arm_io/robot_program_running"] = SimpleNamespace(data=False)
+    assert run(graph, tmp_path, "--target", "real", "claim", wait_s=0.05) == 1
+    assert "/arm_io/robot_program_running must say True, says False" in capsys.readouterr().err
+    graph.messages["/arm_io/robot_program_running"] = SimpleNamespace(data=True)
+    assert run(graph, tmp_path, "--target", "real", "claim") == 0
+    graph.messages["/arm_io/robot_program_running"] = SimpleNamespace(data=False)
+    (one,) = json.loads(json.dumps(plan("ur5e_pick", "jazzy")["watches"]), object_hook=lambda it: SimpleNamespace(**it))
+    assert "deactivated" in next(graph.module.watch(graph, [one]))
+    assert graph.controllers["arm_trajectory"] == "inactive"
+    started = [one.arguments[-1] for one in processes("ur5e_pick", "jazzy", "real") if one.executable == "bring_up"]
+    assert started == ["start", "watch"]
+
+
 def test_processes_that_come_up_late_are_waited_for(graph: StandIn, tmp_path: Path) -> None:
     controllers, graph.controllers = graph.controllers, {}
     graph.on_spin = lambda times: graph.controllers.update(controllers) if times == 5 else None
