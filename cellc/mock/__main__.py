@@ -19,11 +19,7 @@ class _Parser(argparse.ArgumentParser):
         raise SystemExit(2)
 
 
-def main() -> int:
-    """Parse the command line and run; the import stands inside, so that Ctrl-C while it loads ends well too."""
-    from cellc.limits import LimitError, raised, use
-    from cellc.mock.command.options import MockOptions, run_mock
-
+def _arguments() -> _Parser:
     parser = _Parser(prog="python -m cellc.mock", description="Run the rehearsals of a generated folder.")
     parser.add_argument("folder", help="folder that `cellc build` wrote")
     parser.add_argument("--campaign", action="store_true", help="run every fault at every step, and print the matrix")
@@ -44,6 +40,15 @@ def main() -> int:
     parser.add_argument(
         "--limit", action="append", default=[], metavar="NAME=VALUE", help="raise a limit of docs/limits.md; repeatable"
     )
+    return parser
+
+
+def main() -> int:
+    """Parse the command line and run; the import stands inside, so that Ctrl-C while it loads ends well too."""
+    from cellc.limits import LimitError, raised, use
+    from cellc.mock.command.options import MockOptions, run_mock
+
+    parser = _arguments()
     given = parser.parse_args()
     try:
         use(raised(given.limit))

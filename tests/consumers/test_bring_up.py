@@ -21,6 +21,7 @@ from tests.emit.cells import contract_data
 from tests.foreign_yaml import safe_load
 
 TARGETS = ("mock", "real")
+_RUNNING = "/arm_io/robot_program_running"
 
 
 def every_proof(cell: str, distro: str) -> Iterator[Any]:
@@ -148,9 +149,9 @@ def started() -> StandIn:
     return StandIn(
         module,
         nodes_={"/perception": "unconfigured", "/robot_state_publisher": ""},
-        controllers=dict.fromkeys(("joint_states", "arm_trajectory", "gripper_action"), "inactive"),
+        controllers=dict.fromkeys(("joint_states", "arm_trajectory", "gripper_action", "arm_io"), "inactive"),
         hardware={"arm_hardware": "active", "gripper_hardware": "unconfigured"},
-        messages={"/joint_states": SimpleNamespace()},
+        messages={"/joint_states": SimpleNamespace(), _RUNNING: SimpleNamespace(data=True)},
         servers={"/move_action", "/gripper_action/gripper_cmd"},
         frames={"world", "camera_color_optical_frame", "arm_base_link", "tcp"},
     )
@@ -201,7 +202,9 @@ def test_steps_that_were_taken_before_are_not_asked_for_again(graph: StandIn, tm
 
 def test_starting_the_real_target_claims_nothing(graph: StandIn, tmp_path: Path) -> None:
     assert run(graph, tmp_path, "--target", "real", "start") == 0
-    assert graph.controllers == {"joint_states": "active", "arm_trajectory": "inactive", "gripper_action": "inactive"}
+    # That of inputs and outputs claims no joint, and says whether the robot's program runs.
+    active = {name for name, state in graph.controllers.items() if state == "active"}
+    assert active == {"joint_states", "arm_io"}
 
 
 def test_hardware_that_moves_as_it_is_activated_waits_for_a_person(graph: StandIn, tmp_path: Path) -> None:
@@ -219,12 +222,12 @@ def test_ur_is_claimed_while_its_program_runs_and_loses_the_claim_when_it_stops(
     (watched,) = plan("ur5e_pick", "jazzy")["watches"]
     assert watched["controllers"] == ["arm_trajectory"]
     run(graph, tmp_path, "--target", "real", "start", "activate")
-    graph.messages["/arm_io/robot_program_running"] = SimpleNamespace(data=False)
+    graph.messages[_RUNNING] = SimpleNamespace(data=False)
     assert run(graph, tmp_path, "--target", "real", "claim", wait_s=0.05) == 1
     assert "/arm_io/robot_program_running must say True, says False" in capsys.readouterr().err
-    graph.messages["/arm_io/robot_program_running"] = SimpleNamespace(data=True)
+    graph.messages[_RUNNING] = SimpleNamespace(data=True)
     assert run(graph, tmp_path, "--target", "real", "claim") == 0
-    graph.messages["/arm_io/robot_program_running"] = SimpleNamespace(data=False)
+    graph.messages[_RUNNING] = SimpleNamespace(data=False)
     (one,) = json.loads(json.dumps(plan("ur5e_pick", "jazzy")["watches"]), object_hook=lambda it: SimpleNamespace(**it))
     assert "deactivated" in next(graph.module.watch(graph, [one]))
     assert graph.controllers["arm_trajectory"] == "inactive"

@@ -77,8 +77,11 @@ def test_mock_target_starts_no_driver_and_real_target_needs_a_person() -> None:
     assert {node.get("if") for node in launch.findall("node") if node.get("pkg") in drivers} == {only_real}
     started = {node.get("args", "").split(" --target ")[-1]: node for node in launch.findall("node")}
     assert started["real start"].get("if") == started["mock start activate claim"].get("unless") == only_real
-    others = [node for node in launch.findall("node") if node.get("pkg") not in {*drivers, "ur5e_pick"}]
-    others = [node for node in others if not node.get("args", "").startswith("arm_io ")]  # real alone
+    spawners = [node for node in launch.findall("node") if node.get("exec") == "spawner"]
+    assert [node.get("if") for node in spawners] == [None, only_real]
+    assert spawners[1].get("args", "").startswith("arm_io ")  # what the mock lacks
+    kept = {*drivers, "ur5e_pick"}
+    others = [node for node in launch.findall("node") if node.get("pkg") not in kept and node not in spawners]
     assert {node.get("if") for node in others} == {None}
     gate = launch.find("include")
     assert gate is not None

@@ -5,9 +5,8 @@
     bring_up --plan FILE --target mock|real move -- PROGRAM ARGUMENT...     prove, then run PROGRAM while claims hold
     bring_up --plan FILE --target real watch                                deactivate claims when the robot is deaf
 
-One process lives through all of it: a new participant for each call needs up to 3 s to be discovered, and then some are
-not. A step that fails says what is missing and ends this with 1; steps after it are not taken. Nothing here enables a
-drive, and what was deactivated stays so until a person releases the claim again.
+A step that fails says what is missing and ends this with 1; steps after it are not taken. Nothing here enables a drive,
+and what was deactivated stays so until a person releases the claim again.
 """
 
 from __future__ import annotations
@@ -21,27 +20,19 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator, Sequence
+from itertools import takewhile
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-ANSWER_S = 3.0
-"""How long one answer is waited for; an unanswered question is asked again."""
-UNSEEN_S = 10.0
-"""A participant that has not seen a service for this long is made anew."""
-LOOK_S = 0.2
-"""How often what is missing is looked for."""
-LOST = 3
-"""Looks in a row that must miss a claim before the program behind it is stopped; one may be a late answer."""
-PATIENCE_S = float(os.environ.get("CELL_WAIT_S", "0"))
-"""In place of the deadlines of the plan, where it is set."""
-STRICT = 2
-"""controller_manager_msgs/srv/SwitchController: all of it or nothing."""
-BEST_EFFORT = 1
-TRANSITIONS = {"configure": 1, "activate": 3}
-"""lifecycle_msgs/msg/Transition."""
-ACTIVE = 3
-"""lifecycle_msgs/msg/State."""
+ANSWER_S = 3.0  # how long one answer is waited for; an unanswered question is asked again
+UNSEEN_S = 10.0  # a participant that has not seen a service for this long is made anew
+LOOK_S = 0.2  # how often what is missing is looked for
+LOST = 3  # looks in a row that must miss a claim before the program behind it is stopped; one may be a late answer
+PATIENCE_S = float(os.environ.get("CELL_WAIT_S", "0"))  # in place of the deadlines of the plan, where it is set
+BEST_EFFORT, STRICT = 1, 2  # controller_manager_msgs/srv/SwitchController: what can be done; all of it or nothing
+TRANSITIONS = {"configure": 1, "activate": 3}  # lifecycle_msgs/msg/Transition
+ACTIVE = 3  # lifecycle_msgs/msg/State
 
 
 class Unanswered(Exception):  # noqa: N818 - an answer of the world, no error of this program
@@ -72,30 +63,22 @@ class Graph:
         self._listened: set[str] = set()
 
     def leave(self) -> None:
-        """Leave the graph."""
         self._node.destroy_node()
         self._context.try_shutdown()
 
     def spin(self, seconds: float) -> None:
-        """Take what arrives within a time."""
         until = time.monotonic() + seconds
         while (left := until - time.monotonic()) > 0:
             self._executor.spin_once(timeout_sec=left)
 
     def nodes(self) -> set[str]:
-        """Return the full names of all nodes that are seen."""
         return {f"{space.rstrip('/')}/{name}" for name, space in self._node.get_node_names_and_namespaces()}
 
     def serves(self, name: str) -> bool:
-        """Tell whether a service is seen; those of actions are services too."""
         return any(name == seen for seen, _ in self._node.get_service_names_and_types())
 
     def ask(self, kind: str, name: str, answer_s: float = ANSWER_S, /, **fields: Any) -> Any:
-        """Ask a service once and return its answer.
-
-        Raises:
-            Unanswered: it is not there, or did not answer in time.
-        """
+        """Ask a service once and return its answer."""
         service = _loaded(kind)
         client = self._clients.setdefault(name, None) or self._node.create_client(service, name)
         self._clients[name] = client
@@ -120,7 +103,6 @@ class Graph:
             self._join()
 
     def heard(self, topic: str, kind: str) -> Any:
-        """Return the newest message of a topic since it was first asked for, or None."""
         if topic not in self._listened and (found := self._node.get_publishers_info_by_topic(topic)):
             from rclpy.qos import DurabilityPolicy
 
@@ -165,84 +147,83 @@ def _loaded(kind: str) -> Any:
     return getattr(importlib.import_module(f"{package}.{part}"), name)
 
 
-# What misses: each returns an empty text where the proof holds, else what is there in its place.
+def listed_controllers(graph: Graph, manager: str) -> Any:
+    """Return what a controller manager lists, each with its name and state."""
+    return graph.ask("controller_manager_msgs/srv/ListControllers", f"{manager}/list_controllers").controller
 
 
-def _node(graph: Graph, proof: SimpleNamespace) -> str:
-    return "" if proof.node in graph.nodes() else f"no node {proof.node}"
+class Missing:
+    """What is there in the place of a proof, by its kind; an empty text where it holds."""
 
+    def __init__(self, graph: Graph) -> None:
+        self._graph = graph
 
-def _lifecycle(graph: Graph, proof: SimpleNamespace) -> str:
-    state = graph.ask("lifecycle_msgs/srv/GetState", f"{proof.node}/get_state").current_state.label
-    passed = ("inactive", "active") if proof.state == "inactive" else ("active",)  # an active one was inactive before
-    return "" if state in passed else f"{proof.node} must be {proof.state}, is {state}"
+    def of(self, proof: SimpleNamespace) -> str:
+        """Return what is missing for one proof."""
+        return str(getattr(self, f"_{proof.kind}")(proof))
 
+    def _node(self, proof: SimpleNamespace) -> str:
+        return "" if proof.node in self._graph.nodes() else f"no node {proof.node}"
 
-def _controller(graph: Graph, proof: SimpleNamespace) -> str:
-    listed = graph.ask("controller_manager_msgs/srv/ListControllers", f"{proof.manager}/list_controllers").controller
-    state = next((one.state for one in listed if one.name == proof.controller), "not loaded")
-    return "" if state == proof.state else f"controller {proof.controller} must be {proof.state}, is {state}"
+    def _lifecycle(self, proof: SimpleNamespace) -> str:
+        state = self._graph.ask("lifecycle_msgs/srv/GetState", f"{proof.node}/get_state").current_state.label
+        passed = (
+            ("inactive", "active") if proof.state == "inactive" else ("active",)
+        )  # an active one was inactive before
+        return "" if state in passed else f"{proof.node} must be {proof.state}, is {state}"
 
+    def _controller(self, proof: SimpleNamespace) -> str:
+        listed = self._graph.ask(
+            "controller_manager_msgs/srv/ListControllers", f"{proof.manager}/list_controllers"
+        ).controller
+        state = next((one.state for one in listed if one.name == proof.controller), "not loaded")
+        return "" if state == proof.state else f"controller {proof.controller} must be {proof.state}, is {state}"
 
-def _hardware(graph: Graph, proof: SimpleNamespace) -> str:
-    service = f"{proof.manager}/list_hardware_components"
-    listed = graph.ask("controller_manager_msgs/srv/ListHardwareComponents", service).component
-    state = next((one.state.label for one in listed if one.name == proof.component), "not there")
-    return "" if state == proof.state else f"hardware {proof.component} must be {proof.state}, is {state}"
+    def _hardware(self, proof: SimpleNamespace) -> str:
+        service = f"{proof.manager}/list_hardware_components"
+        listed = self._graph.ask("controller_manager_msgs/srv/ListHardwareComponents", service).component
+        state = next((one.state.label for one in listed if one.name == proof.component), "not there")
+        return "" if state == proof.state else f"hardware {proof.component} must be {proof.state}, is {state}"
 
+    def _topic(self, proof: SimpleNamespace) -> str:
+        message, field = self._graph.heard(proof.topic, proof.type), getattr(proof, "field", None)
+        if message is None:
+            return f"no message on {proof.topic}"
+        value = None if field is None else getattr(message, field)
+        return "" if field is None or value == proof.value else f"{proof.topic} must say {proof.value}, says {value}"
 
-def _topic(graph: Graph, proof: SimpleNamespace) -> str:
-    message, field = graph.heard(proof.topic, proof.type), getattr(proof, "field", None)
-    if message is None:
-        return f"no message on {proof.topic}"
-    value = None if field is None else getattr(message, field)
-    return "" if field is None or value == proof.value else f"{proof.topic} must say {proof.value}, says {value}"
+    def _action(self, proof: SimpleNamespace) -> str:
+        return "" if self._graph.serves(f"{proof.action}/_action/send_goal") else f"no server of {proof.action}"
 
+    def _transform(self, proof: SimpleNamespace) -> str:
+        return (
+            ""
+            if self._graph.connects(proof.parent, proof.child)
+            else f"no transform from {proof.parent} to {proof.child}"
+        )
 
-def _action(graph: Graph, proof: SimpleNamespace) -> str:
-    return "" if graph.serves(f"{proof.action}/_action/send_goal") else f"no server of {proof.action}"
-
-
-def _transform(graph: Graph, proof: SimpleNamespace) -> str:
-    return "" if graph.connects(proof.parent, proof.child) else f"no transform from {proof.parent} to {proof.child}"
-
-
-def _mock(graph: Graph, proof: SimpleNamespace) -> str:
-    service = f"{proof.node}/get_parameters"
-    answer = graph.ask("rcl_interfaces/srv/GetParameters", service, names=["robot_description"])
-    text = answer.values[0].string_value if answer.values else ""
-    used = {part.partition("</plugin>")[0].strip() for part in text.split("<plugin>")[1:]}
-    foreign = ", ".join(sorted(used - set(proof.plugins)))
-    return "" if used and not foreign else f"{proof.node} must describe the mock alone, has {foreign or 'no hardware'}"
-
-
-PROOFS = {
-    "node": _node,
-    "lifecycle": _lifecycle,
-    "controller": _controller,
-    "hardware": _hardware,
-    "topic": _topic,
-    "action": _action,
-    "transform": _transform,
-    "mock": _mock,
-}
+    def _mock(self, proof: SimpleNamespace) -> str:
+        service = f"{proof.node}/get_parameters"
+        answer = self._graph.ask("rcl_interfaces/srv/GetParameters", service, names=["robot_description"])
+        text = answer.values[0].string_value if answer.values else ""
+        used = {part.partition("</plugin>")[0].strip() for part in text.split("<plugin>")[1:]}
+        foreign = ", ".join(sorted(used - set(proof.plugins)))
+        return (
+            "" if used and not foreign else f"{proof.node} must describe the mock alone, has {foreign or 'no hardware'}"
+        )
 
 
 def missing(graph: Graph, proofs: Sequence[SimpleNamespace]) -> str:
     """Return the first thing that is missing, empty where every proof holds."""
     try:
-        found = (PROOFS[proof.kind](graph, proof) for proof in proofs)
-        return next((absent for absent in found if absent), "")
+        looked = Missing(graph)
+        return next((absent for absent in map(looked.of, proofs) if absent), "")
     except Unanswered as unanswered:
         return str(unanswered)
 
 
 def request(graph: Graph, wanted: SimpleNamespace, answer_s: float) -> str:
-    """Ask for what a step does; return an empty text, or why it was refused.
-
-    Raises:
-        Unanswered: nobody said whether it was done.
-    """
+    """Ask for what a step does; return an empty text, or why it was refused."""
     if wanted.kind == "transition":
         transition = _loaded("lifecycle_msgs/msg/Transition")(id=TRANSITIONS[wanted.transition])
         service, name = "lifecycle_msgs/srv/ChangeState", f"{wanted.node}/change_state"
@@ -261,11 +242,7 @@ def request(graph: Graph, wanted: SimpleNamespace, answer_s: float) -> str:
 def switch(
     graph: Graph, manager: str, start: Sequence[str], stop: Sequence[str], strictness: int, answer_s: float
 ) -> bool:
-    """Ask a controller manager to deactivate and activate controllers; return its answer.
-
-    Raises:
-        Unanswered: it did not answer.
-    """
+    """Ask a controller manager to deactivate and activate controllers; return its answer."""
     service, name = "controller_manager_msgs/srv/SwitchController", f"{manager}/switch_controller"
     answer = graph.ask(
         service,
@@ -321,8 +298,7 @@ def take_all(graph: Graph, steps: Sequence[SimpleNamespace]) -> bool:
     """Take steps up to the first that fails; tell whether all were taken."""
     for number, step in enumerate(steps):
         begun = time.monotonic()
-        ended = take(graph, step)
-        after_s = time.monotonic() - begun
+        ended, after_s = take(graph, step), time.monotonic() - begun
         if ended:
             later = ", ".join(one.name for one in steps[number + 1 :])
             rest = f" Not taken: {later}." if later else ""
@@ -375,8 +351,7 @@ def watch(graph: Graph, watches: Sequence[SimpleNamespace]) -> Iterator[str]:
 def _active(graph: Graph, one: SimpleNamespace) -> list[str]:
     """Return the watched controllers that are active; none where the manager does not say."""
     try:
-        service = f"{one.manager}/list_controllers"
-        listed = graph.ask("controller_manager_msgs/srv/ListControllers", service).controller
+        listed = listed_controllers(graph, one.manager)
     except Unanswered:
         return []
     return [entry.name for entry in listed if entry.name in one.controllers and entry.state == "active"]
@@ -392,11 +367,8 @@ def _deactivated(graph: Graph, manager: str, controllers: Sequence[str]) -> str:
 
 def main(arguments: Sequence[str]) -> int:
     """Take phases, run a program behind its proof, or watch; return the exit status."""
-    own = list(arguments[: arguments.index("--ros-args")] if "--ros-args" in arguments else arguments)
-    command: list[str] = []
-    if "--" in arguments:
-        place = arguments.index("--")
-        own, command = list(arguments[:place]), list(arguments[place + 1 :])
+    own = [*takewhile(lambda word: word not in ("--", "--ros-args"), arguments)]
+    command = [*arguments[arguments.index("--") + 1 :]] if "--" in arguments else []
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--plan", type=Path, required=True, help="config/bring_up.json of the package")
     parser.add_argument("--target", choices=("mock", "real"), required=True)
