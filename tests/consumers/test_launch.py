@@ -24,6 +24,7 @@ from tests.consumers.starting import (
     written,
     written_managers,
 )
+from tests.emit.cells import contract_data
 
 TARGETS = ("mock", "real")
 # ros2_control.md 4: where the plugin's name does not begin with its package's.
