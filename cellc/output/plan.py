@@ -12,6 +12,7 @@ from pathlib import Path, PurePosixPath
 
 from cellc.artifact import Artifact
 from cellc.diagnostics import Diagnostic
+from cellc.limits import limits
 from cellc.output.codes import finding
 from cellc.store.swap import link_above, link_on_the_way
 
@@ -121,8 +122,10 @@ def hashes_in(content: bytes | None) -> dict[str, str]:
 
     Only what is needed is read, without the model of the whole file: a build that changes nothing loads no models.
     """
+    if content is None or len(content) > limits().folder_bytes:  # parsed it would take thirty times as much
+        return {}
     try:
-        manifest = json.loads(content or b"")
+        manifest = json.loads(content)
     except (ValueError, RecursionError):
         return {}
     if not isinstance(manifest, dict) or manifest.get("format") != _FORMAT:

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from cellc.artifact import Artifact
+from cellc.limits import limits
 from cellc.mock.errors import MockError
 from cellc.mock.evidence.folder import EvidenceFolder
 from cellc.output.write import write
@@ -105,6 +106,17 @@ def test_broken_manifest_makes_every_other_content_an_edit(tmp_path: Path) -> No
     write(FIRST, tmp_path)
     (tmp_path / "manifest.json").write_text('{"files": 5}')
     assert [d.code for d in write(SECOND, tmp_path).diagnostics] == ["edited-by-hand", "edited-by-hand"]
+
+
+def test_manifest_larger_than_a_file_of_a_folder_may_be_is_none(tmp_path: Path) -> None:
+    write(FIRST, tmp_path)
+    whole = (tmp_path / "manifest.json").read_text()
+    (tmp_path / "manifest.json").write_text(whole + " " * limits().folder_bytes)
+    assert [d.code for d in write(SECOND, tmp_path).diagnostics] == [
+        "edited-by-hand",
+        "edited-by-hand",
+        "edited-by-hand",
+    ]
 
 
 def test_manifest_cannot_make_a_build_delete_other_files(tmp_path: Path) -> None:
