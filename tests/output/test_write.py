@@ -112,11 +112,7 @@ def test_manifest_larger_than_a_file_of_a_folder_may_be_is_none(tmp_path: Path) 
     write(FIRST, tmp_path)
     whole = (tmp_path / "manifest.json").read_text()
     (tmp_path / "manifest.json").write_text(whole + " " * limits().folder_bytes)
-    assert [d.code for d in write(SECOND, tmp_path).diagnostics] == [
-        "edited-by-hand",
-        "edited-by-hand",
-        "edited-by-hand",
-    ]
+    assert [d.code for d in write(SECOND, tmp_path).diagnostics] == ["edited-by-hand", "edited-by-hand"]
 
 
 def test_manifest_cannot_make_a_build_delete_other_files(tmp_path: Path) -> None:
