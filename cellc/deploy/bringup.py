@@ -117,7 +117,7 @@ def _observe(cell: Cell, manager: ControllerManager, target: Target) -> Iterator
     """Yield the step that activates what reads states; of hardware that a person activates it sees none yet."""
     spawned = [one.name for one in manager.controllers if target in one.targets]
     later = _activated_later(cell, manager, target)
-    observing = tuple(one.name for one in _active(manager, target) if not _claims(one, later))
+    observing = tuple(one.name for one in _active(manager, target) if not _claims(cell, one, later))
     if spawned:
         components = (
             _hardware(manager, device, "active")
@@ -142,7 +142,7 @@ def _activate_hardware(cell: Cell, manager: ControllerManager, target: Target) -
             BringUpPhase.ACTIVATE,
             f"activate_{device.name}",
             manager.host,
-            [],
+            [*_mocked(cell, target)],
             HardwareActivation(kind="hardware", manager=manager.node, component=_component(device)),
             [_hardware(manager, device, "active")],
         )
@@ -160,13 +160,14 @@ def _activate_hardware(cell: Cell, manager: ControllerManager, target: Target) -
 
 def _claim(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[BringUpStep]:
     later = _activated_later(cell, manager, target)
-    claiming = tuple(one.name for one in _active(manager, target) if _claims(one, later))
+    claiming = tuple(one.name for one in _active(manager, target) if _claims(cell, one, later))
     if claiming:
         yield _step(
             BringUpPhase.CLAIM,
             f"claim_{manager.name}",
             manager.host,
             [
+                *_mocked(cell, target),
                 *(_hardware(manager, device, "active") for device in _components(cell, manager, target)),
                 *(_controller(manager, name, "inactive") for name in claiming),
                 *_joint_states(cell, manager),
@@ -185,21 +186,27 @@ def _move(cell: Cell, target: Target) -> BringUpStep:
     For the mock that no manager runs anything but the mock: a target is a word, and the description is what moves.
     """
     asking = {node.name for node in motion_clients(cell)}
-    plugins = tuple(sorted({one.hardware.plugins["mock"] for one in cell.devices if _on(one, "mock") and one.hardware}))
-    mocked = [MockProof(kind="mock", node=node, plugins=plugins) for node in description_nodes(cell)]
     claimed = (
         _controller(manager, one.name, "active")
         for manager in cell.managers
         for one in _active(manager, target)
-        if _claims(one, ())
+        if _claims(cell, one, ())
     )
     actions = (
         ActionProof(kind="action", action=one.name)
         for one in cell.interfaces
         if one.kind is InterfaceKind.ACTION and target in one.targets and any(end.node in asking for end in one.sinks)
     )
-    proof = [*(mocked if target == "mock" else ()), *claimed, *actions, *_managed_nodes(cell)]
+    proof: list[Proof] = [*_mocked(cell, target), *claimed, *actions, *_managed_nodes(cell)]
     return _step(BringUpPhase.MOVE, "move", "", proof, None, [])
+
+
+def _mocked(cell: Cell, target: Target) -> Iterator[MockProof]:
+    """Yield the proofs that nothing but the mock answers, on the mock: a real cell has the same names and domain."""
+    if target == "mock":
+        hardware = (one.hardware for one in cell.devices if _on(one, "mock"))
+        plugins = tuple(sorted({one.plugins["mock"] for one in hardware if one is not None}))
+        yield from (MockProof(kind="mock", node=node, plugins=plugins) for node in description_nodes(cell))
 
 
 def _step(
@@ -220,14 +227,16 @@ def _active(manager: ControllerManager, target: Target) -> Iterator[Controller]:
     return (one for one in manager.controllers if one.active and target in one.targets)
 
 
-def _claims(controller: Controller, later: tuple[Device, ...]) -> bool:
+def _claims(cell: Cell, controller: Controller, later: tuple[Device, ...]) -> bool:
     """Whether a controller is activated with those that command joints, not before them.
 
     One that answers services is wanted before anybody claims: it says what mode the robot is in. It waits where its
-    hardware comes up later.
+    hardware comes up later, or where it claims a joint itself, whatever its kind is called.
     """
+    joints = {joint.name for device in cell.devices for joint in device.joints}
     served_early = controller.behaviour in PASSIVE and controller.device not in {device.name for device in later}
-    return bool(controller.command_interfaces) and not served_early
+    moves = any(one.rpartition("/")[0] in joints for one in controller.command_interfaces)
+    return bool(controller.command_interfaces) and (moves or not served_early)
 
 
 def _components(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[Device]:
@@ -264,7 +273,7 @@ def _watches(cell: Cell) -> Iterator[Watch]:
             claiming = tuple(
                 one.name
                 for one in manager.controllers
-                if "real" in one.targets and _claims(one, ()) and own & set(one.joints)
+                if "real" in one.targets and _claims(cell, one, ()) and own & set(one.joints)
             )
             yield Watch(manager=manager.node, controllers=claiming, while_holds=proof)
 

@@ -86,6 +86,8 @@ class _TreeBuilder:
         self.stack: list[XmlElement] = []
         # The text is already decoded: an encoding named in the XML declaration no longer holds.
         self.parser = expat.ParserCreate(encoding="utf-8")
+        self.parser.buffer_text = True
+        self.parser.buffer_size = 1 << 20
         self.parser.StartElementHandler = self.start
         self.parser.EndElementHandler = self.end
         self.parser.CharacterDataHandler = self.characters
@@ -110,6 +112,7 @@ class _TreeBuilder:
         self.stack.pop()
 
     def characters(self, text: str) -> None:
+        # The parser gathers what it calls this with: a call for each line break would make long texts quadratic.
         element = self.stack[-1]
         if not element.children:
             element.text += text

@@ -15,15 +15,8 @@ from cellc.catalog.device_interfaces import (
 )
 from cellc.catalog.device_model import DeviceModel
 from cellc.catalog.effects import EffectFacts
-from cellc.cell.device import (
-    Device,
-    DeviceDriver,
-    Effect,
-    HardwareComponent,
-    InterfaceGroup,
-    OfferedInterface,
-    Told,
-)
+from cellc.cell.device import Device, DeviceDriver, OfferedInterface
+from cellc.cell.hardware import Effect, HardwareComponent, InterfaceGroup, Told
 from cellc.cell.interface import InterfaceKind, ParameterValue
 from cellc.cell.site import UNKNOWN
 from cellc.link.names import Placeholders

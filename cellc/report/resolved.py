@@ -10,9 +10,10 @@ from typing import Union
 
 from cellc.cell.cell import Cell
 from cellc.cell.control import Controller
-from cellc.cell.device import Device, DeviceJoint, HardwareComponent
+from cellc.cell.device import Device, DeviceJoint
 from cellc.cell.entity import Entity
 from cellc.cell.frame import Frame
+from cellc.cell.hardware import HardwareComponent
 from cellc.cell.interface import Node
 from cellc.cell.site import JointFigure
 from cellc.diagnostics import YamlPath

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -91,11 +92,13 @@ def comments(text: str, marker: re.Pattern[str], *, pure: bool = False) -> tuple
     candidates = [(number, match) for number, line in enumerate(text.split("\n")) for match in marker.finditer(line)]
     if not candidates:
         return ()
+    # Scalars come in the order of the text and do not overlap: the last that begins before a comment may hold it.
     scalars = list(_scalars(text, pure))
+    starts = [start for start, _ in scalars]
     return tuple(
         Comment(line + 1, match.start() + 1, match.string[match.start() :].rstrip())
         for line, match in candidates
-        if not any(start <= (line, match.start()) < end for start, end in scalars)
+        if not (place := bisect_right(starts, (line, match.start()))) or scalars[place - 1][1] <= (line, match.start())
     )
 
 

@@ -91,6 +91,12 @@ def test_mover_of_the_mock_looks_at_the_description_of_every_manager(cell: str, 
     moving = [step for step in plan(cell, distro)["mock"] if step["phase"] == "move"]
     looked = [proof["node"] for step in moving for proof in step["proof"] if proof["kind"] == "mock"]
     assert looked == ([f"{one}{asked}" for one in managers] if moving else [])
+    # Nor does the mock activate or claim anything of a real cell that waits in the same domain.
+    for step in plan(cell, distro)["mock"]:
+        if step["phase"] in ("activate", "claim") and step["request"]["kind"] != "restart":
+            assert [proof["node"] for proof in step["proof"] if proof["kind"] == "mock"] == [
+                f"{one}{asked}" for one in managers
+            ]
 
 
 @every_build
@@ -233,6 +239,13 @@ def test_ur_is_claimed_while_its_program_runs_and_loses_the_claim_when_it_stops(
     assert graph.controllers["arm_trajectory"] == "inactive"
     started = [one.arguments[-1] for one in processes("ur5e_pick", "jazzy", "real") if one.executable == "bring_up"]
     assert started == ["start", "watch"]
+
+
+def test_mock_asks_nothing_of_a_real_cell_in_the_same_domain(graph: StandIn, tmp_path: Path) -> None:
+    graph.plugins = "<plugin>ur_robot_driver/URPositionHardwareInterface</plugin>"
+    assert run(graph, tmp_path, "--target", "mock", "start", "activate", "claim", wait_s=0.05) == 1
+    assert graph.hardware["gripper_hardware"] == "unconfigured"
+    assert graph.controllers["arm_trajectory"] == "inactive"
 
 
 def test_processes_that_come_up_late_are_waited_for(graph: StandIn, tmp_path: Path) -> None:

@@ -10,7 +10,8 @@ import re
 from collections.abc import Iterator, Mapping
 from xml.etree.ElementTree import Element
 
-from cellc.cell.device import Device, DeviceJoint, HardwareComponent, InterfaceGroup
+from cellc.cell.device import Device, DeviceJoint
+from cellc.cell.hardware import HardwareComponent, InterfaceGroup
 from cellc.formats.escape import xacro_text
 from cellc.formats.numbers import shortest
 from cellc.formats.xml_text import element

@@ -5,7 +5,6 @@ PyYAML is used for the grammar alone: its nodes are typed here, since its own re
 
 from __future__ import annotations
 
-import re
 from typing import TypeAlias, cast
 
 import yaml
@@ -109,10 +108,33 @@ def _sections(node: yaml.Node, path: str) -> list[tuple[str, dict[str, Parameter
 
 
 def _matches(pattern: str, full_name: str) -> bool:
-    """Match a node key: `*` is one token, `**` any number of them, also none."""
-    expression = "/" + pattern.lstrip("/")
-    expression = re.escape(expression).replace(r"/\*\*", r"(/[^/]+)*").replace(r"\*", "[^/]+")
-    return re.fullmatch(expression, full_name) is not None
+    """Match a node key: `*` is one token, `**` any number of them, also none; in time that does not explode."""
+    names = full_name.lstrip("/").split("/")
+    reached = {0}
+    for token in pattern.lstrip("/").split("/"):
+        if token == "**":
+            reached = set(range(min(reached), len(names) + 1))
+        else:
+            reached = {place + 1 for place in reached if place < len(names) and _token_matches(token, names[place])}
+        if not reached:
+            return False
+    return len(names) in reached
+
+
+def _token_matches(token: str, name: str) -> bool:
+    """Match one token, in which a star stands for one character or more: each part is taken where it comes first."""
+    first, *rest = token.split("*")
+    if not rest:
+        return token == name
+    if not name.startswith(first):
+        return False
+    end = len(first)
+    for part in rest[:-1]:
+        place = name.find(part, end + 1)
+        if place < 0:
+            return False
+        end = place + len(part)
+    return name.endswith(rest[-1]) and len(name) - len(rest[-1]) > end
 
 
 class ParameterFile:

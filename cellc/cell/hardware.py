@@ -1,0 +1,110 @@
+"""The hardware component of a device: its plugins and interfaces, and what it does in the world."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from cellc.vocabulary import CommandAuthority, ManagerLock, Moment, Motion, Need, Unmet
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class InterfaceGroup:
+    """A ros2_control ``<sensor>`` or ``<gpio>``: prefixed name, interfaces, and values that a mock starts from.
+
+    One that is not ``declared`` is exported by the real hardware without a tag in the description.
+    """
+
+    name: str
+    command_interfaces: tuple[str, ...]
+    state_interfaces: tuple[str, ...]
+    initial: Mapping[str, float]
+    real_only: bool
+    declared: bool = True
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Effect:
+    """What one moment in the life of a real device does in the world.
+
+    Args:
+        needs: what must hold before it → what happens otherwise, in the distribution of the cell.
+        drops_part: what a gripper holds falls.
+        leaves: the state of the component afterwards where it is not the one that was asked for.
+        does: the same as a sentence.
+    """
+
+    motion: Motion
+    authority: CommandAuthority
+    lock: ManagerLock
+    needs: Mapping[Need, Unmet]
+    drops_part: bool
+    leaves: str | None
+    does: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Told:
+    """Where a cell hears whether a need holds: ``field`` of the newest message of a controller's topic is ``value``.
+
+    Args:
+        controller_kind: kind of the controller that publishes it.
+        topic: name of the topic below the controller's node.
+    """
+
+    controller_kind: str
+    topic: str
+    type: str
+    field: str
+    value: bool | int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HardwareComponent:
+    """A component of ros2_control; plugins and parameters by target (``mock``, ``real``).
+
+    Args:
+        targets: those on which it becomes a ``<ros2_control>`` tag; on any other the device's driver moves it.
+        effects: what the real component does at each moment that the catalog tells of.
+        initial_state: the state in which the real one is to come up.
+        at_once: from there it must become active in one call, without a stay in between.
+        enforce_command_limits: what the vendor tells the controller manager of this; None where it says nothing.
+        told: where the cell hears whether a need holds.
+        command_timeout_s: the longest silence before the device ends what it does; None where nobody told.
+    """
+
+    name: str
+    targets: tuple[str, ...]
+    plugins: Mapping[str, str]
+    parameters: Mapping[str, Mapping[str, str]]
+    sensors: tuple[InterfaceGroup, ...]
+    gpios: tuple[InterfaceGroup, ...]
+    effects: Mapping[Moment, Effect] = field(default_factory=dict)
+    initial_state: str = "active"
+    at_once: bool = False
+    enforce_command_limits: bool | None = None
+    command_timeout_s: float | None = None
+    told: Mapping[Need, Told] = field(default_factory=dict)
+
+    @property
+    def kept_by_a_claim(self) -> tuple[Need, ...]:
+        """Needs without which a claim keeps set points that are old, and are sent, once the need is met."""
+        claim = self.effects.get(Moment.CLAIM)
+        unmet = {} if claim is None else claim.needs
+        return tuple(need for need, otherwise in unmet.items() if otherwise is Unmet.KEEPS_SET_POINTS)
+
+    @property
+    def heard_before_a_claim(self) -> tuple[Told, ...]:
+        """Where the cell hears whether these needs hold, as far as the catalog tells."""
+        return tuple(self.told[need] for need in self.kept_by_a_claim if need in self.told)
+
+    @property
+    def moves_as_it_is_activated(self) -> bool:
+        """Whether its activation moves something or lets a part fall, so that it is a release of its own."""
+        effect = self.effects.get(Moment.ACTIVATE)
+        return effect is not None and (effect.drops_part or effect.motion not in (Motion.NONE, Motion.HOLDS))
+
+    @property
+    def comes_up(self) -> str:
+        """The state in which the controller manager is to bring it up, on every target."""
+        return "unconfigured" if self.moves_as_it_is_activated else self.initial_state
