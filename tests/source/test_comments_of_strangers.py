@@ -7,7 +7,7 @@ import re
 from cellc.description.xml_tree import read_xml
 from cellc.source.events import comments
 
-_MARK = re.compile(r"# cellc:.*")
+_MARK = re.compile(r"# cellc:")
 
 
 def test_many_comments_beside_many_scalars_are_told_apart() -> None:
