@@ -29,11 +29,11 @@ InterfaceName = Text
 """The part after the slash: ``position``, ``force.x``, ``speed_scaling_factor``."""
 
 
-_COUNTED = re.compile(r"(.*)\[(\d+)\.\.(\d+)\]")
+_COUNTED = re.compile(r"(.*)\[(\d{1,3})\.\.(\d{1,3})\]")
 
 
 def counted(names: Iterable[str]) -> Iterator[str]:
-    """Yield interfaces with ``name_[0..3]`` written out as four of them."""
+    """Yield interfaces with ``name_[0..3]`` written out as four of them; numbers up to 999, else it is a plain name."""
     for name in names:
         match = _COUNTED.fullmatch(name)
         if match is None:

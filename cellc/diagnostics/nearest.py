@@ -5,15 +5,29 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from difflib import get_close_matches
+from heapq import nsmallest
 
+_COMPARED = 128
+"""Most candidates that one name is compared with."""
+_LONGEST = 200
+"""Longest text that is compared at all."""
 _ONE_SUGGESTION = re.compile(r"did you mean `([^`]+)`\?")
 
 
 def nearest(name: str, candidates: Iterable[str], limit: int = 3) -> tuple[str, ...]:
-    """Return up to ``limit`` candidates that look like ``name``, best first, ties in alphabetical order."""
-    known = sorted(set(candidates))
+    """Return up to ``limit`` candidates that look like ``name``, best first, ties in alphabetical order.
+
+    Of very many candidates those of its length are compared, and a text as long as no name is compared with none: a
+    file of a stranger may hold thousands of both.
+    """
+    if len(name) > _LONGEST:
+        return ()
+    known = sorted({candidate for candidate in candidates if len(candidate) <= _LONGEST})
     lowered = {candidate.lower(): candidate for candidate in reversed(known)}
-    matches = get_close_matches(name.lower(), sorted(lowered), n=limit, cutoff=0.6)
+    compared = sorted(lowered)
+    if len(compared) > _COMPARED:
+        compared = sorted(nsmallest(_COMPARED, compared, key=lambda one: abs(len(one) - len(name))))
+    matches = get_close_matches(name.lower(), compared, n=limit, cutoff=0.6)
     return tuple(lowered[match] for match in matches)
 
 
