@@ -155,7 +155,7 @@ def folded(names: Iterable[str]) -> Iterator[str]:
     """Yield names with those that count up under one stem as one, such as ``output_[0..17]``."""
     for stem, numbered in groupby(names, key=lambda name: name.rstrip("0123456789")):
         counts = [name.removeprefix(stem) for name in numbered]
-        if len(counts) > 1 and counts == [str(int(counts[0]) + step) for step in range(len(counts))]:
+        if len(counts) > 1 and counts[0] and counts == [str(int(counts[0]) + step) for step in range(len(counts))]:
             yield f"{stem}[{counts[0]}..{counts[-1]}]"
         else:
             yield from (stem + count for count in counts)
