@@ -5,7 +5,16 @@ from typing import Literal
 
 from pydantic import Field
 
-from cellc.catalog.catalog_model import BehaviourName, CatalogModel, Date, DistroName, ParameterFact, Text, Token
+from cellc.catalog.catalog_model import (
+    BehaviourName,
+    CatalogModel,
+    Date,
+    DistroName,
+    GraphName,
+    ParameterFact,
+    Text,
+    Token,
+)
 from cellc.catalog.device_interfaces import InterfaceName, PluginUse, QosUse
 from cellc.catalog.effects import EffectFacts
 from cellc.vocabulary import Distro
@@ -65,7 +74,7 @@ class ControllerAction(CatalogModel):
 class ControllerTopic(CatalogModel):
     """A topic of a controller; ``name`` begins with ``~/`` where it lies below the controller's name."""
 
-    name: Text
+    name: GraphName
     type: Text
     direction: Literal["publish", "subscribe"]
     qos: QosUse
@@ -75,7 +84,7 @@ class ControllerTopic(CatalogModel):
 class ControllerService(CatalogModel):
     """A service of a controller; ``effect`` where a call acts in the world."""
 
-    name: Text
+    name: GraphName
     type: Text
     effect: EffectFacts | None = None
 

@@ -24,6 +24,7 @@ from cellc.deploy.releases import start_mock
 from cellc.formats.escape import code, markdown, markdown_comment
 from cellc.formats.parameter_file import spec_path
 from cellc.graph.cell_graph import CellGraph
+from cellc.graph.versions import unreleased
 from cellc.vocabulary import BringUpPhase
 
 _BAR = "\\|"
@@ -149,6 +150,8 @@ def _present(cell: Cell, plan: Deployment, name: str) -> bool:
         return bool(cell.groups)
     if name == "middleware/":
         return bool(cell.hosts)
+    if name == SOURCES:
+        return bool(unreleased(cell))
     phase = _RELEASED.get(name)
     return phase is None or phase in phases(plan.bring_up, "real")
 

@@ -78,7 +78,13 @@ def take(plant: Plant, *phases: BringUpPhase) -> Waiting[tuple[tuple[str, ...], 
             told = f"hardware component `{asked.component}` is {answer.state or 'unknown'}"
             (facts if answer.ok else problems).append(told)
         else:
-            problems += yield from activate(plant, manager, asked.controllers, again=isinstance(asked, Restart))
+            # The contract calls controllers that several managers have by their full names.
+            keys = {
+                one.full_name.rpartition("/")[2]: key
+                for key, one in plant.contract.managers[manager].controllers.items()
+            }
+            wanted = tuple(keys.get(name, name) for name in asked.controllers)
+            problems += yield from activate(plant, manager, wanted, again=isinstance(asked, Restart))
     return tuple(facts), tuple(problems)
 
 
