@@ -112,7 +112,8 @@ def _load(
 def _at_its_name(found: Diagnostic, file: Path, document: SourceDocument) -> Diagnostic:
     """Return what is said of a description that is not there as said of its name: there is no file to point into."""
     path = ("description", "file")
-    missing = found.code == "xacro-file-not-found" and found.span.file == file.as_posix()
+    named = found.code == "xacro-file-not-found" and found.span.file == file.as_posix()
+    missing = named and not file.is_file()  # or a file that it includes is not there, and its line says so
     return replace(found, span=document.locate(path), yaml_path=path) if missing else found
 
 
