@@ -91,7 +91,8 @@ def _activate(plant: Plant) -> Waiting[tuple[str, ...]]:
     problems: tuple[str, ...] = ()
     for name, entry in plant.contract.managers.items():
         states = {each.name: each.state for each in plant.control.managers[name].list_controllers()}
-        waiting = tuple(each for each, facts in entry.controllers.items() if facts.active and states[each] != "active")
+        here = {each: facts for each, facts in entry.controllers.items() if "mock" in facts.targets}
+        waiting = tuple(each for each, facts in here.items() if facts.active and states[each] != "active")
         problems += yield from activate(plant, name, waiting)
     return problems
 

@@ -140,7 +140,8 @@ def _expected(offer: Offer, distro: Distro) -> Behaviour:
     """Return what the plugin of a distribution does, as ros2_controllers and the vendors' packages have it."""
     if offer.behaviour is Behaviour.PARALLEL_GRIPPER and distro is Distro.HUMBLE:
         return Behaviour.POSITION_GRIPPER
-    if offer.type == "scaled_joint_trajectory" and distro is not Distro.LYRICAL:
+    # The UR's own is deprecated on Kilted and gone on Lyrical, where upstream's scales by a state interface.
+    if offer.type == "scaled_joint_trajectory" and distro in (Distro.HUMBLE, Distro.JAZZY):
         return Behaviour.SCALED_JOINT_TRAJECTORY
     return offer.behaviour
 
