@@ -98,7 +98,26 @@ def two_managers(folder: Path) -> MockCell:
     (folder / path).write_text(yaml.safe_dump(parameters))
     (folder / "grip.yaml").write_text(yaml.safe_dump(sections))
     (folder / "contract.json").write_text(json.dumps(contract))
+    _plan_for_two(folder / contract["files"]["bring_up"])
     return load(folder)
+
+
+def _plan_for_two(file: Path) -> None:
+    """Have the plan of the bring-up ask the manager of the gripper for what is the gripper's."""
+    plan = json.loads(file.read_text())
+    steps = []
+    for step in plan["mock"]:
+        request = step.get("request") or {}
+        if request.get("component") == "gripper_hardware":
+            request["manager"] = "/grip/controller_manager"
+        for name, own in (("gripper_action", "gripper_action"), ("joint_states", "gripper_states")):
+            if request.get("kind") == "controllers" and name in request["controllers"]:
+                request["controllers"] = [one for one in request["controllers"] if one != "gripper_action"]
+                asked = {"kind": "controllers", "manager": "/grip/controller_manager", "controllers": [own]}
+                steps.append(step | {"request": asked, "effect": []})
+        if request.get("kind") != "restart":
+            steps.append(step)
+    file.write_text(json.dumps(plan | {"mock": sorted(steps, key=lambda one: one["phase"] != "activate")}))
 
 
 @dataclass(frozen=True)
