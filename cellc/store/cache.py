@@ -9,6 +9,7 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import os
+import re
 import stat
 import sys
 import zlib
@@ -174,10 +175,15 @@ def _digest(name: str, packed: bytes) -> bytes:
     return hashlib.sha256(name.encode() + b"\0" + packed).hexdigest().encode()
 
 
+_ENTRY = re.compile(r"[0-9a-f]{64}\.json")
+
+
 def _prune(folder: Path) -> None:
-    if len(os.listdir(folder)) <= MAX_ENTRIES:
+    # Through a link stand somebody else's files, and beside ours may stand what is not ours.
+    if folder.is_symlink() or len(os.listdir(folder)) <= MAX_ENTRIES:
         return
     with os.scandir(folder) as entries:
-        by_age = sorted((entry.stat().st_mtime_ns, entry.path) for entry in entries)
+        kept = [one for one in entries if _ENTRY.fullmatch(one.name) and one.is_file(follow_symlinks=False)]
+        by_age = sorted((entry.stat(follow_symlinks=False).st_mtime_ns, entry.path) for entry in kept)
     for _, path in by_age[: len(by_age) // 2]:
         Path(path).unlink(missing_ok=True)

@@ -37,10 +37,10 @@ def test_one_changed_byte_anywhere_is_noticed(position: int, home: Path) -> None
 def test_the_older_half_goes_where_there_are_too_many(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cache, "MAX_ENTRIES", 10)
     for number in range(11):
-        write_entry(f"kind/{number}", b"")
+        write_entry(f"kind/{number:064x}.json", b"")
         if number < 10:
-            os.utime(home / f"kind/{number}", (number, number))
-    left = {int(file.name) for file in (home / "kind").iterdir()}
+            os.utime(home / f"kind/{number:064x}.json", (number, number))
+    left = {int(file.stem, 16) for file in (home / "kind").iterdir()}
     assert left == set(range(5, 11))
 
 
@@ -87,3 +87,20 @@ def test_a_pipe_in_the_place_of_an_entry_is_not_waited_for(home: Path) -> None:
     assert read_entry("kind/name") is None
     write_entry("kind/name", b"0123456789")
     assert read_entry("kind/name") == b"0123456789"
+
+
+def test_pruning_removes_no_file_of_somebody_else(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    # A restored or shared cache may hold a link in the place of a folder, and files that are no entries.
+    photos = tmp_path / "photos"
+    photos.mkdir()
+    for number in range(30):
+        (photos / f"{number}.jpg").touch()
+        (photos / f"{number:064x}.json").touch()
+    linked = tmp_path / "linked"
+    linked.symlink_to(photos)
+    monkeypatch.setattr(cache, "MAX_ENTRIES", 10)
+    cache._prune(linked)
+    assert len(list(photos.iterdir())) == 60
+    cache._prune(photos)
+    assert len(list(photos.glob("*.jpg"))) == 30
+    assert len(list(photos.glob("*.json"))) == 15
