@@ -30,7 +30,7 @@ def test_file_that_is_too_large_is_read_where_the_option_raises_the_limit(tmp_pa
 
 def test_limits_are_the_defaults_again_after_a_command() -> None:
     run("check", "--limit", f"spec-bytes={3 * 2**20}", MINIMAL)
-    assert limits() is DEFAULTS
+    assert limits() == DEFAULTS
 
 
 @pytest.mark.parametrize("command", READING)
