@@ -13,7 +13,7 @@ import pytest
 from cellc.deploy.deployment import plan_deployment
 from cellc.emit.launch.launch import emit
 from cellc.graph.cell_graph import CellGraph
-from tests.cells import graph_of, spec_of
+from tests.cells import ROOT, graph_of, spec_of
 from tests.emit.taint.cells import variants
 from tests.emit.taint.judge import differences
 from tests.emit.taint.judges import readings
@@ -63,6 +63,13 @@ def _launched_with(name: str) -> dict[str, str]:
     changed: CellGraph = replace(graph, cell=replace(graph.cell, nodes=nodes, devices=devices))
     made = {artifact.path: artifact.text for artifact in emit(changed, plan_deployment(graph))}
     return {path: text for path, text in made.items() if path.endswith(".launch.xml")}
+
+
+def test_every_generated_file_has_a_foreign_reader() -> None:
+    files = [path for path in (ROOT / "generated").rglob("*") if path.is_file()]
+    assert len(files) > 90
+    for path in files:
+        assert readings(path.as_posix(), path.read_text(encoding="utf-8"))
 
 
 @pytest.mark.parametrize(
