@@ -44,6 +44,18 @@ def moves(built: Build, target: str) -> list[Process]:
     return launched(built, "move", **(MOTION_CONFIRMED if target == "real" else {})).processes
 
 
+def every_process(built: Build) -> list[Process]:
+    """Return what every launch file but the one with motion starts, those that a person releases too."""
+    files = [path.removeprefix("launch/").removesuffix(".launch.xml") for path in built.texts if "launch.xml" in path]
+    started = [one for target in ("mock", "real") for launch in bring_ups(built, target) for one in launch.processes]
+    for file in files:
+        if file in ("activate", "claim"):
+            root = fromstring(built.texts[f"launch/{file}.launch.xml"])
+            stated = {one.attrib["name"]: one[0].attrib["value"] for one in root.findall("arg") if len(one)}
+            started += launched(built, file, **stated).processes
+    return started
+
+
 @lru_cache(maxsize=64)
 def processes(cell: str, distro: str, target: str) -> tuple[Process, ...]:
     """Return what launching a target starts, the real one with its confirmations, and then what asks for motion."""

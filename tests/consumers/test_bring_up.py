@@ -8,15 +8,25 @@ import stat
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from types import SimpleNamespace
 from typing import Any
 from xml.etree.ElementTree import fromstring
 
 import pytest
 
-from tests.consumers.matrix import build, every_build
+from tests.consumers.matrix import Build, build, every_build
 from tests.consumers.stand_in_graph import StandIn, messages_of, program
-from tests.consumers.starting import activated, bring_ups, moves, plan, processes, written, written_managers
+from tests.consumers.starting import (
+    activated,
+    bring_ups,
+    every_process,
+    moves,
+    plan,
+    processes,
+    written,
+    written_managers,
+)
 from tests.emit.cells import contract_data
 from tests.foreign_yaml import safe_load
 
@@ -42,6 +52,36 @@ def test_launching_takes_every_phase_of_its_target(cell: str, distro: str) -> No
         for process in moves(build(cell, distro), target):
             assert process.prefix[-2:] == ("move", "--")
             assert target in process.prefix
+
+
+class _ParsedError(Exception):
+    """The program has read its arguments and its plan, and would join the graph."""
+
+
+@every_build
+def test_program_takes_the_arguments_that_it_is_launched_with(cell: str, distro: str) -> None:
+    built = build(cell, distro)
+    started = [one.arguments for one in every_process(built) if (one.package, one.executable) == (cell, "bring_up")]
+    started += [one.prefix[1:] for target in TARGETS for one in moves(built, target)]
+    phases = {word for words in started for word in _parsed(built, words)}
+    # No launch file is left out: each phase that the plan has is begun by one of them.
+    assert phases >= {step["phase"] for step in plan(cell, distro)["real"]}
+
+
+def _parsed(built: Build, words: tuple[str, ...]) -> list[str]:
+    """Let the program read the words that it is launched with, as launch_ros extends them; return the phases."""
+    module = program(built.cell, built.distro)
+
+    def joined(name: str, enclave: str) -> None:
+        raise _ParsedError(name)
+
+    module.Graph = joined
+    with TemporaryDirectory() as folder:
+        told = [f"{folder}/{Path(word).name}" if word in built.texts else word for word in words]
+        (Path(folder) / "bring_up.json").write_text(built.texts["config/bring_up.json"], encoding="utf-8")
+        with pytest.raises(_ParsedError):
+            module.main([*told, "--ros-args", "--enclave", "/cell"])
+    return [word for word in words if word in ("start", "activate", "claim", "move", "watch")]
 
 
 @every_build

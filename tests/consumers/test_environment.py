@@ -65,6 +65,27 @@ def test_everything_that_is_read_at_run_time_is_installed(cell: str, distro: str
     assert "find_package(ament_cmake REQUIRED)" in texts["CMakeLists.txt"]
 
 
+# vcstool/clients/__init__.py of https://github.com/dirk-thomas/vcstool: what can be fetched.
+_CLIENTS = {"bzr", "git", "hg", "svn", "tar", "zip"}
+
+
+@every_build
+def test_sources_are_fetched_as_vcs_import_reads_them(cell: str, distro: str) -> None:
+    texts = build(cell, distro).texts
+    if "sources.repos" not in texts:
+        return
+    read = safe_load(texts["sources.repos"])
+    assert set(read) == {"repositories"}
+    for folder, one in read["repositories"].items():
+        # vcstool/commands/import_.py: a repository without a type or an address is left out.
+        assert set(one) == {"type", "url", "version"}, folder
+        assert one["type"] in _CLIENTS
+        assert re.fullmatch(r"https://[\w.-]+(/[\w.-]+)+\.git", one["url"])
+        # A number would be taken for one by YAML, and `git checkout` gets words alone.
+        assert isinstance(one["version"], str)
+        assert re.fullmatch(r"[0-9a-f]{40}|v?\d+(\.\d+)+", one["version"]), "a branch moves"
+
+
 @every_build
 def test_profiles_reach_the_cards_for_ros_and_no_other(cell: str, distro: str) -> None:
     texts, spec = build(cell, distro).texts, safe_load(spec_for(cell, distro))

@@ -200,6 +200,23 @@ def test_semantic_description_names_what_exists(cell: str, distro: str) -> None:
     assert reasons <= {"Adjacent", "Never", "Always", "Default"}
 
 
+@every_planning_build
+def test_links_that_a_joint_connects_are_never_checked_against_each_other(cell: str, distro: str) -> None:
+    # MoveIt's setup assistant leaves them out as adjacent, whether they touch or not: neighbours do at every joint.
+    robot, joints = fromstring(build(cell, distro).urdf("mock")), _joints(cell, distro)
+    solid = {link.attrib["name"] for link in robot.findall("link") if link.find("collision") is not None}
+    above = {_link_of(one, "child"): _link_of(one, "parent") for one in joints.values()}
+    left_out = {
+        frozenset((tag.attrib["link1"], tag.attrib["link2"]))
+        for tag in _semantic(cell, distro).findall("disable_collisions")
+    }
+    for link in solid & set(above):
+        parent = above[link]
+        while parent not in solid and parent in above:
+            parent = above[parent]
+        assert parent not in solid or frozenset((link, parent)) in left_out, f"{parent} and {link}"
+
+
 def _link_of(joint: Element, end: str) -> str:
     found = joint.find(end)
     assert found is not None

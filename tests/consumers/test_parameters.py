@@ -36,6 +36,9 @@ def test_controllers_declare_what_they_are_told_and_are_told_what_they_need(cell
         assert complaints(distro, plugin, values) == [], name
         if "GripperAction" in plugin and "state_interfaces" in values:
             assert values["state_interfaces"] == ["position", "velocity"]  # it stalls by velocity
+        if "GripperAction" in plugin:
+            # OBSERVED.md, 4: a goal that meets a part before it is reached is aborted otherwise, and so is each grasp.
+            assert values["allow_stalling"] is True, name
 
 
 @every_build

@@ -74,6 +74,10 @@ def test_what_is_read_is_kept_and_what_is_started_is_not(cell: str, distro: str)
     for text in sections(cell, distro).values():
         for block in _BLOCK.findall(text):
             assert ("| tee -a" in block) != bool(re.search(r"^  ros2 (launch|bag record)", block)), block
+            # What a command says of its failure is evidence too: nothing reaches the file without it.
+            if "| tee" in block:
+                assert len(_KEPT.findall(block)) == block.count("| tee") == block.count("$E"), block
+                assert not re.search("[<>]", _KEPT.sub("", block)), block
 
 
 @every_build

@@ -48,9 +48,9 @@ def stages(cell: Cell, plan: Deployment, host: str | None) -> Iterator[Element]:
     if spawned := [*_spawners(cell, host)]:
         yield comment("configure: every controller is loaded and configured, none is active")
         yield from spawned
-    if mock := phases(plan.bring_up, "mock", host):
+    if mock := [one for one in phases(plan.bring_up, "mock", host) if one is not BringUpPhase.MOVE]:
         yield comment("configure and observe; on the mock claim too")
-        yield bring_up(cell, "mock", [phase for phase in mock if phase is not BringUpPhase.MOVE], host)
+        yield bring_up(cell, "mock", mock, host)
     if BringUpPhase.START in phases(plan.bring_up, "real", host):
         yield bring_up(cell, "real", [BringUpPhase.START], host)
     if plan.bring_up.watches and host in (None, *(manager.host for manager in cell.managers)):
