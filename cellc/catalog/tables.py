@@ -40,6 +40,7 @@ class DistroTable(CatalogModel):
     dead_mock_parameters: dict[Text, Text]
     harmless_plugins: dict[Text, Text] = Field(min_length=1)
     harmless_programs: dict[Text, Text] = Field(min_length=1)
+    hardware_packages: dict[Token, Text] = Field(min_length=1)
 
 
 class ControllerManagerFacts(CatalogModel):

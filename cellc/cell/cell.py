@@ -40,6 +40,7 @@ class Cell:
         mock_programs: package and executable of a device's node → what the user says of it.
         harmless_plugins: plugins that the catalog or a signed statement knows to touch no hardware.
         harmless_programs: the same of programs.
+        hardware_packages: packages that the catalog knows to reach hardware.
         behaviours: controller plugin type string → what it does, for the plugins in use.
     """
 
@@ -61,6 +62,7 @@ class Cell:
     mock_programs: Mapping[str, HardwareStatement] = field(default_factory=dict)
     harmless_plugins: frozenset[str] = frozenset()
     harmless_programs: frozenset[str] = frozenset()
+    hardware_packages: frozenset[str] = frozenset()
     devices: tuple[Device, ...] = ()
     frames: tuple[Frame, ...] = ()
     scene: tuple[SceneBox, ...] = ()

@@ -119,6 +119,7 @@ def _surroundings(spec: CellSpec, document: SourceDocument, distro: Distro) -> C
         mock_programs=programs,
         harmless_plugins=harmless(table.harmless_plugins, plugins),
         harmless_programs=harmless(table.harmless_programs, programs),
+        hardware_packages=frozenset(table.hardware_packages),
     )
 
 

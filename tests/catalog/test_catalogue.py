@@ -185,6 +185,16 @@ def test_tables_load() -> None:
         assert outcome.value is not None
 
 
+def test_every_driver_of_the_catalogue_is_known_to_reach_hardware() -> None:
+    facts = [_device(name).model for name in device_names()]
+    drivers = {one.packages.driver for one in facts} | {node.package for one in facts for node in one.nodes}
+    components = [one.control.hardware.real for one in facts if one.control is not None]
+    plugins = {one.plugin.partition("/")[0] for one in components if one is not None}
+    table = load_distros().value
+    assert table is not None
+    assert set(table.hardware_packages) == {*drivers, *plugins, "controller_manager"}
+
+
 def test_reader_of_system_default_is_best_effort_on_fast_dds_alone() -> None:
     table = load_qos_profiles().value
     assert table is not None

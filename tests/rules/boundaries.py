@@ -27,6 +27,19 @@ _TOPIC = "{{from: {{perception: {{reliability: reliable, depth: 1, {value}}}}}}}
 _FIRST = (
     "{{joint: arm/joint_6, direction: +, max_delta: {delta}, velocity: {velocity}, timeout: 5 s, stop_if: [overshoot]}}"
 )
+# 192.168.56.101 is 0xc0a83865, and 0x6538a8c0 with its bytes turned; 101 is 0o145.
+_PLACES_OF_A_DEVICE = (
+    *("192.168.56.101", "192.168.56.0101", "192.168.56.0145", "192.168.14437", '"3232249957"', "3232249957"),
+    *("3232249957.0", "1698212032", '"0xC0A83865"', "0300.0xa8.56.101", '"::ffff:192.168.56.101"', "192.168.56.101."),
+    *('"[::ffff:c0a8:3865]:30002"', '"64:ff9b::c0a8:3865"', '"tcp://192.168.56.101:30002/x"', "ip192.168.56.101"),
+    *("[192, 168, 56, 101]", '["192", "168", "56", "101"]', "/dev/ttyUSB0", '"port=//dev/../dev/./ttyUSB0"'),
+    *('"a@192.168.56.0101,b"', "[1, 3232249957]"),
+)
+_OTHER_PLACES = (
+    *("192.168.56.102", "1192.168.56.101", "3232249958", '"0xc0a83866"', '"::ffff:192.168.56.102"', "true", "1.5"),
+    *("[192, 168, 56, 102]", "/dev/ttyUSB1", "192.168.56", "[192, 168, 56, 101, 1]", '"192.168.56.0x1g"'),
+)
+_TOLD_HARDWARE = ("parameters: {a.robot_description: x}", "parameters: {a: ['<plugin>']}")
 
 
 def _yaml(template: str, **values: str) -> Example:
@@ -93,6 +106,18 @@ BOUNDARIES: list[Case] = [
         "interfaces: {{/object_pose: " + _TOPIC + "}}",
         ("deadline: 100 ms", "deadline: 101 ms"),
         ("deadline: 99 ms",),
+    ),
+    *_spec(
+        "address-in-parameters",
+        "nodes: {{task: {{parameters: {{at: {value}}}}}}}",
+        _OTHER_PLACES,
+        _PLACES_OF_A_DEVICE,
+    ),
+    *_spec(
+        "driver-on-mock",
+        "nodes: {{task: {{{value}}}}}",
+        ("run: cell_tasks/pick_place", "parameters: {robot: robot_description}", "run: ur_description/viewer"),
+        ("run: ur_robot_driver/any", "run: demo_arm_driver/any", "run: own/my_ros2_control_node", *_TOLD_HARDWARE),
     ),
     *_spec("scripted-servo-loop", _SERVO, ("99 Hz", "99.9 Hz"), ("100 Hz", "101 Hz")),
     *_spec(
