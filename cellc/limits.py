@@ -10,12 +10,15 @@ The command line alone changes it, for the time of a command, and hands it to th
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+import os
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, fields, replace
+from typing import TypeVar
 
 KIB = 1024
 MIB = 1024 * KIB
+_Work = TypeVar("_Work")
 
 
 class LimitError(ValueError):
@@ -59,6 +62,7 @@ class Limits:
     xacro_text: int = _row(64 * KIB, "characters", 16 * MIB, "a text in an expression of xacro")
     xacro_items: int = _row(10_000, "items", 1_000_000, "a list in an expression of xacro")
     xacro_seconds: int = _row(10, "s", 3600, "time of one expansion of xacro")
+    xacro_seconds_together: int = _row(30, "s", 36_000, "processor time of all expansions of one spec")
     xacro_memory: int = _row(1024 * MIB, "bytes", 64 * 1024 * MIB, "memory of one expansion of xacro")
     mesh_shapes: int = _row(1000, "shapes", 20_000, "mesh shapes of one description")
     mesh_bytes: int = _row(64 * MIB, "bytes", 1024 * MIB, "one mesh file")
@@ -71,6 +75,12 @@ class Limits:
     mesh_memory: int = _row(1024 * MIB, "bytes", 64 * 1024 * MIB, "memory of reading them")
     robot_links: int = _row(1000, "links", 20_000, "links of one URDF")
     robot_joints: int = _row(200, "joints", 2000, "joints of one URDF that move")
+    robot_pairs: int = _row(
+        20_000, "pairs", 1_000_000, "pairs of collision shapes of one cell, boxes of its scene among them"
+    )
+    planning_seconds: int = _row(
+        60, "s", 36_000, "processor time of what poses and goals of one cell lead to, and of its pairs of links"
+    )
     folder_bytes: int = _row(4 * MIB, "bytes", 64 * MIB, "one file of a generated folder")
     folder_total_bytes: int = _row(256 * MIB, "bytes", 16 * 1024 * MIB, "all files of a generated folder together")
     folder_depth: int = _row(32, "levels", 100, "nesting of values in JSON and parameters of a generated folder")
@@ -84,6 +94,41 @@ class Limits:
     mock_stop_cycles: int = _row(20_000, "cycles", 10_000_000, "update cycles that a stop of a trajectory takes")
     campaign_runs: int = _row(10_000, "runs", 1_000_000, "runs of a campaign, and pairs and processes asked for")
     mock_events: int = _row(1_000_000, "events", 1_000_000_000, "images, messages and timers of one run")
+
+
+class PurseError(Exception):
+    """The pieces of work took what they may take together."""
+
+
+class Purse:
+    """Seconds that several pieces of work may take together."""
+
+    def __init__(self, seconds: float, clock: Callable[[], float]) -> None:
+        """Begin to count."""
+        self._end_s = clock() + seconds
+        self._clock = clock
+
+    @property
+    def left_s(self) -> float:
+        """What is left, 0 where nothing is."""
+        return max(0.0, self._end_s - self._clock())
+
+    def empty(self) -> None:
+        """Leave nothing: one piece of work took all that it may."""
+        self._end_s = self._clock()
+
+    def over(self, work: Iterable[_Work]) -> Iterator[_Work]:
+        """Yield piece after piece; raise PurseError before one for which nothing is left."""
+        for piece in work:
+            if not self.left_s:
+                raise PurseError
+            yield piece
+
+
+def children_seconds() -> float:
+    """Return the processor time of the children of this process that have ended."""
+    times = os.times()
+    return times.children_user + times.children_system
 
 
 DEFAULTS = Limits()

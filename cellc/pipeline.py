@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from cellc.artifact import Artifact
-from cellc.diagnostics import Diagnostic, Outcome
+from cellc.diagnostics import Diagnostic, Outcome, Severity
 from cellc.diagnostics.diagnostic import CodePage, Findings
 from cellc.graph.cell_graph import CellGraph, build_graph
 from cellc.link.link import link
@@ -72,6 +72,9 @@ def compile_cell(checked: Checked) -> Outcome[tuple[Artifact, ...]]:
     from cellc.output.manifest import with_manifest
     from cellc.verify.verify import verify
 
+    beyond = _beyond_limits(checked.graph)
+    if beyond:
+        return Outcome(None, beyond)
     plan = plan_deployment(checked.graph)
     artifacts = with_manifest(
         emit_all(checked.graph, plan),
@@ -81,6 +84,16 @@ def compile_cell(checked: Checked) -> Outcome[tuple[Artifact, ...]]:
         version_tuple=plan.versions,
     )
     return Outcome(artifacts, verify(artifacts, checked.graph))
+
+
+def _beyond_limits(graph: CellGraph) -> tuple[Diagnostic, ...]:
+    """Return that the pairs of links take longer to find than they may: a check finds fewer of them."""
+    from cellc.feasibility import disabled_links
+    from cellc.rules.geometry import beyond_limits
+
+    code, groups = "geometry-too-large", graph.cell.groups
+    found = beyond_limits(graph, disabled_links(graph)) if groups else ()
+    return tuple(Diagnostic(code, Severity.ERROR, one.message, one.span, one.path, one.help) for one in found)
 
 
 def _checked(

@@ -1,4 +1,4 @@
-"""What holds for every test: the cache is a folder of the session, never the user's, and modules are compiled once."""
+"""What holds for every test: no folder of the user is touched, and modules are compiled once."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ import pytest
 def _cache_of_the_session(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
+        patch.setenv("XDG_STATE_HOME", str(tmp_path_factory.mktemp("state")))
         patch.delenv("CELLC_NO_CACHE", raising=False)
         yield
 

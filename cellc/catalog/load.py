@@ -16,6 +16,7 @@ from cellc.catalog.tables import ControllerManagerFacts, DistroTable, InterfaceT
 from cellc.description.model import Description
 from cellc.description.urdf_reader import read_urdf
 from cellc.diagnostics import Diagnostic, Outcome
+from cellc.limits import Purse
 from cellc.source.document import SourceDocument
 from cellc.vocabulary import PASSIVE
 
@@ -74,18 +75,19 @@ def read_device(name: str) -> Outcome[CatalogDevice]:
     return _load(devices / name, f"{shown}/{name}", read)
 
 
-def load_device_folder(folder: Path, root: Path) -> Outcome[CatalogDevice]:
+def load_device_folder(folder: Path, root: Path, purse: Purse | None = None) -> Outcome[CatalogDevice]:
     """Load a device that the user wrote: a folder with ``device.yaml`` and its description.
 
     Args:
         folder: the folder, as the user named it.
         root: the folder that the description and all it includes must lie under.
+        purse: what expansions of the spec may still take; as much as one may where it is absent.
     """
 
     from cellc.description.read_description import read_description
 
     def read(file: Path, arguments: dict[str, str]) -> Outcome[Description]:
-        return read_description(file, arguments, root)
+        return read_description(file, arguments, root, purse)
 
     return _load(folder, folder.as_posix(), read)
 

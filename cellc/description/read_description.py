@@ -10,18 +10,22 @@ from cellc.description.urdf_reader import read_urdf
 from cellc.description.xacro_expansion import Expansion, expand_here, expand_xacro
 from cellc.description.xacro_files import ConfinedFiles, XacroRefusedError
 from cellc.diagnostics import Diagnostic, Outcome, Severity, Span
+from cellc.limits import Purse
 
 
-def read_description(file: Path, arguments: Mapping[str, str], root: Path) -> Outcome[Description]:
+def read_description(
+    file: Path, arguments: Mapping[str, str], root: Path, purse: Purse | None = None
+) -> Outcome[Description]:
     """Read a description that the user brought: ``.xacro`` is expanded in a child process, all else is URDF.
 
     Args:
         file: the description, as the user named it.
         arguments: values of ``<xacro:arg>``; a plain URDF takes none.
         root: the folder that the description and all it includes must lie under.
+        purse: what expansions of the spec may still take; as much as one may where it is absent.
     """
     if file.suffix == ".xacro":
-        return _read_expanded(file, expand_xacro(file, arguments, root))
+        return _read_expanded(file, expand_xacro(file, arguments, root, purse=purse))
     start = Span(file.as_posix(), 1, 1, 1, 1)
     if arguments:
         message = f"`{file.name}` is URDF and takes no arguments"

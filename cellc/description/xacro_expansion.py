@@ -23,7 +23,7 @@ from cellc.description.xacro_confinement import Confinement, place_of
 from cellc.description.xacro_expression import ExpressionError
 from cellc.description.xacro_files import XacroRefusedError
 from cellc.diagnostics import Diagnostic, Outcome, Severity, Span, did_you_mean
-from cellc.limits import MIB, as_options, limits, option, raised, use
+from cellc.limits import MIB, Purse, as_options, limits, option, raised, use
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,7 +123,7 @@ def _one_line(text: str) -> str:
 
 
 def expand_xacro(
-    file: Path, arguments: Mapping[str, str], root: Path, wall_seconds: float | None = None
+    file: Path, arguments: Mapping[str, str], root: Path, wall_seconds: float | None = None, purse: Purse | None = None
 ) -> Outcome[Expansion]:
     """Expand a xacro file that the compiler does not vouch for.
 
@@ -132,6 +132,7 @@ def expand_xacro(
         arguments: values of ``<xacro:arg>``.
         root: the folder that no file may lie outside of.
         wall_seconds: time after which the expansion is ended; `xacro-seconds` of the limits if None.
+        purse: processor time of the expansions of the spec; one that ends for its time is the last.
 
     Returns:
         The URDF text with the places of its links and joints, or diagnostics; never an exception.
@@ -145,15 +146,21 @@ def expand_xacro(
     }
     allowed_s = limits().xacro_seconds if wall_seconds is None else wall_seconds
     start = Span(file.as_posix(), 1, 1, 1, 1)
+    if purse is not None:
+        if not purse.left_s:
+            return _ended("the expansion is not begun: others of the spec took their time", start, "-together")
+        allowed_s = min(allowed_s, 2 * purse.left_s)  # by the clock: others compute too
     try:
         answer = ask_child(__name__, json.dumps(request).encode(), allowed_s)
     except ChildEndedError as reason:
+        if purse is not None:
+            purse.empty()
         return _ended(f"the expansion {reason}", start)
     return _decoded(json.loads(answer))
 
 
-def _ended(message: str, start: Span) -> Outcome[Expansion]:
-    help_text = f"look for a macro or an include that calls itself; {option('xacro-seconds')}"
+def _ended(message: str, start: Span, of: str = "") -> Outcome[Expansion]:
+    help_text = f"look for a macro or an include that calls itself; {option('xacro-seconds' + of)}"
     return Outcome(None, (Diagnostic("xacro-too-large", Severity.ERROR, message, start, help=help_text),))
 
 

@@ -25,11 +25,13 @@ class DisabledAnswer:
     Attributes:
         samples: number of configurations that "never" and "always" rest on.
         refused: why the description cannot be used, empty where it can.
+        limit: the row of the limits that it is beyond, empty where it is none.
     """
 
     pairs: tuple[DisabledLinks, ...]
     samples: int
     refused: str = ""
+    limit: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,9 +76,10 @@ class GoalAnswer:
 
 @dataclass(frozen=True, slots=True)
 class MotionAnswer:
-    """All answers of a cell; ``refused`` says why the description cannot be used, empty where it can."""
+    """All answers of a cell; ``refused`` and ``limit`` as in `DisabledAnswer`."""
 
     start: tuple[BodyContact, ...] = ()
     poses: tuple[PoseAnswer, ...] = ()
     goals: tuple[GoalAnswer, ...] = ()
     refused: str = ""
+    limit: str = ""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -17,6 +18,7 @@ from cellc.feasibility.answers import (
     PoseAnswer,
 )
 from cellc.feasibility.question import GoalQuestion, GroupQuestion, MotionQuestion
+from cellc.limits import Purse, PurseError, limits
 from cellc.planning import (
     CollisionScene,
     IkFailure,
@@ -55,9 +57,21 @@ def sample_pairs(urdf: str, mesh_roots: Sequence[Path] = ()) -> DisabledAnswer:
     except ModelError as error:
         return DisabledAnswer((), 0, str(error))
     samples = _samples(robot)
-    pairs = disabled_collisions(robot, samples=samples, rng_seed=RNG_SEED, margin_m=MARGIN_M)
+    try:
+        pairs = disabled_collisions(robot, samples=samples, rng_seed=RNG_SEED, margin_m=MARGIN_M, purse=_purse())
+    except PurseError:
+        return DisabledAnswer((), 0, *_too_long())
     links = tuple(DisabledLinks(pair.first, pair.second, pair.reason.value) for pair in pairs)
     return DisabledAnswer(links, samples)
+
+
+def _purse() -> Purse:
+    return Purse(limits().planning_seconds, time.process_time)
+
+
+def _too_long() -> tuple[str, str]:
+    message = f"shapes and goals must take at most {limits().planning_seconds} s of processor time, and take more"
+    return message, "planning-seconds"
 
 
 def _samples(robot: RobotModel) -> int:
@@ -68,19 +82,26 @@ def _samples(robot: RobotModel) -> int:
 def answer(question: MotionQuestion, mesh_roots: Sequence[Path] = ()) -> MotionAnswer:
     """Answer all parts of a question in the scene of the cell, every joint not asked about at its start."""
     try:
-        robot = RobotModel.from_urdf(question.urdf, mesh_roots=mesh_roots)
-        start = {joint: value for joint, value in question.start if joint in robot.joints}
-        disabled = decided_collisions(robot, samples=_samples(robot), rng_seed=RNG_SEED, margin_m=MARGIN_M)
-        pairs = [pair.links for pair in disabled]
-        scene = CollisionScene(robot, disabled_collisions=pairs, other_positions=start)
-        asked = {goal.group for goal in question.goals}
-        planners = {group.name: _planner(group, robot, scene) for group in question.groups if group.name in asked}
+        return _answer(question, mesh_roots, _purse())
     except (ModelError, LimitsError) as error:
         return MotionAnswer(refused=str(error))
+    except PurseError:
+        return MotionAnswer((), (), (), *_too_long())
+
+
+def _answer(question: MotionQuestion, mesh_roots: Sequence[Path], purse: Purse) -> MotionAnswer:
+    robot = RobotModel.from_urdf(question.urdf, mesh_roots=mesh_roots)
+    start = {joint: value for joint, value in question.start if joint in robot.joints}
+    samples = _samples(robot)
+    disabled = decided_collisions(robot, samples=samples, rng_seed=RNG_SEED, margin_m=MARGIN_M, purse=purse)
+    scene = CollisionScene(robot, disabled_collisions=[pair.links for pair in disabled], other_positions=start)
+    asked = {goal.group for goal in question.goals}
+    planners = {group.name: _planner(group, robot, scene) for group in question.groups if group.name in asked}
+    poses = [(pose.name, _contacts(scene, start | dict(pose.positions))) for pose in purse.over(question.poses)]
     return MotionAnswer(
         start=_contacts(scene, start),
-        poses=tuple(PoseAnswer(pose.name, _contacts(scene, start | dict(pose.positions))) for pose in question.poses),
-        goals=tuple(_goal(goal, planners[goal.group], robot, start) for goal in question.goals),
+        poses=tuple(PoseAnswer(*pose) for pose in poses),
+        goals=tuple(_goal(goal, planners[goal.group], robot, start) for goal in purse.over(question.goals)),
     )
 
 

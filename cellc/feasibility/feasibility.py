@@ -10,13 +10,14 @@ from pathlib import Path
 from typing import TypeVar
 
 from cellc.feasibility.answers import DisabledAnswer, DisabledLinks, MotionAnswer
-from cellc.feasibility.meshes import mesh_contents, mesh_faults, mesh_roots
+from cellc.feasibility.meshes import mesh_contents, mesh_faults, mesh_roots, spec_of
 from cellc.feasibility.question import MotionQuestion, motion_question, shapes_and_joints
 from cellc.feasibility.touching_links import touching_links
 from cellc.graph.cell_graph import CellGraph
+from cellc.limits import limits
 from cellc.store.cache import recall
 
-_Answer = TypeVar("_Answer")
+_Answer = TypeVar("_Answer", DisabledAnswer, MotionAnswer)
 
 
 def disabled_links(graph: CellGraph) -> DisabledAnswer:
@@ -35,13 +36,23 @@ def motion_answer(graph: CellGraph) -> MotionAnswer:
 
 def _disabled(graph: CellGraph) -> DisabledAnswer:
     urdf = shapes_and_joints(graph.cell)
-    faults = mesh_faults(graph)
-    if faults:
-        return DisabledAnswer(_touching(graph), 0, faults[0].message)
+    if refused := _refused(graph):
+        return DisabledAnswer(_touching(graph), 0, *refused)
     answer = _kept("disabled", urdf, graph, DisabledAnswer, lambda: _sampled(urdf, mesh_roots(graph.cell)))
     if not answer.refused:
         return answer
-    return DisabledAnswer(_touching(graph), 0, answer.refused)
+    return DisabledAnswer(_touching(graph), 0, answer.refused, answer.limit)
+
+
+def _refused(graph: CellGraph) -> tuple[str, ...]:
+    """Return why the shapes are not looked at, and the limit that they are beyond."""
+    if faults := mesh_faults(graph):
+        return (faults[0].message,)
+    shapes = len(graph.cell.scene) + sum(len(part.link.collisions) for part in graph.model.links())
+    pairs, most = shapes * (shapes - 1) // 2, limits().robot_pairs
+    if pairs <= most:
+        return ()
+    return f"the {shapes} collision shapes make {pairs} pairs, and must make at most {most}", "robot-pairs"
 
 
 def _touching(graph: CellGraph) -> tuple[DisabledLinks, ...]:
@@ -59,9 +70,8 @@ def _sampled(urdf: str, roots: tuple[Path, ...]) -> DisabledAnswer:
 
 
 def _motion(graph: CellGraph) -> MotionAnswer:
-    faults = mesh_faults(graph)
-    if faults:
-        return MotionAnswer(refused=faults[0].message)
+    if refused := _refused(graph):
+        return MotionAnswer((), (), (), *refused)
     question = motion_question(graph)
     roots = mesh_roots(graph.cell)
     return _kept("motion", repr(question), graph, MotionAnswer, lambda: _answered(question, roots))
@@ -76,4 +86,8 @@ def _answered(question: MotionQuestion, roots: tuple[Path, ...]) -> MotionAnswer
 def _kept(kind: str, question: str, graph: CellGraph, answer: type[_Answer], compute: Callable[[], _Answer]) -> _Answer:
     """Return the kept answer to a question on a cell and on the mesh files that it names."""
     meshes = mesh_contents(graph)
-    return recall(kind, f"{question}\0{meshes}", answer, compute, lambda: mesh_contents(graph) == meshes)
+
+    def is_kept(computed: _Answer) -> bool:
+        return not computed.limit and mesh_contents(graph) == meshes
+
+    return recall(kind, f"{question}\0{meshes}", answer, compute, is_kept, spec_of(graph))

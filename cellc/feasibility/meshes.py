@@ -32,6 +32,11 @@ def mesh_roots(cell: Cell) -> tuple[Path, ...]:
     return tuple(dict.fromkeys(Path(place).parent for place in places))
 
 
+def spec_of(graph: CellGraph) -> Path:
+    """Return the file that names the cell."""
+    return Path(graph.cell.locate("cell").file)
+
+
 def mesh_contents(graph: CellGraph) -> str:
     """Return what every mesh of the collision shapes is now: the hash of its content, or why it cannot be found."""
     files = identify_all((mesh for mesh, _ in _meshes(graph)), mesh_roots(graph.cell))
@@ -51,7 +56,7 @@ def _faults(graph: CellGraph) -> tuple[MeshFault, ...]:
     meshes = [mesh for mesh, _ in placed]
     files = identify_all(meshes, mesh_roots(graph.cell))
     found = readable(files)
-    facts = {file: _facts(file, found) for file in found}
+    facts = {file: _facts(file, found, spec_of(graph)) for file in found}
     owners = dict(reversed(placed))  # of each file and scale the first link
     return tuple(
         MeshFault(fault.code, fault.message, fault.help_text, mesh.span or owners[mesh].span, owners[mesh].path)
@@ -68,7 +73,7 @@ def _meshes(graph: CellGraph) -> list[tuple[Mesh, ModelLink]]:
     ]
 
 
-def _facts(file: MeshFile, files: tuple[MeshFile, ...]) -> MeshFacts:
+def _facts(file: MeshFile, files: tuple[MeshFile, ...], spec: Path) -> MeshFacts:
     """Return what is in a file, which is read together with the others, from the cache where it was read before."""
 
     def read() -> MeshFacts:
@@ -76,6 +81,5 @@ def _facts(file: MeshFile, files: tuple[MeshFile, ...]) -> MeshFacts:
 
         return facts_in(file, files)
 
-    return recall(
-        "mesh", "\0".join((file.suffix, file.digest, *as_options(limits()))), MeshFacts, read, lambda: read().certain
-    )
+    question = "\0".join((file.suffix, file.digest, *as_options(limits())))
+    return recall("mesh", question, MeshFacts, read, lambda facts: facts.certain, spec)

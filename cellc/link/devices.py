@@ -14,6 +14,7 @@ from cellc.cell.device import EVERY_JOINT, Device, DeviceJoint
 from cellc.cell.frame import WORLD
 from cellc.description.model import Description, Joint
 from cellc.diagnostics import Diagnostic, Outcome, Related, Severity, Span, YamlPath, did_you_mean
+from cellc.limits import Purse, children_seconds, limits
 from cellc.link.device_facts import limit_shares, with_catalog, with_statements
 from cellc.link.hardware import device_driver, hardware_component
 from cellc.link.names import Placeholders, home_host, placeholders, unknown_name
@@ -43,8 +44,9 @@ def link_devices(spec: CellSpec, document: SourceDocument, distro: Distro | None
     """
     entries: dict[str, CatalogDevice] = {}
     problems: list[Diagnostic] = []
+    purse = Purse(limits().xacro_seconds_together, children_seconds)
     for name, written in spec.devices.items():
-        entry = _catalog_entry(name, written, document)
+        entry = _catalog_entry(name, written, document, purse)
         problems += entry.diagnostics
         if entry.value is not None:
             entries[name] = entry.value
@@ -76,10 +78,10 @@ def prefix_of(name: str, written: DeviceSpec) -> str:
     return f"{name}_" if written.prefix is None else written.prefix
 
 
-def _catalog_entry(name: str, written: DeviceSpec, document: SourceDocument) -> Outcome[CatalogDevice]:
+def _catalog_entry(name: str, written: DeviceSpec, document: SourceDocument, purse: Purse) -> Outcome[CatalogDevice]:
     path = ("devices", name, "model")
     if "/" in written.model or written.model.startswith("."):
-        return local_device(written.model, document.locate(path), path)
+        return local_device(written.model, document.locate(path), path, purse)
     if written.model not in device_names():
         problem = Diagnostic(
             code="unknown-model",
@@ -227,13 +229,14 @@ def _interfaces(facts: DeviceModel, joint: Joint) -> JointInterfaces:
     return JointInterfaces()
 
 
-def local_device(model: str, place: Span, path: YamlPath) -> Outcome[CatalogDevice]:
+def local_device(model: str, place: Span, path: YamlPath, purse: Purse) -> Outcome[CatalogDevice]:
     """Load the device of a folder; what is wrong in it is reported there, with the line of the spec that names it.
 
     Args:
         model: the folder, relative to the file that names it.
         place: where the spec names it.
         path: the same place in the document.
+        purse: what expansions of the spec may still take.
     """
     root = Path(place.file).parent
     folder = root / model
@@ -247,6 +250,6 @@ def local_device(model: str, place: Span, path: YamlPath) -> Outcome[CatalogDevi
         message = f"`{folder.as_posix()}/device.yaml` leads out of the folder of the spec"
         advice = "move the folder of the device beside the spec"
         return Outcome(None, (Diagnostic("include-escape", Severity.ERROR, message, place, path, advice),))
-    loaded = load_device_folder(folder, root)
+    loaded = load_device_folder(folder, root, purse)
     named = Related("the spec names this folder here", place)
     return Outcome(loaded.value, tuple(replace(one, related=(*one.related, named)) for one in loaded.diagnostics))

@@ -6,15 +6,20 @@ they are no proof for the configurations between the samples.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+import time
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from enum import Enum
 from itertools import combinations
 
+from cellc.limits import Purse
 from cellc.planning.model import RobotModel
 from cellc.planning.pair_sampling import PairCheck, beyond_reach, draw_configurations
 from cellc.planning.problem import Array
 from cellc.planning.scene import LinkPair, shape_links
+
+ENDLESS = Purse(math.inf, time.process_time)
 
 
 class DisabledReason(str, Enum):
@@ -39,7 +44,9 @@ class DisabledPair:
         return self.first, self.second
 
 
-def disabled_collisions(model: RobotModel, *, samples: int, rng_seed: int, margin_m: float) -> tuple[DisabledPair, ...]:
+def disabled_collisions(
+    model: RobotModel, *, samples: int, rng_seed: int, margin_m: float, purse: Purse = ENDLESS
+) -> tuple[DisabledPair, ...]:
     """Return the pairs of links that need no collision check, sorted by name.
 
     - adjacent: neighbours in the tree, with at most one movable joint and no other shape between them;
@@ -52,24 +59,31 @@ def disabled_collisions(model: RobotModel, *, samples: int, rng_seed: int, margi
         samples: number of configurations, drawn uniformly within the URDF's position limits; 1 or more.
         rng_seed: seed of the draw.
         margin_m: metres.
+        purse: what looking at shapes may still take.
+
+    Raises:
+        PurseError: it takes longer.
     """
     configurations = draw_configurations(model, samples=samples, rng_seed=rng_seed)
-    decided, left = _without_never(model, configurations, margin_m)
-    apart = _touching_in_none(PairCheck(model, left, margin_m=margin_m), left, configurations)
+    decided, left = _without_never(model, configurations, margin_m, purse)
+    apart = _touching_in_none(model, left, purse.over(configurations), margin_m)
     return tuple(sorted((*decided, *(DisabledPair(*pair, DisabledReason.NEVER) for pair in apart))))
 
 
-def decided_collisions(model: RobotModel, *, samples: int, rng_seed: int, margin_m: float) -> tuple[DisabledPair, ...]:
+def decided_collisions(
+    model: RobotModel, *, samples: int, rng_seed: int, margin_m: float, purse: Purse = ENDLESS
+) -> tuple[DisabledPair, ...]:
     """Return the disabled pairs but for those that only samples show to be apart.
 
     Nearly all of the time goes into those. Who asks for contacts at a configuration does without them: the check tells
     whether they touch there.
     """
-    return _without_never(model, draw_configurations(model, samples=samples, rng_seed=rng_seed), margin_m)[0]
+    configurations = draw_configurations(model, samples=samples, rng_seed=rng_seed)
+    return _without_never(model, configurations, margin_m, purse)[0]
 
 
 def _without_never(
-    model: RobotModel, configurations: Array, margin_m: float
+    model: RobotModel, configurations: Array, margin_m: float, purse: Purse
 ) -> tuple[tuple[DisabledPair, ...], set[LinkPair]]:
     """Return the pairs that are decided, sorted, and those that are left: apart in at least one sample."""
     adjacent = set(_adjacent(model))
@@ -77,7 +91,7 @@ def _without_never(
     unreached = beyond_reach(model, margin_m=margin_m) - adjacent - rigid
     moving = set(_pairs(shape_links(model))) - adjacent - rigid - unreached
     at_rest = PairCheck(model, rigid, margin_m=margin_m).all_touching(configurations[0])
-    always = _touching_in_all(PairCheck(model, moving), moving, configurations)
+    always = _touching_in_all(PairCheck(model, moving), moving, purse.over(configurations))
     found = {
         DisabledReason.ADJACENT: adjacent,
         DisabledReason.ALWAYS: at_rest | always,
@@ -87,7 +101,7 @@ def _without_never(
     return tuple(sorted(decided)), moving - always
 
 
-def _touching_in_all(check: PairCheck, pairs: set[LinkPair], configurations: Array) -> set[LinkPair]:
+def _touching_in_all(check: PairCheck, pairs: set[LinkPair], configurations: Iterable[Array]) -> set[LinkPair]:
     left = set(pairs)
     for configuration in configurations:
         if not left:
@@ -98,14 +112,19 @@ def _touching_in_all(check: PairCheck, pairs: set[LinkPair], configurations: Arr
     return left
 
 
-def _touching_in_none(check: PairCheck, pairs: set[LinkPair], configurations: Array) -> set[LinkPair]:
+def _touching_in_none(
+    model: RobotModel, pairs: set[LinkPair], configurations: Iterable[Array], margin_m: float
+) -> set[LinkPair]:
     left = set(pairs)
+    check, bound = PairCheck(model, left, margin_m=margin_m), len(left)
     for configuration in configurations:
         if not left:
             break
         while touching := check.some_touching(configuration):
             check.drop(touching)
             left -= touching
+        if len(left) < bound // 2:  # shapes without a pair would be moved on with the others
+            check, bound = PairCheck(model, left, margin_m=margin_m), len(left)
     return left
 
 

@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 import pinocchio
 
-from cellc.planning.model import RobotModel
+from cellc.planning.model import PinGeometry, RobotModel
 from cellc.planning.problem import Array
-from cellc.planning.scene import LinkPair, broad_phase, shape_links
+from cellc.planning.scene import LinkPair, broad_phase, ordered, shape_links
 
 
 def draw_configurations(model: RobotModel, *, samples: int, rng_seed: int) -> Array:
@@ -67,26 +67,18 @@ class PairCheck:
             pairs: link names in alphabetical order within each pair.
             margin_m: shapes nearer than this count as touching.
         """
-        wanted = set(pairs)
-        names = shape_links(model)
         self._model = model.kinematics
         self._data = model.kinematics.createData()
-        self._geometry = model.geometry.copy()
-        self._geometry.removeAllCollisionPairs()
-        self._links: list[LinkPair] = []
-        for second, name in enumerate(names):
-            for first, other in enumerate(names[:second]):
-                pair = (min(name, other), max(name, other))
-                if pair in wanted:
-                    self._geometry.addCollisionPair(pinocchio.CollisionPair(first, second))
-                    self._links.append(pair)
+        self._geometry, links = _shapes_of(model, set(pairs))
         self._geometry_data = self._geometry.createData()
         for request in self._geometry_data.collisionRequests:
             request.security_margin = margin_m
         self._manager = broad_phase(model, self._geometry, self._geometry_data)
-        self._active: dict[LinkPair, list[int]] = {pair: [] for pair in wanted}
-        for index, pair in enumerate(self._links):
-            self._active[pair].append(index)
+        # Asked for each pair at each sample: fetching the result anew takes six times as long as reading it.
+        results = list(self._geometry_data.collisionResults)
+        self._active: dict[LinkPair, list[tuple[int, Any]]] = {pair: [] for pair in links}
+        for index, (pair, result) in enumerate(zip(links, results, strict=True)):
+            self._active[pair].append((index, result))
 
     def some_touching(self, configuration: Array) -> set[LinkPair]:
         """Return at least one pair that touches; empty where none does.
@@ -105,12 +97,28 @@ class PairCheck:
     def drop(self, pairs: Iterable[LinkPair]) -> None:
         """Check these pairs no more."""
         for pair in pairs:
-            for index in self._active.pop(pair):
+            for index, _ in self._active.pop(pair):
                 self._geometry_data.deactivateCollisionPair(index)
 
     def _touching(self) -> set[LinkPair]:
-        results = self._geometry_data.collisionResults
-        return {pair for pair, indices in self._active.items() if any(results[at].isCollision() for at in indices)}
+        return {pair for pair, results in self._active.items() if any(result.isCollision() for _, result in results)}
+
+
+def _shapes_of(model: RobotModel, wanted: set[LinkPair]) -> tuple[PinGeometry, list[LinkPair]]:
+    """Return the shapes that the wanted pairs have, with these pairs, and the names of each pair in its order."""
+    concerned = {name for pair in wanted for name in pair}
+    shapes = [
+        (name, shape)
+        for name, shape in zip(shape_links(model), model.geometry.geometryObjects, strict=True)
+        if name in concerned
+    ]
+    geometry = pinocchio.GeometryModel()
+    for _, shape in shapes:
+        geometry.addGeometryObject(shape)
+    names = [name for name, _ in shapes]
+    asked = [ordered(here, there) in wanted for here in names for there in names]
+    geometry.setCollisionPairs(np.array(asked, dtype=np.bool_).reshape(len(names), len(names)))
+    return geometry, [ordered(names[pair.first], names[pair.second]) for pair in geometry.collisionPairs]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -124,13 +132,15 @@ class _Ball:
 
 def beyond_reach(model: RobotModel, *, margin_m: float) -> set[LinkPair]:
     """Return the pairs of links on different moving bodies that always stay farther apart than a margin in metres."""
-    names = shape_links(model)
+    names, bodies = shape_links(model), [int(shape.parentJoint) for shape in model.geometry.geometryObjects]
     balls = [{ball.joint: ball for ball in _balls(model, shape)} for shape in model.geometry.geometryObjects]
     near: set[LinkPair] = set()
     far: set[LinkPair] = set()
     for second, name in enumerate(names):
         for first, other in enumerate(names[:second]):
-            pair = (min(name, other), max(name, other))
+            if bodies[first] == bodies[second]:
+                continue
+            pair = ordered(name, other)
             (far if _apart(balls[first], balls[second], margin_m) else near).add(pair)
     return far - near
 

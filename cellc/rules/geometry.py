@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from cellc.feasibility import BodyContact, mesh_faults
-from cellc.rules.kit import CellGraph, Finding, Findings
+from cellc.feasibility import BodyContact, DisabledAnswer, MotionAnswer, mesh_faults
+from cellc.limits import option
+from cellc.rules.kit import CellGraph, Finding, Findings, found
 
 USABLE_MESHES = ("malformed-mesh", "mesh-not-found", "mesh-outside-root", "mesh-too-large")
 """What keeps a collision shape from being known."""
@@ -43,6 +44,13 @@ def unusable_meshes(graph: CellGraph, code: str) -> Findings:
     for fault in mesh_faults(graph):
         if fault.code == code:
             yield Finding(fault.message, fault.span, fault.path, fault.help)
+
+
+def beyond_limits(graph: CellGraph, answer: MotionAnswer | DisabledAnswer) -> Findings:
+    """Yield the limit that an answer is beyond."""
+    if answer.limit:
+        advice = f"use fewer and larger shapes in `<collision>` and in `scene`; {option(answer.limit)}"
+        yield found(graph, ("motion", "groups"), answer.refused, advice)
 
 
 def with_scene(graph: CellGraph, contacts: Sequence[BodyContact]) -> list[BodyContact]:

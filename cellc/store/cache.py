@@ -1,7 +1,7 @@
 """Answers that are expensive to compute, kept in the user's cache folder by what was asked.
 
 `CELLC_NO_CACHE=1` turns it off. The folder may be deleted at any time, and a result never depends on what is in it. An
-entry is packed, put in place in one step, and checked when it is read.
+entry is packed, signed, put in place in one step, and checked when it is read.
 """
 
 from __future__ import annotations
@@ -10,7 +10,6 @@ import contextlib
 import hashlib
 import os
 import re
-import stat
 import sys
 import zlib
 from collections.abc import Callable, Mapping
@@ -21,6 +20,8 @@ from typing import TypeVar
 
 from pydantic import TypeAdapter, ValidationError
 
+from cellc.store.cache_key import cache_key, came_with, is_private
+from cellc.store.regular_file import read_regular
 from cellc.store.swap import replace_whole
 from cellc.version import __version__
 
@@ -95,7 +96,8 @@ def recall(
     question: str,
     answer: type[_Answer],
     compute: Callable[[], _Answer],
-    is_current: Callable[[], bool] = lambda: True,
+    is_kept: Callable[[_Answer], bool] = lambda _: True,
+    asked_by: Path | None = None,
 ) -> _Answer:
     """Return the kept answer to a question, or compute it.
 
@@ -105,13 +107,15 @@ def recall(
         kind: folder of the entry.
         question: everything that the answer depends on, apart from the program; of files that are read, the content.
         answer: a type that pydantic reads and writes, such as a dataclass.
-        is_current: whether the question still stands after the computation, so that no file changed under it.
+        is_kept: whether a computed answer is the answer to this question for ever: no file changed under it, and it
+            does not rest on what the machine had left.
+        asked_by: the spec that it is about; a cache in its working tree is not used.
     """
     if cache_folder() is None:
         return compute()
     adapter = TypeAdapter(answer)
     name = entry_name(kind, question)
-    content = read_entry(name)
+    content = read_entry(name, asked_by)
     if content is not None:
         try:
             kept = adapter.validate_json(content)
@@ -121,17 +125,23 @@ def recall(
             pass
         # Not as this program writes it: of another release whose code looked the same.
     computed = compute()
-    if is_current():
-        write_entry(name, adapter.dump_json(computed))
+    if is_kept(computed):
+        write_entry(name, adapter.dump_json(computed), asked_by)
     return computed
 
 
-def read_entry(name: str) -> bytes | None:
+def read_entry(name: str, asked_by: Path | None = None) -> bytes | None:
     """Return the content of an entry, or None where there is none, or it is not as this user wrote it."""
-    folder = cache_folder()
-    data = None if folder is None else _own_file(folder / name)
-    digest, _, packed = (data or b"").partition(b"\n")
-    if digest != _digest(name, packed):
+    place = _place(name, asked_by)
+    if place is None:
+        return None
+    file, key = place
+    try:
+        data = read_regular(file, MAX_BYTES, follow=False)
+    except OSError:
+        return None
+    signature, _, packed = data.partition(b"\n")
+    if signature != _signature(key, name, packed):
         return None
     unpacking = zlib.decompressobj()
     try:
@@ -141,38 +151,35 @@ def read_entry(name: str) -> bytes | None:
     return content if unpacking.eof else None
 
 
-def _own_file(file: Path) -> bytes | None:
-    """Return what a file of this user holds: where several share a folder, nobody takes the answer of another."""
-    try:
-        # A pipe in the place of an entry is not waited for.
-        with open(
-            os.open(file, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)), "rb"
-        ) as stream:
-            status = os.fstat(stream.fileno())
-            if not stat.S_ISREG(status.st_mode) or status.st_size > MAX_BYTES:
-                return None
-            return stream.read() if not hasattr(os, "getuid") or status.st_uid == os.getuid() else None
-    except OSError:
-        return None
-
-
-def write_entry(name: str, content: bytes) -> None:
+def write_entry(name: str, content: bytes, asked_by: Path | None = None) -> None:
     """Keep the content; where that is not possible, nothing happens."""
-    folder = cache_folder()
     packed = zlib.compress(content, 1)
-    if folder is None or len(packed) >= MAX_BYTES or len(content) > MAX_CONTENT_BYTES:
+    place = _place(name, asked_by)
+    if place is None or len(packed) >= MAX_BYTES or len(content) > MAX_CONTENT_BYTES:
         return
-    file = folder / name
-    # The folder may be damaged, full or another's.
+    file, key = place
+    # The folder may be damaged or full.
     with contextlib.suppress(OSError):
-        file.parent.mkdir(parents=True, exist_ok=True)
-        replace_whole(file, _digest(name, packed) + b"\n" + packed)
+        replace_whole(file, _signature(key, name, packed) + b"\n" + packed)
         _prune(file.parent)
 
 
-def _digest(name: str, packed: bytes) -> bytes:
+def _place(name: str, asked_by: Path | None) -> tuple[Path, bytes] | None:
+    """Return the file of an entry and the key of its signature; None where folders or key are not this user's alone."""
+    folder = cache_folder()
+    if folder is None or came_with(folder, asked_by):
+        return None
+    file = folder / name
+    try:
+        key = cache_key(asked_by) if is_private(folder) and is_private(file.parent) else None
+    except OSError:
+        return None
+    return None if key is None else (file, key)
+
+
+def _signature(key: bytes, name: str, packed: bytes) -> bytes:
     # The name is in it: the bytes of one entry in the place of another are the answer to another question.
-    return hashlib.sha256(name.encode() + b"\0" + packed).hexdigest().encode()
+    return hashlib.blake2b(name.encode() + b"\0" + packed, key=key, digest_size=32).hexdigest().encode()
 
 
 _ENTRY = re.compile(r"[0-9a-f]{64}\.json")

@@ -11,6 +11,8 @@ import pytest
 from cellc.description.xacro_expansion import expand_here, expand_xacro
 from cellc.diagnostics import Diagnostic
 from cellc.limits import DEFAULTS, in_force
+from cellc.pipeline import check
+from tests.cells import CORPUS
 
 _HEAD = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="stranger">'
 
@@ -119,6 +121,22 @@ def test_endless_expansion_is_ended_by_the_wall(tmp_path: Path) -> None:
     loops = "".join(f'<a{i} b="${{python.sorted(python.range(9999))[0]}}"/>' for i in range(5000))
     outcome = expand_xacro(_write(tmp_path, f"{_HEAD}{loops}</robot>"), {}, tmp_path, wall_seconds=0.5)
     assert [found.code for found in outcome.diagnostics] == ["xacro-too-large"]
+
+
+def test_after_an_expansion_that_took_its_time_no_other_of_the_spec_begins(tmp_path: Path) -> None:
+    stage = CORPUS / "valid" / "parts" / "stage"
+    loops = "".join(f'<a{i} b="${{python.sorted(python.range(9999))[0]}}"/>' for i in range(5000))
+    for name in ("slow", "quick"):
+        (tmp_path / name).mkdir()
+        facts = (stage / "device.yaml").read_text(encoding="utf-8").replace("stage.urdf", "robot.urdf.xacro")
+        (tmp_path / name / "device.yaml").write_text(facts.replace("model: stage", f"model: {name}"), encoding="utf-8")
+        _write(tmp_path / name, f"{_HEAD}{loops if name == 'slow' else ''}</robot>")
+    spec = "format: 1\ncell: demo\nversions: {ros: jazzy}\ndevices:\n  a: {model: ./slow}\n  b: {model: ./quick}\n"
+    (tmp_path / "cell.yaml").write_text(spec, encoding="utf-8")
+    with in_force(replace(DEFAULTS, xacro_seconds=1)):
+        found = [one for one in check(tmp_path / "cell.yaml").diagnostics if one.code == "xacro-too-large"]
+    assert [Path(one.span.file).parent.name for one in found] == ["quick", "slow"]
+    assert "is not begun" in found[0].message
 
 
 def test_import_path_is_not_the_strangers_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

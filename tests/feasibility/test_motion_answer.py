@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -10,6 +11,8 @@ import yaml
 
 from cellc.feasibility import MotionAnswer, disabled_links, motion_answer
 from cellc.graph.cell_graph import CellGraph
+from cellc.limits import DEFAULTS, in_force
+from cellc.pipeline import check, compile_cell
 from tests.cells import CORPUS, graph_of, written
 
 DEVICES = CORPUS / "invalid" / "base"
@@ -111,3 +114,22 @@ def test_poses_and_goals_are_answered_without_sampling_the_pairs_that_never_touc
     assert [len(pose.contacts) for pose in motion_answer(graph).poses] == [1]
     with pytest.raises(AssertionError):
         disabled_links(graph)
+
+
+def test_what_takes_too_long_is_refused_and_asked_again_the_next_time(tmp_path: Path) -> None:
+    motion = _motion(poses={"stretched": {"bars": "0 0 0 deg"}})
+    graph = _graph(tmp_path, motion=motion)
+    with in_force(replace(DEFAULTS, planning_seconds=0)):
+        answer = motion_answer(graph)
+    assert (answer.limit, answer.poses) == ("planning-seconds", ())
+    assert [pose.name for pose in motion_answer(graph_of(tmp_path / "cell.yaml")).poses] == ["stretched"]
+
+
+def test_no_artifact_rests_on_pairs_that_took_too_long_to_find(tmp_path: Path) -> None:
+    file = CORPUS.parents[1] / "cells" / "minimal" / "cell.yaml"
+    checked = check(file)
+    with in_force(replace(DEFAULTS, planning_seconds=0)):
+        assert checked.graph is not None
+        assert disabled_links(checked.graph).limit == "planning-seconds"
+        compiled = compile_cell(checked)
+    assert (compiled.value, [found.code for found in compiled.diagnostics]) == (None, ["geometry-too-large"])

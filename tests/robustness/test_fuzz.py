@@ -21,7 +21,7 @@ COUNTS = {"spec": 60, "device": 60, "description": 60, "folder": 50, "cache": 8}
 
 @pytest.fixture(name="sandbox")
 def sandbox_fixture(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Sandbox:
-    for name in ("XDG_CACHE_HOME", "ROS_PACKAGE_PATH", "CELLC_NO_CACHE"):
+    for name in ("XDG_CACHE_HOME", "XDG_STATE_HOME", "ROS_PACKAGE_PATH", "CELLC_NO_CACHE"):
         monkeypatch.setenv(name, "")  # the sandbox sets them, and this puts them back
     return Sandbox(tmp_path)
 

@@ -34,7 +34,7 @@ from cellc.rules.geometry import SOUND_MODEL, USABLE_MESHES
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-@rule(Severity.WARNING, assumes=(*SOUND_MODEL, *USABLE_MESHES))
+@rule(Severity.WARNING, assumes=(*SOUND_MODEL, *USABLE_MESHES, "geometry-too-large"))
 def check(graph: CellGraph) -> Findings:
     """Yield the reason for which the description is refused."""
     refused = motion_answer(graph).refused

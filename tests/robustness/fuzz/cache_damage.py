@@ -12,6 +12,8 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from pathlib import Path
 
+from cellc.store.cache_key import state_folder
+
 Damage = Callable[[Path, Sequence[Path], random.Random], None]
 
 
@@ -25,10 +27,12 @@ def damage_cache(folder: Path, damages: Sequence[str], chance: random.Random) ->
             _DAMAGES[name](folder, entries, chance)
 
 
-def _summed(entry: Path, packed: bytes) -> bytes:
-    """Return an entry whose sum fits its name, as only this user can write it."""
-    name = f"{entry.parent.name}/{entry.name}".encode()
-    return hashlib.sha256(name + b"\0" + packed).hexdigest().encode() + b"\n" + packed
+def _signed(entry: Path, packed: bytes) -> bytes:
+    """Return an entry whose signature fits its name, as only this user can write it."""
+    name, folder = f"{entry.parent.name}/{entry.name}".encode(), state_folder()
+    assert folder is not None
+    key = (folder / "cache.key").read_bytes()
+    return hashlib.blake2b(name + b"\0" + packed, key=key, digest_size=32).hexdigest().encode() + b"\n" + packed
 
 
 def _content(entry: Path) -> object:
@@ -92,7 +96,7 @@ def _other_shape(folder: Path, entries: Sequence[Path], chance: random.Random) -
             content[chance.choice(sorted(content))] = {"x": []}
         else:
             content = chance.choice(shapes)
-        _replaced(entry, _summed(entry, zlib.compress(json.dumps(content).encode())))
+        _replaced(entry, _signed(entry, zlib.compress(json.dumps(content).encode())))
 
 
 def _every(data: Callable[[Path], bytes]) -> Damage:
@@ -107,7 +111,7 @@ def _garbled(folder: Path, entries: Sequence[Path], chance: random.Random) -> No
     """A sum that fits, over what is not packed."""
     for entry in entries:
         data = bytes(chance.randrange(256) for _ in range(40))
-        _replaced(entry, _summed(entry, data))
+        _replaced(entry, _signed(entry, data))
 
 
 @cache
@@ -180,10 +184,10 @@ _DAMAGES: Mapping[str, Damage] = {
     "link": _links,
     "fifo": _fifos,
     "huge": _huge,
-    "bomb": _every(lambda entry: _summed(entry, _bomb())),
+    "bomb": _every(lambda entry: _signed(entry, _bomb())),
     "garbled": _garbled,
     "wrong shape": _other_shape,
-    "not json": _every(lambda entry: _summed(entry, zlib.compress(b"\xff{"))),
+    "not json": _every(lambda entry: _signed(entry, zlib.compress(b"\xff{"))),
     "other version": _other_version,
     "old part": _old_parts,
     "no folder": _no_folder,

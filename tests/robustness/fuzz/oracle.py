@@ -68,6 +68,7 @@ class Sandbox:
         self.cache.mkdir(parents=True)
         shutil.copytree(PARTS, self.folder / "parts")
         os.environ["XDG_CACHE_HOME"] = str(self.cache.parent)
+        os.environ["XDG_STATE_HOME"] = str(folder / "state")
         os.environ["ROS_PACKAGE_PATH"] = str(self.folder)
         os.environ.pop(OFF, None)
         self._written: dict[str, bytes] = {}
