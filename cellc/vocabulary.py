@@ -115,6 +115,8 @@ class AttemptOutcome(Term):
     EMERGENCY_STOP = "emergency_stop"
     HARDWARE_FAULT = "hardware_fault"
     WRONG_OWNER = "wrong_owner"
+    CLAIM_FAILURE = "claim_failure"
+    UNCOMMANDED_MOTION = "uncommanded_motion"
     TIMEOUT = "timeout"
 
 
@@ -143,6 +145,11 @@ class FaultKind(Term):
     EMERGENCY_STOP = "emergency_stop"
     RESTART_DRIVER = "restart_driver"
     CUT_NETWORK = "cut_network"
+    PROGRAM_STOP = "program_stop"
+    PROGRAM_START = "program_start"
+    JOG = "jog"
+    STALE_SET_POINTS = "stale_set_points"
+    BRAKES_CLOSED = "brakes_closed"
 
 
 class Moment(Term):

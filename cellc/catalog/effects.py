@@ -18,6 +18,7 @@ from cellc.catalog.catalog_model import (
     Text,
     UnmetName,
 )
+from cellc.spec.quantity import JointPosition
 from cellc.vocabulary import CommandAuthority, Distro, ManagerLock, Need, Unmet
 
 ComponentState = Literal["unconfigured", "inactive", "active"]
@@ -30,6 +31,7 @@ class EffectFacts(CatalogModel):
     ``needs`` are what must hold before it, each with what happens otherwise, for one distribution or for all.
     ``drops_part`` tells whether what a gripper holds falls. ``leaves`` is the state in which the component is
     afterwards, where that is not what was asked for; controllers of a component that is not active are deactivated.
+    ``largest_step`` is how far a set point may be from where the device stands; it ignores one that is farther.
     """
 
     motion: MotionName
@@ -38,6 +40,7 @@ class EffectFacts(CatalogModel):
     drops_part: bool = False
     needs: dict[NeedName, Union[UnmetName, dict[DistroName, UnmetName]]] = Field(default_factory=dict)
     leaves: ComponentState | None = None
+    largest_step: JointPosition | None = None
     does: Text
     source: Text
 

@@ -32,6 +32,7 @@ class Effect:
         drops_part: what a gripper holds falls.
         leaves: the state of the component afterwards where it is not the one that was asked for.
         does: the same as a sentence.
+        largest_step: distance, rad or m, of a set point from the device that it still follows; None without bound.
     """
 
     motion: Motion
@@ -41,6 +42,7 @@ class Effect:
     drops_part: bool
     leaves: str | None
     does: str
+    largest_step: float | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

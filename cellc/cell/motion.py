@@ -63,27 +63,32 @@ class StepEvent:
 class Fault(Entity):
     """One fault: ``kind`` as in the spec, ``name`` the ROS name of what it hits; times in simulated seconds.
 
-    It begins at ``at_s`` or with ``event``; one of them is None.
+    It begins at ``at_s``, with ``event`` or with ``phase`` of the bring-up; two of them are None.
     """
 
     kind: str
     at_s: float | None
     event: StepEvent | None = None
+    phase: str | None = None
     lasting_s: float | None = None
     cycles: int | None = None  # for skip_cycles
     delay_s: float | None = None  # for delay
     jump_s: float | None = None  # for jump_clock
-    displacement: float | None = None  # for displace, rad or m
+    displacement: float | None = None  # for displace and jog, rad or m
     velocity: float | None = None  # for slow, rad/s or m/s
     factor: float | None = None  # for scale_speed, 0 to 1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Rehearsal(Entity):
-    """A run of the mock and the outcome that it must end in."""
+    """A run of the mock and the outcome that it must end in.
+
+    ``bring_up`` is the target whose bring-up is taken; with ``real`` its devices act as their vendors' drivers do.
+    """
 
     steps: tuple[Step, ...]
     faults: tuple[Fault, ...]
     expect: str
     within_s: float | None
     timeout_s: float
+    bring_up: str = "mock"

@@ -23,7 +23,7 @@ from cellc.contract.quantities import (
     Seconds,
     Share,
 )
-from cellc.vocabulary import Behaviour, Distro
+from cellc.vocabulary import Behaviour, Distro, ManagerLock, Moment, Motion, Need, Unmet
 
 
 class ContractFiles(ContractModel):
@@ -203,6 +203,17 @@ class ContractDriver(ContractModel):
     joint_states: str | None = Field(None, description="Topic on which its program publishes joints, before remapping.")
 
 
+class ContractEffect(ContractModel):
+    """What one moment in the life of a real device does in the world, as far as the mock plays it."""
+
+    motion: Motion = Field(Motion.NONE, description="What moves.")
+    lock: ManagerLock = Field(ManagerLock.NONE, description="For how long its controller manager stands still.")
+    needs: dict[Need, Unmet] = Field({}, description="What must hold before it, and what happens otherwise.")
+    largest_step: PositiveMagnitude | None = Field(
+        None, description="Distance of a set point that is still followed, rad or m; null without bound."
+    )
+
+
 class ContractDevice(ContractModel):
     """A device as the mock needs it."""
 
@@ -216,6 +227,13 @@ class ContractDevice(ContractModel):
     speed_scaling_interface: str | None = Field(None, description="State interface of its speed scaling.")
     gripper: ContractGripper | None = Field(None, description="What a gripper adds.")
     camera: ContractCamera | None = Field(None, description="What a camera adds.")
+    effects: dict[Moment, ContractEffect] = Field(
+        {}, description="What its real hardware does as it is activated and claimed, and as its program starts."
+    )
+    at_once: bool = Field(False, description="A stay in inactive leaves the real hardware with commands of NaN.")
+    command_timeout_s: PositiveSeconds | None = Field(
+        None, description="Longest silence of its manager before the real hardware ends its program."
+    )
 
 
 class ContractAdapter(ContractModel):

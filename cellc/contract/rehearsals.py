@@ -6,7 +6,7 @@ from pydantic import Field
 
 from cellc.contract.base import ContractModel
 from cellc.contract.quantities import Coordinate, Count, Offset, PositiveMagnitude, PositiveSeconds, Seconds, Share
-from cellc.vocabulary import AttemptOutcome, FaultKind
+from cellc.vocabulary import AttemptOutcome, BringUpPhase, FaultKind
 
 
 class StepEntry(ContractModel):
@@ -33,18 +33,23 @@ class FaultEvent(ContractModel):
 class FaultEntry(ContractModel):
     """One fault; ``target`` is the ROS name of what it hits, or the kind of step for ``cancel``.
 
-    It begins at ``at_s`` or with ``event``; exactly one of them is given, none in a template.
+    It begins at ``at_s``, with ``event`` or with ``phase``; exactly one of them is given, none in a template.
     """
 
     kind: FaultKind = Field(description="What fails.")
     target: str = Field(description="What it hits.")
     at_s: Seconds | None = Field(None, description="Simulated time from the start; null where an event begins it.")
     event: FaultEvent | None = Field(None, description="Event that begins it; null where a time does.")
+    phase: BringUpPhase | None = Field(
+        None, description="Phase of the bring-up that begins it; null for a later begin."
+    )
     lasting_s: Seconds | None = Field(None, description="How long; null to the end.")
     cycles: Count | None = Field(None, description="Update cycles missed in a row.")
     delay_s: Seconds | None = Field(None, description="How late samples arrive.")
     jump_s: Offset | None = Field(None, description="How far a clock jumps; negative is back.")
-    displacement: Coordinate | None = Field(None, description="How far a joint stands beside its command, rad or m.")
+    displacement: Coordinate | None = Field(
+        None, description="How far a joint stands beside its command, or is jogged, rad or m."
+    )
     velocity: PositiveMagnitude | None = Field(None, description="Speed that a joint does not exceed, rad/s or m/s.")
     factor: Share | None = Field(None, description="Speed scaling, 0 to 1.")
 
@@ -58,6 +63,9 @@ class RehearsalEntry(ContractModel):
     expect: AttemptOutcome = Field(description="Outcome that it must end in.")
     within_s: Seconds | None = Field(None, description="Bound from the fault's effect to the outcome.")
     timeout_s: PositiveSeconds = Field(description="Bound of the whole run in simulated time.")
+    bring_up: Literal["mock", "real"] = Field(
+        "mock", description="Target whose bring-up is taken; with `real` devices do what their vendors' drivers do."
+    )
 
 
 class Rehearsals(ContractModel):

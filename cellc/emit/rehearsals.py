@@ -33,6 +33,7 @@ def _rehearsal(rehearsal: Rehearsal) -> RehearsalEntry:
             "expect": rehearsal.expect,
             "within_s": rehearsal.within_s,
             "timeout_s": rehearsal.timeout_s,
+            "bring_up": rehearsal.bring_up,
         }
     )
 
@@ -51,6 +52,7 @@ def _fault(fault: Fault) -> FaultEntry:
             "target": fault.name,
             "at_s": fault.at_s,
             "event": None if event is None else {"step": event.step, "when": event.when, "after_s": event.after_s},
+            "phase": fault.phase,
             "lasting_s": fault.lasting_s,
             "cycles": fault.cycles,
             "delay_s": fault.delay_s,

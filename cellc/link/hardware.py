@@ -86,6 +86,7 @@ def effect(facts: EffectFacts, distro: Distro | None) -> Effect:
         drops_part=facts.drops_part,
         leaves=facts.leaves,
         does=facts.does,
+        largest_step=None if facts.largest_step is None else facts.largest_step.si,
     )
 
 

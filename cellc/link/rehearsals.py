@@ -5,7 +5,7 @@ A fault is bound to what it hits, under the name that the contract has for it, t
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
@@ -27,13 +27,16 @@ from cellc.spec.faults import (
     DisplaceFault,
     EventSpec,
     FaultSpec,
+    JogFault,
     JumpClockFault,
+    PhaseSpec,
     ScaleSpeedFault,
     SkipCyclesFault,
     SlowFault,
     first_key,
 )
 from cellc.spec.rehearsals import AcknowledgeStep, DetectStep, GripStep, MoveStep, RehearsalSpec, StepSpec
+from cellc.vocabulary import Moment, Need
 
 _Bound = TypeVar("_Bound", Step, Fault)
 
@@ -102,6 +105,7 @@ def _rehearsal(
         faults=faults.value or (),
         expect=written.expect,
         within_s=si(written.within),
+        bring_up=written.bring_up,
         timeout_s=DEFAULT_TIMEOUT_S if written.timeout is None else written.timeout.si,
     )
     # A step list shared by `use` is reported where it is written, once.
@@ -203,13 +207,14 @@ def link_fault(
         path=path,
         span=document.locate(path),
         kind=kind,
-        at_s=None if isinstance(at, EventSpec) else at.si,
+        at_s=None if isinstance(at, EventSpec | PhaseSpec) else at.si,
         event=event,
+        phase=at.phase if isinstance(at, PhaseSpec) else None,
         lasting_s=si(fault.lasting),
         cycles=fault.skip_cycles if isinstance(fault, SkipCyclesFault) else None,
         delay_s=fault.by.si if isinstance(fault, DelayFault) else None,
         jump_s=fault.by.si if isinstance(fault, JumpClockFault) else None,
-        displacement=fault.by.si if isinstance(fault, DisplaceFault) else None,
+        displacement=fault.by.si if isinstance(fault, DisplaceFault | JogFault) else None,
         velocity=fault.to.si if isinstance(fault, SlowFault) else None,
         factor=fault.to.si if isinstance(fault, ScaleSpeedFault) else None,
     )
@@ -300,8 +305,11 @@ def _of_devices(devices: tuple[Device, ...]) -> dict[str, Target]:
     seen = [device for device in devices if device.camera is not None or device in jointed]
     scaled = [device for device in jointed if device.speed_scaling is not None]
     arms = [device for device in jointed if device.kind == "arm"]
+    claimed = [device for device in jointed if device.hardware is not None and device.hardware.kept_by_a_claim]
+    braked = [device for device in jointed if Need.BRAKES_OPEN in _claim_needs(device)]
     code = "unknown-device"
     streams = Target("camera or device with joints", code, _named(seen))
+    programmed = Target("device that keeps set points while its program is stopped", code, _named(claimed))
     stoppable = Target("device with hardware", code, _named(jointed))
     joint = Target("joint", "unknown-joint", _joints(devices))
     return {
@@ -310,7 +318,15 @@ def _of_devices(devices: tuple[Device, ...]) -> dict[str, Target]:
         **dict.fromkeys(("protective_stop", "emergency_stop", "restart_driver"), stoppable),
         "scale_speed": Target("device with speed scaling", code, _named(scaled)),
         "wrong_payload": Target("arm", code, _named(arms)),
+        **dict.fromkeys(("program_stop", "program_start", "stale_set_points"), programmed),
+        "jog": Target("joint", "unknown-joint", _joints(claimed)),
+        "brakes_closed": Target("device whose claim needs open brakes", code, _named(braked)),
     }
+
+
+def _claim_needs(device: Device) -> Collection[Need]:
+    claim = None if device.hardware is None else device.hardware.effects.get(Moment.CLAIM)
+    return () if claim is None else claim.needs
 
 
 def _of_graph(managers: tuple[ControllerManager, ...], interfaces: tuple[Interface, ...]) -> dict[str, Target]:

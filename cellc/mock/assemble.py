@@ -15,6 +15,7 @@ from cellc.mock.bus.timers import StreamDeadline
 from cellc.mock.bus.topic import Topic
 from cellc.mock.clocks import DEFAULT, TimeJump, build_clocks
 from cellc.mock.control import ControllerManager, DeclaredInterfaces, JointFault, Noise
+from cellc.mock.effects import Effects
 from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.engine.simulation import Simulation
 from cellc.mock.folder import GeneratedFolder
@@ -118,6 +119,7 @@ def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int) -> Plant:
         network=network,
         control=control,
         stops=Stops(control),
+        effects=Effects(contract, folder.watches, control, simulation),
         world=World(memory.model.links, control.histories.values()),
         cameras={},
         perceptions={},
@@ -125,6 +127,7 @@ def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int) -> Plant:
         planner=MotionPlanner(memory, seed),
         task=task,
     )
+    control.listen(plant.effects.hear)
     clocks.listen(partial(_note_jump, plant))
     images = _add_cameras(plant)
     tf = TfBroadcast(contract.interfaces.get(TF), task.name, network, simulation)

@@ -72,6 +72,7 @@ def take(plant: Plant, *phases: BringUpPhase) -> Waiting[tuple[tuple[str, ...], 
         asked = step.request
         if step.phase not in phases or asked is None or isinstance(asked, Transition):
             continue
+        plant.effects.enter(step.phase)
         manager = names[asked.manager]
         if isinstance(asked, HardwareActivation):
             answer = plant.control.managers[manager].set_hardware_component_state(asked.component, "active")

@@ -12,7 +12,7 @@ from cellc.mock.bringup import Bringup
 from cellc.mock.bus.qos import unmatched_pairs
 from cellc.mock.control import ManagerAbortedError
 from cellc.mock.errors import LimitReachedError, MockError
-from cellc.mock.faults.ports import fault_ports
+from cellc.mock.faults.ports import FaultPorts, fault_ports
 from cellc.mock.faults.registry import Injection, build_fault
 from cellc.mock.folder import GeneratedFolder, read_folder
 from cellc.mock.nodes.motion_planner import PlanMemory, build_motion_model
@@ -59,15 +59,21 @@ def _executed(
     if watch is not None:
         watch(plant)
     start_nodes(plant)
+    ports = fault_ports(plant)
+    for injection in injections:
+        if injection.entry.phase is not None:
+            injection.schedule(ports, plant.now_ns)
     bringup = Bringup(plant)
     plant.simulation.run_process(bringup.run())
     if not bringup.passed:
-        return _not_up(rehearsal, tuple(bringup.evidence), _findings(plant))
-    return _run_task(plant, rehearsal, seed, injections, tuple(bringup.evidence))
+        outcome = AttemptOutcome.CLAIM_FAILURE if plant.effects.refused else RunFailure.BRINGUP_FAILURE
+        return _not_up(rehearsal, tuple(bringup.evidence), _findings(plant), outcome)
+    return _run_task(plant, ports, rehearsal, seed, injections, tuple(bringup.evidence))
 
 
 def _run_task(
     plant: Plant,
+    ports: FaultPorts,
     rehearsal: RehearsalEntry,
     seed: int,
     injections: Sequence[Injection],
@@ -75,9 +81,9 @@ def _run_task(
 ) -> RehearsalResult:
     """Inject the faults at their times, and run the task to its named end."""
     begun_ns = plant.now_ns
-    ports = fault_ports(plant)
     for injection in injections:
-        injection.schedule(ports, begun_ns)
+        if injection.entry.phase is None:
+            injection.schedule(ports, begun_ns)
     task = Task(rehearsal, TaskContext(plant, begun_ns + round(rehearsal.timeout_s * 1e9), seed))
     plant.simulation.run_process(task.run())
     absent = tuple(injection.describe_absence() for injection in injections if injection.begun_ns is None)
@@ -120,7 +126,7 @@ def _not_up(
     rehearsal: RehearsalEntry,
     evidence: tuple[StageEvidence, ...],
     findings: tuple[str, ...],
-    outcome: RunFailure = RunFailure.BRINGUP_FAILURE,
+    outcome: AttemptOutcome | RunFailure = RunFailure.BRINGUP_FAILURE,
 ) -> RehearsalResult:
     return RehearsalResult(
         name=rehearsal.name,

@@ -29,3 +29,7 @@ class LimitReachedError(Exception):
 
     def __init__(self, text: str, limit: str) -> None:
         super().__init__(f"{text}; {option(limit)}")
+
+
+class FaultMissedError(Exception):
+    """A fault that was to begin has nothing to begin with; the message says why."""

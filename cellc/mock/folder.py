@@ -13,7 +13,7 @@ from typing import TypeVar
 import yaml
 from pydantic import BaseModel
 
-from cellc.contract.bring_up import BringUp, BringUpStep, Transition
+from cellc.contract.bring_up import BringUp, BringUpStep, Transition, Watch
 from cellc.contract.contract import Contract
 from cellc.contract.manifest import Manifest
 from cellc.contract.quantities import LARGEST
@@ -41,6 +41,7 @@ class GeneratedFolder:
         allowed_collisions: pairs of links whose collision is not checked, from the SRDF.
         parameters: text of the parameter file of each controller manager, by manager.
         bring_up: the steps of the mock.
+        watches: what lets go of claims as a robot no longer listens.
         notes: what is odd but no reason to stop, such as a file edited by hand.
     """
 
@@ -51,6 +52,7 @@ class GeneratedFolder:
     allowed_collisions: tuple[tuple[str, str], ...]
     parameters: dict[str, str]
     bring_up: tuple[BringUpStep, ...]
+    watches: tuple[Watch, ...]
     notes: tuple[str, ...]
 
 
@@ -74,6 +76,7 @@ def read_folder(folder: Path) -> GeneratedFolder:
     if missing:
         raise MockError(CONTRACT_FILE, f"controller manager `{missing[0]}` has no parameter file")
     urdf = _read_text(folder, contract.files.urdf_mock)
+    plan = _bring_up(folder, contract)
     return GeneratedFolder(
         contract=contract,
         rehearsals=rehearsals.rehearsals,
@@ -81,13 +84,14 @@ def read_folder(folder: Path) -> GeneratedFolder:
         description=_described(urdf, contract.files.urdf_mock),
         allowed_collisions=tuple(_allowed_collisions(folder, contract.files.srdf)),
         parameters={name: _read_text(folder, path) for name, path in contract.files.parameters.items()},
-        bring_up=_bring_up(folder, contract),
+        bring_up=plan.mock,
+        watches=plan.watches,
         notes=tuple(_notes(folder, contract, manifest)),
     )
 
 
-def _bring_up(folder: Path, contract: Contract) -> tuple[BringUpStep, ...]:
-    """Return the steps of the mock, each for controllers and components of a manager that the contract has."""
+def _bring_up(folder: Path, contract: Contract) -> BringUp:
+    """Return the plan, whose steps and watches are for managers that the contract has."""
     file = contract.files.bring_up
     plan = _read_model(folder, file, BringUp)
     known = {f"{manager.namespace}/controller_manager" for manager in contract.managers.values()}
@@ -95,7 +99,10 @@ def _bring_up(folder: Path, contract: Contract) -> tuple[BringUpStep, ...]:
         asked = None if isinstance(step.request, Transition | None) else step.request.manager
         if asked is not None and asked not in known:
             raise MockError(file, f"step `{step.name}` asks `{asked}`, which the contract does not have")
-    return plan.mock
+    for watch in plan.watches:
+        if watch.manager not in known:
+            raise MockError(file, f"a watch asks `{watch.manager}`, which the contract does not have")
+    return plan
 
 
 def _described(urdf: str, file: str) -> Description:

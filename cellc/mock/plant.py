@@ -11,6 +11,7 @@ from cellc.contract.bring_up import BringUpStep
 from cellc.contract.contract import Contract
 from cellc.mock.bus.network import Network
 from cellc.mock.clocks import Clocks
+from cellc.mock.effects import Effects
 from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.engine.simulation import Simulation
 from cellc.mock.nodes.motion_planner import MotionPlanner
@@ -53,6 +54,7 @@ class Plant:
     Attributes:
         control: controller managers and adapters, with the joint states that they publish.
         stops: of the hardware, until they are acknowledged.
+        effects: what devices do beside following commands.
         world: where links and objects really are.
         cameras: by device.
         perceptions: by the dynamic frame that they publish.
@@ -65,6 +67,7 @@ class Plant:
     network: Network
     control: ControlStack
     stops: Stops
+    effects: Effects
     world: World
     cameras: dict[str, Camera]
     perceptions: dict[str, Perception]

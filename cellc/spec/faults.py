@@ -9,6 +9,14 @@ from cellc.spec.quantity import Duration, JointPosition, JointVelocity, Ratio, T
 from cellc.vocabulary import FaultKind
 
 
+class PhaseSpec(SpecModel):
+    """A moment before the first step: the bring-up comes to a phase."""
+
+    phase: Literal["start", "activate", "claim"] = Field(
+        ..., description="Before anything of this phase of the bring-up.", examples=["claim"]
+    )
+
+
 class EventSpec(SpecModel):
     """A moment in a rehearsal that is told by how far a step has come."""
 
@@ -22,11 +30,14 @@ class EventSpec(SpecModel):
 
 
 def _moment(value: object) -> str:
-    return "event" if shape_of(value) == "mapping" else "time"
+    if shape_of(value) != "mapping":
+        return "time"
+    return "phase" if first_key(value, ("phase",)) else "event"
 
 
 MomentSpec = Annotated[
-    Union[Annotated[Duration, Tag("time")], Annotated[EventSpec, Tag("event")]], Discriminator(_moment)
+    Union[Annotated[Duration, Tag("time")], Annotated[EventSpec, Tag("event")], Annotated[PhaseSpec, Tag("phase")]],
+    Discriminator(_moment),
 ]
 
 
@@ -35,7 +46,7 @@ class FaultFields(SpecModel):
 
     at: MomentSpec = Field(
         ...,
-        description="Simulated time from the start of the rehearsal, or an event of one of its steps.",
+        description="Simulated time from the start of the rehearsal, an event of a step, or a phase of the bring-up.",
         examples=["2 s", {"step": 3, "when": "accepted", "after": "100 ms"}],
     )
     lasting: Duration | None = Field(None, description="How long; to the end if absent.", examples=["500 ms"])
@@ -180,6 +191,37 @@ class CutNetworkFault(FaultFields):
     cut_network: Name = Field(..., description="Device.", examples=["arm"])
 
 
+class ProgramStopFault(FaultFields):
+    """The program on a device's own controller stops; it follows no set points until it starts, after ``lasting``."""
+
+    program_stop: Name = Field(..., description="Device whose set points pass through a program.", examples=["arm"])
+
+
+class ProgramStartFault(FaultFields):
+    """Somebody starts the program on a device's own controller: from now on it follows set points."""
+
+    program_start: Name = Field(..., description="Device whose set points pass through a program.", examples=["arm"])
+
+
+class JogFault(FaultFields):
+    """Somebody moves a joint by the pendant, which the robot lets them do while its program is stopped."""
+
+    jog: FrameReference = Field(..., description="Joint, as `device/joint`.", examples=["arm/elbow_joint"])
+    by: JointPosition = Field(..., description="How far.", examples=["5 deg"])
+
+
+class StaleSetPointsFault(FaultFields):
+    """The program of a device stops, somebody jogs its first joint, and the program starts again."""
+
+    stale_set_points: Name = Field(..., description="Device whose set points pass through a program.", examples=["arm"])
+
+
+class BrakesClosedFault(FaultFields):
+    """The brakes of a device are closed; ``lasting`` until a person opens them."""
+
+    brakes_closed: Name = Field(..., description="Device whose claim needs open brakes.", examples=["arm"])
+
+
 FAULT_KEYS: tuple[str, ...] = tuple(kind.value for kind in FaultKind)
 
 
@@ -219,6 +261,11 @@ FaultSpec = Annotated[
         Annotated[EmergencyStopFault, Tag("emergency_stop")],
         Annotated[RestartDriverFault, Tag("restart_driver")],
         Annotated[CutNetworkFault, Tag("cut_network")],
+        Annotated[ProgramStopFault, Tag("program_stop")],
+        Annotated[ProgramStartFault, Tag("program_start")],
+        Annotated[JogFault, Tag("jog")],
+        Annotated[StaleSetPointsFault, Tag("stale_set_points")],
+        Annotated[BrakesClosedFault, Tag("brakes_closed")],
     ],
     Discriminator(
         _fault_key,

@@ -73,6 +73,11 @@ class RehearsalSpec(SpecModel):
     expect: AttemptOutcome = Field(
         AttemptOutcome.SUCCEEDED, strict=False, description="Outcome that it must end in.", examples=["stale_state"]
     )
+    bring_up: Literal["mock", "real"] = Field(
+        "mock",
+        description="Steps of the bring-up that are taken; with `real` the devices do what their vendors' drivers do.",
+        examples=["real"],
+    )
     within: Duration | None = Field(
         None, description="Bound from the fault (or its effect's start) to the outcome.", examples=["200 ms"]
     )

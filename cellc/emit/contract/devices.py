@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from cellc.cell.cell import Cell
 from cellc.cell.control import AdaptedDevice
 from cellc.cell.device import Device, SimulatedJoint
+from cellc.cell.hardware import HardwareComponent
 from cellc.cell.interface import Interface, InterfaceKind
 from cellc.cell.site import UNKNOWN
 from cellc.contract.contract import (
@@ -14,10 +15,12 @@ from cellc.contract.contract import (
     ContractCamera,
     ContractDevice,
     ContractDriver,
+    ContractEffect,
     ContractGripper,
     ContractSimulatedJoint,
 )
 from cellc.formats.urdf.robot import start_positions
+from cellc.vocabulary import Moment
 
 
 def devices(cell: Cell) -> dict[str, ContractDevice]:
@@ -26,18 +29,42 @@ def devices(cell: Cell) -> dict[str, ContractDevice]:
 
 
 def _device(cell: Cell, device: Device) -> ContractDevice:
+    hardware = None if _adapted(cell, device) else device.hardware
     return ContractDevice(
         model=device.model,
         kind=device.kind,
         prefix=device.prefix,
         root_link=device.root_link,
         architecture=device.architecture,
-        hardware_component=None if device.hardware is None or _adapted(cell, device) else device.hardware.name,
+        hardware_component=None if hardware is None else hardware.name,
         driver=_driver(device),
         speed_scaling_interface=None if _adapted(cell, device) else device.speed_scaling,
         gripper=_gripper(cell, device),
         camera=_camera(cell, device),
+        effects=_effects(hardware),
+        at_once=hardware is not None and hardware.at_once,
+        command_timeout_s=None if hardware is None else hardware.command_timeout_s,
     )
+
+
+_PLAYED = (Moment.ACTIVATE, Moment.CLAIM, Moment.PROGRAM_START)
+"""Moments that the mock plays."""
+
+
+def _effects(hardware: HardwareComponent | None) -> dict[Moment, ContractEffect]:
+    """Return what the hardware does at the moments that the mock plays; a moment of nothing is left out."""
+    told = {} if hardware is None else hardware.effects
+    effects = {
+        moment: ContractEffect(
+            motion=told[moment].motion,
+            lock=told[moment].lock,
+            needs=dict(told[moment].needs),
+            largest_step=told[moment].largest_step,
+        )
+        for moment in _PLAYED
+        if moment in told
+    }
+    return {moment: effect for moment, effect in effects.items() if effect != ContractEffect()}
 
 
 def _adapted(cell: Cell, device: Device) -> bool:

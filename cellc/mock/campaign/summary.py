@@ -27,6 +27,8 @@ SHORT: dict[RunOutcome, str] = {
     AttemptOutcome.EMERGENCY_STOP: "estop",
     AttemptOutcome.HARDWARE_FAULT: "hardware",
     AttemptOutcome.WRONG_OWNER: "owner",
+    AttemptOutcome.CLAIM_FAILURE: "claim",
+    AttemptOutcome.UNCOMMANDED_MOTION: "MOVED",
     AttemptOutcome.TIMEOUT: "time",
 }
 """Outcomes as the matrix has them; one that is not here stands in full."""

@@ -10,6 +10,7 @@ from cellc.contract.contract import ContractFrame
 from cellc.mock.bus.network import Network
 from cellc.mock.clocks import Clock, Clocks
 from cellc.mock.control import ControlEvent, GripperEnded, GripperGoal, TrajectoryEnded, TrajectoryGoal
+from cellc.mock.effects import Effects
 from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.engine.process import Action
 from cellc.mock.nodes.perception import Camera, Perception
@@ -242,6 +243,7 @@ class FaultPorts:
     clocks: Clocks
     requests: TaskRequests
     milestones: Milestones
+    effects: Effects
 
 
 def fault_ports(plant: Plant) -> FaultPorts:
@@ -258,4 +260,5 @@ def fault_ports(plant: Plant) -> FaultPorts:
         plant.clocks,
         plant.task.requests,
         plant.task.milestones,
+        plant.effects,
     )

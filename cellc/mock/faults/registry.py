@@ -8,13 +8,14 @@ from typing import Protocol
 
 from cellc.contract.contract import Contract
 from cellc.contract.rehearsals import FaultEntry
-from cellc.mock.errors import MockError
+from cellc.mock.errors import FaultMissedError, MockError
 from cellc.mock.faults.cases import FaultCase
 from cellc.mock.faults.frames import DoubleFrame, DropFrame, JumpClock
 from cellc.mock.faults.goals import Cancel, Reject, SecondCommander, Switch, Unreachable
 from cellc.mock.faults.joints import Displace, ScaleSpeed, SkipCycles, Slow, Stick
 from cellc.mock.faults.network import CutNetwork, MismatchQos, Unresponsive
 from cellc.mock.faults.ports import FaultPorts
+from cellc.mock.faults.programs import BrakesClosed, Jog, ProgramStart, ProgramStop, StaleSetPoints
 from cellc.mock.faults.samples import Delay, Freeze
 from cellc.mock.faults.stops import EmergencyStop, ProtectiveStop, RestartDriver, WrongPayload
 from cellc.vocabulary import FaultKind
@@ -58,11 +59,16 @@ class Injection:
         self.entry = entry
         self.begun_ns: int | None = None
         self._fault = fault
+        self._missed = ""
 
     def describe_absence(self) -> str:
         """Say why the fault never began."""
         name = f"fault `{self.entry.kind} {self.entry.target}`"
         event = self.entry.event
+        if self._missed:
+            return f"{name} never began: {self._missed}"
+        if self.entry.phase is not None:
+            return f"{name} never began: the bring-up has no phase `{self.entry.phase}`"
         if event is None:
             return f"{name} never began: the rehearsal was over before {self.entry.at_s:g} s"
         return f"{name} never began: step {event.step} was never `{event.when}`, or was over too soon"
@@ -70,7 +76,9 @@ class Injection:
     def schedule(self, ports: FaultPorts, start_ns: int) -> None:
         """Let the fault begin, counted from ``start_ns`` or from its event."""
         event = self.entry.event
-        if event is None:
+        if self.entry.phase is not None:
+            ports.effects.expect(self.entry.phase, partial(self._begin, ports))
+        elif event is None:
             self._begin_at(ports, start_ns + round((self.entry.at_s or 0.0) * 1e9))
         elif event.after_s > 0.0:
             delay_ns = round(event.after_s * 1e9)
@@ -84,8 +92,12 @@ class Injection:
         ports.schedule.at(at_ns, partial(self._begin, ports))
 
     def _begin(self, ports: FaultPorts) -> None:
+        try:
+            self._fault.begin(ports)
+        except FaultMissedError as missed:
+            self._missed = str(missed)
+            return
         self.begun_ns = ports.schedule.now_ns
-        self._fault.begin(ports)
         if self.entry.lasting_s is not None:
             end_ns = ports.schedule.now_ns + round(self.entry.lasting_s * 1e9)
             ports.schedule.at(end_ns, partial(self._fault.end, ports))
@@ -114,13 +126,18 @@ FAULTS: tuple[FaultType, ...] = (
     EmergencyStop,
     RestartDriver,
     CutNetwork,
+    ProgramStop,
+    ProgramStart,
+    Jog,
+    StaleSetPoints,
+    BrakesClosed,
 )
 _BY_KIND = {fault.kind: fault for fault in FAULTS}
 
 
 def build_fault(entry: FaultEntry, contract: Contract) -> Fault:
     """Return the fault of an entry; raise MockError where it has no moment or names what it cannot hit."""
-    if (entry.at_s is None) == (entry.event is None):
+    if [entry.at_s, entry.event, entry.phase].count(None) != 2:
         reason = f"fault `{entry.kind}` needs either a time or an event that begins it"
         raise MockError(contract.files.rehearsals, reason)
     fault = _BY_KIND[entry.kind].of(entry, contract)

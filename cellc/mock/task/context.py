@@ -240,12 +240,23 @@ class TaskContext:
 
     def check_cell(self) -> None:
         """Raise AttemptError for what ends any attempt, a stop first; each of these is a watchdog of the task."""
+        self._check_effects()
         self._check_stops()
         self._check_owner()
         self._check_cycles()
         self._check_states()
         self._check_observation()
         self._check_time()
+
+    def _check_effects(self) -> None:
+        """Raise AttemptError where something moved that nobody commanded, or a claim is no longer one."""
+        effects = self.plant.effects
+        for motion in effects.motions:
+            raise AttemptError(AttemptOutcome.UNCOMMANDED_MOTION, str(motion))
+        for controller, why in effects.given_up.items():
+            raise AttemptError(AttemptOutcome.CLAIM_FAILURE, f"{controller} gave up its claim: {why}")
+        for why in effects.ignored.values():
+            raise AttemptError(AttemptOutcome.CLAIM_FAILURE, why)
 
     def _check_stops(self) -> None:
         for stop in self.plant.stops.present():

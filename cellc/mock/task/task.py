@@ -50,39 +50,53 @@ def detect(context: TaskContext, attempt: Attempt, frame: str) -> Waiting[None]:
 def acknowledge(context: TaskContext, attempt: Attempt, role: str) -> Waiting[None]:
     """Acknowledge the stops of a cell, activate what it needs, and look whether it is ready; no stop, nothing to do.
 
+    Claims that were given up are taken again by the same person, as soon as the robot listens.
+
     Raises:
         AttemptError: the role may not acknowledge, what stopped the cell is not over in time, or it does not come up.
     """
     plant = context.plant
-    if not plant.stops.present():
+    if not plant.stops.present() and not is_waiting(plant):
         return
     _require_role(plant, role)
     yield from _until_over(context)
     attempt.operator = f"acknowledged by {role}"
     plant.stops.recover()
+    plant.effects.recover()
     yield from context.let_take_effect()
     problems = yield from _activate(plant)
     if problems:
-        raise AttemptError(AttemptOutcome.HARDWARE_FAULT, "; ".join(problems))
+        outcome = AttemptOutcome.CLAIM_FAILURE if plant.effects.refused else AttemptOutcome.HARDWARE_FAULT
+        raise AttemptError(outcome, "; ".join(problems))
     yield from context.rest(_FRESH_NS / 1e9)
     current_state(plant)
+
+
+def is_waiting(plant: Plant) -> bool:
+    """Tell whether a claim waits for a person to take it again."""
+    return bool(plant.effects.given_up or plant.effects.ignored)
 
 
 def _require_role(plant: Plant, role: str) -> None:
     authorized = plant.contract.safety.acknowledge
     if role != authorized:
-        stop = plant.stops.present()[0]
-        raise AttemptError(OUTCOME_OF_STOP[stop.state], f"{role} may not acknowledge, {authorized} must")
+        stopped = plant.stops.present()
+        outcome = OUTCOME_OF_STOP[stopped[0].state] if stopped else AttemptOutcome.CLAIM_FAILURE
+        raise AttemptError(outcome, f"{role} may not acknowledge, {authorized} must")
 
 
 def _until_over(context: TaskContext) -> Waiting[None]:
     """Wait until what stopped the cell is over."""
     bound_s = context.contract.kpis.recovery_time_s or RECOVERY_S
     until_ns = min(context.now_ns + round(bound_s * 1e9), context.deadline_ns)
-    while lasting := context.plant.stops.lasting():
-        if context.now_ns >= until_ns:
+    plant = context.plant
+    while (lasting := plant.stops.lasting()) or plant.effects.silenced:
+        if context.now_ns >= until_ns and lasting:
             text = f"{lasting[0].component} is still in {lasting[0].state} {bound_s:g} s after it was to be recovered"
             raise AttemptError(OUTCOME_OF_STOP[lasting[0].state], text)
+        if context.now_ns >= until_ns:
+            text = f"{plant.effects.silenced[0]} still follows no set points {bound_s:g} s after a claim was wanted"
+            raise AttemptError(AttemptOutcome.CLAIM_FAILURE, text)
         yield Wait(min(until_ns, context.now_ns + _LOOK_NS), (context.control.changed,))
 
 
@@ -159,12 +173,15 @@ class Task:
 
     def _is_acknowledged_after(self, number: int) -> bool:
         later = self._rehearsal.steps[number:]
-        return self._context.plant.stops.state() != NORMAL and any(step.kind == "acknowledge" for step in later)
+        stopped = self._context.plant.stops.state() != NORMAL or is_waiting(self._context.plant)
+        return stopped and any(step.kind == "acknowledge" for step in later)
 
     def _close(self, attempt: Attempt, failure: AttemptError | None) -> AttemptOutcome:
         safety_state = self._context.plant.stops.state()
         role = self._context.contract.safety.acknowledge
         due = "none" if safety_state == NORMAL else f"required: acknowledge by {role}"
+        if safety_state == NORMAL and is_waiting(self._context.plant):
+            due = f"required: program start, then a claim, by {role}"
         outcome = AttemptOutcome.SUCCEEDED if failure is None else failure.outcome
         fault_code = "" if failure is None else failure.fault_code
         self.records.append(attempt.close(outcome, fault_code, safety_state, due, self._context.now_ns))

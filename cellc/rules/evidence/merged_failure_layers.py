@@ -49,6 +49,11 @@ _LAYERS = {
     "emergency_stop": ("emergency_stop",),
     "restart_driver": ("hardware_fault",),
     "cut_network": ("hardware_fault", "stale_state"),
+    "program_stop": ("claim_failure", "timeout"),  # the latter where nothing watches the program
+    "program_start": ("claim_failure", "uncommanded_motion"),
+    "jog": ("claim_failure", "uncommanded_motion"),
+    "stale_set_points": ("claim_failure", "uncommanded_motion"),
+    "brakes_closed": ("claim_failure", "protective_stop"),
 }
 
 

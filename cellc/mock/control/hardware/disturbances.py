@@ -79,11 +79,16 @@ def _lag(wanted: Array, previous: float, share: float) -> Array:
 class Disturbances:
     """Switches faults on and off.
 
+    Attributes:
+        refused: why claims were refused that somebody asked for.
+
     Args:
         changed: called before each change.
         skip: called with the number of update cycles that the manager misses.
         set_state: called with component and lifecycle state.
         stand: called with a component whose commands shall be where its joints are.
+        place: called with a joint and the position that it is moved to from outside.
+        rest: called with a component whose joints shall stand still.
     """
 
     def __init__(
@@ -92,11 +97,15 @@ class Disturbances:
         skip: Callable[[int], None],
         set_state: Callable[[str, str], object],
         stand: Callable[[str], None],
+        place: Callable[[str, float], None],
+        rest: Callable[[str], None],
     ) -> None:
         self._changed = changed
         self._skip = skip
         self._set_state = set_state
         self._stand = stand
+        self._place = place
+        self._rest = rest
         self._joints: dict[str, JointFault] = {}
         self._nature: dict[str, JointFault] = {}
         self._noise: dict[str, Noise] = {}
@@ -104,6 +113,8 @@ class Disturbances:
         self._failing_read: set[str] = set()
         self._failing_write: set[str] = set()
         self._lost: set[str] = set()
+        self._refusing: dict[str, str] = {}
+        self.refused: list[str] = []
 
     @property
     def disturbs_joints(self) -> bool:
@@ -195,6 +206,36 @@ class Disturbances:
         """Let a component follow its commands again."""
         self._changed()
         self._deaf.discard(component)
+
+    def stand(self, component: str) -> None:
+        """Let the commands of a component be where its joints stand."""
+        self._changed()
+        self._stand(component)
+
+    def place(self, joint: str, position: float) -> None:
+        """Let somebody move a joint of a component that ignores its commands."""
+        self._changed()
+        self._place(joint, position)
+
+    def rest(self, component: str) -> None:
+        """Let the joints of a component stand still."""
+        self._changed()
+        self._rest(component)
+
+    def refuse_claims(self, component: str, reason: str) -> None:
+        """Let a component refuse every claim of its interfaces."""
+        self._refusing[component] = reason
+
+    def accept_claims(self, component: str) -> None:
+        """Let a component accept claims again."""
+        self._refusing.pop(component, None)
+
+    def take_refusal(self, component: str) -> str:
+        """Why a component refuses the claim that is asked for now; empty where it does not."""
+        reason = self._refusing.get(component, "")
+        if reason and reason not in self.refused:
+            self.refused.append(reason)
+        return reason
 
     def fail_read(self, component: str) -> None:
         """Let the next read of a component return an error."""

@@ -255,6 +255,18 @@ class GenericSystem:
         if len(columns):
             state[:, targets] = hold_last(command[:, columns] + self._offset, state[0, targets])
 
+    def place(self, joint: str, position: float) -> None:
+        """Move a joint from outside."""
+        index = self._names.index(joint)
+        self._position[index] = position
+        self._table.state[self._table.state_column(f"{joint}/position")] = position
+
+    def rest(self) -> None:
+        """Let every joint stand still where it is."""
+        self._velocity[:] = self._acceleration[:] = 0.0
+        for kind in ("velocity", "acceleration"):
+            self._table.state[self._state_columns[kind][1]] = 0.0
+
     def commit(self, cycles: int) -> None:
         """Adopt the joints' values after the first cycles of what `read` computed last."""
         self._read_cycles = self._first_cycle + cycles

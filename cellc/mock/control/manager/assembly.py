@@ -77,6 +77,14 @@ class _Late:
         if self.hardware is not None:
             self.hardware.stand(component)
 
+    def place(self, joint: str, position: float) -> None:
+        if self.hardware is not None:
+            self.hardware.place(joint, position)
+
+    def rest(self, component: str) -> None:
+        if self.hardware is not None:
+            self.hardware.rest(component)
+
 
 def _load_hardware(
     source: str | Description,
@@ -124,7 +132,7 @@ def assemble(
     file = read_file(parameters)
     settings = read_settings(ParameterSet(file.of_node(NODE_NAME, options.namespace)), options.distro)
     rate, period_ns = settings.update_rate, 1_000_000_000 // settings.update_rate
-    disturbances = Disturbances(changed, late.skip, late.set_state, late.stand)
+    disturbances = Disturbances(changed, late.skip, late.set_state, late.stand, late.place, late.rest)
     description, hardware, reason = _load_hardware(robot_description, table, disturbances, log, events)
     limiter = None
     if hardware is not None:

@@ -147,6 +147,21 @@ class HardwareSet:
                 position = self._table.state[self._table.state_column(interface)]
                 self._table.command[self._table.command_column(interface)] = position
 
+    def place(self, joint: str, position: float) -> None:
+        """Move a joint from outside; its velocity is zero, as that of a joint which nothing commands."""
+        component = self.owner(f"{joint}/position")
+        if component is not None:
+            component.system.place(joint, position)
+
+    def rest(self, name: str) -> None:
+        """Let the joints of a component stand still where they are."""
+        if name in self.components:
+            self.components[name].system.rest()
+
+    def refusal(self, component: Component) -> str:
+        """Why a component refuses the claim that is asked for now; empty where it does not."""
+        return self._disturbances.take_refusal(component.name)
+
     # -- cycles ------------------------------------------------------------------------------------------------------
 
     def read(self, time_ns: int, period_ns: int, rate: int) -> list[Component]:

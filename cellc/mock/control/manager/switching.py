@@ -226,7 +226,10 @@ class SwitchChecker:
             reasons = component.system.refuse_switch(wanted) if wanted else []
             for reason in reasons:
                 self._log.error(component.name, reason)
-            if reasons:
+            refusal = self._hardware.refusal(component) if wanted else ""
+            if refusal:
+                self._log.error(component.name, refusal)
+            if reasons or refusal:
                 raise _RefusedError(_REJECTED)
 
 

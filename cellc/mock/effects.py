@@ -1,0 +1,270 @@
+"""What devices do in the world beside following their commands: programs, brakes and claims, as their vendors have it.
+
+A robot whose set points pass through a program of its own follows none while the program is stopped: its state goes on,
+people may jog it, and a controller that keeps its claim keeps its set points. They are sent as the program starts, and
+the arm jumps. The facts are those of the catalog, ``effects`` of a device in the contract.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import partial
+
+from cellc.contract.bring_up import Watch
+from cellc.contract.contract import Contract, ContractDevice
+from cellc.mock.control import ControlEvent, ControllerChanged, ControllerManager
+from cellc.mock.engine.control_stack import ControlStack
+from cellc.mock.engine.process import Action
+from cellc.mock.engine.simulation import Simulation
+from cellc.vocabulary import BringUpPhase, Moment, Need, Unmet
+
+STALE = 0.01
+"""rad or m between a set point and a joint that make a jump; a joint that follows its trajectory is closer."""
+REACTION_NS = 20_000_000
+"""A message of the robot, and a request to its controller manager: so much later a watch lets go of its claims."""
+JOG_NS = 10_000_000
+JOG_SPEED = 0.25
+"""rad/s or m/s of a joint that is jogged."""
+
+
+@dataclass(frozen=True, slots=True)
+class UncommandedMotion:
+    """A joint that moved and that nobody had commanded to.
+
+    Attributes:
+        step: rad or m that it moved in the cycle.
+        distance: rad or m from where it stood to the set point that it goes to.
+    """
+
+    device: str
+    joint: str
+    step: float
+    distance: float
+    cycle: int
+    stamp_ns: int
+    why: str
+
+    def __str__(self) -> str:
+        return (
+            f"{self.joint} jumped {self.step:.4f} of {self.distance:.4f} rad in cycle {self.cycle} "
+            f"({self.stamp_ns / 1e9:.3f} s): {self.why}"
+        )
+
+
+class Effects:
+    """What holds of each device now, and what came of it.
+
+    Attributes:
+        motions: that nobody commanded.
+        given_up: controllers that gave up their claim because of a watch, with the reason, until they are active again.
+        ignored: devices that ignore the set points which they are sent, with the reason.
+    """
+
+    def __init__(
+        self, contract: Contract, watches: Sequence[Watch], control: ControlStack, simulation: Simulation
+    ) -> None:
+        """Bind the devices of a contract; whatever any of them needs holds."""
+        self.motions: list[UncommandedMotion] = []
+        self.given_up: dict[str, str] = {}
+        self.ignored: dict[str, str] = {}
+        self._contract = contract
+        self._watches = watches
+        self._control = control
+        self._simulation = simulation
+        self._unmet: dict[str, set[Need]] = {}
+        self._waiting: defaultdict[BringUpPhase, list[Action]] = defaultdict(list)
+
+    @property
+    def refused(self) -> tuple[str, ...]:
+        """Claims that devices have refused, with the reason."""
+        return tuple(text for manager in self._control.managers.values() for text in manager.disturbances.refused)
+
+    @property
+    def silenced(self) -> tuple[str, ...]:
+        """Devices that follow no set points now."""
+        return tuple(device for device in self._unmet if not self._follows(device))
+
+    def expect(self, phase: BringUpPhase, action: Action) -> None:
+        """Call ``action`` once when the bring-up comes to a phase."""
+        self._waiting[phase].append(action)
+
+    def enter(self, phase: BringUpPhase) -> None:
+        """Let the bring-up come to a phase, before anything of it is asked for."""
+        for action in self._waiting.pop(phase, []):
+            action()
+
+    def unmet(self, device: str, need: Need) -> None:
+        """Let something not hold any more that a claim of a device needs."""
+        before = self._follows(device)
+        self._unmet.setdefault(device, set()).add(need)
+        self._refuse(device)
+        if before and not self._follows(device):
+            self._fall_silent(device)
+
+    def met(self, device: str, need: Need) -> None:
+        """Let it hold again."""
+        before = self._follows(device)
+        self._unmet.setdefault(device, set()).discard(need)
+        self._refuse(device)
+        if not before and self._follows(device):
+            self._listen_again(device)
+
+    def jog(self, device: str, joint: str, distance: float) -> None:
+        """Let somebody move a joint of a silenced device by the pendant, rad or m, at the speed of a careful person."""
+        start, begun_ns = self._manager(device).joint_positions()[joint], self._simulation.now_ns
+        steps = max(1, round(abs(distance) / (JOG_SPEED * JOG_NS / 1e9)))
+        for number in range(1, steps + 1):
+            place = partial(self._place, device, joint, start + distance * number / steps)
+            self._simulation.at(begun_ns + number * JOG_NS, place)
+
+    def _place(self, device: str, joint: str, position: float) -> None:
+        if not self._follows(device):
+            self._manager(device).disturbances.place(joint, position)
+
+    def is_claimed(self, device: str) -> bool:
+        """Tell whether a controller commands joints of a device."""
+        return bool(self._claims(device))
+
+    # -- claims ------------------------------------------------------------------------------------------------------
+
+    def _facts(self, device: str) -> ContractDevice:
+        return self._contract.devices[device]
+
+    def _needs(self, device: str, *otherwise: Unmet) -> set[Need]:
+        """Return what a claim of a device needs and does not have, of which one of these comes."""
+        claim = self._facts(device).effects.get(Moment.CLAIM)
+        told = {} if claim is None else claim.needs
+        return {need for need in self._unmet.get(device, ()) if told.get(need) in otherwise}
+
+    def _follows(self, device: str) -> bool:
+        return not self._needs(device, Unmet.KEEPS_SET_POINTS)
+
+    def _refuse(self, device: str) -> None:
+        """Let claims of a device fail for as long as they would on the robot."""
+        component = self._component(device)
+        ends = self._needs(device, Unmet.ENDS_MANAGER)
+        lacking = ends or self._needs(device, Unmet.REFUSED, Unmet.UNKNOWN)
+        manager = self._manager(device)
+        if not lacking:
+            manager.disturbances.accept_claims(component)
+            return
+        needed = " and ".join(sorted(need.replace("_", " ") for need in lacking))
+        then = "the process of the controller manager ends" if ends else "the claim is refused"
+        manager.disturbances.refuse_claims(component, f"a claim of {device} needs {needed}: {then}")
+
+    def _component(self, device: str) -> str:
+        return self._facts(device).hardware_component or ""
+
+    def _manager(self, device: str) -> ControllerManager:
+        return next(self._control.managers_of_component(self._component(device)))
+
+    def _claims(self, device: str) -> dict[str, str]:
+        """Return the joints of a device whose position a controller commands, with the controller."""
+        joints = {
+            joint
+            for manager in self._contract.managers.values()
+            for facts in manager.controllers.values()
+            if facts.device == device
+            for joint in facts.joints
+        }
+        return {
+            interface.removesuffix("/position"): entry.name
+            for entry in self._manager(device).list_controllers()
+            for interface in entry.claimed_interfaces
+            if interface.endswith("/position") and interface.removesuffix("/position") in joints
+        }
+
+    # -- set points --------------------------------------------------------------------------------------------------
+
+    def _fall_silent(self, device: str) -> None:
+        """Let set points no longer reach a device: it stands, and whoever watches it hears of it."""
+        manager = self._manager(device)
+        manager.disturbances.ignore_commands(self._component(device))
+        manager.disturbances.rest(self._component(device))
+        self._scale(device, 0.0)
+        for watch in self._watches:
+            if device in self._heard(watch):
+                at_ns = self._simulation.now_ns + REACTION_NS
+                self._simulation.at(at_ns, partial(self._let_go, watch, f"the program of {device} does not run"))
+
+    def _scale(self, device: str, factor: float) -> None:
+        interface = self._facts(device).speed_scaling_interface
+        if interface is not None:
+            self._manager(device).write_state(interface, factor)
+
+    def _heard(self, watch: Watch) -> set[str | None]:
+        """Return the devices that a watch hears: those whose own controller publishes its topic."""
+        topic = watch.while_holds.topic
+        return {
+            facts.device
+            for manager in self._contract.managers.values()
+            for facts in manager.controllers.values()
+            if topic.startswith(f"{facts.full_name}/")
+        }
+
+    def _let_go(self, watch: Watch, why: str) -> None:
+        name, manager = self._watched(watch)
+        keys = {one.full_name.rpartition("/")[2]: key for key, one in self._contract.managers[name].controllers.items()}
+        active = {entry.name for entry in manager.list_controllers() if entry.state == "active"}
+        claims = [key for key in (keys.get(each, each) for each in watch.controllers) if key in active]
+        if claims:
+            manager.switch_controllers([], claims)
+            self.given_up |= dict.fromkeys(claims, why)
+            self._control.changed.fire(self._simulation.now_ns)
+
+    def _watched(self, watch: Watch) -> tuple[str, ControllerManager]:
+        return next(
+            (name, self._control.managers[name])
+            for name, entry in self._contract.managers.items()
+            if f"{entry.namespace}/controller_manager" == watch.manager
+        )
+
+    def hear(self, event: ControlEvent) -> None:
+        """Note that a controller has its claim again."""
+        if isinstance(event, ControllerChanged) and event.state == "active":
+            self.given_up.pop(event.controller, None)
+
+    def _listen_again(self, device: str) -> None:
+        """Let set points reach a device again: those of its claims, however old; without a claim there are none."""
+        manager, component = self._manager(device), self._component(device)
+        claims, positions = self._claims(device), manager.joint_positions()
+        self._scale(device, 1.0)
+        apart = {joint: manager.command(f"{joint}/position") - positions[joint] for joint in claims}
+        worst = max(apart, key=lambda joint: abs(apart[joint]), default=None)
+        if worst is None:
+            manager.disturbances.stand(component)
+        elif abs(apart[worst]) > STALE:
+            why = f"{claims[worst]} kept its set point while the program of {device} was stopped"
+            if self._is_ignored(device, worst, abs(apart[worst]), why):
+                return
+            measure = partial(self._note_jump, device, worst, positions[worst], apart[worst], why)
+            self._simulation.at(self._simulation.now_ns + manager.period_ns, measure)
+        manager.disturbances.heed_commands(component)
+
+    def _is_ignored(self, device: str, joint: str, distance: float, why: str) -> bool:
+        """Tell whether a device ignores a set point so far from where it stands, and keep that in mind."""
+        start = self._facts(device).effects.get(Moment.PROGRAM_START)
+        followed = None if start is None else start.largest_step
+        if followed is None or distance <= followed:
+            return False
+        self.ignored[device] = (
+            f"{device} ignores a set point {distance:.4f} rad beside {joint}, it follows {followed:g} rad: {why}"
+        )
+        return True
+
+    def _note_jump(self, device: str, joint: str, before: float, distance: float, why: str) -> None:
+        manager, now_ns = self._manager(device), self._simulation.now_ns
+        step = abs(manager.joint_positions()[joint] - before)
+        cycle = now_ns // manager.period_ns
+        self.motions.append(UncommandedMotion(device, joint, step, abs(distance), cycle, now_ns, why))
+        self._control.changed.fire(now_ns)
+
+    def recover(self) -> None:
+        """Let devices that ignore set points begin anew from where their joints stand."""
+        for device in tuple(self.ignored):
+            del self.ignored[device]
+            manager = self._manager(device)
+            manager.disturbances.stand(self._component(device))
+            manager.disturbances.heed_commands(self._component(device))

@@ -1,0 +1,218 @@
+"""Programs of robots that stop and start, joints that are jogged meanwhile, and brakes that are closed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import partial
+from typing import ClassVar
+
+from cellc.contract.contract import Contract
+from cellc.contract.rehearsals import FaultEntry
+from cellc.mock.effects import REACTION_NS
+from cellc.mock.errors import FaultMissedError
+from cellc.mock.faults.cases import CellStep, Ending, FaultCase, ends_in, fault_case, joints_of_device
+from cellc.mock.faults.endings import Bounds, stopped
+from cellc.mock.faults.ports import FaultPorts
+from cellc.mock.stops import PROTECTIVE_STOP
+from cellc.vocabulary import AttemptOutcome, FaultKind, Moment, Need, Unmet
+
+JOGGED = 0.03
+"""rad or m: below what a robot ignores as too far, above what nobody would see."""
+JOG_AFTER_NS = 100_000_000
+START_AFTER_NS = 500_000_000
+
+
+def claim_needs(contract: Contract, *otherwise: Unmet) -> dict[str, tuple[Need, ...]]:
+    """Return the devices with hardware whose claim needs something, of which one of these comes without it."""
+    found: dict[str, tuple[Need, ...]] = {}
+    for name, device in contract.devices.items():
+        claim = device.effects.get(Moment.CLAIM)
+        needs = () if claim is None else tuple(need for need, unmet in claim.needs.items() if unmet in otherwise)
+        if needs and device.hardware_component is not None:
+            found[name] = needs
+    return found
+
+
+@dataclass(frozen=True, slots=True)
+class ProgramStop:
+    """The program of a robot stops: it stands, tells so, and follows no set points."""
+
+    kind: ClassVar[FaultKind] = FaultKind.PROGRAM_STOP
+    device: str
+
+    @classmethod
+    def of(cls, entry: FaultEntry, contract: Contract) -> ProgramStop | None:
+        """Return the fault of an entry; None where the set points of its target pass through no program."""
+        return cls(entry.target) if entry.target in claim_needs(contract, Unmet.KEEPS_SET_POINTS) else None
+
+    @classmethod
+    def cases(cls, contract: Contract) -> Iterator[FaultCase]:
+        """Yield nothing: every stop begins the case of stale set points too."""
+        yield from ()
+
+    def begin(self, ports: FaultPorts) -> None:
+        """Stop."""
+        ports.effects.unmet(self.device, Need.PROGRAM_RUNNING)
+
+    def end(self, ports: FaultPorts) -> None:
+        """Start again."""
+        ports.effects.met(self.device, Need.PROGRAM_RUNNING)
+
+
+@dataclass(frozen=True, slots=True)
+class ProgramStart:
+    """Somebody starts the program of a robot, which follows set points from then on."""
+
+    kind: ClassVar[FaultKind] = FaultKind.PROGRAM_START
+    device: str
+
+    @classmethod
+    def of(cls, entry: FaultEntry, contract: Contract) -> ProgramStart | None:
+        """Return the fault of an entry; None where the set points of its target pass through no program."""
+        return cls(entry.target) if entry.target in claim_needs(contract, Unmet.KEEPS_SET_POINTS) else None
+
+    @classmethod
+    def cases(cls, contract: Contract) -> Iterator[FaultCase]:
+        """Yield nothing: it ends what a stop began."""
+        yield from ()
+
+    def begin(self, ports: FaultPorts) -> None:
+        """Start."""
+        if self.device not in ports.effects.silenced:
+            raise FaultMissedError(f"the program of {self.device} runs already")
+        ports.effects.met(self.device, Need.PROGRAM_RUNNING)
+
+    def end(self, ports: FaultPorts) -> None:
+        """Stop again."""
+        ports.effects.unmet(self.device, Need.PROGRAM_RUNNING)
+
+
+@dataclass(frozen=True, slots=True)
+class Jog:
+    """Somebody moves a joint by the pendant, rad or m, which a robot lets them do while its program is stopped."""
+
+    kind: ClassVar[FaultKind] = FaultKind.JOG
+    device: str
+    joint: str
+    distance: float
+
+    @classmethod
+    def of(cls, entry: FaultEntry, contract: Contract) -> Jog | None:
+        """Return the fault of an entry; None where its target is no joint that a pendant moves."""
+        for device in claim_needs(contract, Unmet.KEEPS_SET_POINTS):
+            if entry.target in joints_of_device(contract, device):
+                return cls(device, entry.target, JOGGED if entry.displacement is None else entry.displacement)
+        return None
+
+    @classmethod
+    def cases(cls, contract: Contract) -> Iterator[FaultCase]:
+        """Yield nothing: nobody jogs a robot whose program runs."""
+        yield from ()
+
+    def begin(self, ports: FaultPorts) -> None:
+        """Jog."""
+        if self.device not in ports.effects.silenced:
+            raise FaultMissedError(f"the program of {self.device} runs, so that its pendant moves nothing")
+        ports.effects.jog(self.device, self.joint, self.distance)
+
+    def end(self, ports: FaultPorts) -> None:
+        """Nothing: the joint stays where it was moved to."""
+
+
+@dataclass(frozen=True, slots=True)
+class StaleSetPoints:
+    """The program of a robot stops, somebody jogs its first joint, and starts the program again.
+
+    Where a controller keeps its claim meanwhile, the arm jumps to where it stood before.
+    """
+
+    kind: ClassVar[FaultKind] = FaultKind.STALE_SET_POINTS
+    device: str
+    joint: str
+
+    @classmethod
+    def of(cls, entry: FaultEntry, contract: Contract) -> StaleSetPoints | None:
+        """Return the fault of an entry; None where the set points of its target pass through no program."""
+        joints = joints_of_device(contract, entry.target)
+        if entry.target not in claim_needs(contract, Unmet.KEEPS_SET_POINTS) or not joints:
+            return None
+        return cls(entry.target, joints[0])
+
+    @classmethod
+    def cases(cls, contract: Contract) -> Iterator[FaultCase]:
+        """Yield every device that keeps set points over a stop of its program and that something moves."""
+        for device in claim_needs(contract, Unmet.KEEPS_SET_POINTS):
+            entry = FaultEntry(kind=cls.kind, target=device)
+            if cls.of(entry, contract) is not None:
+                yield fault_case(entry, contract, partial(_given_up, Bounds(contract)))
+
+    def begin(self, ports: FaultPorts) -> None:
+        """Stop the program, and let the rest follow."""
+        ports.effects.unmet(self.device, Need.PROGRAM_RUNNING)
+        now_ns = ports.schedule.now_ns
+        ports.schedule.at(now_ns + JOG_AFTER_NS, partial(ports.effects.jog, self.device, self.joint, JOGGED))
+        start = partial(ports.effects.met, self.device, Need.PROGRAM_RUNNING)
+        ports.schedule.at(now_ns + START_AFTER_NS, start)
+
+    def end(self, ports: FaultPorts) -> None:
+        """Nothing: it is over by itself."""
+
+
+class BrakesClosed:
+    """The brakes of a device are closed: it stops where it was claimed, and a claim ends as it would on the robot."""
+
+    kind: ClassVar[FaultKind] = FaultKind.BRAKES_CLOSED
+
+    def __init__(self, device: str, component: str, *, programmed: bool) -> None:
+        """Bind the fault to a device; ``programmed`` where its set points pass through a program, which stops too."""
+        self._device = device
+        self._component = component
+        self._needs = (Need.PROGRAM_RUNNING, Need.BRAKES_OPEN) if programmed else (Need.BRAKES_OPEN,)
+        self._stops = not programmed
+        self._stopped = False
+
+    @classmethod
+    def of(cls, entry: FaultEntry, contract: Contract) -> BrakesClosed | None:
+        """Return the fault of an entry; None where a claim of its target needs no open brakes."""
+        component = None if entry.target not in _braked(contract) else contract.devices[entry.target].hardware_component
+        if component is None:
+            return None
+        return cls(entry.target, component, programmed=entry.target in claim_needs(contract, Unmet.KEEPS_SET_POINTS))
+
+    @classmethod
+    def cases(cls, contract: Contract) -> Iterator[FaultCase]:
+        """Yield every device whose claim needs open brakes."""
+        for device in _braked(contract):
+            entry, bounds = FaultEntry(kind=cls.kind, target=device), Bounds(contract)
+            if device in claim_needs(contract, Unmet.KEEPS_SET_POINTS):
+                yield fault_case(entry, contract, partial(_given_up, bounds))
+            else:
+                yield fault_case(entry, contract, stopped(bounds, AttemptOutcome.PROTECTIVE_STOP), at_once=True)
+
+    def begin(self, ports: FaultPorts) -> None:
+        """Close them."""
+        claimed = ports.effects.is_claimed(self._device)
+        for need in self._needs:
+            ports.effects.unmet(self._device, need)
+        self._stopped = claimed and self._stops
+        if self._stopped:
+            ports.hardware.stop(self._component, PROTECTIVE_STOP)
+
+    def end(self, ports: FaultPorts) -> None:
+        """Open them, and start the program; the device stays stopped until that is acknowledged."""
+        for need in self._needs:
+            ports.effects.met(self._device, need)
+        if self._stopped:
+            ports.hardware.end_cause(self._component)
+
+
+def _braked(contract: Contract) -> tuple[str, ...]:
+    return tuple(device for device, needs in claim_needs(contract, *Unmet).items() if Need.BRAKES_OPEN in needs)
+
+
+def _given_up(bounds: Bounds, step: CellStep) -> Ending:
+    """Every step ends as soon as the claim is given up; one that asks for nothing may be over before."""
+    within_s = REACTION_NS / 1e9 + bounds.watched_s()
+    quick = () if step.controllers else (AttemptOutcome.SUCCEEDED,)
+    return ends_in(AttemptOutcome.CLAIM_FAILURE, *quick, within_s=within_s)
