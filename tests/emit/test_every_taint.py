@@ -5,15 +5,19 @@ A share of ``python -m tests.emit.taint --all``, which gives every payload to ev
 
 from __future__ import annotations
 
+import shlex
+import shutil
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from cellc.deploy.configuration import header_of
 from cellc.deploy.deployment import plan_deployment
 from cellc.emit.launch.launch import emit
+from cellc.formats.escape import markdown_comment
 from cellc.graph.cell_graph import CellGraph
-from tests.cells import ROOT, graph_of, spec_of
+from tests.cells import ROOT, graph_of, linked, spec_of
 from tests.emit.taint.cells import variants
 from tests.emit.taint.judge import differences
 from tests.emit.taint.judges import readings
@@ -94,3 +98,12 @@ def test_a_text_that_is_written_as_it_is_would_be_seen(path: str, hostile: str) 
     ]
     assert len(seen) >= 2, path
     assert readings(path, hostile.format("a"))
+
+
+def test_the_name_of_the_file_is_one_word_on_one_line(tmp_path: Path) -> None:
+    spec = tmp_path / "a\ntouch b; $(touch c) --> d.yaml"
+    shutil.copy(spec_of("minimal"), spec)
+    header = header_of(linked(spec))
+    assert shlex.split(header.command)[2:] == ["cells/minimal/a touch b; $(touch c) --> d.yaml"]
+    assert len(header.text.splitlines()) == 2
+    assert markdown_comment(header.text).count("-->") == 1
