@@ -311,6 +311,13 @@ class Device(Entity):
         raise KeyError(name)
 
     @property
+    def unknown_effects(self) -> tuple[str, ...]:
+        """The moments at which the real device comes up, and of which nobody says what they do in the world."""
+        activation = self.hardware is not None and not self.hardware.is_activation_known
+        start = self.driver is not None and self.driver.node not in self.starts
+        return (*(("the activation",) if activation else ()), *(("the start of the driver",) if start else ()))
+
+    @property
     def actuated_joints(self) -> tuple[DeviceJoint, ...]:
         """Joints with a command interface."""
         return tuple(joint for joint in self.joints if joint.command_interfaces)

@@ -101,10 +101,17 @@ class HardwareComponent:
         return tuple(self.told[need] for need in self.kept_by_a_claim if need in self.told)
 
     @property
+    def is_activation_known(self) -> bool:
+        """Whether somebody says what the activation of the real one does."""
+        return "real" not in self.plugins or Moment.ACTIVATE in self.effects
+
+    @property
     def moves_as_it_is_activated(self) -> bool:
-        """Whether its activation moves something or lets a part fall, so that it is a release of its own."""
+        """Whether its activation may move something or let a part fall, so that it is a release of its own."""
         effect = self.effects.get(Moment.ACTIVATE)
-        return effect is not None and (effect.drops_part or effect.motion not in (Motion.NONE, Motion.HOLDS))
+        if effect is None:
+            return not self.is_activation_known
+        return effect.drops_part or effect.motion not in (Motion.NONE, Motion.HOLDS)
 
     @property
     def comes_up(self) -> str:

@@ -62,7 +62,7 @@ class OpenQuestion:
 
 def open_questions(graph: CellGraph) -> tuple[OpenQuestion, ...]:
     """Return the questions that block the real target, versions first."""
-    return (*_versions(graph.cell), *_owners(graph), *_safety(graph.cell))
+    return (*_versions(graph.cell), *_owners(graph), *_safety(graph.cell), *_effects(graph.cell))
 
 
 def _versions(cell: Cell) -> Iterator[OpenQuestion]:
@@ -85,6 +85,12 @@ def _safety(cell: Cell) -> Iterator[OpenQuestion]:
     for name, value in (("authority", stop.authority), ("path", stop.path)):
         if value == UNKNOWN:
             yield OpenQuestion(f"stop {name}", ("safety", "stop", name))
+
+
+def _effects(cell: Cell) -> Iterator[OpenQuestion]:
+    for device in cell.devices:
+        if device.unknown_effects:
+            yield OpenQuestion(f"motion of {device.name} as it comes up", (*device.path, "model"))
 
 
 def header_of(cell: Cell) -> Header:

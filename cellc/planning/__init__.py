@@ -8,6 +8,7 @@ find the pairs of links that need no check.
 
 from cellc.planning.collision_matrix import DisabledPair, DisabledReason, decided_collisions, disabled_collisions
 from cellc.planning.inverse_kinematics import IkSolution
+from cellc.planning.mesh_shapes import without_meshes
 from cellc.planning.model import RobotModel
 from cellc.planning.pair_sampling import beyond_reach
 from cellc.planning.planner import Planner
@@ -20,6 +21,7 @@ from cellc.planning.problem import (
     ModelError,
     PlanFailure,
     PlanningGroup,
+    UnknownShapeError,
 )
 from cellc.planning.scene import Box, CollisionScene
 from cellc.planning.trajectory import LimitUse, TimedTrajectory, TrajectoryPoint, time_parameterize
@@ -43,8 +45,10 @@ __all__ = [
     "RobotModel",
     "TimedTrajectory",
     "TrajectoryPoint",
+    "UnknownShapeError",
     "beyond_reach",
     "decided_collisions",
     "disabled_collisions",
     "time_parameterize",
+    "without_meshes",
 ]

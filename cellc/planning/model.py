@@ -18,11 +18,11 @@ from typing import Any
 import numpy as np
 import pinocchio
 
-from cellc.description.meshes import MeshError
+from cellc.description.meshes import MESH_NOT_FOUND, MeshError
 from cellc.description.model import Description, Joint
 from cellc.description.urdf_reader import read_urdf
 from cellc.planning.mesh_shapes import mesh_shapes, without_meshes
-from cellc.planning.problem import Array, ModelError
+from cellc.planning.problem import Array, ModelError, UnknownShapeError
 from cellc.transforms import Pose
 
 # pinocchio ships no type information: its values are Any, and stay inside this package.
@@ -62,6 +62,7 @@ class RobotModel:
             mesh_roots: folders under which meshes may lie besides those of the package path.
 
         Raises:
+            UnknownShapeError: a mesh is not there.
             ModelError: the text is no robot description, with the reason that the parser would print to stderr only.
         """
         described = _described(text) if description is None else description
@@ -73,7 +74,7 @@ class RobotModel:
             plain = without_meshes(text) if shapes else text
             geometry = pinocchio.buildGeomFromUrdfString(model, plain, pinocchio.GeometryType.COLLISION, None, [])
         except MeshError as error:
-            raise ModelError(str(error)) from None
+            raise (UnknownShapeError if error.code == MESH_NOT_FOUND else ModelError)(str(error)) from None
         except (ValueError, RuntimeError) as error:
             raise ModelError(f"pinocchio refuses the robot description: {str(error).splitlines()[0]}") from None
         _place(shapes, geometry, model)

@@ -119,6 +119,7 @@ class FailureReason(str, Enum):
     NO_PATH = "no_path"
     SINGULAR = "singular"
     JOINT_JUMP = "joint_jump"
+    UNKNOWN_SHAPE = "unknown_shape"
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,6 +140,10 @@ class PlanFailure:
 
 class ModelError(ValueError):
     """The robot description cannot be used; the message is one line and names the culprit."""
+
+
+class UnknownShapeError(ModelError):
+    """A collision shape names a mesh that is not there."""
 
 
 class LimitsError(ValueError):

@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 
+from cellc.diagnostics import Severity
 from cellc.mock import MockCell, MockError, load
 from cellc.pipeline import check
 from cellc.planning import RobotModel
@@ -165,3 +166,39 @@ def test_a_controller_of_a_device_that_is_none_is_refused(tmp_path: Path) -> Non
 
     with pytest.raises(MockError, match="must be a device of the contract, got `nobody`"):
         _folder_with(tmp_path, "minimal", change)
+
+
+def _tiny_with(folder: Path, old: str, new: str) -> Path:
+    """Write the cell of the stage with a change of its description; ``back`` is a second pose."""
+    shutil.copytree(PARTS / "stage", folder / "device")
+    file = folder / "device" / "stage.urdf"
+    text = file.read_text(encoding="utf-8")
+    assert old in text
+    file.write_text(text.replace(old, new, 1), encoding="utf-8")
+    return written(folder, bases.TINY[1].replace("./parts/stage", "./device"))
+
+
+def test_a_cell_whose_mesh_is_not_there_is_loaded_and_plans_nothing(tmp_path: Path) -> None:
+    """`description 2105`; the check warns of the mesh, and what nobody knows the shape of is not moved."""
+    shape = '<link name="tool"><collision><geometry><mesh filename="arm/base_link"/></geometry></collision></link>'
+    spec = _tiny_with(tmp_path, '<link name="tool"/>', shape)
+    assert {one.code for one in check(spec).diagnostics if one.severity is Severity.ERROR} == set()
+    result = load(build_into(tmp_path / "folder", spec)).run("there")
+    assert result.outcome == AttemptOutcome.PLANNING_FAILURE
+    assert "unknown_shape" in result.reason
+    assert "`arm/base_link` could not be found" in result.reason
+
+
+@pytest.mark.parametrize("limit", ["acceleration", "jerk"])
+def test_a_joint_of_a_group_without_a_limit_is_told(limit: str, tmp_path: Path) -> None:
+    """`description 7289`; the mock does not load such a group."""
+    spec = _tiny_with(tmp_path, "<robot", "<robot")
+    facts = tmp_path / "device" / "device.yaml"
+    kept = [line for line in facts.read_text(encoding="utf-8").splitlines() if not line.startswith(f"  {limit}:")]
+    facts.write_text("\n".join(kept), encoding="utf-8")
+    assert "unplannable-joint" in {one.code for one in check(spec).diagnostics}
+
+
+def test_a_joint_of_a_group_without_a_range_is_told(tmp_path: Path) -> None:
+    spec = _tiny_with(tmp_path, 'lower="-3" upper="3"', 'lower="0" upper="0"')
+    assert "unplannable-joint" in {one.code for one in check(spec).diagnostics}

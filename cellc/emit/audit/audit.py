@@ -129,6 +129,9 @@ def _asked_of_device(cell: Cell, device: Device, part: str) -> tuple[str, str]:
     if part in _READ_ON_THE_DEVICE:
         owner = _person(cell.owners.approvals.vendor)
         return owner, f"Which {part} does {device.name} have, by its nameplate or panel?"
+    if part == "model":
+        moments = " and ".join(device.unknown_effects)
+        return f"supplier {device.vendor}", f"What moves, or falls, at {moments} of {device.model}?"
     text = f"Which {part} of {device.model} do you release for ROS 2 {cell.distro}, or is there none?"
     return f"supplier {device.vendor}", text
 

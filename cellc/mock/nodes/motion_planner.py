@@ -26,7 +26,9 @@ from cellc.planning import (
     PlanningGroup,
     RobotModel,
     TimedTrajectory,
+    UnknownShapeError,
     time_parameterize,
+    without_meshes,
 )
 from cellc.transforms import Pose, Vector3, identity
 
@@ -50,25 +52,30 @@ class GroupModel:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MotionModel:
-    """The robot model, its groups, and the scene without objects."""
+    """The robot model, its groups, and the scene without objects; ``unplanned`` where a shape is not known, and why."""
 
     robot: RobotModel
     groups: Mapping[str, GroupModel]
     scene: CollisionScene
     links: LinkTree
+    unplanned: str = ""
 
 
 def build_motion_model(
     contract: Contract, urdf: str, description: Description, allowed_collisions: Sequence[tuple[str, str]]
 ) -> MotionModel:
     """Build the planners of all groups; raise MockError where the URDF and the contract do not fit together."""
+    unplanned = ""
     try:
-        robot = RobotModel.from_urdf(urdf, description=description)
+        try:
+            robot = RobotModel.from_urdf(urdf, description=description)
+        except UnknownShapeError as error:
+            robot, unplanned = RobotModel.from_urdf(without_meshes(urdf)), str(error)
         scene = CollisionScene(robot, disabled_collisions=allowed_collisions)
     except ModelError as error:
         raise MockError(contract.files.urdf_mock, str(error)) from None
     groups = {name: _group_model(name, group, contract, robot, scene) for name, group in contract.groups.items()}
-    return MotionModel(robot, groups, scene, link_tree(description))
+    return MotionModel(robot, groups, scene, link_tree(description), unplanned)
 
 
 def _group_model(
@@ -159,6 +166,8 @@ class PlannedMotion:
 
 def plan_motion(model: MotionModel, request: MotionRequest) -> PlannedMotion | PlanFailure:
     """Plan: back along the retreat, across to the goal or before it, and straight on to it."""
+    if model.unplanned:
+        return PlanFailure(FailureReason.UNKNOWN_SHAPE, model.unplanned)
     group = model.groups[request.group]
     planner = group.planner.in_scene(build_scene(model, request.scene, request.others))
     back = None if request.retreat is None else planner.plan_cartesian(request.start, request.retreat)

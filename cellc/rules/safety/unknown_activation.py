@@ -1,0 +1,39 @@
+"""Nobody says what a device does as it comes up.
+
+A gripper or a stage may find its reference, close or open as its hardware component is activated, or as its driver
+starts. Where `device.yaml` states no effect of that moment the answer is not "nothing": the component comes up
+unconfigured, and a person activates it behind a gate of its own; a driver that starts cannot be held back like that.
+
+Example that is reported:
+
+```yaml
+devices:
+  side_arm: {model: ./silent_arm, mount: {parent: world, xyz: 0 2 0 m}, revision: A,  # expect at model
+             firmware: bare 1.0.0}
+```
+
+Example that is accepted:
+
+```yaml
+devices:
+  side_arm: {model: ./stage, mount: {parent: world, xyz: 0 2 0 m}, revision: A, firmware: stage 1.0.0}
+```
+
+Fix: ask the supplier, and state it in `device.yaml`: `effects: {activate: {motion: ..., does: ..., source: ...}}` of
+the real hardware, or `effect:` of the driver's node.
+
+Source: docs/principles.md#facts-of-the-catalog
+"""
+
+from __future__ import annotations
+
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
+
+
+@rule(Severity.BLOCKER)
+def check(graph: CellGraph) -> Findings:
+    """Yield devices of which nobody says what their activation, or the start of their driver, does."""
+    for device in graph.cell.devices:
+        for moment in device.unknown_effects:
+            message = f"nobody says what {moment} of `{device.name}` moves"
+            yield found(graph, (*device.path, "model"), message)
