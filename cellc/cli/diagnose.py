@@ -11,23 +11,28 @@ from cellc.printing import show
 
 
 @click.command()
-@click.argument("symptom")
+@click.argument("symptom", required=False)
 @click.argument("file", required=False, type=click.Path(path_type=str))
 @limit_option
-def diagnose(symptom: str, file: str | None) -> None:
-    """Classify SYMPTOM, words or a log line, and tell which read-only observation rules each cause out.
+def diagnose(symptom: str | None, file: str | None) -> None:
+    """Classify SYMPTOM, words or log lines, and tell which read-only observation rules each cause out.
 
-    With FILE, a cell spec, the commands name its own controllers, topics and frames. Nothing is executed, and nothing
-    that is told bypasses a protection. Exit code 1 where no known symptom fits.
+    Without it, every symptom that is known is listed. With FILE, a cell spec, the commands name its own controllers,
+    topics and frames. Nothing is executed, and nothing that is told bypasses a protection. Exit code 1 where no known
+    symptom fits; the nearest are named.
     """
     from cellc.diagnose.diagnose import diagnose as suspicions_of
+    from cellc.diagnose.diagnose import near
     from cellc.diagnose.symptoms import knowledge
-    from cellc.report.text_report import render_suspicions
+    from cellc.report.text_report import render_nearest, render_suspicions, render_symptoms
 
-    suspicions = suspicions_of(symptom, _cell(file))
+    if symptom is None:
+        show(*render_symptoms(knowledge()))
+        return
+    cell = _cell(file)
+    suspicions = suspicions_of(symptom, cell)
     if not suspicions:
-        layers = ", ".join(layer.title for layer in knowledge())
-        show(f"UNKNOWN: no known symptom fits; rule out in this order: {layers}")
+        show(*render_nearest(near(symptom, cell), [layer.title for layer in knowledge()]))
         raise click.exceptions.Exit(1)
     show(*render_suspicions(suspicions))
 

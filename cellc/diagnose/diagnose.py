@@ -6,11 +6,18 @@ Nothing that is said here acts: each hypothesis comes with the observations that
 from __future__ import annotations
 
 import re
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
+from itertools import islice
+from typing import TYPE_CHECKING
 
-from cellc.cell.cell import Cell
-from cellc.diagnose.subjects import FIELDS, Scope, Subject, subjects
-from cellc.diagnose.symptoms import Hypothesis, LayerKnowledge, Observation, Symptom, knowledge
+from cellc.diagnose.fields import FIELDS, Scope, Subject, placeholders
+from cellc.diagnose.log_lines import Named, found_in, length, plain
+from cellc.diagnose.symptoms import Hypothesis, LayerKnowledge, Observation, Symptom, knowledge, synonyms
+from cellc.diagnose.words import Words
+
+if TYPE_CHECKING:
+    from cellc.cell.cell import Cell
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,8 +59,6 @@ class Suspicion:
     source: str
 
 
-# A recognised log line says more than any choice of words.
-_LOG_LINE = 100
 _AT_MOST = 3
 
 
@@ -63,44 +68,59 @@ class Match:
 
     layer: LayerKnowledge
     symptom: Symptom
-    named: tuple[tuple[str, str], ...]
+    named: Named = ()
 
 
-def classify(text: str, layers: tuple[LayerKnowledge, ...]) -> tuple[Match, ...]:
+def classify(text: str, layers: Sequence[LayerKnowledge], drivers: Collection[str] | None = None) -> tuple[Match, ...]:
     """Return up to three symptoms, the best first; layers that are ruled out first win ties.
 
+    A recognised log line says more than any choice of words: next to one, words that happen to fit would only distract.
+
     Args:
-        text: a symptom in words, or one or more log lines.
+        text: a symptom in words, its name, or one or more log lines.
+        drivers: packages of the drivers that the cell has, where it is known: a symptom of others is not guessed by
+            words alone.
     """
+    known = _known(layers)
+    asked = [match for match in known if match.symptom.name.casefold() == text.strip().casefold()]
+    possible = _possible(known, drivers)
+    said = (possible[number] for number in _words_of(possible).fitting(text))
+    return tuple(islice(asked or _logged(known, text) or said, _AT_MOST))
+
+
+def nearest(text: str, layers: Sequence[LayerKnowledge], drivers: Collection[str] | None = None) -> tuple[Match, ...]:
+    """Return up to three symptoms that share the most with a text that none fits."""
+    possible = _possible(_known(layers), drivers)
+    return tuple(possible[number] for number in _words_of(possible).nearest(text)[:_AT_MOST])
+
+
+def _known(layers: Sequence[LayerKnowledge]) -> list[Match]:
+    return [Match(layer, symptom) for layer in layers for symptom in layer.symptoms]
+
+
+def _possible(known: Sequence[Match], drivers: Collection[str] | None) -> list[Match]:
+    return [
+        match
+        for match in known
+        if drivers is None or not match.symptom.drivers or any(one in drivers for one in match.symptom.drivers)
+    ]
+
+
+def _words_of(known: Sequence[Match]) -> Words:
+    return Words(synonyms().words, [match.symptom.said for match in known])
+
+
+def _logged(known: Sequence[Match], text: str) -> list[Match]:
+    """Return what logs a line of the text, the longest text of a source first."""
+    pasted = plain(text)
     found: list[tuple[int, Match]] = []
-    words = re.findall(r"[\w-]+", text.lower())
-    for layer in layers:
-        for symptom in layer.symptoms:
-            named = _logged(symptom, text)
-            score = _said(symptom, words) if named is None else _LOG_LINE
-            if score:
-                found.append((score, Match(layer, symptom, named or ())))
-    best = max((score for score, _ in found), default=0)
-    # Next to a recognised log line, words that happen to fit would only distract.
-    kept = [entry for entry in found if best < _LOG_LINE or entry[0] >= _LOG_LINE]
-    return tuple(match for _, match in sorted(kept, key=lambda entry: -entry[0])[:_AT_MOST])
-
-
-def _logged(symptom: Symptom, text: str) -> tuple[tuple[str, str], ...] | None:
-    matches = [match for pattern in symptom.logged if (match := re.search(pattern, text))]
-    if not matches:
-        return None
-    return tuple(dict.fromkeys((kind, name) for match in matches for kind, name in match.groupdict().items() if name))
-
-
-def _said(symptom: Symptom, words: list[str]) -> int:
-    """Return the length of the longest list whose words all begin a word of the text."""
-    fitting = (
-        len(beginnings)
-        for beginnings in symptom.said
-        if all(any(word.startswith(beginning) for word in words) for beginning in beginnings)
-    )
-    return max(fitting, default=0)
+    for match in known:
+        lines = [(template, found_in(template, pasted)) for template in match.symptom.logged]
+        names = [(length(template), named) for template, named in lines if named is not None]
+        if names:
+            named = tuple(dict.fromkeys(pair for _, pairs in names for pair in pairs))
+            found.append((max(letters for letters, _ in names), Match(match.layer, match.symptom, named)))
+    return [match for _, match in sorted(found, key=lambda entry: -entry[0])]
 
 
 _SHOWN_SUBJECTS = 3
@@ -112,20 +132,31 @@ def diagnose(text: str, cell: Cell | None) -> tuple[Suspicion, ...]:
     """Return what a symptom or log line may mean, the best first; nothing where nothing known fits.
 
     Args:
-        cell: whose names are filled in; without one the commands hold placeholders.
+        cell: whose names are filled in, and whose drivers decide which symptoms count; without one the commands hold
+            placeholders.
     """
-    return tuple(_suspicion(match, text, cell) for match in classify(text, knowledge()))
+    return tuple(_suspicion(match, text, cell) for match in classify(text, knowledge(), _drivers(cell)))
+
+
+def near(text: str, cell: Cell | None) -> tuple[Suspicion, ...]:
+    """Return the symptoms that are nearest to a text that none fits."""
+    return tuple(_suspicion(match, text, cell) for match in nearest(text, knowledge(), _drivers(cell)))
+
+
+def _drivers(cell: Cell | None) -> Collection[str] | None:
+    return None if cell is None else {device.packages.driver or "" for device in cell.devices}
 
 
 def _suspicion(match: Match, text: str, cell: Cell | None) -> Suspicion:
     area = match.layer.owner
     owner = f"owner of the approval `{area}`" if cell is None else str(getattr(cell.owners.approvals, area))
+    causes = [_cause(hypothesis, text, cell) for hypothesis in match.symptom.hypotheses]
     return Suspicion(
         layer=match.layer.title,
         symptom=match.symptom.name,
         evidence=tuple(f"{kind} `{name}`" for kind, name in match.named),
         unknown=_unknown(match, cell),
-        causes=tuple(_cause(hypothesis, text, cell) for hypothesis in match.symptom.hypotheses),
+        causes=tuple(sorted(causes, key=lambda cause: not cause.steps)),  # what the cell has comes first
         never=match.symptom.never,
         owner=owner,
         source=match.symptom.source,
@@ -149,10 +180,18 @@ def _cause(hypothesis: Hypothesis, text: str, cell: Cell | None) -> Cause:
     steps: list[Step] = []
     omitted = 0
     for observation in hypothesis.observations:
-        chosen = _chosen(subjects(cell, observation.of), observation.of, text)
+        chosen = _chosen(_subjects(cell, observation.of), observation.of, text)
         steps += [_step(observation, subject) for subject in chosen[:_SHOWN_SUBJECTS]]
         omitted = max(omitted, len(chosen) - _SHOWN_SUBJECTS)
     return Cause(hypothesis.cause, tuple(dict.fromkeys(steps)), omitted)
+
+
+def _subjects(cell: Cell | None, scope: Scope) -> tuple[Subject, ...]:
+    if cell is None:
+        return (placeholders(scope),)
+    from cellc.diagnose.subjects import subjects
+
+    return subjects(cell, scope)
 
 
 def _chosen(found: tuple[Subject, ...], scope: Scope, text: str) -> tuple[Subject, ...]:

@@ -2,40 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
-from typing import Literal
+from collections.abc import Callable, Iterable
 
 from cellc.cell.cell import Cell
 from cellc.cell.control import Controller, ControllerManager
 from cellc.cell.device import Device
 from cellc.cell.frame import Frame, FrameKind
 from cellc.cell.interface import Endpoint, Interface, InterfaceKind
+from cellc.cell.site import Host
+from cellc.diagnose.fields import FIELDS, Scope, Subject
 from cellc.formats.numbers import shortest
-
-Scope = Literal["cell", "topic", "action", "controller", "manager", "frame", "node", "lifecycle_node", "device"]
-Subject = Mapping[str, str]
-"""Field → text; the first field is the subject's name."""
-
-FIELDS: dict[Scope, tuple[str, ...]] = {
-    "cell": ("cell", "domain_id", "rmw", "discovery", "tf_publishers", "stop_authority", "observer"),
-    "topic": ("topic", "type", "publishers", "qos", "rate", "max_age"),
-    "action": ("action", "server", "client"),
-    "controller": ("controller", "node", "manager", "plugin", "joints", "claims", "path_tolerance"),
-    "manager": ("manager", "namespace", "rate", "components"),
-    "frame": ("frame", "parent", "authority", "calibration"),
-    "node": ("node",),
-    "lifecycle_node": ("node",),
-    "device": ("device", "address", "modes", "states", "firmware", "driver", "payload"),
-}
-"""Which fields an observation of each scope may name."""
+from cellc.vocabulary import TRAJECTORIES
 
 _NOT_STATED = "not stated"
 
 
-def subjects(cell: Cell | None, scope: Scope) -> tuple[Subject, ...]:
-    """Return what a scope stands for in a cell, in its order; without a cell one subject of placeholders."""
-    if cell is None:
-        return ({field: f"<{field}>" for field in FIELDS[scope]},)
+def subjects(cell: Cell, scope: Scope) -> tuple[Subject, ...]:
+    """Return what a scope stands for in a cell, in its order."""
     rows = _ROWS[scope](cell)
     return tuple(dict(zip(FIELDS[scope], row, strict=True)) for row in rows)
 
@@ -99,6 +82,15 @@ def _controllers(cell: Cell) -> Rows:
     return [_controller(one, manager) for manager in cell.managers for one in manager.controllers if one.joints]
 
 
+def _trajectories(cell: Cell) -> Rows:
+    return [
+        _controller(one, manager)
+        for manager in cell.managers
+        for one in manager.controllers
+        if cell.behaviours.get(one.plugin) in TRAJECTORIES
+    ]
+
+
 def _controller(controller: Controller, manager: ControllerManager) -> tuple[str, ...]:
     tolerance = controller.path_tolerance
     return (
@@ -147,8 +139,39 @@ def _lifecycle_nodes(cell: Cell) -> Rows:
     return [(one.full_name,) for one in cell.nodes if one.lifecycle]
 
 
+def _hosts(cell: Cell) -> Rows:
+    return [_host(one) for one in cell.hosts.values()]
+
+
+def _host(host: Host) -> tuple[str, ...]:
+    cards = _list(f"{name} {card.address}" for name, card in host.nics.items())
+    offset = host.clock.max_offset_s
+    return (host.name, host.scheduling, cards, _NOT_STATED if offset is None else f"{shortest(offset)} s")
+
+
+def _groups(cell: Cell) -> Rows:
+    return [(one.name, _list(one.joints), one.tip_frame) for one in cell.groups]
+
+
 def _devices(cell: Cell) -> Rows:
     return [_device(cell, one) for one in cell.devices]
+
+
+def _arms(cell: Cell) -> Rows:
+    return [_device(cell, one) for one in cell.devices if one.kind == "arm"]
+
+
+def _grippers(cell: Cell) -> Rows:
+    return [_device(cell, one) for one in cell.devices if one.kind == "gripper"]
+
+
+def _cameras(cell: Cell) -> Rows:
+    return [
+        (stream.topic, stream.frame, f"{shortest(stream.rate_hz)} Hz", *_device(cell, one))
+        for one in cell.devices
+        if one.camera is not None
+        for stream in one.camera.streams
+    ]
 
 
 def _device(cell: Cell, device: Device) -> tuple[str, ...]:
@@ -176,9 +199,15 @@ _ROWS: dict[Scope, Callable[[Cell], Rows]] = {
     "topic": _topics,
     "action": _actions,
     "controller": _controllers,
+    "trajectory": _trajectories,
     "manager": _managers,
     "frame": _frames,
     "node": _nodes,
     "lifecycle_node": _lifecycle_nodes,
     "device": _devices,
+    "arm": _arms,
+    "gripper": _grippers,
+    "camera": _cameras,
+    "host": _hosts,
+    "group": _groups,
 }

@@ -4,27 +4,45 @@ from __future__ import annotations
 
 import re
 from functools import cache
-from pathlib import Path
 from string import Formatter
-from typing import Literal
+from typing import Annotated, Literal, TypeVar, get_args
 
-from pydantic import Field, field_validator, model_validator
+from pydantic import Field, StringConstraints, field_validator, model_validator
 
-from cellc.catalog.catalog_model import CatalogModel, Text
-from cellc.catalog.read_model import read_model
-from cellc.diagnose.subjects import FIELDS, Scope
+from cellc.catalog.catalog_model import CatalogModel, Text, Token
+from cellc.catalog.compiled import CATALOG, compiled_table
+from cellc.diagnose.fields import FIELDS, Scope
 
-LAYERS = ("network", "qos", "time", "lifecycle", "ownership", "vendor", "tool", "safety")
+Layer = Literal[
+    "network",
+    "qos",
+    "time",
+    "lifecycle",
+    "realtime",
+    "ownership",
+    "planning",
+    "perception",
+    "vendor",
+    "tool",
+    "recording",
+    "safety",
+]
+LAYERS: tuple[Layer, ...] = get_args(Layer)
 """The layers in the order in which they are ruled out."""
 Area = Literal["graph", "time_tf", "controller", "vendor", "network", "safety", "data"]
 
 # Commands that read. Anything else, such as a switch, a parameter set or a published message, is refused as data.
 _READING = re.compile(
-    r"ros2 (topic (info|list|echo --once|hz|delay|type)|node (list|info)|param (get|list|dump)|action (info|list)"
-    r"|service (list|type)|lifecycle (get|nodes)|control list_\w+|pkg prefix|doctor --report"
-    r"|run tf2_ros tf2_(echo|monitor))\b[^;&|<>`$]*"
-    r"|printenv [A-Z_]+|ip -brief address|ip -statistics link show|chronyc tracking"
+    r"ros2 (topic (info|list|echo --once|hz|bw|delay|type)|node (list|info)|param (get|list|dump|describe)"
+    r"|action (info|list)|service (list|type)|lifecycle (get|nodes)|control list_\w+|pkg (prefix|xml)|doctor --report"
+    r"|bag info|interface show|run tf2_ros tf2_(echo|monitor))\b[^;&|<>`$]*"
+    r"|printenv [A-Z_]+|ip -brief (address|link)|ip -statistics link show|ip route get [\w{}.]+|ping -c 5 [\w{}.]+"
+    r"|chronyc (tracking|sources)|uname -v|ulimit -r|id -nG|lsusb -t|ls -l /dev/(shm|serial/by-id)|df -h( /dev/shm)?"
+    r"|sysctl net\.core\.rmem_max net\.core\.rmem_default|ss -lntup|top -b -n 1"
 )
+
+
+_ModelT = TypeVar("_ModelT", bound=CatalogModel)
 
 
 class Observation(CatalogModel):
@@ -60,40 +78,44 @@ class Hypothesis(CatalogModel):
     observations: tuple[Observation, ...] = Field(min_length=1)
 
 
+Phrase = Annotated[str, StringConstraints(pattern=r"^[a-z0-9]+( [a-z0-9]+)*\Z", max_length=100)]
+"""Words with a space between: groups of ``words.yaml``, or beginnings of words."""
+Template = Annotated[str, StringConstraints(pattern=r"^[^{}\s]([^{}]|\{\w*\}(?!\{))*\Z", max_length=300)]
+
+
 class Symptom(CatalogModel):
     """What somebody sees, or a program logs.
 
     Args:
-        said: lists of word beginnings; a text matches where it has all words of one list.
-        logged: patterns of log lines; groups name what the line speaks of.
+        drivers: packages of the drivers that it belongs to; every device where empty.
+        said: phrases; a text matches where it has all words of one.
+        logged: texts of log lines, with ``{kind}`` where they name something, as ``log_lines`` reads them.
+        hypotheses: causes, the likeliest first.
         never: the shortcut that hides the cause or takes a protection away.
     """
 
     name: Text
     never: Text
     source: Text
-    said: tuple[tuple[Text, ...], ...] = ()
-    logged: tuple[Text, ...] = ()
+    drivers: tuple[Token, ...] = ()
+    said: tuple[Phrase, ...] = Field(min_length=1)
+    logged: tuple[Template, ...] = ()
     hypotheses: tuple[Hypothesis, ...] = Field(min_length=1)
-
-    @field_validator("logged")
-    @classmethod
-    def _compiles(cls, logged: tuple[str, ...]) -> tuple[str, ...]:
-        for pattern in logged:
-            re.compile(pattern)
-        return logged
 
 
 class LayerKnowledge(CatalogModel):
     """One layer: its symptoms and the approval area whose owner decides."""
 
-    layer: Literal["network", "qos", "time", "lifecycle", "ownership", "vendor", "tool", "safety"]
+    layer: Layer
     title: Text
     owner: Area
     symptoms: tuple[Symptom, ...] = Field(min_length=1)
 
 
-FOLDER = Path(__file__).parent / "knowledge"
+class Synonyms(CatalogModel):
+    """Meaning → beginnings of the words that users have for it."""
+
+    words: dict[Token, tuple[Annotated[str, StringConstraints(pattern=r"^[a-z0-9]+\Z", max_length=30)], ...]]
 
 
 @cache
@@ -103,11 +125,26 @@ def knowledge() -> tuple[LayerKnowledge, ...]:
     Raises:
         ValueError: a file of the package is not what its model says; tests hold that none is.
     """
-    return tuple(_layer(name) for name in LAYERS)
+    return tuple(_read(f"symptoms/{name}.yaml", LayerKnowledge) for name in LAYERS)
 
 
-def _layer(name: str) -> LayerKnowledge:
-    read = read_model(FOLDER / f"{name}.yaml", f"{name}.yaml", LayerKnowledge)
+@cache
+def synonyms() -> Synonyms:
+    """Return which words mean the same.
+
+    Raises:
+        ValueError: as ``knowledge``.
+    """
+    return _read("symptoms/words.yaml", Synonyms)
+
+
+def _read(file: str, model: type[_ModelT]) -> _ModelT:
+    compiled = compiled_table(file)
+    if compiled is not None:
+        return model.model_validate_json(compiled)
+    from cellc.catalog.read_model import read_model
+
+    read = read_model(CATALOG / file, file, model)
     if read.value is None:
         raise ValueError("; ".join(f"{found.span}: {found.message}" for found in read.diagnostics))
     return read.value[0]

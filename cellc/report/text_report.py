@@ -13,6 +13,7 @@ from cellc.report.snippet import Texts, render_snippet
 
 if TYPE_CHECKING:
     from cellc.diagnose.diagnose import Cause, Suspicion
+    from cellc.diagnose.symptoms import LayerKnowledge
     from cellc.output.compare import Difference
 
 SEVERITY_STYLES: Mapping[Severity, Style] = {
@@ -114,6 +115,32 @@ def render_suspicions(suspicions: tuple[Suspicion, ...]) -> list[Line]:
     for one in suspicions:
         shown += ["", *_suspicion(one)]
     return shown[1:]
+
+
+def render_symptoms(layers: Sequence[LayerKnowledge]) -> list[Line]:
+    """Return the name of every symptom under the layer that it belongs to."""
+    shown: list[Line] = []
+    for layer in layers:
+        shown += ["", (Styled(layer.title, Style.BOLD),), *(f"  {symptom.name}" for symptom in layer.symptoms)]
+    number = sum(len(layer.symptoms) for layer in layers)
+    example = layers[0].symptoms[0].name
+    return [
+        *shown[1:],
+        "",
+        f'{number} symptoms; `cellc diagnose "{example}" cell.yaml` tells the causes of one',
+    ]
+
+
+def render_nearest(nearest: Sequence[Suspicion], layers: Sequence[str]) -> list[Line]:
+    """Return that nothing fits, and what is nearest, each with its likeliest cause."""
+    shown: list[Line] = [
+        "UNKNOWN: no known symptom fits" + ("; the nearest, which may not be meant:" if nearest else "")
+    ]
+    for one in nearest:
+        shown.append(("  ", Styled(f"{one.layer}: {one.symptom}", Style.BOLD)))
+        shown.append(f"    likeliest: {one.causes[0].text}")
+    shown.append("say it in other words or paste a line of the log; `cellc diagnose` alone lists every symptom")
+    return [*shown, f"rule out in this order: {', '.join(layers)}"]
 
 
 def _suspicion(suspicion: Suspicion) -> Iterator[Line]:

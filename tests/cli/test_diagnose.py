@@ -27,6 +27,27 @@ def test_unknown_symptom_is_told_with_the_layers_and_exit_code_1() -> None:
     assert "safety state" in ran.out
 
 
+def test_unknown_symptom_gets_the_nearest_with_the_word_that_none_fits() -> None:
+    ran = run("diagnose", "the gripper smells of octopus")
+    assert ran.code == 1
+    assert ran.out.startswith("UNKNOWN: no known symptom fits; the nearest, which may not be meant:\n")
+    assert "  tool and load: the gripper" in ran.out
+    assert "likeliest: " in ran.out
+
+
+def test_without_a_symptom_all_are_listed_under_their_layers() -> None:
+    ran = run("diagnose")
+    assert ran.code == 0
+    assert ran.out.startswith("network and discovery\n  nodes cannot see each other\n")
+    assert "\nplanning with MoveIt\n  the start state is in collision\n" in ran.out
+
+
+def test_listed_name_finds_its_own_symptom() -> None:
+    ran = run("diagnose", "The control loop overruns")
+    assert ran.code == 0
+    assert ran.out.startswith("control loop and real time: the control loop overruns\n")
+
+
 def test_cell_that_cannot_be_read_is_reported(tmp_path: Path) -> None:
     ran = run("diagnose", "slow", (tmp_path / "none.yaml").as_posix())
     assert ran.code == 1

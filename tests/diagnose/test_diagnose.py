@@ -163,7 +163,7 @@ def test_every_symptom_has_a_source_a_way_to_be_found_and_a_warning(symptom: Sym
 
 def test_nothing_is_left_to_fill_in_where_the_cell_is_known(cell: Cell) -> None:
     for symptom in EVERY_SYMPTOM:
-        for step in steps(" ".join(symptom.said[0]), cell):
+        for step in steps(symptom.name, cell):
             assert not re.search(r"[<{}]", step.action + step.refuted), step
 
 

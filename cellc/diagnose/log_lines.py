@@ -1,0 +1,63 @@
+"""Log lines as programs write them, found again in what somebody pasted.
+
+A template is the text of the source with ``{controller}`` where it names a controller, and ``{}`` where it says what
+nobody asks for, such as a number. At its end a place is one word, and ``{reason}`` all that follows up to the next line
+with a level in brackets. The pasted text may have times, names of nodes, colours and line breaks around it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+Named = tuple[tuple[str, str], ...]
+"""What a line names: (kind, name)."""
+
+_COLOUR = re.compile(r"\x1b\[[0-9;]*m")
+_HOLE = re.compile(r"\{(\w*)\}")
+_LONGEST_NAME = 200
+_AROUND = " '\"`.,:;()[]!"
+_REST = "reason"
+_NEXT_LINE = " ["
+
+
+def plain(text: str) -> str:
+    """Return a pasted text as one line without colours."""
+    return " ".join(_COLOUR.sub("", text).split())
+
+
+def found_in(template: str, text: str) -> Named | None:
+    """Return what a text names at the places of a template, None where the text does not hold it.
+
+    Args:
+        template: begins with text, and has text between two places.
+        text: one line, as ``plain`` gives it.
+    """
+    pieces = _HOLE.split(template)
+    first, kinds, rest = pieces[0], pieces[1::2], pieces[2::2]
+    start = text.find(first)
+    while start >= 0:
+        names = _names(kinds, rest, text, start + len(first))
+        if names is not None:
+            pairs = zip(kinds, names, strict=True)
+            return tuple(dict.fromkeys((kind, name) for kind, name in pairs if kind and name))
+        start = text.find(first, start + 1)
+    return None
+
+
+def _names(kinds: Sequence[str], pieces: Sequence[str], text: str, position: int) -> list[str] | None:
+    names: list[str] = []
+    for kind, piece in zip(kinds, pieces, strict=True):
+        until = piece or (_NEXT_LINE if kind == _REST else " ")  # no piece: the template ends with this place
+        end = text.find(until, position, position + _LONGEST_NAME + len(until))
+        if end < 0 and piece:
+            return None
+        end = min(len(text), position + _LONGEST_NAME) if end < 0 else end
+        names.append(text[position:end].strip(_AROUND))
+        position = end + len(piece)
+    return names
+
+
+def length(template: str) -> int:
+    """Return how many letters of a template stand fast: a longer one says more."""
+    return len(_HOLE.sub("", template))
