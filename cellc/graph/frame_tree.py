@@ -12,6 +12,7 @@ from cellc.cell.device import Device
 from cellc.cell.frame import Frame
 from cellc.description.model import Joint, Link
 from cellc.diagnostics import Span, YamlPath
+from cellc.transforms import Pose, identity
 
 if TYPE_CHECKING:
     import networkx
@@ -66,6 +67,17 @@ class FrameTree:
             chain.append(frame)
             frame = self.get(frame.parent)
         return tuple(chain)
+
+    def pose_in(self, name: str, ancestor: str) -> Pose | None:
+        """Return the pose of a frame in one that it hangs on, joints at zero; None where it hangs on another."""
+        pose = identity()
+        for frame in self.chain(name):
+            if frame.name == ancestor:
+                return pose
+            if frame.transform_to_parent is None:
+                return None
+            pose = frame.transform_to_parent @ pose
+        return None
 
     def _parents(self) -> dict[str, tuple[str, ...]]:
         return {name: tuple(frame.parent for frame in frames if frame.parent) for name, frames in self.edges.items()}

@@ -27,6 +27,7 @@ SOUND_MODEL = (
     "non-unit-axis",
     "reversed-limits",
     "several-root-links",
+    "shared-prefix",
     "tip-off-the-tool-chain",
     "two-authorities",
     "zero-axis",

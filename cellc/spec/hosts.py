@@ -23,7 +23,9 @@ class VersionsSpec(SpecModel):
     """The pinned tuple. UNKNOWN is a legal answer; it blocks the real target and stands in the audit."""
 
     os: Pin = Field("UNKNOWN", description="Operating system and release.", examples=["ubuntu 24.04"])
-    kernel: Pin = Field("UNKNOWN", description="Kernel release as `uname -r` prints it.", examples=["6.8.0-45-generic"])
+    kernel: Pin = Field(
+        "UNKNOWN", description="Kernel release as `uname -r` prints it.", examples=["6.8.1-1015-realtime"]
+    )
     ros: Pin = Field(..., description="ROS 2 distribution: humble, jazzy, kilted or lyrical.", examples=["jazzy"])
     rmw: Pin = Field("UNKNOWN", description="RMW implementation and its version.", examples=["rmw_fastrtps_cpp 8.4.4"])
     ros2_control: Pin = Field("UNKNOWN", description="Version of ros2_control.", examples=["4.47.0"])

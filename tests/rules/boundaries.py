@@ -69,6 +69,43 @@ Case = tuple[str, Example, bool]
 
 BOUNDARIES: list[Case] = [
     *_spec(
+        "path-tolerance-without-effect",
+        "control: {{controllers: {{arm_trajectory: {{path_tolerance: {value}}}}}}}",
+        ("1 rad",),
+        ("1.001 rad", "200 deg"),
+    ),
+    *_spec(
+        "unmeetable-tolerance",
+        "control: {{controllers: {{arm_trajectory: {{goal_tolerance: {value}}}}}}}",
+        ("0.0001 rad",),
+        ("0.00009 rad",),
+    ),
+    *_spec("coarse-calibration", "calibrations: {{tcp: {{residual: {value}}}}}", ("5 mm",), ("5.1 mm", "1.2 cm")),
+    *_spec("too-few-samples", "calibrations: {{hand_eye: {{samples: {value}}}}}", ("10",), ("9", "3")),
+    *_spec("too-few-samples", "calibrations: {{tcp: {{samples: {value}}}}}", ("3",), ("2",)),
+    *_spec(
+        "calibration-of-another-time",
+        "calibrations: {{fixture_a: {{measured: {value}}}}}",
+        ("2025-07-01", "2027-07-02"),
+        ("2025-06-29", "2027-07-03", "2019-01-01"),
+    ),
+    *_spec(
+        "implausible-center-of-mass",
+        "devices: {{arm: {{payload: {{center_of_mass: {value}}}}}}}",
+        ("0 0 58 mm", "0 -5 62 mm", "0 0 5 mm"),
+        ("0 0 4.9 mm", "0 0 -6 mm", "0 0 58 cm", "0 0 0 mm"),
+    ),
+    *_spec(
+        "host-offset-beyond-age",
+        "hosts: {{control_pc: {{nics: {{cell: {{address: 10.20.0.10/24, carries: [ros]}}}}}},"
+        " vision_pc: {{scheduling: generic, clock: {{domain: ros, synchronised_by: chrony, max_offset: {value}}},"
+        " nics: {{cell: {{address: 10.20.0.11/24, carries: [ros]}}}}}}}}\n"
+        "network: {{discovery: multicast}}\nnodes: {{perception: {{host: vision_pc}}}}\n"
+        "safety: {{stop: {{independent_of: [control_pc, vision_pc]}}}}",
+        ("98 ms",),
+        ("199 ms", "500 ms"),
+    ),
+    *_spec(
         "implausible-distance", "frames: {{fixture_A: {{xyz: {value}}}}}", ("20 0 0 m",), ("20.001 0 0 m", "0 0 21 m")
     ),
     *_spec("short-transform-buffer", "frames: {{object: {{buffer: {value}}}}}", ("200 ms",), ("199 ms",)),

@@ -52,9 +52,11 @@ def check(graph: CellGraph) -> Findings:
 
 
 def _clocks(graph: CellGraph, interface: Interface) -> Iterator[tuple[str, str]]:
-    """Yield each publisher with its clock: what a sensor states, what a node runs on, or ros."""
+    """Yield each publisher with its clock: what a sensor states, what a node runs on, or that of all targets."""
     stamps = {device.name: device.stamp for device in graph.cell.devices}
     clocks = {node.name: node.clock for node in graph.cell.nodes}
+    targets = {target.clock for target in graph.cell.targets.values()}
+    common = targets.pop() if len(targets) == 1 else "ros"
     for source in interface.sources:
         stamp = stamps.get(source.node)
-        yield source.node, clocks.get(source.node) or "ros" if stamp is None else stamp.source
+        yield source.node, clocks.get(source.node) or common if stamp is None else stamp.source

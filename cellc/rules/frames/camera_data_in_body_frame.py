@@ -7,17 +7,14 @@ Example that is reported:
 
 ```yaml
 interfaces:
-  /depth: {topic: sensor_msgs/msg/Image, from: camera, to: [perception],  # expect: backlog-of-newest at to.0
-           frame: camera/link,  # expect at frame
-           wants: newest, rate: 30 Hz, max_age: 200 ms, on_stale: reject_goal}
+  /camera/camera/color/image_raw: {frame: camera/link}  # expect at frame
 ```
 
 Example that is accepted:
 
 ```yaml
 interfaces:
-  /depth: {topic: sensor_msgs/msg/Image, from: {camera: {depth: 1}}, to: {perception: {depth: 1}},
-           frame: camera/color_optical, wants: newest, rate: 30 Hz, max_age: 200 ms, on_stale: reject_goal}
+  /camera/camera/color/image_raw: {frame: camera/color_optical}
 ```
 
 Fix: name the optical frame of the stream.

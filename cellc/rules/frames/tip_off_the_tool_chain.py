@@ -19,14 +19,15 @@ motion:
     flange: {base: arm/base_link, tip: arm/tool0}
 ```
 
-Fix: use the tool frame of the arm or a frame that hangs on it.
+Fix: use the tool frame of the arm or a frame that hangs on it, and mount tools there.
 
 Source: https://gavanderhoorn.github.io/rep/rep-0199.html (draft of 2019-01-11): tools mount at tool0, child of flange
 """
 
 from __future__ import annotations
 
-from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
+from cellc.cell.frame import FrameKind
+from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 
 
 @rule(Severity.ERROR)
@@ -39,6 +40,9 @@ def check(graph: CellGraph) -> Findings:
         arm = arms.get(group.base_link)
         if arm is None or arm.tool_frame is None:
             continue
-        if arm.tool_frame not in (frame.name for frame in graph.frames.chain(group.tip_frame)):
+        chain = graph.frames.chain(group.tip_frame)
+        if arm.tool_frame not in (frame.name for frame in chain):
             message = f"tip `{group.tip_frame}` of group `{group.name}` does not hang on `{arm.tool_frame}`"
-            yield found(graph, (*group.path, "tip"), message)
+            mounts = [frame for frame in chain if frame.kind is FrameKind.MOUNT and frame.device != arm.name]
+            related = tuple(Related(f"`{mount.device}` is mounted on `{mount.parent}`", mount.span) for mount in mounts)
+            yield found(graph, (*group.path, "tip"), message, related=related)

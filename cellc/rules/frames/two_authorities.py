@@ -31,7 +31,7 @@ from cellc.cell.frame import WORLD, FrameKind
 from cellc.rules.kit import CellGraph, Finding, Findings, Related, Severity, rule
 
 
-@rule(Severity.ERROR)
+@rule(Severity.ERROR, assumes=("shared-prefix",))
 def check(graph: CellGraph) -> Findings:
     """Yield every edge after the first for one child frame."""
     for name in graph.frames.names():

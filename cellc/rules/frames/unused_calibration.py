@@ -26,7 +26,7 @@ Source: docs/principles.md#calibration
 
 from __future__ import annotations
 
-from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
+from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 
 
 @rule(Severity.WARNING)
@@ -36,4 +36,6 @@ def check(graph: CellGraph) -> Findings:
     for name in graph.cell.calibrations:
         if name not in used:
             message = f"no frame rests on calibration `{name}`"
-            yield found(graph, ("calibrations", name), message)
+            designed = [frame for frame in graph.cell.frames if frame.designed]
+            related = tuple(Related("designed, without a measurement", frame.span) for frame in designed)
+            yield found(graph, ("calibrations", name), message, related=related)

@@ -37,7 +37,7 @@ from __future__ import annotations
 from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 
 
-@rule(Severity.ERROR)
+@rule(Severity.ERROR, assumes=("shared-prefix",))
 def check(graph: CellGraph) -> Findings:
     """Yield the second claimant of an interface in the first state of a manager."""
     for conflict in graph.claims.conflicts():

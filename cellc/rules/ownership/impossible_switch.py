@@ -37,7 +37,7 @@ from cellc.graph.claims import can_switch
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-@rule(Severity.ERROR, assumes=("double-claim",))
+@rule(Severity.ERROR, assumes=("double-claim", "two-interfaces-of-one-joint"))
 def check(graph: CellGraph) -> Findings:
     """Yield switches that no reachable state allows."""
     for manager in graph.cell.managers:

@@ -9,7 +9,9 @@ Example that is reported:
 versions: {os: ubuntu 22.04, ros: humble, rmw: rmw_fastrtps_cpp 6.2.10, ros2_control: 2.54.0,  # expect at ros
            moveit: 2.5.9}
 calibrations:
-  fixture_a: {revision: 3, measured: 2027-09-01, method: touch probe, samples: 5, residual: 0.3 mm, owner: perception}
+  hand_eye: {measured: 2027-09-01}
+  tcp: {measured: 2027-09-01}
+  fixture_a: {measured: 2027-09-01}
 devices: {arm: {driver: demo_arm_driver 2.14.0, sdk: null, description: null}}  # expect: unknown-version at arm
 ```
 
@@ -17,7 +19,7 @@ Example that is accepted:
 
 ```yaml
 calibrations:
-  fixture_a: {revision: 3, measured: 2026-09-01, method: touch probe, samples: 5, residual: 0.3 mm, owner: perception}
+  fixture_a: {measured: 2026-09-01}
 ```
 
 Fix: plan the move to a supported distribution, away from the operating cell.

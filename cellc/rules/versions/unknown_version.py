@@ -12,7 +12,7 @@ versions: {kernel: UNKNOWN}  # expect at kernel
 Example that is accepted:
 
 ```yaml
-versions: {kernel: 6.8.0-45-generic}
+versions: {kernel: 6.8.1-1015-realtime}
 ```
 
 Fix: read the version on the machine, the teach pendant or the nameplate, and write it down.

@@ -1,0 +1,86 @@
+"""The clocks of two hosts may lie further apart than an age limit between them.
+
+The sample is stamped on one computer and judged on the other. With such an offset a stale sample passes for fresh, or
+every sample is refused.
+
+Example that is reported:
+
+```yaml
+hosts:
+  control_pc: {nics: {cell: {address: 10.20.0.10/24, carries: [ros]}}}
+  vision_pc: {scheduling: generic,
+              clock: {domain: ros, synchronised_by: chrony, max_offset: 500 ms},  # expect at max_offset
+              nics: {cell: {address: 10.20.0.11/24, carries: [ros]}}}
+network: {discovery: multicast}
+nodes: {perception: {host: vision_pc}}
+safety: {stop: {independent_of: [control_pc, vision_pc]}}
+```
+
+Example that is accepted:
+
+```yaml
+hosts:
+  control_pc: {nics: {cell: {address: 10.20.0.10/24, carries: [ros]}}}
+  vision_pc: {scheduling: generic, clock: {domain: ros, synchronised_by: chrony, max_offset: 5 ms},
+              nics: {cell: {address: 10.20.0.11/24, carries: [ros]}}}
+network: {discovery: multicast}
+nodes: {perception: {host: vision_pc}}
+safety: {stop: {independent_of: [control_pc, vision_pc]}}
+```
+
+Fix: synchronize the hosts more tightly: the offset must be a small part of the age.
+
+Source: docs/principles.md#clocks-and-age
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from cellc.cell.interface import Interface
+from cellc.cell.site import Host
+from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
+
+
+@dataclass(frozen=True, slots=True)
+class _Crossing:
+    """A limit of age that is judged on another host than the one that stamps; the worse clock stands first."""
+
+    worse: Host
+    better: Host
+    interface: Interface
+    max_age_s: float
+
+    @property
+    def offset_s(self) -> float:
+        return sum(host.clock.max_offset_s or 0.0 for host in (self.worse, self.better))
+
+
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
+    """Yield, for each host, the tightest age limit that its clock alone or with the other one breaks."""
+    reported: set[str] = set()
+    for one in sorted(_crossings(graph), key=lambda one: one.max_age_s):
+        if one.offset_s < one.max_age_s or one.worse.name in reported:
+            continue
+        reported.add(one.worse.name)
+        age = f"{one.max_age_s * 1e3:g} ms, the `max_age` of `{one.interface.name}`"
+        message = f"the clocks of `{one.worse.name}` and `{one.better.name}` must be nearer than {age},"
+        message += f" got {one.offset_s * 1e3:g} ms"
+        related = (Related("the age is limited here", graph.cell.locate(*one.interface.path, "max_age")),)
+        yield found(graph, (*one.worse.path, "clock", "max_offset"), message, related=related)
+
+
+def _crossings(graph: CellGraph) -> Iterator[_Crossing]:
+    hosts = graph.cell.hosts
+    running = {node.full_name: node.host for node in graph.cell.nodes}
+    for interface in graph.cell.interfaces:
+        ends = ((source, sink) for source in interface.sources for sink in interface.sinks)
+        for source, sink in ends if interface.max_age_s is not None else ():
+            pair = [hosts.get(running.get(end.full_name, "")) for end in (source, sink)]
+            one, other = pair
+            if one is None or other is None or one.name == other.name:
+                continue
+            worse, better = sorted((one, other), key=lambda host: -(host.clock.max_offset_s or 0.0))
+            yield _Crossing(worse, better, interface, interface.max_age_s or 0.0)

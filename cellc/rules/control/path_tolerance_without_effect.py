@@ -1,0 +1,65 @@
+"""A path tolerance is so wide that it watches nothing.
+
+A value that was raised until the error went away lets the arm lag behind its command by a whole motion. A collision is
+then noticed at the end of the trajectory, if at all.
+
+Example that is reported:
+
+```yaml
+control:
+  controllers:
+    arm_trajectory: {path_tolerance: 3.2 rad}  # expect at path_tolerance
+```
+
+Example that is accepted:
+
+```yaml
+control:
+  controllers:
+    arm_trajectory: {path_tolerance: 0.2 rad}
+```
+
+Fix: find out why the arm lags, and write what a healthy motion needs, such as `0.2 rad`.
+
+Source:
+
+- https://control.ros.org/jazzy/doc/ros2_controllers/joint_trajectory_controller/doc/parameters.html
+  (Jazzy): constraints.<joint>.trajectory
+- docs/principles.md#planning-and-execution
+"""
+
+from __future__ import annotations
+
+from cellc.cell.control import Controller
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
+from cellc.vocabulary import TRAJECTORIES
+
+_SHARE_OF_RANGE = 0.5
+_WIDEST_RAD = 1.0
+
+
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
+    """Yield trajectory controllers whose tolerance exceeds half of a joint's range, or 1 rad."""
+    for controller in graph.cell.controllers:
+        if controller.behaviour not in TRAJECTORIES or controller.path_tolerance is None:
+            continue
+        joint, widest = _widest(graph, controller)
+        if joint and controller.path_tolerance > widest:
+            path = (*controller.path, "path_tolerance")
+            written = graph.cell.text(*path)
+            message = f"`path_tolerance` of `{controller.name}` must be at most {widest:.3g} rad or m, half of"
+            message += f" what `{joint}` moves or 1 rad, got {written}"
+            yield found(graph, path, message)
+
+
+def _widest(graph: CellGraph, controller: Controller) -> tuple[str, float]:
+    """Return the joint of a controller with the smallest bound, and the bound in rad or m."""
+    bounds = []
+    for device in graph.cell.devices:
+        for joint in device.joints:
+            if joint.name in controller.joints and joint.lower is not None and joint.upper is not None:
+                bound = _SHARE_OF_RANGE * (joint.upper - joint.lower)
+                bounds.append((bound if joint.type == "prismatic" else min(bound, _WIDEST_RAD), joint.name))
+    least = min(bounds, default=(0.0, ""))
+    return least[1], least[0]

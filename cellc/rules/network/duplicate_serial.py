@@ -1,0 +1,58 @@
+"""Two devices of one model have one serial number.
+
+A serial number belongs to one unit. A block that was copied makes both drivers open the same unit, and the pictures of
+one camera are taken for those of the other.
+
+Example that is reported:
+
+```yaml
+devices:
+  camera: {serial: D4-0712}
+  second: {model: ./demo_camera, mount: {parent: world, xyz: 1 0 2 m, calibration: second_eye}, revision: C,
+           serial: D4-0712,  # expect at serial
+           firmware: sensor 5.16.0, driver: demo_camera_driver 4.58.3, description: demo_camera_description 4.58.3,
+           connection: {host: control_pc, nic: bulk},
+           stamp: {source: hardware, clock: second, exposure: 8 ms, synchronised_by: global_time, max_offset: 2 ms}}
+calibrations:
+  second_eye: {revision: 1, measured: 2026-07-01, method: charuco, samples: 40, residual: 0.8 mm, owner: perception}
+```
+
+Example that is accepted:
+
+```yaml
+devices:
+  camera: {serial: D4-0712}
+  second: {model: ./demo_camera, mount: {parent: world, xyz: 1 0 2 m, calibration: second_eye}, revision: C,
+           serial: D4-0756,
+           firmware: sensor 5.16.0, driver: demo_camera_driver 4.58.3, description: demo_camera_description 4.58.3,
+           connection: {host: control_pc, nic: bulk},
+           stamp: {source: hardware, clock: second, exposure: 8 ms, synchronised_by: global_time, max_offset: 2 ms}}
+calibrations:
+  second_eye: {revision: 1, measured: 2026-07-01, method: charuco, samples: 40, residual: 0.8 mm, owner: perception}
+```
+
+Fix: read the serial number from each device.
+
+Source: docs/principles.md#facts-of-the-catalog
+"""
+
+from __future__ import annotations
+
+from cellc.cell.device import Device
+from cellc.cell.site import UNKNOWN
+from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
+
+
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
+    """Yield the second device of one model with a serial number."""
+    first: dict[tuple[str, str], Device] = {}
+    for device in graph.cell.devices:
+        serial = device.versions.serial
+        if serial == UNKNOWN:
+            continue
+        owner = first.setdefault((device.model, serial), device)
+        if owner is not device:
+            message = f"`{device.name}` must have a serial number of its own, got `{serial}`, that of `{owner.name}`"
+            related = (Related("first written here", graph.cell.locate(*owner.path, "serial")),)
+            yield found(graph, (*device.path, "serial"), message, related=related)
