@@ -20,6 +20,7 @@ from cellc.catalog.catalog_model import (
     Token,
 )
 from cellc.catalog.effects import EffectFacts, StartFacts, ToldFacts
+from cellc.catalog.programs import EndpointFacts, InnerNodeFacts
 from cellc.pins import same_version
 from cellc.spec.base import MOST
 from cellc.spec.quantity import Duration, Frequency
@@ -67,7 +68,7 @@ class HardwareFacts(CatalogModel):
 
     ``left_out_when_empty`` are parameters that the plugin has a default for: an empty ``<param>`` makes the reader of
     ros2_control complain. ``command_timeout`` is the longest silence of the controller manager before the device ends
-    what it does.
+    what it does. ``nodes`` are those that the plugin makes in the manager's process.
     """
 
     plugin: Text
@@ -78,6 +79,7 @@ class HardwareFacts(CatalogModel):
     start: StartFacts | None = None
     told: dict[NeedName, ToldFacts] = Field(default_factory=dict)
     command_timeout: Duration | None = None
+    nodes: tuple[InnerNodeFacts, ...] = ()
     source: Text
 
     def release(self, distro: Distro, driver: str) -> HardwareRelease | None:
@@ -171,17 +173,6 @@ class QosFacts(CatalogModel):
 
 QosUse = Union[Token, QosFacts]
 """Name of a profile in ``qos_profiles.yaml``, or the settings themselves."""
-
-
-class EndpointFacts(CatalogModel):
-    """What a program has at the ROS graph besides what every node has: names as it says them, ``~/`` below its own."""
-
-    publishes: tuple[GraphName, ...] = ()
-    subscribes: tuple[GraphName, ...] = ()
-    serves: tuple[GraphName, ...] = ()
-    requests: tuple[GraphName, ...] = ()
-    executes: tuple[GraphName, ...] = ()
-    source: Text
 
 
 class NodeFacts(CatalogModel):

@@ -11,6 +11,7 @@ from cellc.catalog.compiled import CATALOG, SHOWN, compiled_device, compiled_tab
 from cellc.catalog.controller_kind import ControllerKind
 from cellc.catalog.device_model import DeviceModel
 from cellc.catalog.names import CatalogNames, unknown_names
+from cellc.catalog.programs import ProgramTable
 from cellc.catalog.read_model import ModelT, read_model
 from cellc.catalog.tables import ControllerManagerFacts, DistroTable, InterfaceTypeTable, QosTable
 from cellc.description.model import Description
@@ -150,6 +151,12 @@ def load_controller_manager() -> Outcome[ControllerManagerFacts]:
 def load_message_types() -> Outcome[InterfaceTypeTable]:
     """Load the interface types that are known."""
     return _table("message_types.yaml", InterfaceTypeTable)
+
+
+@lru_cache(maxsize=1)
+def load_programs() -> Outcome[ProgramTable]:
+    """Load what nodes and programs have at the ROS graph."""
+    return _table("programs.yaml", ProgramTable)
 
 
 @lru_cache(maxsize=1)

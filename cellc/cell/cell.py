@@ -9,7 +9,7 @@ from cellc.cell.control import AdaptedDevice, Controller, ControllerManager
 from cellc.cell.device import Device
 from cellc.cell.entity import Places
 from cellc.cell.frame import Frame, SceneBox
-from cellc.cell.interface import Interface, Node
+from cellc.cell.interface import ImpliedEndpoints, Interface, Node
 from cellc.cell.motion import CartesianGoal, NamedPose, PlanningGroup, Rehearsal
 from cellc.cell.site import (
     TARGET_DEFAULTS,
@@ -41,6 +41,7 @@ class Cell:
         harmless_plugins: plugins that the catalog or a signed statement knows to touch no hardware.
         harmless_programs: the same of programs.
         hardware_packages: packages that the catalog knows to reach hardware.
+        implied: what nodes have at the ROS graph by what they are.
         behaviours: controller plugin type string → what it does, for the plugins in use.
     """
 
@@ -74,6 +75,7 @@ class Cell:
     poses: tuple[NamedPose, ...] = ()
     goals: tuple[CartesianGoal, ...] = ()
     rehearsals: tuple[Rehearsal, ...] = ()
+    implied: ImpliedEndpoints = field(default_factory=ImpliedEndpoints)
     behaviours: Mapping[str, Behaviour] = field(default_factory=dict)
 
     def locate(self, *path: str | int) -> Span:

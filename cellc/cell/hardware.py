@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from cellc.cell.interface import InnerNode
 from cellc.vocabulary import CommandAuthority, ManagerLock, Moment, Motion, Need, Unmet
 
 
@@ -72,6 +73,7 @@ class HardwareComponent:
         at_once: from there it must become active in one call, without a stay in between.
         enforce_command_limits: what the vendor tells the controller manager of this; None where it says nothing.
         told: where the cell hears whether a need holds.
+        nodes: those that the real plugin makes in the process of the controller manager.
         command_timeout_s: the longest silence before the device ends what it does; None where nobody told.
     """
 
@@ -87,6 +89,7 @@ class HardwareComponent:
     enforce_command_limits: bool | None = None
     command_timeout_s: float | None = None
     told: Mapping[Need, Told] = field(default_factory=dict)
+    nodes: tuple[InnerNode, ...] = ()
 
     @property
     def kept_by_a_claim(self) -> tuple[Need, ...]:

@@ -28,7 +28,7 @@ class NodeSource(str, Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NodeEndpoints:
-    """What a driver's program has at the ROS graph beside its offers, by its own names, ``~/`` below its own."""
+    """What a program has at the ROS graph beside its offers, by its own names, ``~/`` below its own."""
 
     publishes: tuple[str, ...] = ()
     subscribes: tuple[str, ...] = ()
@@ -38,12 +38,33 @@ class NodeEndpoints:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class InnerNode:
+    """A node in the process of another; ``full_name`` may end with ``*`` where it differs at every start."""
+
+    full_name: str
+    endpoints: NodeEndpoints
+    parameters: bool = True
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ImpliedEndpoints:
+    """What nodes have by what they are, in the distribution of the cell: all, and those of a kind besides."""
+
+    node: NodeEndpoints = field(default_factory=NodeEndpoints)
+    lifecycle: NodeEndpoints = field(default_factory=NodeEndpoints)
+    controller: NodeEndpoints = field(default_factory=NodeEndpoints)
+    component: NodeEndpoints = field(default_factory=NodeEndpoints)
+    transforms: NodeEndpoints = field(default_factory=NodeEndpoints)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Node(Entity):
     """A node; ``name`` is its bare name, ``namespace`` empty or with a leading slash.
 
     ``clock`` is ``wall``, ``sim`` or None for the target's; ``real_only`` nodes are not started on a mock. ``host``
     is the computer that runs it, empty where the cell names none. ``remaps``
-    are topics as the node's program names them → the names that they have in the cell.
+    are topics as the node's program names them → the names that they have in the cell. ``inside`` are further nodes of
+    its process.
     """
 
     source: NodeSource
@@ -61,6 +82,7 @@ class Node(Entity):
     parameters: Mapping[str, ParameterValue]
     remaps: Mapping[str, str] = field(default_factory=dict)
     endpoints: NodeEndpoints = field(default_factory=NodeEndpoints)
+    inside: tuple[InnerNode, ...] = ()
 
     @property
     def full_name(self) -> str:

@@ -5,10 +5,11 @@ from __future__ import annotations
 from cellc.cell.cell import Cell
 from cellc.cell.control import ControllerManager
 from cellc.cell.interface import InterfaceKind, Node, NodeSource
+from cellc.contract.bring_up import TARGETS, BringUp
 from cellc.deploy.files import is_planner
 from cellc.link.frames import ROBOT_STATE_PUBLISHER
 from cellc.link.nodes import DESCRIPTION_PUBLISHER, description_home
-from cellc.vocabulary import Feature, features
+from cellc.vocabulary import BringUpPhase, Feature, features
 
 
 def launch_hosts(cell: Cell) -> tuple[str, ...]:
@@ -71,6 +72,13 @@ def manager_enclave(cell: Cell, manager: ControllerManager) -> str:
 def spawner_enclave(cell: Cell, manager: ControllerManager) -> str:
     """Return the enclave of the processes that load and activate a manager's controllers."""
     return f"/{cell.name}{manager.namespace}/spawner"
+
+
+def bring_up_nodes(plan: BringUp) -> tuple[str, ...]:
+    """Return the names that the program of the bring-up gives its node: after the last phase that it takes."""
+    taken = {step.phase for target in TARGETS for step in plan.steps(target)}
+    named = (f"bring_up_{phase}" for phase in BringUpPhase if phase in taken)
+    return (*named, *(("claim_watch",) if plan.watches else ()))
 
 
 def bring_up_enclave(cell: Cell) -> str:

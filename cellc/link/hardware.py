@@ -20,6 +20,7 @@ from cellc.cell.hardware import Effect, HardwareComponent, InterfaceGroup, Told
 from cellc.cell.interface import InterfaceKind, ParameterValue
 from cellc.cell.site import UNKNOWN
 from cellc.link.names import Placeholders
+from cellc.link.programs import inner_nodes
 from cellc.pins import older
 from cellc.vocabulary import Distro, Unmet
 
@@ -51,7 +52,10 @@ def hardware_component(
         gpios=_groups(control.gpios, prefix, None if release is None else release.exports),
         enforce_command_limits=control.enforce_command_limits,
     )
-    return component if real is None else _with_effects(component, real, distro)
+    if real is None:
+        return component
+    made = inner_nodes(real.nodes, "", distro, known.fill)
+    return replace(_with_effects(component, real, distro), nodes=made)
 
 
 def _parameters(hardware: HardwareFacts, known: Placeholders, release: HardwareRelease | None) -> dict[str, str]:

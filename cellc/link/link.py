@@ -17,6 +17,7 @@ from cellc.link.frames import link_frames, link_scene, name_frames, scene_frames
 from cellc.link.interfaces import link_interfaces
 from cellc.link.motion import link_goals, link_groups, link_poses
 from cellc.link.nodes import link_nodes, standard_nodes
+from cellc.link.programs import implied_endpoints, with_programs
 from cellc.link.rehearsals import link_rehearsals
 from cellc.link.site import (
     bind_bringup,
@@ -65,7 +66,7 @@ def _link_with_devices(
     context = ControlContext(spec, document, distro, {one.device.name: one for one in bound})
     managers = link_managers(context)
     loops = managers.value or ()
-    all_nodes = (*(nodes.value or ()), *standard_nodes(spec, document, loops))
+    all_nodes = tuple(with_programs((*(nodes.value or ()), *standard_nodes(spec, document, loops)), distro))
     controllers = tuple(controller for manager in loops for controller in manager.controllers)
     ends = name_endpoints(spec, bound, all_nodes, loops, resolver)
     interfaces = link_interfaces(spec, document, ends, names)
@@ -120,6 +121,7 @@ def _surroundings(spec: CellSpec, document: SourceDocument, distro: Distro) -> C
         harmless_plugins=harmless(table.harmless_plugins, plugins),
         harmless_programs=harmless(table.harmless_programs, programs),
         hardware_packages=frozenset(table.hardware_packages),
+        implied=implied_endpoints(distro),
     )
 
 

@@ -6,15 +6,15 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
-from cellc.catalog.device_interfaces import EndpointFacts
 from cellc.cell.control import ControllerManager
 from cellc.cell.device import Device
-from cellc.cell.interface import Node, NodeEndpoints, NodeSource
+from cellc.cell.interface import Node, NodeSource
 from cellc.diagnostics import Diagnostic, Outcome, Severity, Span, YamlPath
 from cellc.link.devices import BoundDevice
 from cellc.link.frames import ROBOT_STATE_PUBLISHER
 from cellc.link.hardware import camera_parameters, run_nodes
 from cellc.link.names import Placeholders, home_host, unknown_name
+from cellc.link.programs import endpoints
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
 
@@ -149,25 +149,12 @@ def _driver_nodes(spec: CellSpec, devices: tuple[BoundDevice, ...]) -> Iterator[
                 device=device.name,
                 parameters=known.fill_parameters(entry.parameters) | camera_parameters(bound.facts, device),
                 remaps=_joined(device, f"{namespace}/{name}") | _named(entry.remaps, known),
-                endpoints=_endpoints(entry.endpoints, known),
+                endpoints=endpoints(entry.endpoints, known.fill),
             )
 
 
 def _named(remaps: Mapping[str, str], known: Placeholders) -> dict[str, str]:
     return {known.fill(name): known.fill(target) for name, target in remaps.items()}
-
-
-def _endpoints(facts: EndpointFacts | None, known: Placeholders) -> NodeEndpoints:
-    """Return what a program has at the graph, by its own names."""
-    if facts is None:
-        return NodeEndpoints()
-    return NodeEndpoints(
-        publishes=tuple(map(known.fill, facts.publishes)),
-        subscribes=tuple(map(known.fill, facts.subscribes)),
-        serves=tuple(map(known.fill, facts.serves)),
-        requests=tuple(map(known.fill, facts.requests)),
-        executes=tuple(map(known.fill, facts.executes)),
-    )
 
 
 def _joined(device: Device, node: str) -> dict[str, str]:

@@ -30,8 +30,10 @@ _HIDDEN = {
         *("controller_kinds", "speed_scaling", "gripper", "camera", "offers", "network", "safety", "packages"),
         *("version_rows", "commissioning", "mock_cannot_prove", "starts"),
     },
-    Node: {"endpoints"},
-    HardwareComponent: {"effects", "told", "initial_state", "at_once", "command_timeout_s", "enforce_command_limits"},
+    Node: {"endpoints", "inside"},
+    HardwareComponent: {
+        *("effects", "told", "initial_state", "at_once", "command_timeout_s", "enforce_command_limits", "nodes"),
+    },
 }
 _DERIVED = {"measured_on", "joints"}
 # What is shown of a device as the user states it.

@@ -51,12 +51,27 @@ def test_controllers_serve_their_own_actions_alone_and_their_clients_alone_may_c
                 assert callers.get(action, set()) == ({f"/{written['client']}"} if "client" in written else set())
 
 
+# move_group hears them (moveit2 2.12.4, planning_scene_monitor.cpp and trajectory_execution_manager.cpp): who says one
+# puts objects into the scene or takes them out, past every action, or stops what is carried out.
+_SAID_BY_NOBODY = {
+    *("/planning_scene", "/collision_object", "/planning_scene_world", "/attached_collision_object"),
+    "/trajectory_execution_event",
+}
+
+
+@every_build
+def test_nobody_may_change_the_scene_or_stop_a_trajectory_by_a_topic(cell: str, distro: str) -> None:
+    for name, profile in profiles(cell, distro).items():
+        assert not granted(profile, "topics", "publish") & _SAID_BY_NOBODY, name
+
+
 @every_build
 def test_what_one_node_hears_another_may_say(cell: str, distro: str) -> None:
     found = profiles(cell, distro)
     said = {topic for profile in found.values() for topic in granted(profile, "topics", "publish")}
     for name, profile in found.items():
         heard = {topic for topic in granted(profile, "topics", "subscribe") if not topic.startswith("~/")} - {"/clock"}
+        heard -= _SAID_BY_NOBODY
         assert {topic for topic in heard if "/unused/" not in topic} <= said, name
 
 

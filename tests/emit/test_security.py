@@ -11,6 +11,8 @@ from tests.cells import DISTROS
 from tests.emit.cells import CELLS, artifacts_of
 from tests.oracles import UPSTREAM, needs_upstream
 
+_LISTENER = "transform_listener_impl_"
+
 
 def _policy(cell: str, distro: str = "jazzy") -> ElementTree.Element:
     return ElementTree.fromstring(artifacts_of(cell, distro)["security/policy.xml"])
@@ -58,13 +60,17 @@ def test_only_declared_sources_may_publish() -> None:
 def test_only_the_bring_up_may_switch_controllers() -> None:
     policy = _policy("ur5e_pick")
     holders = _holders(policy, "services", "request", "/controller_manager/switch_controller")
-    assert holders == {"bring_up"}
+    # The names that the one program gives its node.
+    assert holders == {*(f"bring_up_{phase}" for phase in ("start", "activate", "claim", "move")), "claim_watch"}
     assert _holders(policy, "services", "reply", "/controller_manager/switch_controller") == {"controller_manager"}
 
 
 def test_nothing_is_allowed_by_wildcard_and_enclaves_are_unique() -> None:
     policy = _policy("ur5e_pick")
     assert [entry.text for entry in policy.iter() if entry.text and "*" in entry.text] == []
+    # A name that differs at every start opens nothing but what lies below it.
+    changing = [one for one in policy.iter("profile") if "*" in one.attrib["node"]]
+    assert {one.attrib["node"].rstrip("*") for one in changing} == {"move_group_private_", "moveit_", _LISTENER}
     paths = [enclave.attrib["path"] for enclave in policy.iter("enclave")]
     assert len(paths) == len(set(paths))
     assert all(path.startswith("/ur5e_pick/") for path in paths)

@@ -158,7 +158,7 @@ def _description_publisher(cell: Cell, manager: ControllerManager, node: Node) -
 
 def _manager(cell: Cell, manager: ControllerManager) -> Element:
     # Without a name: it would apply to the nodes of the hardware as well.
-    place = {"namespace": launch_text(manager.namespace)} if manager.namespace else {}
+    place = _place(manager)
     parameters = [element("param", {"from": share(cell, controllers_file(cell, manager))})]
     if Feature.DESCRIPTION_TOPIC not in features(cell.distro):
         parameters.append(_description_parameter(share(cell, manager_description_file(cell, manager, TARGET))))
@@ -185,6 +185,10 @@ def _manager(cell: Cell, manager: ControllerManager) -> Element:
     )
 
 
+def _place(manager: ControllerManager) -> dict[str, str]:
+    return {"namespace": launch_text(manager.namespace)} if manager.namespace else {}
+
+
 def spawners(cell: Cell, manager: ControllerManager) -> Iterator[Element]:
     """Yield what loads and configures a manager's controllers; it waits for the manager, and activates nothing.
 
@@ -196,6 +200,7 @@ def spawners(cell: Cell, manager: ControllerManager) -> Iterator[Element]:
             {
                 "pkg": "controller_manager",
                 "exec": "spawner",
+                **_place(manager),
                 "args": launch_words(*one.controllers, "-c", manager.node, "--inactive"),
                 "output": "both",
                 **enclave(spawner_enclave(cell, manager)),

@@ -20,10 +20,10 @@ from cellc.deploy.deployment import Deployment
 from cellc.deploy.processes import bring_up_enclave, enclave_of, manager_enclave, spawner_enclave
 from cellc.emit.security.rights import (
     Profile,
-    bring_up_profile,
+    bring_up_process,
     manager_client,
     manager_process,
-    node_profile,
+    node_profiles,
     profile_element,
 )
 from cellc.formats.xml_text import element, render
@@ -41,11 +41,11 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
 def _enclaves(cell: Cell, plan: Deployment) -> Iterator[Element]:
     for node in cell.nodes:
         if node.source is not NodeSource.STANDARD or node.name != "controller_manager":
-            yield _enclave(enclave_of(cell, node), [node_profile(cell, node)])
+            yield _enclave(enclave_of(cell, node), node_profiles(cell, node))
     for manager in cell.managers:
         yield _enclave(manager_enclave(cell, manager), manager_process(cell, manager))
         yield _enclave(spawner_enclave(cell, manager), _spawners(cell, manager))
-    yield _enclave(bring_up_enclave(cell), [bring_up_profile(cell, plan.bring_up)])
+    yield _enclave(bring_up_enclave(cell), bring_up_process(cell, plan.bring_up))
 
 
 def _spawners(cell: Cell, manager: ControllerManager) -> Iterator[Profile]:

@@ -6,51 +6,20 @@ The bring-up may see what it waits for, configure, observe and claim; it may nev
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
+from functools import reduce
 from xml.etree.ElementTree import Element
 
 from cellc.cell.cell import Cell
 from cellc.cell.control import Controller, ControllerManager
-from cellc.cell.interface import InterfaceKind, Node, NodeSource
+from cellc.cell.interface import InnerNode, InterfaceKind, Node, NodeEndpoints, NodeSource
 from cellc.contract.bring_up import TARGETS, BringUp, TopicProof
-from cellc.deploy.processes import description_nodes
+from cellc.deploy.processes import bring_up_nodes, description_nodes
 from cellc.formats.xml_text import element
 from cellc.link.nodes import JOINT_STATES
 from cellc.vocabulary import Feature, features
 
-_PUBLISH = ("/parameter_events", "/rosout")
-_SUBSCRIBE = ("/clock", "/parameter_events")
-_PARAMETERS = (
-    "~/describe_parameters",
-    "~/get_parameter_types",
-    "~/get_parameters",
-    "~/list_parameters",
-    "~/set_parameters",
-    "~/set_parameters_atomically",
-)
-_TYPE_DESCRIPTION = "~/get_type_description"
-_LOGGERS = ("~/get_logger_levels", "~/set_logger_levels")
-_LIFECYCLE = (
-    "~/change_state",
-    "~/get_available_states",
-    "~/get_available_transitions",
-    "~/get_state",
-    "~/get_transition_graph",
-)
-_MANAGER = (
-    "configure_controller",
-    "list_controller_types",
-    "list_controllers",
-    "list_hardware_components",
-    "list_hardware_interfaces",
-    "load_controller",
-    "reload_controller_libraries",
-    "set_hardware_component_state",
-    "switch_controller",
-    "unload_controller",
-)
 _OF_SPAWNER = ("configure_controller", "list_controllers", "load_controller")  # what `spawner --inactive` calls
-_CLEANUP = "cleanup_controller"
 _CONTROLLER_STATE = "~/controller_state"
 # What the program of the bring-up calls.
 _OF_MANAGED = ("change_state", "get_state")
@@ -90,32 +59,55 @@ def _lists(profile: Profile) -> Iterator[Element]:
             yield element(plural, {right: "ALLOW"}, entries)
 
 
-def node_profile(cell: Cell, node: Node) -> Profile:
-    """Return the rights of a node with a process of its own."""
-    granted = _granted(cell, node.full_name, _LIFECYCLE if node.lifecycle else ())
-    return _driver(cell, node, granted) if node.source is NodeSource.DEVICE else _silenced(node, granted)
+def node_profiles(cell: Cell, node: Node) -> Iterator[Profile]:
+    """Yield the rights of a node with a process of its own, and of the further nodes in it."""
+    implied = cell.implied
+    kinds = (implied.lifecycle,) if node.lifecycle else ()
+    granted = _with(_granted(cell, node.full_name, *kinds), _renamed(node, node.endpoints))
+    if node.source is NodeSource.DEVICE:
+        yield _with(granted, _offered(cell, node))
+    else:
+        granted = _silenced(node, granted)
+        yield _with(granted, implied.transforms) if _hears_transforms(node, granted) else granted
+    yield from (_inner(cell, one.full_name, one) for one in node.inside)
 
 
-def _driver(cell: Cell, node: Node, granted: Profile) -> Profile:
-    """Add what the catalog says that a driver's node offers: it fails where one of these is denied to it."""
+def _offered(cell: Cell, node: Node) -> NodeEndpoints:
+    """Return what the catalog says that a driver's node offers: it fails where one of these is denied to it."""
     device = cell.device(node.device or "")
 
     def own(kind: InterfaceKind) -> tuple[str, ...]:
-        names = (one.name for one in device.offers if one.kind is kind and one.node == node.full_name)
-        return tuple(node.remaps.get(name, name) for name in names)
+        return tuple(one.name for one in device.offers if one.kind is kind and one.node == node.full_name)
+
+    offers = NodeEndpoints(
+        publishes=own(InterfaceKind.TOPIC), serves=own(InterfaceKind.SERVICE), executes=own(InterfaceKind.ACTION)
+    )
+    return _renamed(node, offers)
+
+
+def _renamed(node: Node, own: NodeEndpoints) -> NodeEndpoints:
+    """Return endpoints under the names that they have in the cell."""
 
     def told(names: tuple[str, ...]) -> tuple[str, ...]:
         return tuple(node.remaps.get(name, name) for name in names)
 
-    has = node.endpoints
+    return NodeEndpoints(**{one.name: told(getattr(own, one.name)) for one in fields(NodeEndpoints)})
+
+
+def _with(granted: Profile, own: NodeEndpoints) -> Profile:
     return replace(
         granted,
-        publish=(*granted.publish, *own(InterfaceKind.TOPIC), *told(has.publishes)),
-        subscribe=(*granted.subscribe, *told(has.subscribes)),
-        reply=(*granted.reply, *own(InterfaceKind.SERVICE), *told(has.serves)),
-        request=(*granted.request, *told(has.requests)),
-        execute=(*granted.execute, *own(InterfaceKind.ACTION), *told(has.executes)),
+        publish=(*granted.publish, *own.publishes),
+        subscribe=(*granted.subscribe, *own.subscribes),
+        reply=(*granted.reply, *own.serves),
+        request=(*granted.request, *own.requests),
+        execute=(*granted.execute, *own.executes),
     )
+
+
+def _hears_transforms(node: Node, granted: Profile) -> bool:
+    # A buffer of tf2 in a node of the cell serves what it holds; a program that the catalog knows says so itself.
+    return node.source is NodeSource.SPEC and not node.inside and "/tf" in granted.subscribe
 
 
 def _silenced(node: Node, granted: Profile) -> Profile:
@@ -125,21 +117,28 @@ def _silenced(node: Node, granted: Profile) -> Profile:
     return replace(granted, publish=(*granted.publish, *said), subscribe=(*granted.subscribe, *heard))
 
 
-def _common_profile(cell: Cell) -> Profile:
-    """Return the rights that every node has, for one that stands at no interface of the cell."""
-    return _granted(cell, "/", ())
+def _inner(cell: Cell, full_name: str, one: InnerNode) -> Profile:
+    granted = _with(_granted(cell, full_name), one.endpoints)
+    return granted if one.parameters else replace(granted, reply=one.endpoints.serves)
 
 
 def manager_process(cell: Cell, manager: ControllerManager) -> Iterator[Profile]:
     """Yield the rights of the manager, its controllers and the nodes of its hardware."""
-    services = (*_MANAGER, *((_CLEANUP,) if Feature.CLEANUP_CONTROLLER in features(cell.distro) else ()))
-    yield _granted(cell, manager.node, tuple(f"{manager.node}/{one}" for one in services))
+    (node,) = (one for one in cell.nodes if one.full_name == manager.node)
+    yield _with(_granted(cell, manager.node), _renamed(node, node.endpoints))
+    yield from (_inner(cell, one.full_name, one) for one in node.inside)
     for controller in manager.controllers:
         yield _controller(cell, controller)
-    if Feature.HARDWARE_NODES in features(cell.distro):
-        for device in (cell.device(name) for name in manager.devices):
-            if device.hardware is not None:
-                yield _granted(cell, f"{manager.namespace}/{device.hardware.name.lower()}", ())
+    for device in (cell.device(name) for name in manager.devices):
+        if device.hardware is None:
+            continue
+        if Feature.HARDWARE_NODES in features(cell.distro):
+            name = device.hardware.name.lower().replace("/", "_")
+            yield _granted(cell, f"{manager.namespace}/{name}", cell.implied.component)
+        for one in device.hardware.nodes:
+            # The namespace of the process is that of every node in it.
+            bare = one.full_name.rpartition("/")[2]
+            yield _inner(cell, f"{manager.namespace}/{bare}" if manager.namespace else one.full_name, one)
 
 
 def _controller(cell: Cell, controller: Controller) -> Profile:
@@ -147,8 +146,7 @@ def _controller(cell: Cell, controller: Controller) -> Profile:
 
     Nobody is granted to publish what it subscribes to unless an interface of the cell says so.
     """
-    loggers = _LOGGERS if Feature.LOGGER_SERVICES in features(cell.distro) else ()
-    granted = _granted(cell, controller.full_name, loggers)
+    granted = _granted(cell, controller.full_name, cell.implied.controller)
     kind = controller.declared
     topics = () if kind is None else tuple(one for one in kind.topics if not one.only or cell.distro in one.only)
     said = tuple(_own(controller, one.name) for one in topics if one.direction == "publish")
@@ -171,33 +169,27 @@ def _own(controller: Controller, name: str) -> str:
 def manager_client(cell: Cell, manager: ControllerManager, node: str) -> Profile:
     """Return the rights of a spawner that loads and configures: it can activate nothing, and sets no parameters."""
     asked = tuple(f"{manager.node}/{service}" for service in _OF_SPAWNER)
-    return replace(_granted(cell, f"{manager.namespace}/{node}", ()), request=asked)
+    return replace(_granted(cell, f"{manager.namespace}/{node}"), request=asked)
 
 
-def _granted(cell: Cell, full_name: str, services: tuple[str, ...]) -> Profile:
+def _granted(cell: Cell, full_name: str, *kinds: NodeEndpoints) -> Profile:
+    """Return what a node has by what it is, and by the interfaces at which it stands."""
+
     def names(kind: InterfaceKind, side: str) -> tuple[str, ...]:
         return tuple(_names(cell, full_name, kind, side))
 
     namespace, _, name = full_name.rpartition("/")
-    return Profile(
+    granted = Profile(
         namespace=namespace,
         node=name,
-        publish=(*_PUBLISH, *names(InterfaceKind.TOPIC, "sources"), *_transitions(services)),
-        subscribe=(*_SUBSCRIBE, *names(InterfaceKind.TOPIC, "sinks")),
-        reply=(
-            *_PARAMETERS,
-            *((_TYPE_DESCRIPTION,) if Feature.TYPE_DESCRIPTION in features(cell.distro) else ()),
-            *services,
-            *names(InterfaceKind.SERVICE, "sources"),
-        ),
+        publish=names(InterfaceKind.TOPIC, "sources"),
+        subscribe=names(InterfaceKind.TOPIC, "sinks"),
+        reply=names(InterfaceKind.SERVICE, "sources"),
         request=names(InterfaceKind.SERVICE, "sinks"),
         execute=names(InterfaceKind.ACTION, "sources"),
         call=names(InterfaceKind.ACTION, "sinks"),
     )
-
-
-def _transitions(services: tuple[str, ...]) -> tuple[str, ...]:
-    return ("~/transition_event",) if services == _LIFECYCLE else ()
+    return reduce(_with, (cell.implied.node, *kinds), granted)
 
 
 def _names(cell: Cell, full_name: str, kind: InterfaceKind, side: str) -> Iterator[str]:
@@ -208,20 +200,14 @@ def _names(cell: Cell, full_name: str, kind: InterfaceKind, side: str) -> Iterat
             yield interface.name
 
 
-def bring_up_profile(cell: Cell, plan: BringUp) -> Profile:
-    """Return the rights of the program that takes the steps of the bring-up."""
-    common = _common_profile(cell)
+def bring_up_process(cell: Cell, plan: BringUp) -> Iterator[Profile]:
+    """Yield the rights of the program that takes the steps of the bring-up, under each name that it gives its node."""
     managed = (f"{node.full_name}/{one}" for node in cell.nodes if node.lifecycle for one in _OF_MANAGED)
     described = (f"{node}/get_parameters" for node in description_nodes(cell))
     managers = (f"{one.node}/{name}" for one in cell.managers for name in _OF_MANAGER)
     proofs = [proof for target in TARGETS for step in plan.steps(target) for proof in step.proof]
     watched = (one.while_holds for one in plan.watches)
     heard = (one.topic for one in (*proofs, *watched) if isinstance(one, TopicProof))
-    return Profile(
-        namespace="",
-        node="bring_up",
-        publish=common.publish,
-        subscribe=(*common.subscribe, *heard, "/tf", "/tf_static"),
-        reply=common.reply,
-        request=(*managed, *managers, *described),
-    )
+    asks = NodeEndpoints(subscribes=(*heard, "/tf", "/tf_static"), requests=(*managed, *managers, *described))
+    for node in bring_up_nodes(plan):
+        yield _with(_granted(cell, f"/{node}"), asks)
