@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from cellc.contract.bring_up import HardwareActivation, Restart, Transition
+from collections.abc import Sequence
+from functools import partial
+
+from cellc.contract.bring_up import BringUpStep, HardwareActivation, Proof, Restart, Transition
 from cellc.contract.contract import ContractManager
 from cellc.mock.bus.qos import hears, unmatched_pairs
 from cellc.mock.control import ControllerManager
 from cellc.mock.engine.process import Wait, Waiting
 from cellc.mock.nodes.robot_state_publisher import NODE
 from cellc.mock.plant import Plant
+from cellc.mock.proofs import Proofs
 from cellc.mock.result import StageEvidence
 from cellc.mock.tf.buffer import Transform
 from cellc.vocabulary import BringUpPhase
@@ -60,33 +64,58 @@ def activate(
     return tuple(problems)
 
 
-def take(plant: Plant, *phases: BringUpPhase) -> Waiting[tuple[tuple[str, ...], tuple[str, ...]]]:
-    """Carry out what the steps of some phases ask controller managers for; return what was done, and the problems.
+class PlanTaker:
+    """Takes the steps of ``config/bring_up.json`` as the program on the robot does: proof, one request, effect."""
 
-    Transitions of managed nodes are left out: the nodes of the mock are up when they have started.
-    """
-    names = {f"{entry.namespace}/controller_manager": name for name, entry in plant.contract.managers.items()}
-    facts: list[str] = []
-    problems: list[str] = []
-    for step in plant.bring_up:
+    def __init__(self, plant: Plant) -> None:
+        """Bind the plant whose plan it is."""
+        self._plant = plant
+        self._proofs = Proofs(plant)
+
+    def take(self, *phases: BringUpPhase) -> Waiting[tuple[tuple[str, ...], tuple[str, ...]]]:
+        """Take the steps of some phases up to the first that fails; return what was done, and the problems."""
+        facts: list[str] = []
+        for step in self._plant.bring_up:
+            if step.phase in phases:
+                facts += (f"step `{step.name}` believes {what}" for what in self._proofs.believed(step.proof))
+                done, problems = yield from self._step(step)
+                facts += done
+                if problems:
+                    return tuple(facts), tuple(f"step `{step.name}`: {problem}" for problem in problems)
+        return tuple(facts), ()
+
+    def _step(self, step: BringUpStep) -> Waiting[tuple[tuple[str, ...], tuple[str, ...]]]:
         asked = step.request
-        if step.phase not in phases or asked is None or isinstance(asked, Transition):
-            continue
-        plant.effects.enter(step.phase)
-        manager = names[asked.manager]
-        if isinstance(asked, HardwareActivation):
-            answer = plant.control.managers[manager].set_hardware_component_state(asked.component, "active")
-            told = f"hardware component `{asked.component}` is {answer.state or 'unknown'}"
-            (facts if answer.ok else problems).append(told)
-        else:
-            # The contract calls controllers that several managers have by their full names.
-            keys = {
-                one.full_name.rpartition("/")[2]: key
-                for key, one in plant.contract.managers[manager].controllers.items()
-            }
+        again = isinstance(asked, Restart)
+        if asked is not None and step.effect and not again and not self._proofs.missing(step.effect):
+            return (), ()  # it was done before
+        if absent := (yield from self._awaited(step.proof, step.deadline_s)):
+            return (), (absent,)
+        facts: tuple[str, ...] = ()
+        problems: tuple[str, ...] = ()
+        if asked is not None and not isinstance(asked, Transition):
+            self._plant.effects.enter(step.phase)
+        if isinstance(asked, Transition):
+            problems = tuple(filter(None, (self._proofs.take(asked),)))
+        elif isinstance(asked, HardwareActivation):
+            manager = self._plant.control.managers[self._proofs.managers[asked.manager]]
+            answer = manager.set_hardware_component_state(asked.component, "active")
+            told = (f"hardware component `{asked.component}` is {answer.state or 'unknown'}",)
+            facts, problems = (told, ()) if answer.ok else ((), told)
+        elif asked is not None:
+            keys = self._proofs.controllers(asked.manager)
             wanted = tuple(keys.get(name, name) for name in asked.controllers)
-            problems += yield from activate(plant, manager, wanted, again=isinstance(asked, Restart))
-    return tuple(facts), tuple(problems)
+            problems = yield from activate(self._plant, self._proofs.managers[asked.manager], wanted, again=again)
+        if not problems and (absent := (yield from self._awaited(step.effect, step.deadline_s))):
+            problems = (absent,)
+        return facts, problems
+
+    def _awaited(self, proofs: Sequence[Proof], deadline_s: float) -> Waiting[str]:
+        """Wait for proofs, for a second at most: nothing else changes meanwhile; return what is missing then."""
+        until_ns = self._plant.now_ns + min(_PATIENCE_NS, round(deadline_s * 1e9))
+        while (absent := self._proofs.missing(proofs)) and self._plant.now_ns < until_ns:
+            yield Wait(min(until_ns, self._plant.now_ns + _LOOK_NS))
+        return absent
 
 
 def discover(plant: Plant) -> Waiting[StageEvidence]:
@@ -131,9 +160,9 @@ def configure(plant: Plant) -> Waiting[StageEvidence]:
     return StageEvidence("configure", tuple(facts), tuple(problems))
 
 
-def observe(plant: Plant) -> Waiting[StageEvidence]:
+def observe(plant: Plant, plan: PlanTaker) -> Waiting[StageEvidence]:
     """Wait for joint states of every group's joints and for a transform of every fixed frame and link."""
-    facts, problems = yield from take(plant, BringUpPhase.START, BringUpPhase.ACTIVATE)
+    facts, problems = yield from plan.take(BringUpPhase.START, BringUpPhase.ACTIVATE)
     if problems:
         return StageEvidence("observe", facts, problems)
     until_ns = plant.now_ns + _PATIENCE_NS
@@ -182,10 +211,12 @@ def _missing_frames(plant: Plant) -> list[str]:
     return problems
 
 
-def claim(plant: Plant) -> Waiting[StageEvidence]:
-    """Activate the commanding controllers and adapters, and compare the claims of controllers with the contract."""
+def claim(plant: Plant, plan: PlanTaker) -> Waiting[StageEvidence]:
+    """Activate the commanding controllers and adapters, compare the claims of controllers with the contract, and look
+    at what must show before anything may ask for motion.
+    """
     facts: list[str] = []
-    taken, refused = yield from take(plant, BringUpPhase.CLAIM)
+    taken, refused = yield from plan.take(BringUpPhase.CLAIM)
     facts += taken
     problems = list(refused)
     for name, entry in plant.contract.managers.items():
@@ -197,6 +228,9 @@ def claim(plant: Plant) -> Waiting[StageEvidence]:
         server.adapter.activate()
         client = plant.contract.adapters[device].client
         facts.append(f"the adapter of `{device}` is {server.adapter.phase.value}, for `{client or 'nobody'}` alone")
+    if not problems:
+        seen, missing = yield from plan.take(BringUpPhase.MOVE)
+        facts, problems = [*facts, *seen], [*missing]
     return StageEvidence("claim", tuple(facts), tuple(problems))
 
 
@@ -242,7 +276,9 @@ class Bringup:
 
     def run(self) -> Waiting[None]:
         """Run the stages up to the first that fails."""
-        for stage in (discover, configure, observe, claim):
+        plan = PlanTaker(self._plant)
+        stages = (discover, configure, partial(observe, plan=plan), partial(claim, plan=plan))
+        for stage in stages:
             evidence = yield from stage(self._plant)
             self.evidence.append(evidence)
             if not evidence.passed:

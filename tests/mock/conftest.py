@@ -107,6 +107,11 @@ def _plan_for_two(file: Path) -> None:
     plan = json.loads(file.read_text())
     steps = []
     for step in plan["mock"]:
+        for part in ("proof", "effect"):
+            step[part] = [one for one in step.get(part, []) if one.get("controller") != "gripper_action"]
+            for one in step[part]:
+                if one.get("component") == "gripper_hardware":
+                    one["manager"] = "/grip/controller_manager"
         request = step.get("request") or {}
         if request.get("component") == "gripper_hardware":
             request["manager"] = "/grip/controller_manager"

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import json
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
+
+import pytest
 
 from cellc.mock import MockCell, load
 from cellc.mock.result import RehearsalResult
@@ -59,3 +64,93 @@ def test_claim_that_differs_from_the_contract_is_a_problem(folder: Path) -> None
     result = load(folder).run("pick_and_place")
     assert result.outcome == "bringup_failure"
     assert "`arm_wrist_4_joint/position` is claimed by `nobody`" in problems(result)
+
+
+NEVER: list[tuple[str, dict[str, Any], str]] = [
+    ("node", {"node": "/nobody"}, "no node /nobody"),
+    ("lifecycle", {"node": "/nobody", "state": "active"}, "no node /nobody"),
+    ("lifecycle", {"node": "/task", "state": "active"}, "/task must be active, is unconfigured"),
+    ("controller", {"manager": "/nobody", "controller": "arm_io", "state": "active"}, "no manager /nobody"),
+    (
+        "controller",
+        {"manager": "/controller_manager", "controller": "nobody", "state": "active"},
+        "controller nobody must be active, is not loaded",
+    ),
+    (
+        "hardware",
+        {"manager": "/controller_manager", "component": "arm_hardware", "state": "inactive"},
+        "hardware arm_hardware must be inactive, is active",
+    ),
+    ("topic", {"topic": "/x", "type": "std_msgs/msg/Bool"}, "no message on /x"),
+    (
+        "topic",
+        {"topic": "/joint_states", "type": "std_msgs/msg/Bool"},
+        "/joint_states must be std_msgs/msg/Bool, is sensor_msgs/msg/JointState",
+    ),
+    ("action", {"action": "/object_pose"}, "no server of /object_pose"),
+    ("transform", {"parent": "world", "child": "nobody"}, "no transform from world to nobody"),
+    ("mock", {"node": "/nobody", "plugins": ["mock_components/GenericSystem"]}, "no node /nobody with a description"),
+    (
+        "mock",
+        {"node": "/robot_state_publisher", "plugins": []},
+        "/robot_state_publisher must describe the mock alone, has mock_components/GenericSystem",
+    ),
+]
+
+
+def plan_with(folder: Path, step: str, change: Callable[[dict[str, Any]], None]) -> RehearsalResult:
+    """Change one step of the mock in the plan, and run."""
+    file = folder / "config/bring_up.json"
+    plan = json.loads(file.read_text())
+    change(next(one for one in plan["mock"] if one["name"] == step))
+    file.write_text(json.dumps(plan))
+    return load(folder).run("pick_and_place")
+
+
+@pytest.mark.parametrize(("kind", "fields", "missing"), NEVER, ids=[f"{one[0]}-{one[2]}" for one in NEVER])
+def test_what_can_never_show_stops_the_plan_at_its_step(
+    kind: str, fields: dict[str, Any], missing: str, folder: Path
+) -> None:
+    result = plan_with(folder, "claim_control", lambda step: step["proof"].append({"kind": kind, **fields}))
+    assert result.outcome == "bringup_failure"
+    assert problems(result) == f"step `claim_control`: {missing}"
+
+
+def test_an_effect_that_does_not_show_stops_the_plan_after_its_request(folder: Path) -> None:
+    never = {"kind": "topic", "topic": "/x", "type": "std_msgs/msg/Bool"}
+    told = problems(plan_with(folder, "activate_gripper", lambda step: step["effect"].append(never)))
+    assert told == "step `activate_gripper`: no message on /x"
+
+
+@pytest.mark.parametrize("step", ["configure_perception", "activate_gripper", "move"])
+def test_every_phase_of_the_plan_is_judged(step: str, folder: Path) -> None:
+    never = {"kind": "topic", "topic": "/x", "type": "std_msgs/msg/Bool"}
+    result = plan_with(folder, step, lambda one: one["proof"].append(never))
+    assert problems(result) == f"step `{step}`: no message on /x"
+
+
+def test_steps_in_another_order_do_not_find_their_proof(folder: Path) -> None:
+    file = folder / "config/bring_up.json"
+    plan = json.loads(file.read_text())
+    plan["mock"].insert(0, plan["mock"].pop([one["name"] for one in plan["mock"]].index("activate_perception")))
+    file.write_text(json.dumps(plan))
+    told = problems(load(folder).run("pick_and_place"))
+    assert told == "step `activate_perception`: /perception must be inactive, is unconfigured"
+
+
+def test_a_deadline_that_is_too_short_for_its_effect_fails(folder: Path) -> None:
+    def change(step: dict[str, Any]) -> None:
+        step["proof"].append({"kind": "topic", "topic": "/joint_states", "type": "sensor_msgs/msg/JointState"})
+        step["deadline_s"] = 1e-9
+
+    assert (
+        problems(plan_with(folder, "observe_control", change)) == "step `observe_control`: no message on /joint_states"
+    )
+
+
+def test_what_the_mock_cannot_judge_stands_in_the_evidence(folder: Path) -> None:
+    said = {"topic": "/arm_io/robot_program_running", "type": "std_msgs/msg/Bool", "field": "data", "value": True}
+    result = plan_with(folder, "move", lambda step: step["proof"].append({"kind": "topic", **said}))
+    assert result.passed
+    facts = [fact for stage in result.bringup for fact in stage.facts]
+    assert "step `move` believes what `/arm_io/robot_program_running` says in `data`" in facts
