@@ -72,6 +72,13 @@ def _control(distro: Distro, devices: Mapping[str, CatalogDevice]) -> Iterator[s
             yield "      goal_time: 1 s"
             yield "      path_tolerance: 0.2 rad"
             yield "      goal_tolerance: 0.01 rad"
+            yield from (f"    {name}_io: {{type: {kind}, device: {name}}}" for kind in _telling_kinds(entry))
+
+
+def _telling_kinds(entry: CatalogDevice) -> dict[str, None]:
+    """Return the kinds of controllers that tell whether the device listens, each once."""
+    real = None if entry.model.control is None else entry.model.control.hardware.real
+    return {} if real is None else {told.controller: None for told in real.told.values()}
 
 
 def _trajectory_kind(entry: CatalogDevice, distro: Distro) -> str:

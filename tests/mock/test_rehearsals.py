@@ -120,4 +120,4 @@ def test_fault_that_ends_before_it_is_met_changes_nothing(load_with: LoadWith) -
 
 def test_two_controller_managers_share_one_clock(two_managers: MockCell) -> None:
     outcomes = [two_managers.run(name).outcome for name in two_managers.rehearsals]
-    assert outcomes == ["succeeded", "stale_state", "cancelled"]
+    assert outcomes == ["succeeded", "stale_state", "claim_failure", "succeeded", "cancelled"]
