@@ -60,10 +60,11 @@ def _written(text: str, model: str, release: Release) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Case:
-    """A cell, and the release of the driver of one of its devices."""
+    """A cell, and the release of the driver of one of its devices; ``without`` a controller that it has in the folder."""
 
     cell: str
     release: Release
+    without: str = ""
 
     def __str__(self) -> str:
         return f"{self.cell}-{self.release}"
@@ -81,7 +82,8 @@ def real_target(case: Case) -> RealTarget:
     release = case.release
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "cell.yaml"
-        path.write_text(_written(spec_text(case.cell), release.device, release), encoding="utf-8")
+        text = re.sub(rf"\n    {case.without}: .*", "", spec_text(case.cell)) if case.without else spec_text(case.cell)
+        path.write_text(_written(text, release.device, release), encoding="utf-8")
         graph = graph_of(path)
     plan = plan_deployment(graph)
     texts = {artifact.path: artifact.text for emit in _EMITTERS for artifact in emit(graph, plan)}
