@@ -60,7 +60,7 @@ def _written(text: str, model: str, release: Release) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Case:
-    """A cell, and the release of the driver of one of its devices; ``without`` a controller that it has in the folder."""
+    """A cell, the release of the driver of one of its devices, and a controller that is left out of the cell."""
 
     cell: str
     release: Release
