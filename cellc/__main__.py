@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+import sys
+
+if __name__ == "__main__" and not getattr(sys.flags, "safe_path", False):
+    # `-m` looks first in the current folder, which may be a checkout of strangers; what is imported next is not theirs.
+    sys.path.pop(0)
+
 import gc
 import os
-import sys
 
 from cellc.signals import run_program
 
@@ -20,6 +25,7 @@ def main() -> None:
     gc.set_threshold(200_000, 20, 20)
     # What a spec means is no matter of plugins; looking for some takes longer than reading the spec.
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
+    os.environ["PYTHONSAFEPATH"] = "1"  # of its own processes: `-c` looks in the current folder first too
     sys.exit(run_program(_run))
 
 

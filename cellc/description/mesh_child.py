@@ -24,7 +24,9 @@ from cellc.limits import MIB, Limits, limits, use
 
 _STL_HEAD, _STL_TRIANGLE = 84, 50
 _GLB_HEAD, _GLB_CHUNK = 12, 8
-_MATERIALS = re.compile(rb"^[ \t]*mtllib(?:[^\n]*\\\r?\n)*[^\n]*", re.MULTILINE)
+_CONTINUED, _LINE_END = re.compile(rb"\\[ \t]*(?:\r\n|[\n\r\f\0])"), re.compile(rb"[\n\r\f\v\0]")
+_OBJ_SHAPE = frozenset((b"v", b"vn", b"vt", b"f", b"g", b"o", b"s"))
+_JSON_CHUNK = b"JSON"
 _OTHER_SHAPE = "export the shape as one file of triangles, such as STL"
 
 
@@ -56,7 +58,7 @@ def _read(file: Path, digest: str, copy: Path) -> MeshNumbers:
     except OSError:
         content = b""
     if hashlib.sha256(content).hexdigest() != digest:
-        raise MeshError(MALFORMED_MESH, "changes while it is read", "try again")
+        raise MeshError(MALFORMED_MESH, "changes while it is read", "try again", certain=False)
     copy.write_bytes(_self_contained(content, copy.suffix))
     try:
         # The boxes round its triangles, which the library builds too, are not needed here: the simplest kind of them.
@@ -90,23 +92,51 @@ def _self_contained(content: bytes, suffix: str) -> bytes:
         if not content.startswith(b"solid") or len(content) == _STL_HEAD + count * _STL_TRIANGLE:
             _bound(count)
     if suffix == ".obj":
-        return _MATERIALS.sub(b"", content)
+        return _shape_of_obj(content)
     if suffix == ".glb":
-        _refuse_other_files(content)
+        return _one_file(content)
     return content
 
 
-def _refuse_other_files(content: bytes) -> None:
-    """Refuse a binary glTF 2.0 whose buffers or images lie in other files (glTF 2.0 specification, section 4.4)."""
+def _shape_of_obj(content: bytes) -> bytes:
+    """Return the lines of a Wavefront OBJ that make its shape, each by itself: none of them names another file.
+
+    Where a line ends, and whether a backslash joins it with the next, is decided here and left to nobody else.
+    """
+    lines = (line.split() for line in _LINE_END.split(_CONTINUED.sub(b" ", content)))
+    kept = (b" ".join(words) for words in lines if words and words[0] in _OBJ_SHAPE)
+    return b"\n".join(kept).replace(b"\\", b"_") + b"\n"
+
+
+def _one_file(content: bytes) -> bytes:
+    """Return a binary glTF 2.0 whose JSON is written anew, so that every reader reads the same in it.
+
+    Raises:
+        MeshError: a buffer or image lies in another file (glTF 2.0 specification, section 4.4), or a key stands twice.
+    """
+    magic, version = content[:4], int.from_bytes(content[4:8], "little")
     length = int.from_bytes(content[_GLB_HEAD : _GLB_HEAD + 4], "little")
+    start = _GLB_HEAD + _GLB_CHUNK
     try:
-        scene = json.loads(content[_GLB_HEAD + _GLB_CHUNK : _GLB_HEAD + _GLB_CHUNK + length])
+        if (magic, version, content[start - 4 : start]) != (b"glTF", 2, _JSON_CHUNK):
+            raise ValueError
+        scene = json.loads(content[start : start + length], object_pairs_hook=_each_once)
         named = [part.get("uri", "data:") for kind in ("buffers", "images") for part in scene.get(kind, ())]
         outside = [uri for uri in named if not uri.startswith("data:")]
+        text = json.dumps(scene, allow_nan=False).encode()
     except (ValueError, AttributeError, TypeError, RecursionError):
         raise MeshError(MALFORMED_MESH, "must be a binary glTF 2.0", _OTHER_SHAPE) from None
     if outside:
         raise MeshError(MALFORMED_MESH, "must be one file, and names others", _OTHER_SHAPE)
+    text += b" " * (-len(text) % 4)
+    chunks = len(text).to_bytes(4, "little") + _JSON_CHUNK + text + content[start + length :]
+    return content[:8] + (_GLB_HEAD + len(chunks)).to_bytes(4, "little") + chunks
+
+
+def _each_once(pairs: list[tuple[str, object]]) -> dict[str, object]:
+    if len(found := dict(pairs)) < len(pairs):
+        raise ValueError
+    return found
 
 
 if __name__ == "__main__":

@@ -6,7 +6,6 @@ in the file is read by a child process (`mesh_numbers`); here its bytes are coun
 
 from __future__ import annotations
 
-import errno
 import hashlib
 import os
 import stat
@@ -17,6 +16,7 @@ from pathlib import Path
 from cellc.description.model import Mesh
 from cellc.description.packages import lies_under, searched_folders
 from cellc.limits import MIB, limits, option
+from cellc.store.regular_file import open_regular
 from cellc.transforms import Vector3
 
 FORMATS = (".stl", ".dae", ".obj", ".ply", ".off", ".glb")
@@ -253,10 +253,7 @@ def read_pieces(file: Path) -> Iterator[bytes]:
         OSError: it cannot be read, or it is a link or something else by now.
         MeshError: it is too large.
     """
-    descriptor = os.open(file, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOFOLLOW", 0))
-    with os.fdopen(descriptor, "rb") as stream:
-        if not stat.S_ISREG(os.fstat(descriptor).st_mode):
-            raise OSError(errno.EINVAL, "it is not a regular file")
+    with open_regular(file, follow=False) as stream:
         room = limits().mesh_bytes
         while piece := stream.read(_PIECE):
             room -= len(piece)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import os
+from pathlib import Path
 from typing import Any
 
 import xacro
@@ -17,6 +18,7 @@ from cellc.description.packages import lies_under
 from cellc.description.xacro_expression import evaluate, functions
 from cellc.diagnostics import Span
 from cellc.limits import MIB, limits, option
+from cellc.store.regular_file import open_regular
 
 _UNITS = {
     "!radians": 1.0,
@@ -83,7 +85,7 @@ class ConfinedFiles:
     def _read_bytes(self, path: str) -> bytes:
         remaining = limits().xml_bytes - self._bytes_read
         try:
-            with open(path, "rb") as file:
+            with open_regular(Path(path)) as file:
                 data = file.read(remaining + 1)
         except OSError as error:
             message = f"`{self.shown(path)}` cannot be read: {error.strerror}"

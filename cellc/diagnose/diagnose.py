@@ -15,6 +15,7 @@ from cellc.diagnose.fields import FIELDS, Scope, Subject, placeholders
 from cellc.diagnose.log_lines import Named, found_in, length, plain
 from cellc.diagnose.symptoms import Hypothesis, LayerKnowledge, Observation, Symptom, knowledge, synonyms
 from cellc.diagnose.words import Words
+from cellc.formats.escape import shell_word
 
 if TYPE_CHECKING:
     from cellc.cell.cell import Cell
@@ -181,7 +182,7 @@ def _cause(hypothesis: Hypothesis, text: str, cell: Cell | None) -> Cause:
     omitted = 0
     for observation in hypothesis.observations:
         chosen = _chosen(_subjects(cell, observation.of), observation.of, text)
-        steps += [_step(observation, subject) for subject in chosen[:_SHOWN_SUBJECTS]]
+        steps += [_step(observation, subject, cell is not None) for subject in chosen[:_SHOWN_SUBJECTS]]
         omitted = max(omitted, len(chosen) - _SHOWN_SUBJECTS)
     return Cause(hypothesis.cause, tuple(dict.fromkeys(steps)), omitted)
 
@@ -201,6 +202,9 @@ def _chosen(found: tuple[Subject, ...], scope: Scope, text: str) -> tuple[Subjec
     return named or found
 
 
-def _step(observation: Observation, subject: Subject) -> Step:
+def _step(observation: Observation, subject: Subject, of_cell: bool) -> Step:
     action = observation.run or observation.look or ""
-    return Step(action.format_map(subject), observation.run is not None, observation.refuted.format_map(subject))
+    # A command is there to be copied: what a name of the spec holds is one word of it.
+    words = {name: shell_word(value) if value else "" for name, value in subject.items()}
+    action = action.format_map(words if observation.run and of_cell else subject)
+    return Step(action, observation.run is not None, observation.refuted.format_map(subject))

@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
-import argparse
 import sys
+
+if __name__ == "__main__" and not getattr(sys.flags, "safe_path", False):
+    sys.path.pop(0)  # the current folder, as in `cellc.__main__`
+
+import argparse
+import os
 from functools import partial
 from typing import NoReturn
 
@@ -76,4 +81,5 @@ def main() -> int:
 
 
 if __name__ == "__main__":
+    os.environ["PYTHONSAFEPATH"] = "1"  # of its own processes: `-c` looks in the current folder first too
     sys.exit(run_program(partial(run_to_end, main)))

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import os
-import stat
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
@@ -20,11 +18,13 @@ from cellc.contract.quantities import LARGEST
 from cellc.contract.reading import FormatError, read_json
 from cellc.contract.rehearsals import RehearsalEntry, Rehearsals
 from cellc.description.model import Description
+from cellc.description.packages import lies_under
 from cellc.description.urdf_reader import read_urdf
 from cellc.description.xml_tree import read_xml
 from cellc.diagnostics.unsafe_text import hidden_in_json, hidden_on_line
 from cellc.limits import limits, option
 from cellc.mock.errors import MockError
+from cellc.store.regular_file import FileTooLargeError, read_regular
 
 CONTRACT_FILE = "contract.json"
 MANIFEST_FILE = "manifest.json"
@@ -179,22 +179,13 @@ def _read_text(folder: Path, name: str) -> str:
 def _read_bytes(folder: Path, name: str) -> bytes:
     most = limits().folder_bytes
     try:
-        # A FIFO would else wait for a writer; what the name leads to is asked of what was opened.
-        descriptor = os.open(_inside(folder, name), os.O_RDONLY | getattr(os, "O_NONBLOCK", 0))
-        try:
-            if not stat.S_ISREG(os.fstat(descriptor).st_mode):
-                raise MockError(name, "is not a regular file")
-            with open(descriptor, "rb", closefd=False) as file:
-                content = file.read(most + 1)
-        finally:
-            os.close(descriptor)
+        return read_regular(_inside(folder, name), most)
+    except FileTooLargeError as large:
+        raise MockError(name, f"{large.strerror}; {option('folder-bytes')}") from None
     except FileNotFoundError:
         raise MockError(name, "is missing from the generated folder") from None
     except OSError as error:
         raise MockError(name, f"cannot be read: {error.strerror}") from None
-    if len(content) > most:
-        raise MockError(name, f"is larger than {most} bytes; {option('folder-bytes')}")
-    return content
 
 
 def _refuse_hidden(name: str, text: str) -> None:
@@ -209,7 +200,10 @@ def _inside(folder: Path, name: str) -> Path:
     relative = PurePosixPath(name)
     if not name or relative.is_absolute() or ".." in relative.parts or "\\" in name or "\0" in name:
         raise MockError(CONTRACT_FILE, f"names the file `{name}`, which is not a path inside the folder")
-    return folder.joinpath(*relative.parts)
+    file = folder.joinpath(*relative.parts)
+    if not lies_under(file.as_posix(), folder.as_posix()):
+        raise MockError(name, "is a link that leads out of the folder")
+    return file
 
 
 def _notes(folder: Path, contract: Contract, manifest: Manifest) -> Iterator[str]:

@@ -14,6 +14,7 @@ from cellc.artifact import Artifact
 from cellc.diagnostics import Diagnostic
 from cellc.limits import limits
 from cellc.output.codes import finding
+from cellc.store.regular_file import open_regular
 from cellc.store.swap import link_above, link_on_the_way
 
 MANIFEST = "manifest.json"
@@ -55,8 +56,9 @@ def plan(artifacts: Sequence[Artifact], folder: Path, interrupted: Sequence[Mapp
     known: list[Mapping[str, str]] = [hashes_in(content_of(folder / MANIFEST)), *interrupted]
     write, unchanged, edited = [], [], []
     for artifact in sorted(artifacts, key=lambda one: (one.path == MANIFEST, one.path)):
-        content = content_of(folder / artifact.path)
-        if content == artifact.text.encode():
+        wanted = artifact.text.encode()
+        content = content_of(folder / artifact.path, len(wanted))
+        if content == wanted:
             unchanged.append(artifact.path)
             continue
         write.append(artifact)
@@ -73,10 +75,18 @@ def plan(artifacts: Sequence[Artifact], folder: Path, interrupted: Sequence[Mapp
     return Plan(tuple(write), tuple(former), tuple(remove), tuple(unchanged), tuple(sorted(edited)))
 
 
-def content_of(path: Path) -> bytes | None:
-    """Return the bytes of a regular file, or None where there is none; links are not followed."""
+def content_of(path: Path, least: int = 0) -> bytes | None:
+    """Return the bytes of a regular file, or None where there is none; links are not followed.
+
+    Args:
+        least: bytes that are read at least. Of a file beyond them and the limits one byte more is read than it may
+            have: that is not the content of any file that cellc wrote.
+    """
     try:
-        return path.read_bytes() if stat.S_ISREG(path.lstat().st_mode) else None
+        if not stat.S_ISREG(path.lstat().st_mode):
+            return None
+        with open_regular(path, follow=False) as file:
+            return file.read(max(least, limits().folder_bytes) + 1)
     except (FileNotFoundError, NotADirectoryError):
         return None
 

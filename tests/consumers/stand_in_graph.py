@@ -27,7 +27,7 @@ class StandIn:
     """One graph.
 
     Args:
-        module: the program, whose `Unanswered` says that nobody is there.
+        module: the program, whose `UnansweredError` says that nobody is there.
         on_spin: called with the number of times that it was spun, so that the world may go on.
     """
 
@@ -67,7 +67,7 @@ class StandIn:
         node, _, service = name.rpartition("/")
         answer = getattr(self, f"_{service}", None)
         if answer is None or (node not in self.nodes_ and node != "/controller_manager"):
-            raise self.module.Unanswered(f"no service {name}")
+            raise self.module.UnansweredError(f"no service {name}")
         return answer(node, **fields)
 
     def _get_state(self, node: str) -> Any:
@@ -101,7 +101,7 @@ class StandIn:
         self.log += [f"deactivate {one}" for one in stop] + [f"activate {one}" for one in start]
         if self.silent:  # done, and nobody hears of it
             self.silent -= 1
-            raise self.module.Unanswered("an answer was lost")
+            raise self.module.UnansweredError("an answer was lost")
         return SimpleNamespace(ok=True)
 
     def _get_parameters(self, node: str, names: list[str]) -> Any:

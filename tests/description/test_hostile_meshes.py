@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from cellc.description import mesh_child
 from cellc.description.mesh_numbers import MeshNumbers, pack_numbers, read_answers, read_meshes
 from cellc.description.meshes import (
     MeshError,
@@ -319,3 +320,40 @@ def _facts(
     mesh = Mesh(str(folder / "part.stl"), scale)
     files = identify_all([mesh], (folder,))
     return mesh, (files, {file: MeshFacts(1, (1.0, 2.0, 0.0)) for file in readable(files)})
+
+
+@pytest.mark.parametrize(
+    "line",
+    [b"mtl\\\nlib x", b"\rmtllib x", b"\fmtllib x", b"\0mtllib x", b"v 0 0 0\\\r\nmtllib x", b"\vmtllib x", b"call x"],
+)
+def test_no_spelling_of_a_line_of_an_obj_names_another_file(line: bytes) -> None:
+    # assimp joins lines at a backslash, and ends them at more characters than a line feed (its LineSplitter).
+    kept = mesh_child._self_contained(OBJ.encode() + line + b"\n", ".obj")
+    assert {words.split(b" ")[0] for words in kept.splitlines()} == {b"v", b"f"}
+
+
+def test_lines_of_an_obj_that_are_continued_make_the_same_shape(tmp_path: Path) -> None:
+    (tmp_path / "plain.obj").write_text(OBJ)
+    (tmp_path / "continued.obj").write_text(OBJ.replace("1 0 0", "1 \\\n 0 0").replace("f 1 2", "usemtl a\nf 1 2 \\\n"))
+    assert _box(_read(tmp_path / "continued.obj")) == _box(_read(tmp_path / "plain.obj")) == (0, 0, 0, 1, 2, 0)
+
+
+def test_key_that_stands_twice_in_a_glb_is_refused(tmp_path: Path) -> None:
+    # Python keeps the last, the library reads the first: each would see other files.
+    content = _glb(_scene(3), BODY)
+    length = int.from_bytes(content[12:16], "little")
+    text = content[20 : 20 + length].rstrip()
+    twice = b'{"buffers": [{"byteLength": 36, "uri": "../../secret.bin"}], ' + text[1:]
+    twice += b" " * (-len(twice) % 4)
+    chunks = len(twice).to_bytes(4, "little") + b"JSON" + twice + content[20 + length :]
+    (tmp_path / "twice.glb").write_bytes(content[:8] + (12 + len(chunks)).to_bytes(4, "little") + chunks)
+    read = _read(tmp_path / "twice.glb")
+    assert isinstance(read, MeshError)
+    assert read.message == "must be a binary glTF 2.0"
+
+
+def test_file_that_changed_while_it_was_read_says_nothing_for_the_next_time(tmp_path: Path) -> None:
+    (tmp_path / "part.stl").write_text(TRIANGLE.format(CORNERS))
+    with pytest.raises(MeshError) as caught:
+        mesh_child._read(tmp_path / "part.stl", "0" * 64, tmp_path / "copy.stl")
+    assert not caught.value.certain

@@ -176,3 +176,18 @@ def test_mock_runs_without_the_rest_of_the_compiler(built_folder: Path, tmp_path
     summary = json.loads(done.stdout)
     assert [entry["outcome"] for entry in summary["rehearsals"]] == ["succeeded", "stale_state", "cancelled"]
     assert all(entry["passed"] for entry in summary["rehearsals"])
+
+
+@pytest.mark.parametrize("name", ["config/controllers.yaml", "urdf", "contract.json"])
+def test_link_out_of_the_folder_is_not_followed(name: str, folder: Path, tmp_path: Path) -> None:
+    away = tmp_path / "away"
+    away.mkdir()
+    (folder / name).rename(away / "target")
+    (folder / name).symlink_to(away / "target")
+    assert refusal(folder).reason == "is a link that leads out of the folder"
+
+
+def test_link_within_the_folder_is_followed(folder: Path) -> None:
+    (folder / "config").rename(folder / "settings")
+    (folder / "config").symlink_to("settings")
+    assert load(folder).contract.cell

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from cellc.limits import limits
 from cellc.mock.command.options import write_records
 from cellc.mock.errors import MockError
 from cellc.mock.evidence.folder import INDEX, EvidenceFolder
@@ -96,3 +97,22 @@ def test_index_of_somebody_else_is_not_replaced(victim: Path, tmp_path: Path) ->
     (folder / INDEX).symlink_to(victim)
     with pytest.raises(MockError, match="is no index of evidence"):
         EvidenceFolder(folder, ["report.html"])
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="the system has no named pipes")
+@pytest.mark.parametrize("place", ["evidence", ".evidence.tmp-99999999/new"])
+def test_pipe_in_the_place_of_the_index_is_not_waited_for(place: str, tmp_path: Path) -> None:
+    (tmp_path / place).mkdir(parents=True)
+    os.mkfifo(tmp_path / place / INDEX)
+    if place == "evidence":
+        with pytest.raises(MockError, match="is no index of evidence"):
+            EvidenceFolder(tmp_path / "evidence", ())
+    else:
+        EvidenceFolder(tmp_path / "evidence", ()).discard()
+
+
+def test_index_that_is_too_large_is_not_read(tmp_path: Path) -> None:
+    (tmp_path / "evidence").mkdir()
+    (tmp_path / "evidence" / INDEX).write_text('{"files": {}, "more": "' + "x" * limits().folder_bytes + '"}')
+    with pytest.raises(MockError, match="is no index of evidence"):
+        EvidenceFolder(tmp_path / "evidence", ())

@@ -259,3 +259,11 @@ def test_file_system_without_hard_links_is_written_too(tmp_path: Path, monkeypat
 
 def test_folder_whose_name_has_glob_characters_is_written(tmp_path: Path) -> None:
     assert write(artifacts_of({"a": "x\n"}), tmp_path / "s[m]*ll").ok
+
+
+def test_of_a_file_in_the_place_of_an_artifact_no_more_is_read_than_cellc_writes(tmp_path: Path) -> None:
+    folder = tmp_path / "small"
+    write(FIRST, folder)
+    with (folder / "a.txt").open("wb") as file:
+        file.truncate(1 << 40)  # a hole: a terabyte that takes no room on the disk
+    assert [found.code for found in write(SECOND, folder).diagnostics] == ["edited-by-hand"]

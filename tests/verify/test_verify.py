@@ -9,11 +9,13 @@ import re
 import subprocess
 import sys
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
 
-from cellc.transforms import from_xyz_rpy, identity
+from cellc.graph.frame_tree import FrameTree
+from cellc.transforms import Pose, from_xyz_rpy, identity
 from cellc.verify.codes import CODES
 from cellc.verify.description import cell_poses, distance
 from cellc.verify.parsers import read_by_pinocchio, read_by_yourdfpy
@@ -142,3 +144,19 @@ def test_what_was_hidden_can_be_imported_after_a_verification() -> None:
         "import PIL.Image, networkx, scipy.spatial, shapely"
     )
     subprocess.run([sys.executable, "-c", program], check=True, cwd=ROOT)
+
+
+def test_a_long_chain_of_frames_is_walked_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    step = from_xyz_rpy((0.0, 0.0, 0.001), (0.0, 0.0, 0.0))
+    graph = built("minimal").graph
+    fixed = next(frame for frame in graph.cell.frames if frame.transform_to_parent is not None)
+    names = ["world", *(f"f{number}" for number in range(500))]
+    chain = [replace(fixed, name=name, parent=above, transform_to_parent=step) for above, name in pairwise(names)]
+    root = replace(fixed, name="world", parent="")
+    frames = FrameTree({frame.name: (frame,) for frame in (*reversed(chain), root)})
+    products: list[None] = []
+    product = Pose.__matmul__
+    monkeypatch.setattr(Pose, "__matmul__", lambda one, other: (products.append(None), product(one, other))[1])
+    poses = cell_poses(frames)
+    assert poses["f499"].position == pytest.approx((0.0, 0.0, 0.5))
+    assert len(products) == 500

@@ -12,14 +12,18 @@ and what was deactivated stays so until a person releases the claim again.
 from __future__ import annotations
 
 import argparse
+import ctypes
 import importlib
 import json
+import math
 import os
 import signal
 import subprocess
 import sys
 import time
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from functools import partial
 from itertools import takewhile
 from pathlib import Path
 from types import SimpleNamespace
@@ -29,13 +33,15 @@ ANSWER_S = 3.0  # how long one answer is waited for; an unanswered question is a
 UNSEEN_S = 10.0  # a participant that has not seen a service for this long is made anew
 LOOK_S = 0.2  # how often what is missing is looked for
 LOST = 3  # looks in a row that must miss a claim before the program behind it is stopped; one may be a late answer
-PATIENCE_S = float(os.environ.get("CELL_WAIT_S", "0"))  # in place of the deadlines of the plan, where it is set
+PATIENCE_S = 0.0  # in place of the deadlines of the plan, where it is not 0
 BEST_EFFORT, STRICT = 1, 2  # controller_manager_msgs/srv/SwitchController: what can be done; all of it or nothing
 TRANSITIONS = {"configure": 1, "activate": 3}  # lifecycle_msgs/msg/Transition
 ACTIVE = 3  # lifecycle_msgs/msg/State
+# Of a child: it gets SIGINT when this program is gone, killed too (prctl(2), PR_SET_PDEATHSIG).
+END_WITH_PARENT = partial(ctypes.CDLL(None).prctl, 1, signal.SIGINT) if sys.platform == "linux" else None
 
 
-class Unanswered(Exception):  # noqa: N818 - an answer of the world, no error of this program
+class UnansweredError(Exception):
     """A service is not there, or says nothing; the text says which."""
 
 
@@ -84,14 +90,14 @@ class Graph:
         self._clients[name] = client
         if not client.service_is_ready():
             self._miss(name)
-            raise Unanswered(f"no service {name}")
+            raise UnansweredError(f"no service {name}")
         self._unseen_since.pop(name, None)
         future = client.call_async(service.Request(**fields))
         until = time.monotonic() + answer_s
         while not future.done():
             if time.monotonic() > until:
                 client.remove_pending_request(future)
-                raise Unanswered(f"{name} does not answer within {answer_s:g} s")
+                raise UnansweredError(f"{name} does not answer within {answer_s:g} s")
             self._executor.spin_once(timeout_sec=0.05)
         return future.result()
 
@@ -167,15 +173,11 @@ class Missing:
 
     def _lifecycle(self, proof: SimpleNamespace) -> str:
         state = self._graph.ask("lifecycle_msgs/srv/GetState", f"{proof.node}/get_state").current_state.label
-        passed = (
-            ("inactive", "active") if proof.state == "inactive" else ("active",)
-        )  # an active one was inactive before
+        passed = ("inactive", "active") if proof.state == "inactive" else ("active",)  # active ones were inactive
         return "" if state in passed else f"{proof.node} must be {proof.state}, is {state}"
 
     def _controller(self, proof: SimpleNamespace) -> str:
-        listed = self._graph.ask(
-            "controller_manager_msgs/srv/ListControllers", f"{proof.manager}/list_controllers"
-        ).controller
+        listed = listed_controllers(self._graph, proof.manager)
         state = next((one.state for one in listed if one.name == proof.controller), "not loaded")
         return "" if state == proof.state else f"controller {proof.controller} must be {proof.state}, is {state}"
 
@@ -196,29 +198,23 @@ class Missing:
         return "" if self._graph.serves(f"{proof.action}/_action/send_goal") else f"no server of {proof.action}"
 
     def _transform(self, proof: SimpleNamespace) -> str:
-        return (
-            ""
-            if self._graph.connects(proof.parent, proof.child)
-            else f"no transform from {proof.parent} to {proof.child}"
-        )
+        connected = self._graph.connects(proof.parent, proof.child)
+        return "" if connected else f"no transform from {proof.parent} to {proof.child}"
 
     def _mock(self, proof: SimpleNamespace) -> str:
         service = f"{proof.node}/get_parameters"
         answer = self._graph.ask("rcl_interfaces/srv/GetParameters", service, names=["robot_description"])
         text = answer.values[0].string_value if answer.values else ""
         used = {part.partition("</plugin>")[0].strip() for part in text.split("<plugin>")[1:]}
-        foreign = ", ".join(sorted(used - set(proof.plugins)))
-        return (
-            "" if used and not foreign else f"{proof.node} must describe the mock alone, has {foreign or 'no hardware'}"
-        )
+        foreign = ", ".join(sorted(used - set(proof.plugins))) if used else "no hardware"
+        return f"{proof.node} must describe the mock alone, has {foreign}" if foreign else ""
 
 
 def missing(graph: Graph, proofs: Sequence[SimpleNamespace]) -> str:
     """Return the first thing that is missing, empty where every proof holds."""
     try:
-        looked = Missing(graph)
-        return next((absent for absent in map(looked.of, proofs) if absent), "")
-    except Unanswered as unanswered:
+        return next((absent for absent in map(Missing(graph).of, proofs) if absent), "")
+    except UnansweredError as unanswered:
         return str(unanswered)
 
 
@@ -244,15 +240,8 @@ def switch(
 ) -> bool:
     """Ask a controller manager to deactivate and activate controllers; return its answer."""
     service, name = "controller_manager_msgs/srv/SwitchController", f"{manager}/switch_controller"
-    answer = graph.ask(
-        service,
-        name,
-        answer_s,
-        activate_controllers=list(start),
-        deactivate_controllers=list(stop),
-        strictness=strictness,
-    )
-    return bool(answer.ok)
+    wanted = {"activate_controllers": [*start], "deactivate_controllers": [*stop], "strictness": strictness}
+    return bool(graph.ask(service, name, answer_s, **wanted).ok)
 
 
 def take(graph: Graph, step: SimpleNamespace) -> str:
@@ -285,7 +274,7 @@ def _asked(graph: Graph, wanted: SimpleNamespace, effect: Sequence[SimpleNamespa
             if refused := request(graph, wanted, left if wanted.kind == "hardware" else ANSWER_S):
                 return refused
             return _awaited(graph, effect, max(until - time.monotonic(), ANSWER_S))
-        except Unanswered as unanswered:
+        except UnansweredError as unanswered:
             absent = str(unanswered)
         if not missing(graph, effect):
             return ""  # it was done, and the answer was lost
@@ -311,8 +300,13 @@ def take_all(graph: Graph, steps: Sequence[SimpleNamespace]) -> bool:
 def run_while_claimed(graph: Graph, step: SimpleNamespace, command: Sequence[str]) -> int:
     """Run a program as long as the controllers that it needs stay active; return its exit status, or 1."""
     claims = [proof for proof in step.proof if proof.kind == "controller"]
-    child = subprocess.Popen(command)
-    signal.signal(signal.SIGTERM, lambda number, frame: child.send_signal(number))
+    children: list[subprocess.Popen[bytes]] = []
+
+    def end(number: int, _: object) -> None:
+        children[0].send_signal(number) if children else sys.exit(128 + number)
+
+    signal.signal(signal.SIGTERM, end)
+    children.append(child := subprocess.Popen(command, preexec_fn=END_WITH_PARENT))
     misses = 0
     try:
         while (status := child.poll()) is None:
@@ -333,10 +327,8 @@ def _stop(child: subprocess.Popen[bytes]) -> None:
         if child.poll() is not None:
             return
         child.send_signal(number)
-        try:
+        with suppress(subprocess.TimeoutExpired):
             child.wait(timeout=5.0)
-        except subprocess.TimeoutExpired:
-            continue
 
 
 def watch(graph: Graph, watches: Sequence[SimpleNamespace]) -> Iterator[str]:
@@ -352,7 +344,7 @@ def _active(graph: Graph, one: SimpleNamespace) -> list[str]:
     """Return the watched controllers that are active; none where the manager does not say."""
     try:
         listed = listed_controllers(graph, one.manager)
-    except Unanswered:
+    except UnansweredError:
         return []
     return [entry.name for entry in listed if entry.name in one.controllers and entry.state == "active"]
 
@@ -360,27 +352,35 @@ def _active(graph: Graph, one: SimpleNamespace) -> list[str]:
 def _deactivated(graph: Graph, manager: str, controllers: Sequence[str]) -> str:
     try:
         done = switch(graph, manager, [], controllers, BEST_EFFORT, ANSWER_S)
-    except Unanswered as unanswered:
+    except UnansweredError as unanswered:
         return f"not deactivated, tried again ({unanswered})"
     return "deactivated, a person releases the claim again" if done else "not deactivated, tried again (refused)"
 
 
+def seconds(text: str) -> float:
+    """Read seconds from 0."""
+    if not 0.0 <= (read := float(text)) < math.inf:
+        raise ValueError
+    return read
+
+
 def main(arguments: Sequence[str]) -> int:
     """Take phases, run a program behind its proof, or watch; return the exit status."""
+    global PATIENCE_S
     own = [*takewhile(lambda word: word not in ("--", "--ros-args"), arguments)]
     command = [*arguments[arguments.index("--") + 1 :]] if "--" in arguments else []
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--plan", type=Path, required=True, help="config/bring_up.json of the package")
     parser.add_argument("--target", choices=("mock", "real"), required=True)
     parser.add_argument("--host", default="", help="take the steps of this computer alone")
+    patience = os.environ.get("CELL_WAIT_S") or "0"
+    parser.add_argument("--wait", type=seconds, default=patience, help="in place of all deadlines (CELL_WAIT_S)")
     parser.add_argument("phases", nargs="+", choices=("start", "activate", "claim", "move", "watch"))
     read = parser.parse_args(own)
+    PATIENCE_S = read.wait or PATIENCE_S
     plan = json.loads(read.plan.read_text(encoding="utf-8"), object_hook=lambda entry: SimpleNamespace(**entry))
-    steps = [
-        step
-        for step in getattr(plan, read.target)
-        if step.phase in read.phases and (not read.host or step.host in ("", read.host))
-    ]
+    taken = (step for step in getattr(plan, read.target) if step.phase in read.phases)
+    steps = [step for step in taken if not read.host or step.host in ("", read.host)]
     graph = Graph("claim_watch" if "watch" in read.phases else f"bring_up_{read.phases[-1]}", plan.enclave)
     try:
         if "watch" in read.phases:

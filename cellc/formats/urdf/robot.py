@@ -106,15 +106,15 @@ def _off_the_tree(cell: Cell) -> frozenset[str]:
     """Return the dynamic frames and all that hangs on them."""
     parents = {frame.name: frame.parent for frame in cell.frames}
     dynamic = {frame.name for frame in cell.frames if frame.kind is FrameKind.DYNAMIC}
-    found: set[str] = set()
+    known = dict.fromkeys(dynamic, True)
     for name in parents:
-        above, seen = name, set[str]()
-        while above in parents and above not in seen and above not in dynamic:
-            seen.add(above)
+        above, seen = name, list[str]()
+        while above in parents and above not in known:
+            known[above] = False
+            seen.append(above)
             above = parents[above]
-        if above in dynamic:
-            found.add(name)
-    return frozenset(found)
+        known.update(dict.fromkeys(seen, known.get(above, False)))
+    return frozenset(name for name, apart in known.items() if apart)
 
 
 def start_positions(cell: Cell) -> dict[str, float]:

@@ -12,6 +12,7 @@ from typing import BinaryIO
 from cellc.mock.errors import MockError
 from cellc.mock.result import AttemptRecord, to_json_lines
 from cellc.printing import refuse
+from cellc.store.regular_file import open_regular
 from cellc.store.swap import replace_whole
 
 _LONGEST_RECORD = 1 << 20
@@ -149,7 +150,7 @@ def _is_stream(path: Path) -> bool:
 def _holds_records(path: Path) -> bool:
     """Whether the file is empty, or begins with an attempt."""
     try:
-        with path.open("rb") as stream:
+        with open_regular(path) as stream:
             line = stream.readline(_LONGEST_RECORD)
         return not line or (line.endswith(b"\n") and "attempt_id" in json.loads(line))
     except (OSError, ValueError, TypeError, RecursionError):

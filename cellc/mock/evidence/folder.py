@@ -11,7 +11,9 @@ from typing import BinaryIO
 from urllib.parse import quote
 
 from cellc.diagnostics.unsafe_text import harmless_json
+from cellc.limits import limits
 from cellc.mock.errors import MockError
+from cellc.store.regular_file import open_regular, read_regular
 from cellc.store.swap import Swap, discard, is_alive, link_on_the_way, make_staging, others, staging_of
 
 _LONGEST = 100
@@ -147,7 +149,7 @@ class EvidenceFolder:
 
 def _is_index(path: Path) -> bool:
     try:
-        return isinstance(json.loads(path.read_bytes())["files"], dict)
+        return isinstance(json.loads(read_regular(path, limits().folder_bytes))["files"], dict)
     except (OSError, ValueError, KeyError, TypeError, RecursionError):
         return False
 
@@ -155,9 +157,9 @@ def _is_index(path: Path) -> bool:
 def _hashes(folder: Path) -> dict[str, str]:
     """Return the hashes of an index; an index is data that others may have written, so that it names no other place."""
     try:
-        files = json.loads((folder / INDEX).read_bytes())["files"]
+        files = json.loads(read_regular(folder / INDEX, limits().folder_bytes, follow=False))["files"]
         return {name: str(sha256) for name, sha256 in files.items() if _is_name(name)}
-    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
         return {}
 
 
@@ -167,7 +169,7 @@ def _is_name(name: str) -> bool:
 
 def _sha256(path: Path) -> str:
     digest = hashlib.sha256()
-    with path.open("rb") as file:
+    with open_regular(path, follow=False) as file:
         while piece := file.read(_PIECE):
             digest.update(piece)
     return digest.hexdigest()
