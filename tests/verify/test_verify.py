@@ -156,7 +156,12 @@ def test_a_long_chain_of_frames_is_walked_once(monkeypatch: pytest.MonkeyPatch) 
     frames = FrameTree({frame.name: (frame,) for frame in (*reversed(chain), root)})
     products: list[None] = []
     product = Pose.__matmul__
-    monkeypatch.setattr(Pose, "__matmul__", lambda one, other: (products.append(None), product(one, other))[1])
+
+    def counted(one: Pose, other: Pose) -> Pose:
+        products.append(None)
+        return product(one, other)
+
+    monkeypatch.setattr(Pose, "__matmul__", counted)
     poses = cell_poses(frames)
     assert poses["f499"].position == pytest.approx((0.0, 0.0, 0.5))
     assert len(products) == 500
