@@ -31,14 +31,17 @@ def main() -> int:
                 for kind in KINDS:
                     count += _round(name, files, kind, turn)
                 with behind_the_readers():
-                    count += _round(f"{name} behind the readers", files, KINDS[0], turn)
+                    # Names of a description are read back as they stand, so that no escape of one passes verify.
+                    count += _round(f"{name} behind the readers", files, KINDS[0], turn, (".yaml",))
     print(f"{dict(count)} in {time.perf_counter() - begin:.0f} s")
     return 1 if count["faults"] else 0
 
 
-def _round(name: str, files: Mapping[str, str], kind: str, turn: int) -> Counter[str]:
+def _round(
+    name: str, files: Mapping[str, str], kind: str, turn: int, endings: tuple[str, ...] = (".yaml", ".urdf")
+) -> Counter[str]:
     with tempfile.TemporaryDirectory() as folder:
-        done = run(Path(folder), files, kind, turn)
+        done = run(Path(folder), files, kind, turn, endings)
     trial = done.trial
     for place, error in trial.elsewhere.items():
         at = f"{error.span.file.removeprefix(folder)}:{error.span.line}"
