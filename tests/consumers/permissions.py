@@ -32,6 +32,14 @@ class Permissions:
             any(fnmatchcase(one, pattern) for pattern in self.read) for one in read
         )
 
+    def without(self, right: Right, name: str) -> Permissions:
+        """Return the permissions without what one end needs."""
+        write, read = dds_topics(right, name)
+        return Permissions(
+            frozenset(one for one in self.write if not any(fnmatchcase(gone, one) for gone in write)),
+            frozenset(one for one in self.read if not any(fnmatchcase(gone, one) for gone in read)),
+        )
+
 
 def dds_topics(right: Right, name: str) -> tuple[list[str], list[str]]:
     """Return the topics that an end writes, and those that it reads."""
