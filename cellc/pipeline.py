@@ -64,13 +64,23 @@ def check(path: str | Path) -> Checked:
 
 def compile_cell(checked: Checked) -> Outcome[tuple[Artifact, ...]]:
     """Emit the artifacts of a checked cell with the manifest over them, and have foreign parsers read them back."""
+    emitted = emit_cell(checked)
+    if emitted.value is None or checked.graph is None:
+        return emitted
+    # Foreign parsers are imported here: a check does not pay for them, nor does who only compares.
+    from cellc.verify.verify import verify
+
+    return Outcome(emitted.value, verify(emitted.value, checked.graph))
+
+
+def emit_cell(checked: Checked) -> Outcome[tuple[Artifact, ...]]:
+    """Emit the artifacts of a checked cell with the manifest over them."""
     if checked.graph is None or not checked.ok:
         return Outcome(None)
-    # Emitters and foreign parsers are imported here: a check does not pay for them.
+    # Emitters are imported here: a check does not pay for them.
     from cellc.deploy.deployment import plan_deployment
     from cellc.emit.emit_all import emit_all
     from cellc.output.manifest import with_manifest
-    from cellc.verify.verify import verify
 
     beyond = _beyond_limits(checked.graph)
     if beyond:
@@ -83,7 +93,7 @@ def compile_cell(checked: Checked) -> Outcome[tuple[Artifact, ...]]:
         configuration_inputs=plan.configuration_inputs,
         version_tuple=plan.versions,
     )
-    return Outcome(artifacts, verify(artifacts, checked.graph))
+    return Outcome(artifacts)
 
 
 def _beyond_limits(graph: CellGraph) -> tuple[Diagnostic, ...]:

@@ -274,3 +274,40 @@ PROMOTION_GATES = tuple(code for code in GateCode if code.startswith("G"))
 """Gates of the first bring-up, in order."""
 NETWORK_GATES = tuple(code for code in GateCode if code.startswith("L"))
 """Gates from layer to layer of a cell that runs, in order."""
+
+
+class Grade(Term):
+    """How a change of a cell is taken by who reviews it, from the least to the most."""
+
+    SAFE = "safe"
+    """It lets nothing move faster, further or with less watching than before, and takes nothing from a consumer."""
+    REVIEW = "review"
+    """The owner of its approval area reads it."""
+    DANGEROUS = "dangerous"
+    """Something may move otherwise than people at the cell expect, or a protection is weaker than it was."""
+
+
+class ReviewArea(Term):
+    """What a change of a cell concerns."""
+
+    SAFETY = "safety"
+    CALIBRATION = "calibration"
+    FRAMES = "frames"
+    MODEL = "model"
+    PAYLOAD = "payload"
+    LIMITS = "limits"
+    CONTROL = "control"
+    MOTION = "motion"
+    INTERFACES = "interfaces"
+    QOS = "QoS"
+    TIME = "time"
+    DEVICES = "devices"
+    VERSIONS = "versions"
+    NETWORK = "network"
+    START_ORDER = "start order"
+    GATES = "gates"
+    REHEARSALS = "rehearsals"
+    OWNERS = "owners"
+    FIGURES = "figures"
+    DOCUMENTS = "documents"
+    """Texts of the package that no other area explains."""

@@ -19,6 +19,7 @@ _COMMANDS = {
     "check": "Find what is wrong before anything moves.",
     "completion": "Print the completion script of a shell.",
     "diagnose": "Tell what a symptom may mean, and what to look at.",
+    "diff": "Tell what changed in a cell, and what that means.",
     "explain": "Explain a diagnostic code.",
     "init": "Write a new cell from device names.",
     "mock": "Execute the rehearsals of a generated folder.",

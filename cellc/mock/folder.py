@@ -75,7 +75,7 @@ def read_folder(folder: Path) -> GeneratedFolder:
     missing = sorted(set(contract.managers) - set(contract.files.parameters))
     if missing:
         raise MockError(CONTRACT_FILE, f"controller manager `{missing[0]}` has no parameter file")
-    urdf = _read_text(folder, contract.files.urdf_mock)
+    urdf = read_text(folder, contract.files.urdf_mock)
     plan = _bring_up(folder, contract)
     return GeneratedFolder(
         contract=contract,
@@ -83,7 +83,7 @@ def read_folder(folder: Path) -> GeneratedFolder:
         urdf=urdf,
         description=_described(urdf, contract.files.urdf_mock),
         allowed_collisions=tuple(_allowed_collisions(folder, contract.files.srdf)),
-        parameters={name: _read_text(folder, path) for name, path in contract.files.parameters.items()},
+        parameters={name: read_text(folder, path) for name, path in contract.files.parameters.items()},
         bring_up=plan.mock,
         watches=plan.watches,
         notes=tuple(_notes(folder, contract, manifest)),
@@ -118,7 +118,7 @@ def _allowed_collisions(folder: Path, file: str | None) -> Iterator[tuple[str, s
     """Read the pairs of links that the SRDF excuses from the collision check; a cell without groups has none."""
     if file is None:
         return
-    read = read_xml(_read_text(folder, file), file)
+    read = read_xml(read_text(folder, file), file)
     if read.value is None:
         found = read.diagnostics[0]
         raise MockError(file, f"line {found.span.line}: {found.message}")
@@ -162,12 +162,17 @@ def _check_rehearsals(file: str, rehearsals: Rehearsals) -> None:
 
 def _read_model(folder: Path, name: str, model: type[_Model]) -> _Model:
     try:
-        return read_json(_read_text(folder, name), model)
+        return read_json(read_text(folder, name), model)
     except FormatError as error:
         raise MockError(name, str(error)) from None
 
 
-def _read_text(folder: Path, name: str) -> str:
+def read_text(folder: Path, name: str) -> str:
+    """Return the text of a file of a generated folder.
+
+    Raises:
+        MockError: it is missing, unreadable, too large, outside of the folder, or hides something from who reads it.
+    """
     try:
         text = _read_bytes(folder, name).decode("utf-8")
     except UnicodeDecodeError:

@@ -11,6 +11,7 @@ from cellc.contract.base import DIALECT, Json, contract_schema
 from cellc.contract.contract import Contract
 from cellc.contract.manifest import Manifest
 from cellc.contract.rehearsals import Rehearsals
+from cellc.contract.review import Review
 from cellc.spec.cell_spec import CellSpec
 
 
@@ -39,6 +40,7 @@ def schema_files() -> Mapping[str, str]:
         ("contract", Contract),
         ("manifest", Manifest),
         ("rehearsals", Rehearsals),
+        ("review", Review),
     )
     made: dict[str, dict[str, Json]] = {"cell.schema.json": cell_schema()}
     made |= {f"{name}.schema.json": contract_schema(model) for name, model in contracts}

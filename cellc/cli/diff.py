@@ -1,0 +1,64 @@
+"""``cellc diff``: what changed from one state of a cell to another, and what that means."""
+
+from __future__ import annotations
+
+import click
+
+from cellc.cli.limit_option import limit_option
+from cellc.printing import refuse, show, show_document
+
+
+@click.command()
+@click.argument("sides", nargs=-1, required=True, metavar="[BEFORE] AFTER", type=click.Path(path_type=str))
+@click.option(
+    "--format",
+    "output_format",
+    type=click.Choice(["text", "markdown", "json"]),
+    default="text",
+    show_default=True,
+    help="How changes are written.",
+)
+@click.option("--breaking", is_flag=True, help="Fail only where a consumer outside of the cell breaks.")
+@click.option("--rehearse", is_flag=True, help="Run the rehearsals of both sides on the mock, and compare outcomes.")
+@limit_option
+def diff(sides: tuple[str, ...], output_format: str, breaking: bool, rehearse: bool) -> None:
+    """Tell what changed in a cell: specs, generated folders, or git revisions of them; exit 1 where something did.
+
+    One path is HEAD against the work tree, as with `git diff`.
+
+    \b
+    cellc diff cells/x/cell.yaml                 HEAD and the work tree
+    cellc diff main cells/x/cell.yaml            a revision and the work tree
+    cellc diff main..HEAD cells/x/cell.yaml      two revisions
+    cellc diff a/cell.yaml generated/a           a spec and a generated folder
+    """
+    if len(sides) > 2:
+        raise click.UsageError(f"expected one or two of spec, folder and revision, got {len(sides)}.")
+    # Comparing loads the compiler.
+    from cellc.review.rehearse import outcomes_of
+    from cellc.review.review import review
+    from cellc.review.sides import SideError, packages
+    from cellc.review.sides import sides as asked
+
+    try:
+        with packages(*asked(sides)) as ((before, _), (after, _)):
+            outcomes = outcomes_of(before, after) if rehearse else ()
+            found = review(before, after, outcomes)
+    except SideError as problem:
+        refuse(str(problem))
+        raise click.exceptions.Exit(2) from None
+    if output_format == "json":
+        from cellc.diagnostics.unsafe_text import harmless_json
+
+        show_document(harmless_json(found.model_dump_json(indent=2)) + "\n")
+    elif output_format == "markdown":
+        from cellc.review.markdown import render_markdown
+
+        show_document(render_markdown(found))
+    else:
+        from cellc.review.text import render_review
+
+        show(*render_review(found))
+    counted = [change for change in found.changes if change.breaking or not breaking]
+    if counted or (found.rehearsals_differ() and not breaking):
+        raise click.exceptions.Exit(1)

@@ -1,0 +1,89 @@
+"""What ``cellc diff --format json`` prints: what changed from one state of a cell to another, and what that means.
+
+Values are texts as people read them, with units. Programs ask for areas, subjects, grades and codes of gates.
+"""
+
+from typing import Literal
+
+from pydantic import Field
+
+from cellc.contract.base import ContractModel
+from cellc.vocabulary import GateCode, Grade, ReviewArea
+
+ApprovalArea = Literal["graph", "time_tf", "controller", "vendor", "network", "safety", "data"]
+
+
+class ReviewSide(ContractModel):
+    """One of the two states."""
+
+    name: str = Field(description="Spec, folder or revision, as it was asked for.")
+    cell: str = Field(description="Name of the cell.")
+    configuration_id: str = Field(description="Id over calibrations, TF publishers and URDF.")
+
+
+class ReviewChange(ContractModel):
+    """One change, of one subject or of several that changed alike."""
+
+    area: ReviewArea = Field(description="What it concerns.")
+    subjects: tuple[str, ...] = Field(description="Frame, joint, controller, interface or whatever changed.")
+    quantity: str = Field(description="What of it changed.")
+    before: str | None = Field(None, description="Value before; null where there was none.")
+    after: str | None = Field(None, description="Value after; null where there is none.")
+    delta: str = Field("", description="The difference where it has a size: mm, degrees or percent.")
+    grade: Grade = Field(description="How it is taken.")
+    breaking: bool = Field(False, description="A consumer outside of the cell breaks.")
+    why: str = Field("", description="Why it has this grade, by the rules of docs/review.md.")
+    approval: ApprovalArea = Field(description="Area of approval.")
+    owner: str = Field(description="Who approves it, by the spec after the change.")
+
+
+class ReviewFinding(ContractModel):
+    """A finding of the check that one side has and the other has not."""
+
+    code: str = Field(description="Code of the finding.")
+    severity: str = Field(description="Its severity.")
+    message: str = Field(description="What it says.")
+    place: str = Field(description="File, line and column.")
+
+
+class ReviewRehearsal(ContractModel):
+    """How a rehearsal ended on the mock, before and after."""
+
+    name: str = Field(description="Name of the rehearsal.")
+    before: str | None = Field(None, description="Outcome before; null where it was not there or could not run.")
+    after: str | None = Field(None, description="Outcome after; null where it is not there or could not run.")
+    passed_before: bool | None = Field(None, description="Whether it ended as declared, before.")
+    passed_after: bool | None = Field(None, description="Whether it ended as declared, after.")
+
+
+class ReviewGate(ContractModel):
+    """A gate that must be passed again."""
+
+    code: GateCode = Field(description="Gate or layer.")
+    title: str = Field(description="Its title.")
+    evidence: str = Field(description="File of evidence that counts no longer.")
+    because: tuple[ReviewArea, ...] = Field(description="Areas whose changes it is the first to look at.")
+
+
+class Review(ContractModel):
+    """Everything that changed."""
+
+    format: Literal[1] = Field(description="Version of this format.")
+    before: ReviewSide = Field(description="The state before.")
+    after: ReviewSide = Field(description="The state after.")
+    changes: tuple[ReviewChange, ...] = Field(description="By grade, the worst first, then by area.")
+    new_findings: tuple[ReviewFinding, ...] = Field((), description="Findings of the check that came.")
+    gone_findings: tuple[ReviewFinding, ...] = Field((), description="Findings of the check that went.")
+    rehearsals: tuple[ReviewRehearsal, ...] = Field((), description="Outcomes, where rehearsals were asked for.")
+    gates: tuple[ReviewGate, ...] = Field((), description="Gates to pass again.")
+    files: tuple[str, ...] = Field((), description="Generated files that differ.")
+    notes: tuple[str, ...] = Field((), description="What is odd about a side, such as a file edited by hand.")
+
+    def worst(self) -> Grade | None:
+        """Return the worst grade; None where nothing changed."""
+        order = tuple(Grade)
+        return max((change.grade for change in self.changes), key=order.index, default=None)
+
+    def rehearsals_differ(self) -> bool:
+        """Tell whether a rehearsal ends otherwise than before."""
+        return any(one.before != one.after for one in self.rehearsals)

@@ -1,0 +1,112 @@
+"""A review as a comment of a pull request: GitHub's Markdown, no longer than GitHub takes.
+
+Source: GitHub refuses a comment of more than 65536 characters ("body is too long (maximum is 65536 characters)").
+Everything that comes from a file stands as code, so that it mentions nobody and links nowhere.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from itertools import groupby
+
+from cellc.contract.review import Review, ReviewChange, ReviewFinding
+from cellc.diagnostics.unsafe_text import harmless_line
+from cellc.formats.escape import code
+from cellc.review.text import gate_line, outcomes, subjects_of, summed_up
+from cellc.vocabulary import Grade
+
+LONGEST = 65_000
+_LONGEST_CELL = 300
+
+
+def render_markdown(review: Review, longest: int = LONGEST) -> str:
+    """Return the comment.
+
+    Args:
+        longest: characters; what does not fit is counted at the end.
+    """
+    head, tail = [*_head(review)], [*_tail(review)]
+    room = longest - _length(head) - _length(tail) - 200
+    shown, left = list[str](), 0
+    for grade, changes in groupby(review.changes, key=lambda change: change.grade):
+        section, of_grade = [*_opening(grade)], list(changes)
+        for number, change in enumerate(of_grade):
+            row = _row(change)
+            if _length(shown) + _length(section) + len(row) + 30 > room:
+                left += len(of_grade) - number
+                break
+            section.append(row)
+        shown += [*section, "", "</details>", ""] if len(section) > _OPENING else []
+    note = [f"**{left} more changes do not fit into a comment; `cellc diff` prints them all.**", ""] if left else []
+    return "\n".join([*head, *shown, *note, *tail]).rstrip("\n")[:longest] + "\n"
+
+
+_OPENING = 4
+
+
+def _length(lines: Iterable[str]) -> int:
+    return sum(len(line) + 1 for line in lines)
+
+
+def _head(review: Review) -> Iterator[str]:
+    yield f"### {_code(summed_up(review))}"
+    yield ""
+    yield f"{_code(review.before.name)} ({_code(review.before.configuration_id)}) → "
+    yield f"{_code(review.after.name)} ({_code(review.after.configuration_id)})"
+    yield ""
+
+
+def _opening(grade: Grade) -> Iterator[str]:
+    yield f"<details{'' if grade is Grade.SAFE else ' open'}><summary>{grade}</summary>"
+    yield ""
+    yield "| area | what | before | after | difference | approval |"
+    yield "|---|---|---|---|---|---|"
+
+
+def _row(change: ReviewChange) -> str:
+    what = f"{_code(subjects_of(change))} {_code(change.quantity)}"
+    what += "<br>**breaks consumers**" if change.breaking else ""
+    what += f"<br>{_code(change.why)}" if change.why else ""
+    approval = "" if change.grade is Grade.SAFE else f"{change.approval}: {_code(change.owner or 'nobody')}"
+    cells = (change.area, what, _value(change.before), _value(change.after), _value(change.delta), approval)
+    return f"| {' | '.join(cells)} |"
+
+
+def _tail(review: Review) -> Iterator[str]:
+    yield from _list("Findings that came", map(_finding, review.new_findings))
+    yield from _list("Findings that went", map(_finding, review.gone_findings))
+    yield from _list("Rehearsals", (_code(outcomes(one)) for one in review.rehearsals))
+    yield from _list("Gates to pass again", (_code(gate_line(gate)) for gate in review.gates))
+    yield from _list("Notes", map(_code, review.notes))
+
+
+_MOST = 40
+
+
+def _list(title: str, items: Iterable[str]) -> Iterator[str]:
+    told = list(items)
+    if not told:
+        return
+    yield f"<details><summary>{title}: {len(told)}</summary>"
+    yield ""
+    yield from (f"- {item}" for item in told[:_MOST])
+    if len(told) > _MOST:
+        yield f"- and {len(told) - _MOST} more"
+    yield ""
+    yield "</details>"
+    yield ""
+
+
+def _finding(found: ReviewFinding) -> str:
+    return f"{found.severity} {_code(found.code)}: {_code(found.message)}"
+
+
+def _value(text: str | None) -> str:
+    return _code(text) if text else ""
+
+
+def _code(text: str) -> str:
+    """Return a text as code in a cell of a table: a bar is its entity's look-alike there, for no escape is shown."""
+    short = text if len(text) <= _LONGEST_CELL else f"{text[: _LONGEST_CELL - 3]}..."
+    return code(harmless_line(re.sub(r"\|", "¦", short)))

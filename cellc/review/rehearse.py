@@ -1,0 +1,76 @@
+"""How the rehearsals of two packages end on the mock, each package in a process of its own, as `cellc mock` runs it."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TypeAlias
+
+from cellc.artifact import Artifact
+from cellc.contract.review import ReviewRehearsal
+from cellc.limits import as_options, limits
+from cellc.output.write import write
+from cellc.review.sides import Package, SideError
+
+_Ended: TypeAlias = "dict[str, tuple[str, bool]]"
+
+
+def outcomes_of(before: Package, after: Package) -> tuple[ReviewRehearsal, ...]:
+    """Return how each rehearsal of either package ended on both.
+
+    Raises:
+        SideError: the mock cannot load a package.
+    """
+    with tempfile.TemporaryDirectory(prefix="cellc-diff-") as folder:
+        was, now = _run((before, after), Path(folder))
+    return tuple(_rehearsal(name, was, now) for name in dict.fromkeys((*was, *now)))
+
+
+def _rehearsal(name: str, was: _Ended, now: _Ended) -> ReviewRehearsal:
+    before, after = was.get(name), now.get(name)
+    return ReviewRehearsal(
+        name=name,
+        before=None if before is None else before[0],
+        after=None if after is None else after[0],
+        passed_before=None if before is None else before[1],
+        passed_after=None if after is None else after[1],
+    )
+
+
+def _run(packages: Sequence[Package], folder: Path) -> list[_Ended]:
+    running: list[subprocess.Popen[str]] = []
+    try:
+        for number, package in enumerate(packages):
+            place = folder / f"{number}" / package.facts.contract.cell
+            write([Artifact(path, text) for path, text in package.files.items()], place)
+            running.append(_started(place))
+        return [_ended(package, child) for package, child in zip(packages, running, strict=True)]
+    finally:
+        for child in running:
+            child.kill()
+            child.wait()
+
+
+def _started(place: Path) -> subprocess.Popen[str]:
+    raised = [word for option in as_options(limits()) for word in ("--limit", option)]
+    command = [sys.executable, "-m", "cellc", "mock", place.as_posix(), "--json", *raised]
+    return subprocess.Popen(
+        command,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        encoding="utf-8",
+        # `-m` puts the current folder first on the import path: it must not be one that a stranger filled.
+        cwd=Path(__file__).resolve().parents[2],
+    )
+
+
+def _ended(package: Package, child: subprocess.Popen[str]) -> _Ended:
+    out, err = child.communicate()
+    if child.returncode not in (0, 1) or not out:
+        raise SideError(f"{package.name}: the mock refuses it: {err.strip().removeprefix('error: ') or 'no answer'}")
+    return {one["name"]: (one["outcome"], one["passed"]) for one in json.loads(out)["rehearsals"]}

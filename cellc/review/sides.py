@@ -1,0 +1,187 @@
+"""What is compared: a spec, a generated folder, or either of them in a git revision; each becomes one package."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, replace
+from pathlib import Path, PurePosixPath
+
+from cellc.contract.manifest import Manifest
+from cellc.contract.reading import FormatError, read_json
+from cellc.contract.review import ReviewFinding
+from cellc.diagnostics import Diagnostic, Severity
+from cellc.limits import limits, option
+from cellc.mock.errors import MockError
+from cellc.mock.folder import read_text
+from cellc.pipeline import check, emit_cell
+from cellc.review.facts import MANIFEST, Facts, FactsError, facts_of
+from cellc.review.revisions import RevisionError, repository_of
+
+
+class SideError(Exception):
+    """A side cannot be compared; the text is one line, lower case."""
+
+
+@dataclass(frozen=True, slots=True)
+class Side:
+    """One side as asked for.
+
+    Args:
+        path: spec or folder; in a revision from the top of the repository of ``within``.
+        revision: None for what stands in the work tree.
+        within: a folder in the repository.
+        merged_into: the side is what ``revision`` and this revision have in common.
+    """
+
+    name: str
+    path: str
+    revision: str | None = None
+    within: Path = Path()
+    merged_into: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Package:
+    """One side with everything that is compared.
+
+    Attributes:
+        files: text by path in the package.
+        findings: what the check says, where the side is a spec.
+        is_spec: whether it is one.
+    """
+
+    name: str
+    files: Mapping[str, str]
+    facts: Facts
+    findings: tuple[ReviewFinding, ...] = ()
+    is_spec: bool = False
+    notes: tuple[str, ...] = ()
+
+
+def sides(arguments: Sequence[str]) -> tuple[Side, Side]:
+    """Return what one or two arguments name, as those of `git diff` do.
+
+    One path is HEAD against the work tree. `A..B PATH` are two revisions, `A...B PATH` what B did since it left A,
+    `REV PATH` a revision against the work tree. `REV:PATH` counts from the top of the repository, as git has it.
+
+    Raises:
+        SideError: an argument names nothing.
+    """
+    if len(arguments) == 1:
+        return _revised("HEAD", arguments[0]), _stated(arguments[0])
+    first, second = arguments
+    if not Path(first).exists():
+        if ".." in first and ":" not in first:
+            return _range(first, second)
+        if ":" not in first:
+            return _revised(first, second), _stated(second)
+    return _stated(first), _stated(second)
+
+
+def _stated(argument: str) -> Side:
+    revision, colon, path = argument.partition(":")
+    if Path(argument).exists() or not colon:
+        return Side(argument, argument)
+    if path.startswith(("./", "../")):
+        return replace(_revised(revision, path), name=argument)
+    return Side(argument, path, revision)
+
+
+def _revised(revision: str, path: str) -> Side:
+    """Return a path of the work tree as it stands in a revision."""
+    place = Path(path)
+    folder = place if place.is_dir() else place.parent
+    try:
+        top = repository_of(folder.absolute()).top.resolve()
+        inside = (place.parent.resolve() / place.name).relative_to(top).as_posix()
+    except (RevisionError, ValueError) as problem:
+        raise SideError(str(problem)) from None
+    return Side(f"{revision}:{inside}", inside, revision, folder.absolute())
+
+
+def _range(text: str, path: str) -> tuple[Side, Side]:
+    dots = "..." if "..." in text else ".."
+    first, _, second = text.partition(dots)
+    before, after = (_revised(one or "HEAD", path) for one in (first, second))
+    if dots == "...":
+        before = replace(before, name=f"{text}:{before.path}", merged_into=after.revision)
+    return before, after
+
+
+@contextmanager
+def packages(*wanted: Side) -> Iterator[tuple[tuple[Package, Path], ...]]:
+    """Give the package of each side, with the path of its spec or folder for as long as it is there.
+
+    Raises:
+        SideError: a side cannot be read, or holds errors.
+    """
+    with ExitStack() as stack:
+        try:
+            yield tuple(_package(side, stack) for side in wanted)
+        except RevisionError as problem:
+            raise SideError(str(problem)) from None
+
+
+def _package(side: Side, stack: ExitStack) -> tuple[Package, Path]:
+    if side.revision is None:
+        return _read(side.name, Path(side.path), side.path), Path(side.path)
+    repository = repository_of(side.within.absolute())
+    revision = side.revision
+    if side.merged_into is not None:
+        revision = repository.merge_base(revision, side.merged_into)
+    path = PurePosixPath(side.path).as_posix()
+    taken = stack.enter_context(repository.taken(revision, path))
+    found = _read(side.name, taken.path, taken.path.as_posix())
+    folder = taken.folder.as_posix()
+    shown = tuple(_shown_from(one, f"{folder}/", f"{side.revision}:") for one in found.findings)
+    links = (f"{side.name}: {taken.links} links or submodules were left out",) if taken.links else ()
+    return replace(found, findings=shown, notes=(*found.notes, *links)), taken.path
+
+
+def _shown_from(found: ReviewFinding, folder: str, name: str) -> ReviewFinding:
+    """Return a finding of a spec in a private folder as one of the revision."""
+    texts = {key: getattr(found, key).replace(folder, name) for key in ("message", "place")}
+    return found.model_copy(update=texts)
+
+
+def _read(name: str, path: Path, shown: str) -> Package:
+    try:
+        return _of_folder(name, path) if path.is_dir() else _of_spec(name, shown)
+    except (FactsError, MockError) as problem:
+        raise SideError(f"{name}: {problem}") from None
+
+
+def _of_spec(name: str, file: str) -> Package:
+    checked = check(file)
+    emitted = emit_cell(checked)
+    if emitted.value is None or checked.graph is None:
+        found = (*checked.diagnostics, *emitted.diagnostics)
+        errors = [one for one in found if one.severity is Severity.ERROR]
+        more = f"; {len(errors) - 1} more" if len(errors) > 1 else ""
+        first = errors[0]
+        raise SideError(f"{name}:{first.span.line}:{first.span.column}: {first.message}{more}; see `cellc check`")
+    files = {artifact.path: artifact.text for artifact in emitted.value}
+    told = tuple(_finding(one) for one in checked.diagnostics)
+    return Package(name, files, facts_of(files, checked.graph.cell), told, is_spec=True)
+
+
+def _finding(found: Diagnostic) -> ReviewFinding:
+    return ReviewFinding(code=found.code, severity=found.severity.value, message=found.message, place=str(found.span))
+
+
+def _of_folder(name: str, folder: Path) -> Package:
+    try:
+        manifest = read_json(read_text(folder, MANIFEST), Manifest)
+    except FormatError as problem:
+        raise SideError(f"{name}: {MANIFEST}: {problem}") from None
+    files, total = dict[str, str](), 0
+    for path in (*manifest.files, MANIFEST):
+        files[path] = read_text(folder, path)
+        total += len(files[path])
+        if total > limits().folder_total_bytes:
+            text = f"names more than {limits().folder_total_bytes} bytes of files; {option('folder-total-bytes')}"
+            raise SideError(f"{name}: {MANIFEST}: {text}")
+    facts = facts_of(files)
+    edited = tuple(f"{name}: `{path}` was edited after it was generated" for path in sorted(facts.edited))
+    return Package(name, files, facts, notes=edited)

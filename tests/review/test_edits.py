@@ -1,0 +1,205 @@
+"""What is told of edits of a cell; each expectation was written from the edit, with figures by hand.
+
+The pedestal is 0.8 m high and the arm's limits are halves of its catalog's: 180 deg/s and 5 rad/s^2. At `home` the tool
+points straight down, so that a longer tool lowers the tip by as much. Edits of one case have nothing to do with each
+other: they share it because a build takes time.
+"""
+
+from __future__ import annotations
+
+import pytest
+
+from cellc.review.sides import Package
+from tests.review.revisions import Edit, Repository, changes_of, edited, package_of
+
+ARM = "arm_elbow_joint, arm_shoulder_lift_joint, arm_shoulder_pan_joint, arm_wrist_1_joint, arm_wrist_2_joint, "
+ARM += "arm_wrist_3_joint"
+OF_TRAJECTORY = ", ".join(f"arm_trajectory {joint}" for joint in ARM.split(", "))
+STALE = "stale_camera: {use: pick_and_place, inject: {freeze: camera, at: 2 s}, expect: stale_state}"
+CANCELLED = "cancelled: {use: pick_and_place, inject: {cancel: move, at: 3 s}, expect: cancelled, within: 200 ms}"
+
+GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
+    "what was measured": (
+        (
+            ("xyz: 0 0 162 mm", "xyz: 0 0 163 mm"),
+            ("path: hardwired", "path: safety_bus"),
+            ("observer: operator}", "observer: guard}"),
+            ("payload: {mass: 1.0 kg", "payload: {mass: 1.5 kg"),
+            ("summary: UR5e with", "summary: An UR5e with"),
+            ("residual: 0.8 mm", "residual: 1.2 mm"),
+            ("recovery_time: 120 s", "recovery_time: 180 s"),
+            (f"  {STALE}\n", ""),
+            (CANCELLED, CANCELLED.replace("within: 200 ms", "within: 400 ms")),
+            ("limits: controls, watchdogs", "limits: robot, watchdogs"),
+            ("timeout: 20 s\n", "timeout: 10 s\n"),
+        ),
+        [
+            "dangerous safety | cell | path of the stop | hardwired -> safety_bus",
+            "dangerous safety | cell | recovery observer | operator -> guard",
+            "dangerous calibration | tcp | pose in its parent | xyz 0 0 162 mm, rpy 0 0 0 deg -> "
+            "xyz 0 0 163 mm, rpy 0 0 0 deg | moves 1 mm",
+            "dangerous calibration | hand_eye | residual | 0.8 mm -> 1.2 mm | +50 %",
+            "dangerous payload | arm | payload that the robot is told | 1.0 kg, center of mass 0 0 58 mm -> "
+            "1.5 kg, center of mass 0 0 58 mm",
+            "dangerous rehearsals | cancelled | bound of the outcome | 200 ms -> 400 ms | +100 %",
+            "review motion | manipulator in home | tip | xyz 491.9 133.3 1114.9 mm, rpy -180 0 -180 deg -> "
+            "xyz 491.9 133.3 1113.9 mm, rpy -180 0 -180 deg | moves 1 mm",
+            "review interfaces | /move_action | timeout | 20 s -> 10 s | -50 %",
+            "review rehearsals | stale_camera | rehearsal went | stale_state -> None",
+            "review owners | limits | owner | controls -> robot",
+            "review figures | recovery_time_s | target figure | 120 s -> 180 s | +50 %",
+            "safe documents | cell | summary | UR5e with a Robotiq 2F-85 picks parts from fixture A under a wrist "
+            "camera -> An UR5e with a Robotiq 2F-85 picks parts from fixture A under a wrist camera",
+        ],
+    ),
+    "what was measured again": (
+        (
+            ("xyz: 450 100 850 mm", "xyz: 450 100 860 mm"),
+            ("fixture_a: {revision: 2", "fixture_a: {revision: 3"),
+            ("hand_eye: {revision: 4", "hand_eye: {revision: 3"),
+            ("xyz: 0 0 11 mm, rpy: 0 0 90 deg", "xyz: 0 0 11 mm, rpy: 0 0 91 deg"),
+            ("max_delta: 5 deg, velocity: 5 deg/s", "max_delta: 10 deg, velocity: 5 deg/s"),
+            ("to: {task: {reliability: reliable, depth: 1}}", "to: {task: {reliability: best_effort, depth: 1}}"),
+            ("max_age: 200 ms", "max_age: 300 ms"),
+            ("frame: world\n    timeout", "frame: arm/base_link\n    timeout"),
+            ("rate: 30 Hz", "rate: 15 Hz"),
+        ),
+        [
+            "dangerous calibration | hand_eye | revision | 4 -> 3",
+            "dangerous interfaces | /move_action | frame of the payload | world -> arm_base_link | breaks",
+            "dangerous time | /object_pose | oldest sample that may be used | 200 ms -> 300 ms | +50 %",
+            "dangerous gates | Said aloud before it moves | first motion | joint arm/wrist_3_joint, direction +, "
+            "at most 5 deg, 5 deg/s, ends within 5 s -> joint arm/wrist_3_joint, direction +, at most 10 deg, 5 deg/s, "
+            "ends within 5 s",
+            "review calibration | fixture_a | revision | 2 -> 3",
+            "review frames | fixture_A | pose in its parent | xyz 450 100 850 mm, rpy 0 0 0 deg -> "
+            "xyz 450 100 860 mm, rpy 0 0 0 deg | moves 10 mm",
+            "review frames | gripper_base_link | pose in its parent | xyz 0 0 11 mm, rpy 0 0 90 deg -> "
+            "xyz 0 0 11 mm, rpy 0 0 91 deg | turns 1 deg",
+            "review motion | pick | place in the root frame | xyz 450 -150 860 mm, rpy 180 0 0 deg -> "
+            "xyz 450 -150 870 mm, rpy 180 0 0 deg | moves 10 mm",
+            "review motion | place | place in the root frame | xyz 450 100 860 mm, rpy 180 0 0 deg -> "
+            "xyz 450 100 870 mm, rpy 180 0 0 deg | moves 10 mm",
+            "review motion | manipulator in home | tip | xyz 491.9 133.3 1114.9 mm, rpy -180 0 -180 deg -> "
+            "xyz 491.9 133.3 1114.9 mm, rpy -180 0 179 deg | turns 1 deg",
+            "review interfaces | /camera/color/image_raw | rate | 30 Hz -> 15 Hz | -50 %",
+            "review QoS | /object_pose subscribers task | quality of service reliability | reliable -> best_effort",
+            "review devices | camera | device camera.rate_hz | 30 Hz -> 15 Hz | -50 %",
+        ],
+    ),
+    "limits and where it goes": (
+        (
+            ("limits: {velocity: 50 %, acceleration: 50 %}", "limits: {velocity: 60 %, acceleration: 40 %}"),
+            ("goal_time: 1 s", "goal_time: 2 s"),
+            ("path_tolerance: 0.2 rad", "path_tolerance: 0.3 rad"),
+            ("goal_tolerance: 0.01 rad", "goal_tolerance: 0.005 rad"),
+            ("domain_id: 42", "domain_id: 43"),
+            ("home: {manipulator: 0 -90 90 -90 -90 0 deg}", "home: {manipulator: 90 -90 90 -90 -90 0 deg}"),
+            ("approach: 0 0 -100 mm}\n    place", "approach: 0 0 -80 mm}\n    place"),
+            ("box: 900 1200 40 mm", "box: 900 1200 60 mm"),
+        ),
+        [
+            f"dangerous limits | {ARM} | velocity | 90 deg/s -> 108 deg/s | +20 %",
+            f"dangerous control | {OF_TRAJECTORY} | path tolerance | 11.45916 deg -> 17.18873 deg | +50 %",
+            "dangerous control | arm_trajectory | time past the end | 1 s -> 2 s | +100 %",
+            "review model | table | collision shapes | box 900 1200 40 mm -> box 900 1200 60 mm",
+            f"review control | {OF_TRAJECTORY} | goal tolerance | 0.572958 deg -> 0.286479 deg | -50 %",
+            "review motion | pick | approach | 0 0 -100 mm -> 0 0 -80 mm",
+            "review motion | home manipulator | joint positions | 0 -90 90 -90 -90 0 deg -> 90 -90 90 -90 -90 0 deg",
+            "review motion | manipulator in home | tip | xyz 491.9 133.3 1114.9 mm, rpy -180 0 -180 deg -> "
+            "xyz -133.3 491.9 1114.9 mm, rpy -180 0 -90 deg | moves 721 mm, turns 90 deg",
+            "review network | control_pc | ROS_DOMAIN_ID | 42 -> 43 | breaks",
+            f"safe limits | {ARM} | acceleration | 143.2394 deg/s^2 -> 114.5916 deg/s^2 | -20 %",
+        ],
+    ),
+    "what it is made of": (
+        (
+            ("type: scaled_joint_trajectory", "type: joint_trajectory"),
+            ("driver: ur_robot_driver 3.8.0", "driver: ur_robot_driver 3.7.0"),
+            ("firmware: polyscope 5.21.0", "firmware: polyscope 5.22.0"),
+            ("address: 192.168.56.101", "address: 192.168.56.102"),
+            ("discovery: localhost", "discovery: multicast"),
+            ("exposure: 8 ms", "exposure: 10 ms"),
+            ("max_offset: 1 ms", "max_offset: 2 ms"),
+        ),
+        [
+            "dangerous control | arm_trajectory | behavior | scaled_joint_trajectory -> joint_trajectory",
+            "dangerous control | arm_trajectory | plugin | ur_controllers/ScaledJointTrajectoryController -> "
+            "joint_trajectory_controller/JointTrajectoryController",
+            "dangerous time | control_pc | bound of its offset | 1 ms -> 2 ms | +100 %",
+            "dangerous versions | arm.driver | what the matrix says | OK: jazzy knows 3.8.0: rosdistro, as of 2026-08-"
+            "22 -> UNKNOWN: jazzy knows 3.8.0: rosdistro, as of 2026-08-22",
+            "review control | arm_trajectory | parameter constraints.stopped_velocity_tolerance | 0.2 -> 0.01 | -95 %",
+            "review control | camera | parameter depth_module.exposure | 8000 -> 10000",
+            "review control | arm_hardware | parameter of the hardware robot_ip | 192.168.56.101 -> 192.168.56.102",
+            "review control | camera | parameter rgb_camera.exposure | 80 -> 100",
+            "review control | arm_dashboard_client, arm_state_helper | parameter robot_ip | "
+            "192.168.56.101 -> 192.168.56.102",
+            "review control | arm_trajectory | parameter speed_scaling_interface_name | "
+            "arm_speed_scaling/speed_scaling_factor -> None",
+            "review time | camera | exposure | 8 ms -> 10 ms | +25 %",
+            "review versions | arm.driver | pinned version | ur_robot_driver 3.8.0 -> ur_robot_driver 3.7.0",
+            "review versions | arm.firmware | pinned version | polyscope 5.21.0 -> polyscope 5.22.0",
+            "review network | middleware/control_pc.fastdds.xml | 1 line that no other change explains | "
+            "None -> <address>10.10.0.10</address>",
+            "review network | cell | network discovery | localhost -> multicast",
+            "review network | control_pc | variable ROS_AUTOMATIC_DISCOVERY_RANGE | LOCALHOST -> SUBNET",
+        ],
+    ),
+    "who takes part": (
+        (
+            (
+                "  task: {run: cell_tasks/",
+                "  watcher: {run: cell_tasks/watcher, host: control_pc, owner: data}\n  task: {run: cell_tasks/",
+            ),
+            (
+                "to: {task: {reliability: reliable, depth: 1}}",
+                "to: {task: {reliability: reliable}, watcher: {depth: 1}}",
+            ),
+            ("lifecycle: true, ", ""),
+            ("  /object_pose:", "  /part_pose:"),
+            ("goal_tolerance: 0.01 rad\n      client: move_group", "goal_tolerance: 0.01 rad\n      client: task"),
+            ("pick: {frame: object,", "pick: {frame: fixture_A,"),
+        ),
+        [
+            "dangerous control | /arm_trajectory/follow_joint_trajectory task | client came | None -> there",
+            "dangerous control | arm_trajectory | node that may command it | move_group -> task",
+            "dangerous motion | pick | frame | object -> fixture_A",
+            "dangerous start order | activate_perception, configure_perception | step on the real target went | "
+            "start -> None",
+            "dangerous start order | claim_control | what must show before it | 8 entries -> 7 entries | "
+            "lost lifecycle /perception active",
+            "dangerous start order | move | what must show before it | "
+            "controller /controller_manager arm_trajectory active, controller /controller_manager gripper_action "
+            "active, "
+            "action /move_action, action /gripper_action/gripper_cmd, lifecycle /perception active -> "
+            "controller /controller_manager arm_trajectory active, controller /controller_manager gripper_action "
+            "active, "
+            "action /move_action, action /arm_trajectory/follow_joint_trajectory, action /gripper_action/gripper_cmd | "
+            "lost lifecycle /perception active; new action /arm_trajectory/follow_joint_trajectory",
+            "review control | /arm_trajectory/follow_joint_trajectory move_group | client went | there -> None",
+            "review control | /watcher | node came | None -> cell_tasks",
+            "review motion | pick | place in the root frame | xyz 450 -150 860 mm, rpy 180 0 0 deg -> "
+            "xyz 450 100 860 mm, rpy 180 0 0 deg | moves 250 mm",
+            "review interfaces | /part_pose | interface came | None -> geometry_msgs/msg/PoseStamped",
+            "review interfaces | /object_pose | interface went | geometry_msgs/msg/PoseStamped -> None | breaks",
+            "review interfaces | /joint_states move_group, /tf move_group, /tf_static move_group | subscriber went | "
+            "there -> None",
+            "review network | security/policy.xml | 5 lines that no other change explains | "
+            "<service>~/change_state</service> / <service>~/get_available_states</service> / "
+            "<service>~/get_available_transitions</service> / and 2 more -> None",
+        ],
+    ),
+}
+
+
+@pytest.mark.parametrize("name", GROUPS)
+def test_an_edit_is_told_by_what_it_means(name: str, repository: Repository, main: Package) -> None:
+    edits, expected = GROUPS[name]
+    after = package_of(repository, repository.commit(edited(*edits)))
+    found = changes_of(main, after)
+    assert found == expected
+
+
+def test_there_are_more_than_thirty_edits() -> None:
+    assert sum(len(edits) for edits, _ in GROUPS.values()) >= 30
