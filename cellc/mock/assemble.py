@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from functools import partial
 from math import inf
 
+from cellc.contract.bring_up import Target
 from cellc.contract.contract import Contract, ContractEndpoint, ContractFrame, ContractInterface
 from cellc.mock.adapter.server import AdapterServer
 from cellc.mock.bus.network import EdgeName, Network, QosEvent, QosEventKind
@@ -14,6 +15,7 @@ from cellc.mock.bus.stream import StreamEdge
 from cellc.mock.bus.timers import StreamDeadline
 from cellc.mock.bus.topic import Topic
 from cellc.mock.clocks import DEFAULT, TimeJump, build_clocks
+from cellc.mock.coming_up import played
 from cellc.mock.control import ControllerManager, DeclaredInterfaces, JointFault, Noise
 from cellc.mock.effects import Effects
 from cellc.mock.engine.control_stack import ControlStack
@@ -95,8 +97,11 @@ def stream_edge(contract: Contract, network: Network, topic: str, source: str, s
     return StreamEdge(EdgeName(topic, source, sink), offered, requested, network)
 
 
-def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int) -> Plant:
+def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int, bring_up: Target = "mock") -> Plant:
     """Create every node of the cell at time zero; nothing runs yet.
+
+    Args:
+        bring_up: target whose steps are taken; with ``real`` devices act as those of the robot do when they come up.
 
     Raises:
         ManagerAbortedError: a controller manager ended while it started.
@@ -113,7 +118,7 @@ def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int) -> Plant:
     published = RobotStatePublisher(memory.model.links, feeds, PUBLISH_FREQUENCY_HZ, horizon_s, clocks, tf_edge)
     plant = Plant(
         contract=contract,
-        bring_up=folder.bring_up,
+        bring_up=folder.bring_up if bring_up == "mock" else played(folder.real_bring_up, folder.bring_up, contract),
         simulation=simulation,
         clocks=clocks,
         network=network,
@@ -128,6 +133,8 @@ def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int) -> Plant:
         task=task,
     )
     control.listen(plant.effects.hear)
+    if bring_up == "real":
+        plant.effects.come_up(folder.real_bring_up)
     clocks.listen(partial(_note_jump, plant))
     images = _add_cameras(plant)
     tf = TfBroadcast(contract.interfaces.get(TF), task.name, network, simulation)

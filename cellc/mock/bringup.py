@@ -77,6 +77,7 @@ class PlanTaker:
         facts: list[str] = []
         for step in self._plant.bring_up:
             if step.phase in phases:
+                self._plant.effects.enter(step.phase)
                 facts += (f"step `{step.name}` believes {what}" for what in self._proofs.believed(step.proof))
                 done, problems = yield from self._step(step)
                 facts += done
@@ -93,13 +94,14 @@ class PlanTaker:
             return (), (absent,)
         facts: tuple[str, ...] = ()
         problems: tuple[str, ...] = ()
-        if asked is not None and not isinstance(asked, Transition):
-            self._plant.effects.enter(step.phase)
         if isinstance(asked, Transition):
             problems = tuple(filter(None, (self._proofs.take(asked),)))
         elif isinstance(asked, HardwareActivation):
             manager = self._plant.control.managers[self._proofs.managers[asked.manager]]
             answer = manager.set_hardware_component_state(asked.component, "active")
+            until_ns = self._plant.now_ns + self._plant.effects.activate(asked.component)
+            while self._plant.now_ns < until_ns:
+                yield Wait(until_ns)
             told = (f"hardware component `{asked.component}` is {answer.state or 'unknown'}",)
             facts, problems = (told, ()) if answer.ok else ((), told)
         elif asked is not None:

@@ -52,7 +52,7 @@ def _executed(
 ) -> RehearsalResult:
     injections = [Injection(entry, build_fault(entry, folder.contract)) for entry in rehearsal.faults]
     try:
-        plant = assemble(folder, memory, seed)
+        plant = assemble(folder, memory, seed, rehearsal.bring_up)
     except ManagerAbortedError as aborted:
         evidence = StageEvidence("discover", (), (f"the controller manager ended: {aborted.reason}",))
         return _not_up(rehearsal, (evidence,), unmatched_pairs(folder.contract))
@@ -66,7 +66,8 @@ def _executed(
     bringup = Bringup(plant)
     plant.simulation.run_process(bringup.run())
     if not bringup.passed:
-        outcome = AttemptOutcome.CLAIM_FAILURE if plant.effects.refused else RunFailure.BRINGUP_FAILURE
+        failed = AttemptOutcome.CLAIM_FAILURE if plant.effects.refused else RunFailure.BRINGUP_FAILURE
+        outcome = AttemptOutcome.UNCOMMANDED_MOTION if plant.effects.motions else failed
         return _not_up(rehearsal, tuple(bringup.evidence), _findings(plant), outcome)
     return _run_task(plant, ports, rehearsal, seed, injections, tuple(bringup.evidence))
 
@@ -81,6 +82,8 @@ def _run_task(
 ) -> RehearsalResult:
     """Inject the faults at their times, and run the task to its named end."""
     begun_ns = plant.now_ns
+    if rehearsal.bring_up == "real":
+        plant.effects.end_coming_up()
     for injection in injections:
         if injection.entry.phase is None:
             injection.schedule(ports, begun_ns)

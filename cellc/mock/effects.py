@@ -12,18 +12,26 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 
-from cellc.contract.bring_up import Watch
+from cellc.contract.bring_up import BringUpStep, TopicProof, Watch
 from cellc.contract.contract import Contract, ContractDevice
 from cellc.mock.control import ControlEvent, ControllerChanged, ControllerManager
 from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.engine.process import Action
 from cellc.mock.engine.simulation import Simulation
-from cellc.vocabulary import BringUpPhase, Moment, Need, Unmet
+from cellc.vocabulary import BringUpPhase, ManagerLock, Moment, Motion, Need, Unmet
 
 STALE = 0.01
 """rad or m between a set point and a joint that make a jump; a joint that follows its trajectory is closer."""
 REACTION_NS = 20_000_000
 """A message of the robot, and a request to its controller manager: so much later a watch lets go of its claims."""
+JOGGED = 0.03
+"""rad or m: below what a robot ignores as too far, above what nobody would see."""
+STARTED_AFTER_NS = 300_000_000
+LOCKED_NS = 3_000_000_000
+"""Seconds, says the source of a gripper that is asked every second whether it has come to an end of its stroke."""
+_BY_PEOPLE = (Need.BRAKES_OPEN, Need.INTERFACE_ENABLED, Need.PROGRAM_RUNNING)
+"""What people bring about at the robot, after its driver has come up and before a claim."""
+_MOVING = (Motion.MOVES, Motion.JUMPS, Motion.FALLS, Motion.UNKNOWN)
 JOG_NS = 10_000_000
 JOG_SPEED = 0.25
 """rad/s or m/s of a joint that is jogged."""
@@ -48,7 +56,7 @@ class UncommandedMotion:
 
     def __str__(self) -> str:
         return (
-            f"{self.joint} jumped {self.step:.4f} of {self.distance:.4f} rad in cycle {self.cycle} "
+            f"{self.joint} moved {self.step:.4f} of {self.distance:.4f} rad in cycle {self.cycle} "
             f"({self.stamp_ns / 1e9:.3f} s): {self.why}"
         )
 
@@ -74,6 +82,8 @@ class Effects:
         self._control = control
         self._simulation = simulation
         self._unmet: dict[str, set[Need]] = {}
+        self._phase = BringUpPhase.START
+        self._coming_up = False
         self._waiting: defaultdict[BringUpPhase, list[Action]] = defaultdict(list)
 
     @property
@@ -92,8 +102,87 @@ class Effects:
 
     def enter(self, phase: BringUpPhase) -> None:
         """Let the bring-up come to a phase, before anything of it is asked for."""
+        self._phase = phase
         for action in self._waiting.pop(phase, []):
             action()
+
+    # -- coming up as the real target does ---------------------------------------------------------------------------
+
+    def come_up(self, steps: Sequence[BringUpStep]) -> None:
+        """Let devices be as they are before anybody brings the real target up: brakes closed, no program running.
+
+        Args:
+            steps: of the real target; a claim that they do not prove a running program for comes before its start.
+        """
+        self._coming_up = True
+        proven = {
+            proof.topic for step in steps for proof in step.proof if isinstance(proof, TopicProof) and proof.field
+        }
+        for device in sorted(self._contract.devices):
+            claim = self._facts(device).effects.get(Moment.CLAIM)
+            late = [need for need in _BY_PEOPLE if claim is not None and need in claim.needs]
+            if self._facts(device).hardware_component is None:
+                continue
+            for need in late:
+                self.unmet(device, need)
+            told = any(device in self._publishers(topic) for topic in proven)
+            ready = [need for need in late if need is not Need.PROGRAM_RUNNING or told]
+            self.expect(BringUpPhase.CLAIM, partial(self._prepare, device, ready))
+            states = {one.name: one.state for one in self._manager(device).list_hardware_components()}
+            state = states[self._component(device)]
+            if state == "active":
+                self.activate(self._component(device))
+            elif state == "inactive" and self._facts(device).at_once:
+                self.ignored[device] = f"commands of {self._component(device)} are NaN after a stay in inactive"
+
+    def _prepare(self, device: str, needs: Sequence[Need]) -> None:
+        """Let people do what the gates ask of them before they release a claim."""
+        for need in needs:
+            self.met(device, need)
+
+    def activate(self, component: str) -> int:
+        """Let a component do what the activation of the real one does; return for how long, in nanoseconds."""
+        device = next(
+            (name for name, one in self._contract.devices.items() if one.hardware_component == component), None
+        )
+        effect = None if device is None else self._facts(device).effects.get(Moment.ACTIVATE)
+        if not self._coming_up or device is None or effect is None:
+            return 0
+        gripper, manager, now_ns = self._facts(device).gripper, self._manager(device), self._simulation.now_ns
+        if effect.motion in _MOVING and self._phase is not BringUpPhase.ACTIVATE:
+            joint = component if gripper is None else gripper.joint
+            stroke = 0.0 if gripper is None else abs(gripper.closed - gripper.open)
+            why = f"activation of {device} moves it, in phase {self._phase.value}, in which nothing may move"
+            cycle = now_ns // manager.period_ns
+            self.motions.append(UncommandedMotion(device, joint, stroke, stroke, cycle, now_ns, why))
+        if effect.lock is ManagerLock.NONE:
+            return 0
+        manager.disturbances.skip_cycles(LOCKED_NS // manager.period_ns)
+        for other in sorted(self._contract.devices):
+            timeout_s = self._facts(other).command_timeout_s
+            shared = self._facts(other).hardware_component is not None and self._manager(other) is manager
+            if shared and timeout_s is not None and timeout_s * 1e9 < LOCKED_NS and self._keeps(other):
+                self.unmet(other, Need.PROGRAM_RUNNING)
+        return LOCKED_NS
+
+    def _keeps(self, device: str) -> bool:
+        claim = self._facts(device).effects.get(Moment.CLAIM)
+        return claim is not None and claim.needs.get(Need.PROGRAM_RUNNING) is Unmet.KEEPS_SET_POINTS
+
+    def end_coming_up(self) -> None:
+        """Let people do what they do once the cell is up: jog a robot whose program does not run yet, and start it."""
+        self._coming_up = False
+        for history in self._control.histories.values():
+            history.count_anew()
+        for device in self.silenced:
+            joints = sorted(self._claims(device))
+            if joints:
+                self.jog(device, joints[0], JOGGED)
+            for need in tuple(self._unmet[device]):
+                at_ns = self._simulation.now_ns + STARTED_AFTER_NS
+                self._simulation.at(at_ns, partial(self.met, device, need))
+
+    # -- needs -------------------------------------------------------------------------------------------------------
 
     def unmet(self, device: str, need: Need) -> None:
         """Let something not hold any more that a claim of a device needs."""
@@ -185,7 +274,7 @@ class Effects:
         manager.disturbances.rest(self._component(device))
         self._scale(device, 0.0)
         for watch in self._watches:
-            if device in self._heard(watch):
+            if device in self._publishers(watch.while_holds.topic):
                 at_ns = self._simulation.now_ns + REACTION_NS
                 self._simulation.at(at_ns, partial(self._let_go, watch, f"the program of {device} does not run"))
 
@@ -194,9 +283,8 @@ class Effects:
         if interface is not None:
             self._manager(device).write_state(interface, factor)
 
-    def _heard(self, watch: Watch) -> set[str | None]:
-        """Return the devices that a watch hears: those whose own controller publishes its topic."""
-        topic = watch.while_holds.topic
+    def _publishers(self, topic: str) -> set[str | None]:
+        """Return the devices whose own controller publishes a topic."""
         return {
             facts.device
             for manager in self._contract.managers.values()

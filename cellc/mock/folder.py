@@ -40,7 +40,7 @@ class GeneratedFolder:
         description: what it says.
         allowed_collisions: pairs of links whose collision is not checked, from the SRDF.
         parameters: text of the parameter file of each controller manager, by manager.
-        bring_up: the steps of the mock.
+        bring_up, real_bring_up: the steps of the mock, and of the real target.
         watches: what lets go of claims as a robot no longer listens.
         notes: what is odd but no reason to stop, such as a file edited by hand.
     """
@@ -52,6 +52,7 @@ class GeneratedFolder:
     allowed_collisions: tuple[tuple[str, str], ...]
     parameters: dict[str, str]
     bring_up: tuple[BringUpStep, ...]
+    real_bring_up: tuple[BringUpStep, ...]
     watches: tuple[Watch, ...]
     notes: tuple[str, ...]
 
@@ -85,6 +86,7 @@ def read_folder(folder: Path) -> GeneratedFolder:
         allowed_collisions=tuple(_allowed_collisions(folder, contract.files.srdf)),
         parameters={name: read_text(folder, path) for name, path in contract.files.parameters.items()},
         bring_up=plan.mock,
+        real_bring_up=plan.real,
         watches=plan.watches,
         notes=tuple(_notes(folder, contract, manifest)),
     )

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 
+from cellc.contract.rehearsals import RehearsalEntry
 from cellc.limits import Limits, limits, use
 from cellc.mock.campaign.limits import LimitsReport, check_limits, merge
 from cellc.mock.campaign.plan import CampaignPlan, CampaignRun, RunEnd
@@ -218,13 +219,18 @@ class Campaign:
         return bool(self.ends) and not self.failed
 
 
+def _is_plain(entry: RehearsalEntry) -> bool:
+    """Tell whether a rehearsal has no fault of its own; how the real target comes up makes no step another one."""
+    return not entry.faults and entry.bring_up == "mock"
+
+
 def make_plan(cell: MockCell, cases: Sequence[FaultCase], seed: int) -> tuple[CampaignPlan, tuple[RunEnd, ...]]:
     """Run what is undisturbed, and plan faults for what succeeds; a rehearsal that fails by itself is told as failed.
 
     Raises:
         MockError: the cell cannot be executed, or has no rehearsal without faults.
     """
-    undisturbed = [CampaignRun.undisturbed(entry) for entry in cell.entries if not entry.faults]
+    undisturbed = [CampaignRun.undisturbed(entry) for entry in cell.entries if _is_plain(entry)]
     if not undisturbed:
         raise MockError(cell.contract.files.rehearsals, "has no rehearsal without faults to run a campaign over")
     baselines = tuple(execute(cell, run, seed) for run in undisturbed)

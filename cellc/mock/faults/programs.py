@@ -9,7 +9,7 @@ from typing import ClassVar
 
 from cellc.contract.contract import Contract
 from cellc.contract.rehearsals import FaultEntry
-from cellc.mock.effects import REACTION_NS
+from cellc.mock.effects import JOGGED, REACTION_NS
 from cellc.mock.errors import FaultMissedError
 from cellc.mock.faults.cases import CellStep, Ending, FaultCase, ends_in, fault_case, joints_of_device
 from cellc.mock.faults.endings import Bounds, stopped
@@ -17,8 +17,6 @@ from cellc.mock.faults.ports import FaultPorts
 from cellc.mock.stops import PROTECTIVE_STOP
 from cellc.vocabulary import AttemptOutcome, FaultKind, Moment, Need, Unmet
 
-JOGGED = 0.03
-"""rad or m: below what a robot ignores as too far, above what nobody would see."""
 JOG_AFTER_NS = 100_000_000
 START_AFTER_NS = 500_000_000
 

@@ -115,6 +115,10 @@ class JointStateHistory:
             return self._missed
         return self._missed + max(0, (now_ns - int(self.stamps[-1])) // self._spacing_ns - 1)
 
+    def count_anew(self) -> None:
+        """Forget the cycles that were missed up to now."""
+        self._missed = 0
+
     def hold_back(self, from_ns: int, delay_ns: int = NEVER_NS) -> None:
         """Let messages that are stamped from an instant on arrive late."""
         self._late.append(LateArrival(from_ns, None, delay_ns))

@@ -92,7 +92,7 @@ def test_without_a_watch_the_arm_jumps_to_the_set_point_that_was_kept_and_the_ru
     assert motion.step == pytest.approx(0.02618, abs=1e-5)  # 1.5 deg in one cycle
     assert motion.cycle * 2_000_000 == motion.stamp_ns
     assert done.failed.fault_code == (
-        f"arm_wrist_3_joint jumped 0.0262 of 0.0262 rad in cycle {motion.cycle} ({motion.stamp_ns / 1e9:.3f} s): "
+        f"arm_wrist_3_joint moved 0.0262 of 0.0262 rad in cycle {motion.cycle} ({motion.stamp_ns / 1e9:.3f} s): "
         "arm_trajectory kept its set point while the program of arm was stopped"
     )
 
@@ -146,5 +146,3 @@ def test_brakes_of_a_robot_with_a_program_stop_that_program_too(run: Rehearse) -
 def test_fault_of_a_phase_begins_before_anything_of_it_is_asked_for(run: Rehearse) -> None:
     done = run(FaultEntry(kind=FaultKind.PROGRAM_STOP, target="arm", phase=BringUpPhase.CLAIM), steps=(HOME,))
     assert done.result.response_s is not None
-    late = run(FaultEntry(kind=FaultKind.PROGRAM_STOP, target="arm", phase=BringUpPhase.MOVE), steps=(HOME,))
-    assert late.result.findings[-1] == "fault `program_stop arm` never began: the bring-up has no phase `move`"

@@ -71,7 +71,7 @@ def test_rehearsals_of_all_kinds_of_faults_end_as_written(written: MockCell) -> 
     results = [written.run(name) for name in written.rehearsals]
     failed = [f"{each.name}: {each.outcome} after {each.response_s} s" for each in results if not each.passed]
     assert failed == []
-    assert len(results) == spec_text("ur5e_pick").count("expect:") + 2 + REHEARSALS.count("inject:")
+    assert len(results) == spec_text("ur5e_pick").count("expect:") + 3 + REHEARSALS.count("inject:")
 
 
 def test_cell_with_such_rehearsals_is_checked_without_a_new_finding(tmp_path: Path) -> None:
