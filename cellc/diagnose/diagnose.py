@@ -84,9 +84,11 @@ def classify(text: str, layers: Sequence[LayerKnowledge], drivers: Collection[st
     """
     known = _known(layers)
     asked = [match for match in known if match.symptom.name.casefold() == text.strip().casefold()]
+    named = asked or _logged(known, text)
+    if named:
+        return tuple(named[:_AT_MOST])
     possible = _possible(known, drivers)
-    said = (possible[number] for number in _words_of(possible).fitting(text))
-    return tuple(islice(asked or _logged(known, text) or said, _AT_MOST))
+    return tuple(possible[number] for number in islice(_words_of(possible).fitting(text), _AT_MOST))
 
 
 def nearest(text: str, layers: Sequence[LayerKnowledge], drivers: Collection[str] | None = None) -> tuple[Match, ...]:

@@ -18,6 +18,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 
 _WHOLE_WORD = 3
+_TIMEOUT = re.compile(r"\btim(?:e|es|ed|ing)[ -]out\b")
 _WORD = re.compile(r"[a-z0-9]+(?:-[a-z0-9]+)*")
 
 Meanings = frozenset[str]
@@ -89,7 +90,7 @@ class Words:
 
 def _words(text: str) -> Iterator[str]:
     # "can't" is one word; "e-stop" is read as `estop` and as its parts, `joint_states` as its parts.
-    plain = re.sub(r"['’]", "", text.lower()).replace("_", " ")
+    plain = _TIMEOUT.sub("timeout", re.sub(r"['’]", "", text.lower()).replace("_", " "))
     for word in _WORD.findall(plain):
         yield word.replace("-", "")
         if "-" in word:

@@ -1,0 +1,136 @@
+"""Every symptom is found by what users and programs say of it, and its neighbours are not taken for it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import pytest
+
+from cellc.cell.cell import Cell
+from cellc.diagnose.diagnose import classify, diagnose
+from cellc.diagnose.log_lines import length
+from cellc.diagnose.symptoms import knowledge
+from cellc.diagnose.words import Words
+from cellc.pipeline import check
+from tests.cells import ROOT
+from tests.foreign_yaml import safe_load
+
+FILE = ROOT / "tests/diagnose/symptoms.yaml"
+CASES: Mapping[str, Mapping[str, str]] = safe_load(FILE.read_text(encoding="utf-8"))
+SYMPTOMS = {symptom.name: symptom for layer in knowledge() for symptom in layer.symptoms}
+
+
+def best(text: str) -> str:
+    found = classify(text, knowledge())
+    return found[0].symptom.name if found else ""
+
+
+@pytest.fixture(scope="module")
+def hand() -> Cell:
+    graph = check(ROOT / "cells/fr3_hand/cell.yaml").graph
+    assert graph is not None
+    return graph.cell
+
+
+@pytest.mark.parametrize("name", SYMPTOMS)
+def test_symptom_comes_first_for_its_own_words_their_synonyms_and_its_log_line(name: str) -> None:
+    assert {text: best(text) for text in CASES[name].values()} == dict.fromkeys(CASES[name].values(), name)
+
+
+@pytest.mark.parametrize("name", SYMPTOMS)
+def test_every_symptom_that_a_program_logs_has_a_line_of_it(name: str) -> None:
+    assert ("logs" in CASES[name]) == bool(SYMPTOMS[name].logged)
+
+
+def test_there_is_no_case_of_a_symptom_that_is_not_known() -> None:
+    assert set(CASES) == set(SYMPTOMS)
+    assert len(SYMPTOMS) >= 60
+
+
+@pytest.mark.parametrize("name", SYMPTOMS)
+def test_text_of_a_source_is_recognised_as_nothing_else(name: str) -> None:
+    for template in SYMPTOMS[name].logged:
+        line = f"[a-1] [ERROR] [1700000000.5] [b]: {template.replace('{', 'some_').replace('}', '')} (at c.cpp:1)"
+        assert best(line) == name, template
+
+
+def test_no_text_of_a_source_is_so_short_that_it_stands_in_other_words() -> None:
+    texts = [template for symptom in SYMPTOMS.values() for template in symptom.logged]
+    assert [text for text in texts if length(text) < 12] == []
+
+
+def test_name_of_a_symptom_finds_it_however_it_is_spelt() -> None:
+    assert [name for name in SYMPTOMS if best(f" {name.upper()} ") != name] == []
+
+
+def test_lines_of_a_launch_with_colours_and_breaks_are_read_as_one() -> None:
+    pasted = (
+        "\x1b[33m[ros2_control_node-1] [WARN] [1700000000.123] [resource_manager]: Unable to activate controller\n"
+        "    'arm' since the command interface\r\n'joint1/position' is currently claimed by another controller.\x1b[0m\n"
+        "[spawner-2] [INFO] [1700000000.456] [spawner_arm]: bye"
+    )
+    (match, *_) = classify(pasted, knowledge())
+    assert match.symptom.name == "a command interface has another owner"
+    assert match.named == (("controller", "arm"), ("interface", "joint1/position"))
+
+
+def test_reason_at_the_end_of_a_line_ends_before_the_next_line() -> None:
+    pasted = "[a]: Error importing joint limiters: no tag found\n[spawner-2] [INFO] [1.2] [spawner]: waiting"
+    assert classify(pasted, knowledge())[0].named == (("reason", "no tag found"),)
+
+
+def test_name_that_is_too_long_for_a_name_is_none() -> None:
+    assert best(f"Could not initialize the controller named '{'a' * 200}'") == "a controller or node does not become active"
+    assert best(f"Could not initialize the controller named '{'a' * 201}'") == ""
+
+
+WORDS = Words({"host": ["pc", "machine"], "not": ["not", "cant"]}, [["host not see", "estop"], ["host timeout"]])
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        ("my machines can't see it", [0]),
+        ("PCs do NOT see it", [0]),
+        ("the pcl does not see it", []),
+        ("the E-Stop", [0]),
+        ("the machine times out", [1]),
+        ("a machine timed-out, I do not see it", [0, 1]),
+        ("my_machine cannot see_it", []),
+        ("my_machine does not see_it", [0]),
+    ],
+)
+def test_words_are_known_by_their_beginnings_and_short_ones_as_a_whole(text: str, found: list[int]) -> None:
+    assert list(WORDS.fitting(text)) == found
+
+
+def test_rare_words_say_more_than_common_ones() -> None:
+    words = Words({}, [["robot stops"], ["robot moves"], ["robot"], ["robot"], ["octopus"]])
+    assert next(words.fitting("the robot of the octopus")) == 4
+
+
+def test_of_two_that_weigh_alike_the_one_that_explains_more_comes_first() -> None:
+    words = Words({}, [["plan fails"], ["plan late"], ["image old"], ["image"]])
+    assert list(words.fitting("plan fails late, old image")) == [0, 2, 1, 3]
+
+
+def test_nearest_is_the_one_with_most_weight_of_a_phrase_in_the_text() -> None:
+    words = Words({}, [["plan fails"], ["plan late"], ["image old octopus"], ["image"]])
+    assert words.nearest("an old octopus fails") == [2, 0]
+    assert words.nearest("coffee") == []
+
+
+def test_symptom_of_a_driver_that_the_cell_does_not_have_is_not_guessed(hand: Cell) -> None:
+    words = "the kinova session times out"
+    assert "the session with the arm times out" in [one.symptom for one in diagnose(words, None)]
+    assert "the session with the arm times out" not in [one.symptom for one in diagnose(words, hand)]
+    assert diagnose(CASES["the session with the arm times out"]["logs"], hand)[0].symptom.startswith("the session")
+
+
+def test_causes_with_something_to_look_at_in_the_cell_come_first(hand: Cell) -> None:
+    name = "the robot reaches beside the object"
+    written = [hypothesis.cause for hypothesis in SYMPTOMS[name].hypotheses]
+    of_camera = [one.cause for one in SYMPTOMS[name].hypotheses if {each.of for each in one.observations} == {"camera"}]
+    shown = [cause.text for cause in diagnose(name, hand)[0].causes]
+    assert of_camera
+    assert shown == [cause for cause in written if cause not in of_camera] + of_camera
