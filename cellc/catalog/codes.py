@@ -160,7 +160,10 @@ _XACRO = (
     _page(
         "xacro-warning",
         "xacro warns while it expands the description",
-        "The expansion goes on, but something in it is ignored or redefined.",
+        "Xacro warns of attributes and children that it ignores, of a symbol that is defined twice, of an include "
+        "whose pattern matches no file, and where the description itself calls `xacro.warning`. The expansion goes on, "
+        "and so does every tool behind it: what was meant may be missing from the robot, or come from the other "
+        "definition.",
         "mend what the message names",
         Severity.WARNING,
     ),

@@ -10,31 +10,100 @@ def _page(code: str, title: str, why: str, fix: str) -> CodePage:
     return CodePage(code=code, severity=Severity.ERROR, title=title, why=why, fix=fix)
 
 
-def _unknown(code: str, thing: str, where: str) -> CodePage:
+def _unknown(code: str, thing: str, where: str, otherwise: str) -> CodePage:
     return _page(
         code,
         f"a reference names {'an' if thing[0] in 'aeiou' else 'a'} {thing} that does not exist",
-        f"Names are references: {where}. ROS itself would start and wait for ever for a name that nothing has, so a "
-        "misspelt one is found here, with the nearest names that exist.",
+        f"Names are references: {where}. A misspelt one is found here, with the nearest names that exist. {otherwise}.",
         f"name an existing {thing}, or declare it",
     )
 
 
 CODES: tuple[CodePage, ...] = (
-    _unknown("unknown-calibration", "calibration", "a measured transform names an entry of `calibrations`"),
-    _unknown("unknown-clock", "clock", "a clock is a host, a device that states one, or the domain of either"),
-    _unknown("unknown-controller", "controller", "switches and faults name controllers of the cell"),
-    _unknown("unknown-device", "device", "controllers, steps and faults name entries of `devices`"),
-    _unknown("unknown-frame", "frame", "a frame is `world`, an entry of `frames` or `scene`, or `device/link`"),
-    _unknown("unknown-goal", "pose or goal", "a `move` step names an entry of `motion.poses` or `motion.goals`"),
-    _unknown("unknown-group", "planning group", "poses and goals belong to an entry of `motion.groups`"),
-    _unknown("unknown-host", "host", "nodes, managers and connections name entries of `hosts`"),
-    _unknown("unknown-interface", "interface", "a fault names a topic, service or action under its full name"),
-    _unknown("unknown-joint", "joint", "a joint is `device/joint`, with the joint's name in its description"),
-    _unknown("unknown-model", "model", "a device names an entry of the catalog, or a folder with a device.yaml"),
-    _unknown("unknown-nic", "network card", "a connection names a card of its host"),
-    _unknown("unknown-node", "node", "interfaces, frames and clients name nodes, devices or controllers"),
-    _unknown("unknown-rehearsal", "rehearsal", "`use` names another entry of `rehearsals`"),
+    _unknown(
+        "unknown-calibration",
+        "calibration",
+        "a measured transform names an entry of `calibrations`",
+        "Otherwise the transform would rest on a measurement whose date, residual and owner nobody can look up",
+    ),
+    _unknown(
+        "unknown-clock",
+        "clock",
+        "a clock is a host, a device that states one, or the domain of either",
+        "Otherwise ages would be differences between clocks of which nobody says how far they are apart",
+    ),
+    _unknown(
+        "unknown-controller",
+        "controller",
+        "switches and faults name controllers of the cell",
+        "The controller manager would refuse the switch when it is first needed, and a fault would hit nothing",
+    ),
+    _unknown(
+        "unknown-device",
+        "device",
+        "controllers, steps and faults name entries of `devices`",
+        "Otherwise a controller would have no joints, and a step or a fault nothing to act on",
+    ),
+    _unknown(
+        "unknown-frame",
+        "frame",
+        "a frame is `world`, an entry of `frames` or `scene`, or `device/link`",
+        "tf2 would answer each lookup of it with an exception, while the cell runs",
+    ),
+    _unknown(
+        "unknown-goal",
+        "pose or goal",
+        "a `move` step names an entry of `motion.poses` or `motion.goals`",
+        "Otherwise the step would have nowhere to go",
+    ),
+    _unknown(
+        "unknown-group",
+        "planning group",
+        "poses and goals belong to an entry of `motion.groups`",
+        "MoveIt would drop the pose with a line in its log, and refuse each request for the group",
+    ),
+    _unknown(
+        "unknown-host",
+        "host",
+        "nodes, managers and connections name entries of `hosts`",
+        "Otherwise the program would be started on no computer, and the device be reached from none",
+    ),
+    _unknown(
+        "unknown-interface",
+        "interface",
+        "a fault names a topic, service or action under its full name",
+        "Otherwise the fault would hit nothing, and the rehearsal prove nothing",
+    ),
+    _unknown(
+        "unknown-joint",
+        "joint",
+        "a joint is `device/joint`, with the joint's name in its description",
+        "The controller manager would refuse a controller whose interfaces no hardware offers",
+    ),
+    _unknown(
+        "unknown-model",
+        "model",
+        "a device names an entry of the catalog, or a folder with a device.yaml",
+        "Otherwise neither its links and joints nor its driver would be known",
+    ),
+    _unknown(
+        "unknown-nic",
+        "network card",
+        "a connection names a card of its host",
+        "Otherwise nobody would know over which card the device is reached, and what else that card carries",
+    ),
+    _unknown(
+        "unknown-node",
+        "node",
+        "interfaces, frames and clients name nodes, devices or controllers",
+        "ROS itself would say nothing: a subscriber waits for ever for a publisher that nobody is",
+    ),
+    _unknown(
+        "unknown-rehearsal",
+        "rehearsal",
+        "`use` names another entry of `rehearsals`",
+        "Otherwise the steps that it shares would be left out",
+    ),
     _page(
         "ambiguous-node",
         "a reference fits several controllers",

@@ -80,7 +80,10 @@ def test_reason_at_the_end_of_a_line_ends_before_the_next_line() -> None:
 
 
 def test_name_that_is_too_long_for_a_name_is_none() -> None:
-    assert best(f"Could not initialize the controller named '{'a' * 200}'") == "a controller or node does not become active"
+    assert (
+        best(f"Could not initialize the controller named '{'a' * 200}'")
+        == "a controller or node does not become active"
+    )
     assert best(f"Could not initialize the controller named '{'a' * 201}'") == ""
 
 

@@ -1,7 +1,8 @@
 """The age of a sample is limited, but its type has no stamp.
 
-Without a header the reader knows when a message arrived, not when it was true. A sample that waited in a queue passes
-every age test.
+Without a header the reader knows when a message was sent and when it arrived, which the middleware tells, but not when
+its content was true. What was computed from an old image passes every test of age. It is asked of types that move the
+robot or decide whether it moves.
 
 Example that is reported:
 
@@ -19,7 +20,7 @@ interfaces:
              wants: newest, rate: 10 Hz, max_age: 200 ms, on_stale: reject_goal}
 ```
 
-Fix: use the stamped variant of the type.
+Fix: use the stamped variant of the type, or one of your own that begins with a header.
 
 Source: docs/principles.md#transforms-at-the-time-of-observation
 """

@@ -1,7 +1,9 @@
 """A declared switch leads to two controllers that claim one command interface.
 
-The controller manager refuses the switch, and refuses it as a whole: the controllers that were to stop go on. It
-shows the first time that the switch is needed.
+It shows the first time that the switch is needed, and what happens then depends on the version. ros2_control 4.39.1
+(Jazzy), 5.9.0 (Kilted) and later refuse the switch as a whole before anything changes: the controllers that were to
+stop go on. Older ones and Humble carry it out but for the controller whose interface is taken: what was to stop has
+stopped, and its joints may have no controller. All of them answer that the switch failed.
 
 Example that is reported:
 
@@ -30,6 +32,7 @@ Fix: deactivate in the same switch what holds the interface.
 Source:
 
 - https://docs.ros.org/en/jazzy/p/controller_manager_msgs/srv/SwitchController.html (Jazzy)
+- https://github.com/ros-controls/ros2_control/pull/2760 (4.39.1), controller_manager.cpp of Humble 2.54.0
 - docs/principles.md#claims-and-switches
 """
 

@@ -1,7 +1,9 @@
 """A reader that wants the newest sample queues old ones reliably.
 
-When the reader is late, a reliable queue hands it the oldest sample first. It then works through a backlog of images
-in which the part is still where it was.
+When the reader is late, a queue hands it the oldest sample that it keeps first. It then works through a backlog of
+images in which the part is still where it was. What makes the backlog is the depth: a best-effort queue of five hands
+out five old samples too. It is left alone because lost samples are not sent again and five is what sensors are usually
+read with (REP 2003); only a depth of 1 has no backlog at all.
 
 Example that is reported:
 
