@@ -66,7 +66,7 @@ def test_name_of_a_symptom_finds_it_however_it_is_spelt() -> None:
 def test_lines_of_a_launch_with_colours_and_breaks_are_read_as_one() -> None:
     pasted = (
         "\x1b[33m[ros2_control_node-1] [WARN] [1700000000.123] [resource_manager]: Unable to activate controller\n"
-        "    'arm' since the command interface\r\n'joint1/position' is currently claimed by another controller.\x1b[0m\n"
+        "    'arm' since the command interface\r\n'joint1/position' is currently claimed by another.\x1b[0m\n"
         "[spawner-2] [INFO] [1700000000.456] [spawner_arm]: bye"
     )
     (match, *_) = classify(pasted, knowledge())

@@ -32,7 +32,8 @@ Fix: deactivate in the same switch what holds the interface.
 Source:
 
 - https://docs.ros.org/en/jazzy/p/controller_manager_msgs/srv/SwitchController.html (Jazzy)
-- https://github.com/ros-controls/ros2_control/pull/2760 (4.39.1), controller_manager.cpp of Humble 2.54.0
+- https://github.com/ros-controls/ros2_control/pull/2760 (4.39.1)
+- https://github.com/ros-controls/ros2_control/blob/humble/controller_manager/src/controller_manager.cpp (2.54.0)
 - docs/principles.md#claims-and-switches
 """
 
