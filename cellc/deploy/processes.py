@@ -81,6 +81,11 @@ def bring_up_nodes(plan: BringUp) -> tuple[str, ...]:
     return (*named, *(("claim_watch",) if plan.watches else ()))
 
 
+def people_enclave(cell: Cell) -> str:
+    """Return the enclave of what people type at a shell while they pass the gates."""
+    return f"/{cell.name}/people"
+
+
 def bring_up_enclave(cell: Cell) -> str:
     """Return the enclave of the command-line tools with which the bring-up waits, configures and activates."""
     return f"/{cell.name}/bring_up"

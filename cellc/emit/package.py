@@ -27,7 +27,7 @@ _CONTROL = ("controller_manager", "hardware_interface", "ros2controlcli")
 # What the program of the bring-up imports: it asks the controller managers and managed nodes, and hears transforms.
 _BRING_UP = ("controller_manager_msgs", "lifecycle_msgs", "rcl_interfaces", "rclpy", "tf2_msgs")
 # What the commands of the gates call; the keys of rosdep.
-_GATES = ("liburdfdom-tools", "ros2bag", "ros2cli_common_extensions", "rosbag2_storage_mcap", "tf2_ros")
+_GATES = ("liburdfdom-tools", "ros2bag", "ros2cli_common_extensions", "rosbag2_storage_mcap", "sros2", "tf2_ros")
 _PLANNING = (
     "moveit_kinematics",
     "moveit_planners_ompl",

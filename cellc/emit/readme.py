@@ -20,6 +20,7 @@ from cellc.deploy.deployment import Deployment
 from cellc.deploy.files import NETWORK_CHECKLIST, PROMOTION_CHECKLIST, SOURCES, plans
 from cellc.deploy.gates import Gate
 from cellc.deploy.labels import real_driver
+from cellc.deploy.processes import people_enclave
 from cellc.deploy.releases import start_mock
 from cellc.formats.escape import code, markdown, markdown_comment
 from cellc.formats.parameter_file import spec_path
@@ -65,6 +66,9 @@ _RELEASED = {
 }
 
 
+_POLICY = "generated/{}/security/policy.xml"
+
+
 def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     """Yield the page."""
     cell = graph.cell
@@ -78,6 +82,7 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
         "## Every shell, once",
         "From the folder that holds `cells/` and `generated/`, with ROS 2 sourced:",
         _shell_of(cell),
+        *_enforced(cell),
         "To try it on the mock, in three commands:",
         _fenced((plan.header.command, f"cellc mock generated/{cell.name}", start_mock(cell))),
         *_questions(plan.questions),
@@ -128,6 +133,27 @@ def _shell_of(cell: Cell) -> str:
             "source install/setup.bash",
             *environments,
             'export E=evidence/attempt-001 && mkdir -p "$E"  # a new folder for each attempt',
+        )
+    )
+
+
+def _enforced(cell: Cell) -> Iterator[str]:
+    """Yield how the access policy is enforced: sros2 0.10 to 0.15, for a middleware that is DDS."""
+    if cell.versions.rmw.startswith("rmw_zenoh"):
+        return
+    yield (
+        "Where access is enforced, keys are made in a shell as above: domain and middleware are read from it, and "
+        "another of either needs new ones. A process then starts in its enclave of `security/policy.xml`, which the "
+        "launch files name, or not at all. Each host has its own enclaves alone, and `private/` is kept "
+        "away from the cell. What people type is told its enclave in a shell that launches nothing:"
+    )
+    yield _fenced(
+        (
+            "export ROS_SECURITY_KEYSTORE=~/keystore",
+            'ros2 security create_keystore "$ROS_SECURITY_KEYSTORE"  # once, and the next line after each build',
+            f'ros2 security generate_artifacts -k "$ROS_SECURITY_KEYSTORE" -p {_POLICY.format(cell.name)}',
+            "export ROS_SECURITY_ENABLE=true ROS_SECURITY_STRATEGY=Enforce",
+            f"export ROS_SECURITY_ENCLAVE_OVERRIDE={people_enclave(cell)}  # only where people look, never to launch",
         )
     )
 

@@ -77,7 +77,10 @@ class Parameter:
 def declared(distro: str, plugin: str) -> dict[str, Parameter]:
     """Return the declarations of a controller by name, with ``__map_…`` parts where a key of any name fits."""
     if (distro, plugin) == ("humble", "controller_manager"):  # declared in code there: controller_manager.cpp
-        return {"update_rate": Parameter("int", True, {"gt": 0})}
+        facts = UPSTREAM / "vendors" / "ros2_control" / "2.54.0_humble" / "hardware_interfaces.yaml"
+        read = safe_load(facts.read_text(encoding="utf-8"))["controller_manager_parameters"]
+        every = {name: Parameter(one["type"], False, {}) for name, one in read.items()}
+        return {**every, "update_rate": Parameter("int", True, {"gt": 0})}
     file = UPSTREAM / "parameters" / distro / f"{_FILES[plugin]}_parameters.yaml"
     (tree,) = safe_load(file.read_text(encoding="utf-8")).values()
     return dict(_walk({**tree, **_IN_CODE.get(plugin, {})}, ""))

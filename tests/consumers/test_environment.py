@@ -7,6 +7,7 @@ import subprocess
 from xml.etree.ElementTree import fromstring
 
 from tests.consumers.matrix import build, every_build, spec_for
+from tests.consumers.starting import every_process
 from tests.foreign_yaml import safe_load
 
 
@@ -58,7 +59,15 @@ def test_everything_that_is_read_at_run_time_is_installed(cell: str, distro: str
     )
     kinds = {kind: set(names.split()) for kind, names in installs}
     folders = {path.split("/")[0] for path in texts if "/" in path and not path.startswith(("gates", "graph"))}
-    assert kinds["DIRECTORY"] >= folders - {"evidence", "scripts"}
+    # What runs is no file that is read: it is installed where ros2 run looks, with the right to be executed.
+    ((programs, home),) = re.findall(
+        r"^install\(PROGRAMS\n((?:  [\w./]+\n)+)  DESTINATION (\S+)\n\)", texts["CMakeLists.txt"], re.M
+    )
+    assert home == "lib/${PROJECT_NAME}"
+    assert set(programs.split()) == {path for path in texts if path.startswith("scripts/")}
+    started = {one.executable for one in every_process(build(cell, distro)) if one.package == cell}
+    assert started == {path.rpartition("/")[2] for path in programs.split()}
+    assert kinds["DIRECTORY"] | {"scripts"} >= folders - {"evidence"}
     assert kinds["FILES"] >= {"contract.json", "manifest.json", "rehearsals.json"}
     assert texts["CMakeLists.txt"].rstrip().endswith("ament_package()")
     assert f"project({cell} NONE)" in texts["CMakeLists.txt"]

@@ -48,8 +48,6 @@ def test_manager_declares_what_it_is_told(cell: str, distro: str) -> None:
         if process.executable == "ros2_control_node":
             values = told(texts, process.files, node_name(process))
             own = {name: value for name, value in values.items() if not name.endswith(".type")}
-            if distro == "humble":  # it declares what it is given, and reads the states of components from there
-                own = {name: value for name, value in own.items() if "hardware_components_initial_state" not in name}
             assert complaints(distro, "controller_manager", own) == []
             assert own["update_rate"] > 0
 

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import re
 from xml.etree.ElementTree import Element, fromstring
 
 import pytest
 
 from tests.consumers.matrix import build, every_build
+from tests.consumers.permissions import Permissions, Right, permissions
 from tests.consumers.starting import node_name, processes, written_managers
+from tests.consumers.test_walk import commands, sections
+from tests.emit.cells import contract_data
 
 
 def profiles(cell: str, distro: str) -> dict[str, Element]:
@@ -69,9 +73,14 @@ def test_nobody_may_change_the_scene_or_stop_a_trajectory_by_a_topic(cell: str, 
 def test_what_one_node_hears_another_may_say(cell: str, distro: str) -> None:
     found = profiles(cell, distro)
     said = {topic for profile in found.values() for topic in granted(profile, "topics", "publish")}
+    # Who executes an action says its feedback and status.
+    executed = {action for profile in found.values() for action in granted(profile, "actions", "execute")}
+    said |= {f"{action}/_action/{part}" for action in executed for part in ("feedback", "status")}
     for name, profile in found.items():
         heard = {topic for topic in granted(profile, "topics", "subscribe") if not topic.startswith("~/")} - {"/clock"}
         heard -= _SAID_BY_NOBODY
+        # A bag takes diagnostics where somebody says them; the manager of Humble has none.
+        heard -= {"/diagnostics"} if (name, distro) == ("/rosbag2_recorder", "humble") else set()
         assert {topic for topic in heard if "/unused/" not in topic} <= said, name
 
 
@@ -161,3 +170,44 @@ def test_arm_of_one_side_is_not_commanded_from_the_other(side: str) -> None:
     profile = profiles("two_arms", "jazzy")[f"/{side}_task"]
     assert granted(profile, "actions", "call") >= {f"/{side}/gripper_action/gripper_cmd"}
     assert not [action for action in granted(profile, "actions", "call") if action.startswith(f"/{other}/")]
+
+
+def _people(cell: str, distro: str) -> Permissions:
+    return permissions(build(cell, distro).texts["security/policy.xml"])[f"/{cell}/people"]
+
+
+@every_build
+def test_people_may_do_what_the_gates_have_them_type(cell: str, distro: str) -> None:
+    may, asked = _people(cell, distro), 0
+    for command in (one for text in sections(cell, distro).values() for one in commands(text)):
+        words = command.split()
+        ends: list[tuple[Right, str]] = []
+        if re.search(r"ros2 topic (echo|hz|delay|bw)", command):
+            ends = [("subscribe", next(word for word in words if word.startswith("/")))]
+        elif command.startswith("ros2 bag record"):
+            ends = [("subscribe", word) for word in words if word.startswith("/")]
+        elif command.startswith("ros2 control list_"):
+            ends = [("request", f"{words[-1]}/{words[2]}")]
+        elif command.startswith("ros2 lifecycle get"):
+            ends = [("request", f"{words[3]}/get_state")]
+        elif command.startswith("ros2 lifecycle set"):
+            ends = [("request", f"{words[3]}/{one}") for one in ("change_state", "get_available_transitions")]
+        elif command.startswith("ros2 param get"):
+            ends = [("request", f"{words[3]}/get_parameters")]
+        elif "tf2_echo" in command or "tf2_monitor" in command:
+            ends = [("subscribe", "/tf"), ("subscribe", "/tf_static")]
+        for right, name in ends:
+            assert may.allow(right, name), command
+            asked += 1
+    assert asked > 10
+
+
+@every_build
+def test_people_may_neither_command_nor_switch_from_a_shell(cell: str, distro: str) -> None:
+    texts, may = build(cell, distro).texts, _people(cell, distro)
+    for name, one in contract_data(texts["contract.json"])["interfaces"].items():
+        assert one["kind"] != "action" or not may.allow("call", name), name
+        assert one["kind"] != "topic" or not may.allow("publish", name) or name in ("/rosout", "/parameter_events")
+    for namespace, _ in written_managers(cell):
+        for service in ("switch_controller", "set_hardware_component_state", "load_controller", "set_parameters"):
+            assert not may.allow("request", f"{namespace}/controller_manager/{service}")

@@ -11,8 +11,6 @@ from tests.cells import DISTROS
 from tests.emit.cells import CELLS, artifacts_of
 from tests.oracles import UPSTREAM, needs_upstream
 
-_LISTENER = "transform_listener_impl_"
-
 
 def _policy(cell: str, distro: str = "jazzy") -> ElementTree.Element:
     return ElementTree.fromstring(artifacts_of(cell, distro)["security/policy.xml"])
@@ -70,7 +68,9 @@ def test_nothing_is_allowed_by_wildcard_and_enclaves_are_unique() -> None:
     assert [entry.text for entry in policy.iter() if entry.text and "*" in entry.text] == []
     # A name that differs at every start opens nothing but what lies below it.
     changing = [one for one in policy.iter("profile") if "*" in one.attrib["node"]]
-    assert {one.attrib["node"].rstrip("*") for one in changing} == {"move_group_private_", "moveit_", _LISTENER}
+    assert {one.attrib["node"].rstrip("*") for one in changing} == {
+        *("move_group_private_", "moveit_", "transform_listener_impl_", "_ros2cli_", "tf2_monitor")
+    }
     paths = [enclave.attrib["path"] for enclave in policy.iter("enclave")]
     assert len(paths) == len(set(paths))
     assert all(path.startswith("/ur5e_pick/") for path in paths)

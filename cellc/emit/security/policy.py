@@ -1,9 +1,9 @@
 """``security/policy.xml``: who may publish, subscribe, serve and call; everything else is denied.
 
 SROS2 policy 0.2.0, read by ``ros2 security create_permission``. One enclave a node, one for the controller manager's
-process with its controllers and hardware nodes, one for the spawners, one for the program of the bring-up. Only the
-clients that the spec declares may call an action and only its sources may publish a topic. Left out: keys and
-certificates, which belong into no repository, and what people type at a shell, which needs an enclave of their own.
+process with its controllers and hardware nodes, one for the spawners, one for the program of the bring-up, one for
+what people type while they pass the gates. Only the clients that the spec declares may call an action and only its
+sources may publish a topic. Left out: keys and certificates, which belong into no repository.
 """
 
 from __future__ import annotations
@@ -17,13 +17,14 @@ from cellc.cell.control import ControllerManager
 from cellc.cell.interface import NodeSource
 from cellc.deploy.bringup import spawnings
 from cellc.deploy.deployment import Deployment
-from cellc.deploy.processes import bring_up_enclave, enclave_of, manager_enclave, spawner_enclave
+from cellc.deploy.processes import bring_up_enclave, enclave_of, manager_enclave, people_enclave, spawner_enclave
 from cellc.emit.security.rights import (
     Profile,
     bring_up_process,
     manager_client,
     manager_process,
     node_profiles,
+    people,
     profile_element,
 )
 from cellc.formats.xml_text import element, render
@@ -46,6 +47,7 @@ def _enclaves(cell: Cell, plan: Deployment) -> Iterator[Element]:
         yield _enclave(manager_enclave(cell, manager), manager_process(cell, manager))
         yield _enclave(spawner_enclave(cell, manager), _spawners(cell, manager))
     yield _enclave(bring_up_enclave(cell), bring_up_process(cell, plan.bring_up))
+    yield _enclave(people_enclave(cell), people(cell))
 
 
 def _spawners(cell: Cell, manager: ControllerManager) -> Iterator[Profile]:

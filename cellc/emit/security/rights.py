@@ -14,7 +14,8 @@ from cellc.cell.cell import Cell
 from cellc.cell.control import Controller, ControllerManager
 from cellc.cell.interface import InnerNode, InterfaceKind, Node, NodeEndpoints, NodeSource
 from cellc.contract.bring_up import TARGETS, BringUp, TopicProof
-from cellc.deploy.processes import bring_up_nodes, description_nodes
+from cellc.deploy.processes import bring_up_nodes, description_nodes, motion_clients
+from cellc.deploy.recording import recorded_topics
 from cellc.formats.xml_text import element
 from cellc.link.nodes import JOINT_STATES
 from cellc.vocabulary import Feature, features
@@ -24,6 +25,12 @@ _CONTROLLER_STATE = "~/controller_state"
 # What the program of the bring-up calls.
 _OF_MANAGED = ("change_state", "get_state")
 _OF_MANAGER = ("list_controllers", "list_hardware_components", "set_hardware_component_state", "switch_controller")
+# What the commands of the gates call: `ros2 control list_*`, `ros2 lifecycle get` and `set`, `ros2 param get`.
+_LISTED = ("list_controllers", "list_hardware_components", "list_hardware_interfaces")
+_LOOKED_AT = ("get_available_transitions", "get_state")
+# The names that they give their nodes: ros2cli (and its daemon), tf2_ros, rosbag2_transport.
+_TYPED = ("_ros2cli_*", "tf2_echo", "tf2_monitor*", "rosbag2_recorder", "transform_listener_impl_*")
+_OF_RECORDER = ("is_paused", "pause", "record", "resume", "snapshot", "split_bagfile", "stop")
 
 
 @dataclass(frozen=True, slots=True)
@@ -211,3 +218,29 @@ def bring_up_process(cell: Cell, plan: BringUp) -> Iterator[Profile]:
     asks = NodeEndpoints(subscribes=(*heard, "/tf", "/tf_static"), requests=(*managed, *managers, *described))
     for node in bring_up_nodes(plan):
         yield _with(_granted(cell, f"/{node}"), asks)
+
+
+def people(cell: Cell) -> Iterator[Profile]:
+    """Yield the rights of what people type: to look at everything, and to activate the managed nodes that move.
+
+    Nobody publishes, calls an action or switches a controller from a shell.
+    """
+    topics = (one.name for one in cell.interfaces if one.kind is InterfaceKind.TOPIC)
+    actions = (one.name for one in cell.interfaces if one.kind is InterfaceKind.ACTION)
+    hidden = (f"{name}/_action/{part}" for name in actions for part in ("feedback", "status"))
+    managers = (f"{one.node}/{name}" for one in cell.managers for name in _LISTED)
+    managed = (f"{node.full_name}/{one}" for node in cell.nodes if node.lifecycle for one in _LOOKED_AT)
+    moving = (f"{node.full_name}/change_state" for node in motion_clients(cell) if node.lifecycle)
+    described = (f"{node}/get_parameters" for node in description_nodes(cell))
+    asks = NodeEndpoints(
+        subscribes=(*topics, *hidden, "/rosout", "/tf", "/tf_static"),
+        requests=(*managers, *managed, *moving, *described),
+    )
+    recorder = NodeEndpoints(
+        publishes=("/events/write_split",),
+        subscribes=tuple(recorded_topics(cell)),
+        serves=tuple(f"~/{one}" for one in _OF_RECORDER),
+    )
+    for name in _TYPED:
+        profile = _granted(cell, f"/{name}")
+        yield _with(_with(profile, asks), recorder) if name == "rosbag2_recorder" else _with(profile, asks)
