@@ -78,11 +78,14 @@ class TransformProof(ContractModel):
 
 
 class MockProof(ContractModel):
-    """The description that a node holds names no hardware plugin but those of the mock."""
+    """The description that a node holds names no hardware plugin but those of the mock, and no name is taken twice."""
 
     kind: Literal["mock"]
     node: str = Field(description="Full name of the node with the parameter `robot_description`.")
     plugins: tuple[str, ...] = Field(description="Plugins that touch no hardware.")
+    alone: tuple[str, ...] = Field(
+        (), description="Full names of nodes that are asked: each must be there once, for a real cell has them too."
+    )
 
 
 Proof = (

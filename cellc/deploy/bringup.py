@@ -76,10 +76,10 @@ def activation(node: Node) -> str:
 def _steps(cell: Cell, target: Target) -> Iterator[BringUpStep]:
     """Yield the steps on a target; each waits for what an earlier one made, on whichever host that runs."""
     managed = [node for node in cell.nodes if node.lifecycle]
-    yield from (_configure(node) for node in managed)
+    yield from (_configure(cell, node, target) for node in managed)
     for manager in cell.managers:
         yield from _observe(cell, manager, target)
-    yield from (_activate(cell, node) for node in managed if not asks_for_motion(cell, node))
+    yield from (_activate(cell, node, target) for node in managed if not asks_for_motion(cell, node))
     for manager in cell.managers:
         yield from _activate_hardware(cell, manager, target)
     for manager in cell.managers:
@@ -88,18 +88,18 @@ def _steps(cell: Cell, target: Target) -> Iterator[BringUpStep]:
         yield _move(cell, target)
 
 
-def _configure(node: Node) -> BringUpStep:
+def _configure(cell: Cell, node: Node, target: Target) -> BringUpStep:
     return _step(
         BringUpPhase.START,
         f"configure_{node.name}",
         node.host,
-        [NodeProof(kind="node", node=node.full_name)],
+        [NodeProof(kind="node", node=node.full_name), *_mocked(cell, target)],
         Transition(kind="transition", node=node.full_name, transition="configure"),
         [_lifecycle(node, "inactive")],
     )
 
 
-def _activate(cell: Cell, node: Node) -> BringUpStep:
+def _activate(cell: Cell, node: Node, target: Target) -> BringUpStep:
     parents = dict.fromkeys(
         frame.parent for frame in cell.frames if frame.kind is FrameKind.DYNAMIC and frame.authority == node.name
     )
@@ -107,7 +107,7 @@ def _activate(cell: Cell, node: Node) -> BringUpStep:
         BringUpPhase.START,
         f"activate_{node.name}",
         node.host,
-        [_lifecycle(node, "inactive"), *(_transform(WORLD, parent) for parent in parents)],
+        [*_mocked(cell, target), _lifecycle(node, "inactive"), *(_transform(WORLD, parent) for parent in parents)],
         Transition(kind="transition", node=node.full_name, transition="activate"),
         [_lifecycle(node, "active")],
     )
@@ -128,7 +128,11 @@ def _observe(cell: Cell, manager: ControllerManager, target: Target) -> Iterator
             BringUpPhase.START,
             f"observe_{manager.name}",
             manager.host,
-            [*components, *(_controller(manager, name, "inactive") for name in spawned)],
+            [
+                *_mocked(cell, target),
+                *components,
+                *(_controller(manager, name, "inactive") for name in spawned),
+            ],
             Activation(kind="controllers", manager=manager.node, controllers=observing) if observing else None,
             [_controller(manager, name, "active") for name in observing],
         )
@@ -152,7 +156,7 @@ def _activate_hardware(cell: Cell, manager: ControllerManager, target: Target) -
             BringUpPhase.ACTIVATE,
             f"observe_{manager.name}_again",
             manager.host,
-            [_controller(manager, name, "active") for name in observing],
+            [*_mocked(cell, target), *(_controller(manager, name, "active") for name in observing)],
             Restart(kind="restart", manager=manager.node, controllers=observing),
             [_controller(manager, name, "active") for name in observing],
         )
@@ -202,11 +206,17 @@ def _move(cell: Cell, target: Target) -> BringUpStep:
 
 
 def _mocked(cell: Cell, target: Target) -> Iterator[MockProof]:
-    """Yield the proofs that nothing but the mock answers, on the mock: a real cell has the same names and domain."""
+    """Yield the proofs that nothing but the mock answers, on the mock: a real cell has the same names and domain.
+
+    What describes the mock may stand beside a real one of its name, which hears the same requests: each is there once.
+    """
     if target == "mock":
         hardware = (one.hardware for one in cell.devices if _on(one, "mock"))
         plugins = tuple(sorted({one.plugins["mock"] for one in hardware if one is not None}))
-        yield from (MockProof(kind="mock", node=node, plugins=plugins) for node in description_nodes(cell))
+        describing = tuple(description_nodes(cell))
+        asked = (*(manager.node for manager in cell.managers), *(one.full_name for one in cell.nodes if one.lifecycle))
+        alone = tuple(dict.fromkeys((*describing, *asked)))
+        yield from (MockProof(kind="mock", node=node, plugins=plugins, alone=alone) for node in describing)
 
 
 def _step(

@@ -33,6 +33,7 @@ class StandIn:
 
     module: Any
     nodes_: dict[str, str] = field(default_factory=dict)
+    twice: list[str] = field(default_factory=list)
     controllers: dict[str, str] = field(default_factory=dict)
     hardware: dict[str, str] = field(default_factory=dict)
     messages: dict[str, Any] = field(default_factory=dict)
@@ -51,8 +52,8 @@ class StandIn:
     def leave(self) -> None:
         self.log.append("leave")
 
-    def nodes(self) -> set[str]:
-        return set(self.nodes_)
+    def nodes(self) -> list[str]:
+        return [*self.nodes_, *self.twice]
 
     def serves(self, name: str) -> bool:
         return name.removesuffix("/_action/send_goal") in self.servers

@@ -131,12 +131,13 @@ def test_mover_of_the_mock_looks_at_the_description_of_every_manager(cell: str, 
     moving = [step for step in plan(cell, distro)["mock"] if step["phase"] == "move"]
     looked = [proof["node"] for step in moving for proof in step["proof"] if proof["kind"] == "mock"]
     assert looked == ([f"{one}{asked}" for one in managers] if moving else [])
-    # Nor does the mock activate or claim anything of a real cell that waits in the same domain.
+    # Nor does the mock ask anything of a real cell that waits in the same domain, or is heard beside it.
     for step in plan(cell, distro)["mock"]:
-        if step["phase"] in ("activate", "claim") and step["request"]["kind"] != "restart":
-            assert [proof["node"] for proof in step["proof"] if proof["kind"] == "mock"] == [
-                f"{one}{asked}" for one in managers
-            ]
+        if step.get("request") is not None:
+            looked = [proof for proof in step["proof"] if proof["kind"] == "mock"]
+            assert [proof["node"] for proof in looked] == [f"{one}{asked}" for one in managers]
+            to = step["request"].get("manager", step["request"].get("node"))
+            assert all({to, proof["node"]} <= set(proof["alone"]) for proof in looked)
 
 
 @every_build
@@ -286,6 +287,16 @@ def test_mock_asks_nothing_of_a_real_cell_in_the_same_domain(graph: StandIn, tmp
     assert run(graph, tmp_path, "--target", "mock", "start", "activate", "claim", wait_s=0.05) == 1
     assert graph.hardware["gripper_hardware"] == "unconfigured"
     assert graph.controllers["arm_trajectory"] == "inactive"
+
+
+@pytest.mark.parametrize("name", ["/controller_manager", "/perception", "/robot_state_publisher"])
+def test_mock_asks_nothing_where_another_cell_has_its_names(graph: StandIn, tmp_path: Path, name: str) -> None:
+    # Two servers of one name both hear a request: `ros2 node list` warns of that, and nothing refuses it.
+    graph.nodes_["/controller_manager"] = ""
+    graph.twice = [name]
+    assert run(graph, tmp_path, "--target", "mock", "start", "activate", "claim", wait_s=0.05) == 1
+    assert set(graph.controllers.values()) == {"inactive"}
+    assert graph.nodes_["/perception"] == "unconfigured"
 
 
 def test_processes_that_come_up_late_are_waited_for(graph: StandIn, tmp_path: Path) -> None:

@@ -35,8 +35,7 @@ LOOK_S = 0.2  # how often what is missing is looked for
 LOST = 3  # looks in a row that must miss a claim before the program behind it is stopped; one may be a late answer
 PATIENCE_S = 0.0  # in place of the deadlines of the plan, where it is not 0
 BEST_EFFORT, STRICT = 1, 2  # controller_manager_msgs/srv/SwitchController: what can be done; all of it or nothing
-TRANSITIONS = {"configure": 1, "activate": 3}  # lifecycle_msgs/msg/Transition
-ACTIVE = 3  # lifecycle_msgs/msg/State
+TRANSITIONS, ACTIVE = {"configure": 1, "activate": 3}, 3  # lifecycle_msgs/msg/Transition; lifecycle_msgs/msg/State
 # Of a child: it gets SIGINT when this program is gone, killed too (prctl(2), PR_SET_PDEATHSIG).
 END_WITH_PARENT = partial(ctypes.CDLL(None).prctl, 1, signal.SIGINT) if sys.platform == "linux" else None
 
@@ -77,8 +76,8 @@ class Graph:
         while (left := until - time.monotonic()) > 0:
             self._executor.spin_once(timeout_sec=left)
 
-    def nodes(self) -> set[str]:
-        return {f"{space.rstrip('/')}/{name}" for name, space in self._node.get_node_names_and_namespaces()}
+    def nodes(self) -> list[str]:
+        return [f"{space.rstrip('/')}/{name}" for name, space in self._node.get_node_names_and_namespaces()]
 
     def serves(self, name: str) -> bool:
         return any(name == seen for seen, _ in self._node.get_service_names_and_types())
@@ -92,8 +91,7 @@ class Graph:
             self._miss(name)
             raise UnansweredError(f"no service {name}")
         self._unseen_since.pop(name, None)
-        future = client.call_async(service.Request(**fields))
-        until = time.monotonic() + answer_s
+        future, until = client.call_async(service.Request(**fields)), time.monotonic() + answer_s
         while not future.done():
             if time.monotonic() > until:
                 client.remove_pending_request(future)
@@ -198,10 +196,12 @@ class Missing:
         return "" if self._graph.serves(f"{proof.action}/_action/send_goal") else f"no server of {proof.action}"
 
     def _transform(self, proof: SimpleNamespace) -> str:
-        connected = self._graph.connects(proof.parent, proof.child)
-        return "" if connected else f"no transform from {proof.parent} to {proof.child}"
+        there = self._graph.connects(proof.parent, proof.child)
+        return "" if there else f"no transform from {proof.parent} to {proof.child}"
 
     def _mock(self, proof: SimpleNamespace) -> str:
+        if twice := ", ".join(name for name in proof.alone if self._graph.nodes().count(name) > 1):
+            return f"{twice} must be there once: a cell of the same names runs in this domain"
         service = f"{proof.node}/get_parameters"
         answer = self._graph.ask("rcl_interfaces/srv/GetParameters", service, names=["robot_description"])
         text = answer.values[0].string_value if answer.values else ""
@@ -373,8 +373,8 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--plan", type=Path, required=True, help="config/bring_up.json of the package")
     parser.add_argument("--target", choices=("mock", "real"), required=True)
     parser.add_argument("--host", default="", help="take the steps of this computer alone")
-    patience = os.environ.get("CELL_WAIT_S") or "0"
-    parser.add_argument("--wait", type=seconds, default=patience, help="in place of all deadlines (CELL_WAIT_S)")
+    stated = os.environ.get("CELL_WAIT_S") or "0"
+    parser.add_argument("--wait", type=seconds, default=stated, help="in place of all deadlines (CELL_WAIT_S)")
     parser.add_argument("phases", nargs="+", choices=("start", "activate", "claim", "move", "watch"))
     read = parser.parse_args(own)
     PATIENCE_S = read.wait or PATIENCE_S
