@@ -21,6 +21,9 @@ def test_built_cell_passes_its_rehearsals(pick: Path) -> None:
     assert [(one["name"], one["outcome"], one["passed"]) for one in told["rehearsals"]] == [
         ("pick_and_place", "succeeded", True),
         ("stale_camera", "stale_state", True),
+        ("program_stopped", "claim_failure", True),
+        ("jogged_and_restarted", "succeeded", True),
+        ("gripper_activated", "succeeded", True),
         ("cancelled", "cancelled", True),
     ]
 
