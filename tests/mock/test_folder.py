@@ -129,7 +129,7 @@ def test_fault_on_something_unknown_is_refused(load_with: LoadWith) -> None:
 
 
 def test_unknown_rehearsal_lists_those_that_exist(cell: MockCell) -> None:
-    with pytest.raises(MockError, match="it has `pick_and_place`, `stale_camera`, .*`cancelled`"):
+    with pytest.raises(MockError, match=r"it has `pick_and_place`, `stale_camera`, .*`cancelled`"):
         cell.run("pick")
 
 
