@@ -96,6 +96,7 @@ class CodePage:
         title: what is wrong, as a phrase that ends without a full stop.
         why: one paragraph on what would happen if it passed unreported.
         fix: what to do, beginning with a verb; also the help of a finding that knows nothing more precise.
+        example: part of a spec that is reported; empty where none can show it, or where the reason holds it.
     """
 
     code: str
@@ -103,6 +104,7 @@ class CodePage:
     title: str
     why: str
     fix: str
+    example: str = ""
 
 
 @dataclass(frozen=True, slots=True)

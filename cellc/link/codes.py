@@ -2,12 +2,117 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from cellc.diagnostics import Severity
 from cellc.diagnostics.diagnostic import CodePage
 
+# Each is merged into a complete cell by a test, which finds it reported at its mark and nowhere else.
+_EXAMPLES: Mapping[str, str] = {
+    "unknown-calibration": """
+frames:
+  tcp: {calibration: tcp_new}  # expect at calibration
+""",
+    "unknown-clock": """
+rehearsals:
+  jump: {use: pick_and_place, inject: {jump_clock: contrl_pc, by: 1 s, at: 1 s},  # expect at jump_clock
+         expect: stale_state}
+""",
+    "unknown-controller": """
+control:
+  switches:
+    hold: {deactivate: [arm_trajectry]}  # expect at 0
+""",
+    "unknown-device": """
+control:
+  controllers:
+    arm_trajectory: {device: arn}  # expect at device
+""",
+    "unknown-frame": """
+motion:
+  goals:
+    pick: {frame: objct}  # expect at frame
+""",
+    "unknown-goal": """
+rehearsals:
+  short:
+    steps: [{move: hom}]  # expect at move
+""",
+    "unknown-group": """
+motion:
+  goals:
+    pick: {group: manipulater}  # expect at group
+""",
+    "unknown-host": """
+nodes:
+  task: {host: control_cp}  # expect at host
+""",
+    "unknown-interface": """
+rehearsals:
+  late: {use: pick_and_place, inject: {mismatch_qos: /object_pos, at: 1 s},  # expect at mismatch_qos
+         expect: stale_state}
+""",
+    "unknown-joint": """
+devices:
+  arm:
+    simulated_joints:
+      joint_9: {lag: 10 ms}  # expect at joint_9
+""",
+    "unknown-model": """
+devices:
+  arm: {model: ur5ee}  # expect at model
+""",
+    "unknown-nic": """
+devices:
+  arm:
+    connection: {nic: robt}  # expect at nic
+""",
+    "unknown-node": """
+interfaces:
+  /object_pose: {from: perceptoin}  # expect at from
+""",
+    "unknown-rehearsal": """
+rehearsals:
+  cancelled: {use: pick_and_plce}  # expect at use
+""",
+    "controller-without-device": """
+control:
+  controllers:
+    arm_hold: {type: joint_trajectory}  # expect at arm_hold
+""",
+    "event-never-comes": """
+rehearsals:
+  late: {use: pick_and_place, inject: {freeze: camera, at: {step: 8}},  # expect at step
+         expect: stale_state}
+""",
+    "not-a-chain": """
+motion:
+  groups:
+    manipulator: {base: gripper/base, tip: arm/base_link}  # expect at tip
+""",
+    "not-an-executable": """
+nodes:
+  task: {run: pick_place}  # expect at run
+""",
+    "rehearsal-cycle": """
+rehearsals:
+  first: {use: second}  # expect at use
+  second: {use: first}  # expect at use
+""",
+    "unknown-controller-kind": """
+control:
+  controllers:
+    arm_trajectory: {type: joint_trajectry}  # expect at type
+""",
+    "unknown-distro": """
+versions:
+  ros: rolling  # expect at ros
+""",
+}
+
 
 def _page(code: str, title: str, why: str, fix: str) -> CodePage:
-    return CodePage(code=code, severity=Severity.ERROR, title=title, why=why, fix=fix)
+    return CodePage(code, Severity.ERROR, title, why, fix, _EXAMPLES.get(code, ""))
 
 
 def _unknown(code: str, thing: str, where: str, otherwise: str) -> CodePage:
@@ -30,7 +135,7 @@ CODES: tuple[CodePage, ...] = (
         "unknown-clock",
         "clock",
         "a clock is a host, a device that states one, or the domain of either",
-        "Otherwise ages would be differences between clocks of which nobody says how far they are apart",
+        "Otherwise the fault would turn no clock, and the rehearsal prove nothing",
     ),
     _unknown(
         "unknown-controller",

@@ -47,8 +47,10 @@ def all_pages() -> dict[str, CodePage]:
 def render_page(page: CodePage) -> str:
     """Write a page as Markdown."""
     title = page.title[0].upper() + page.title[1:]
+    shown = _MARK.sub("", page.example).strip()
+    example = f"\nExample that is reported:\n\n```yaml\n{shown}\n```\n" if shown else ""
     fix = f"\nFix: {page.fix}.\n" if page.fix else ""
-    return f"# {page.code} ({page.severity.value})\n\n{title}.\n\n{page.why.strip()}\n{fix}"
+    return f"# {page.code} ({page.severity.value})\n\n{title}.\n\n{page.why.strip()}\n{example}{fix}"
 
 
 def codes_by_family() -> dict[str, frozenset[str]]:

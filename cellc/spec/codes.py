@@ -2,12 +2,69 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from cellc.diagnostics import Severity
 from cellc.diagnostics.diagnostic import CodePage
 
+# Each is merged into a complete cell by a test, which finds it reported at its mark and nowhere else.
+_EXAMPLES: Mapping[str, str] = {
+    "bad-name": """
+nodes:
+  task-2: {run: cell_tasks/pick_place, host: control_pc}  # expect at task-2
+""",
+    "fault-kind-missing": """
+rehearsals:
+  late: {use: pick_and_place, inject: {at: 1 s}, expect: stale_state}  # expect at inject
+""",
+    "interface-kind-missing": """
+interfaces:
+  /markers: {from: perception, to: task}  # expect at /markers
+""",
+    "missing-key": """
+hosts:
+  vision_pc:
+    nics: {office: {carries: [camera]}}  # expect at office
+""",
+    "missing-unit": """
+frames:
+  tcp: {xyz: 0 0 162}  # expect at xyz
+""",
+    "not-a-choice": """
+network: {discovery: broadcast}  # expect at discovery
+""",
+    "not-a-quantity": """
+control: {update_rate: fast}  # expect at update_rate
+""",
+    "out-of-range": """
+control: {update_rate: 0 Hz}  # expect at update_rate
+""",
+    "step-kind-missing": """
+rehearsals:
+  short: {steps: [{at: 1 s}]}  # expect at at
+""",
+    "unknown-key": """
+control: {update_rat: 500 Hz}  # expect at update_rat
+""",
+    "unsupported-format": """
+format: 2  # expect at format
+""",
+    "wrong-count": """
+frames:
+  tcp: {xyz: 0 162 mm}  # expect at xyz
+""",
+    "wrong-type": """
+nodes:
+  task: {lifecycle: often}  # expect at lifecycle
+""",
+    "wrong-unit": """
+control: {update_rate: 500 ms}  # expect at update_rate
+""",
+}
+
 
 def _page(code: str, title: str, why: str, fix: str) -> CodePage:
-    return CodePage(code, Severity.ERROR, title, why, fix)
+    return CodePage(code, Severity.ERROR, title, why, fix, _EXAMPLES.get(code, ""))
 
 
 CODES: tuple[CodePage, ...] = (
