@@ -60,7 +60,7 @@ devices:
 """,
     "unknown-model": """
 devices:
-  arm: {model: ur5ee}  # expect at model
+  arm: {model: demo_amr}  # expect at model
 """,
     "unknown-nic": """
 devices:
