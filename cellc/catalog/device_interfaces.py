@@ -23,7 +23,7 @@ from cellc.catalog.effects import EffectFacts, StartFacts, ToldFacts
 from cellc.catalog.programs import EndpointFacts, InnerNodeFacts
 from cellc.pins import same_version
 from cellc.spec.base import MOST
-from cellc.spec.quantity import Duration, Frequency
+from cellc.spec.quantity import Duration, FieldAngle, Frequency, Length
 from cellc.vocabulary import Distro
 
 InterfaceName = Text
@@ -231,6 +231,16 @@ class ActionFacts(CatalogModel):
     effect: EffectFacts | None = None
 
 
+class ViewFacts(CatalogModel):
+    """What a stream can see: whole angles of the sensor, and the distances between which it is used."""
+
+    horizontal: FieldAngle
+    vertical: FieldAngle
+    nearest: Length
+    farthest: Length
+    source: Text
+
+
 class StreamFacts(CatalogModel):
     """One image stream of a camera; ``frame`` is a link name without prefix."""
 
@@ -241,6 +251,7 @@ class StreamFacts(CatalogModel):
     rate: Frequency
     qos: QosUse
     info_qos: QosUse
+    view: ViewFacts | None = None
 
 
 class CameraFacts(CatalogModel):

@@ -142,14 +142,25 @@ class Gripper:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class FieldOfView:
+    """What a stream can see: whole angles in rad, distances in m."""
+
+    horizontal: float
+    vertical: float
+    nearest_m: float
+    farthest_m: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class CameraStream:
-    """One image stream with its camera info; ``frame`` is a prefixed link."""
+    """One image stream with its camera info; ``frame`` is a prefixed link, ``view`` None where nobody told."""
 
     topic: str
     type: str
     info_topic: str
     frame: str
     rate_hz: float
+    view: FieldOfView | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

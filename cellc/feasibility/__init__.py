@@ -12,6 +12,7 @@ from cellc.feasibility.answers import (
     GoalAnswer,
     MotionAnswer,
     PoseAnswer,
+    ViewAnswer,
 )
 from cellc.feasibility.feasibility import disabled_links, motion_answer
 from cellc.feasibility.meshes import MeshFault, mesh_faults
@@ -26,6 +27,7 @@ __all__ = [
     "MeshFault",
     "MotionAnswer",
     "PoseAnswer",
+    "ViewAnswer",
     "disabled_links",
     "mesh_faults",
     "motion_answer",

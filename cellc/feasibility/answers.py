@@ -44,10 +44,15 @@ class BodyContact:
 
 @dataclass(frozen=True, slots=True)
 class PoseAnswer:
-    """What touches when all groups of a named pose stand in it."""
+    """What touches when all groups of a named pose stand in it.
+
+    Attributes:
+        least: group → least singular value of its tip's Jacobian there, rows in m and rad.
+    """
 
     name: str
     contacts: tuple[BodyContact, ...]
+    least: tuple[tuple[str, float], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,6 +67,7 @@ class GoalAnswer:
         limit_joint: joint nearest to one of its limits there, as a share of its range; empty where none has a range.
         limit_share: its distance to that limit as a share of its range.
         limit_distance: the same in rad or m.
+        configuration: joint positions of the solution in the order of the group, rad or m; empty where there is none.
     """
 
     name: str
@@ -72,14 +78,32 @@ class GoalAnswer:
     limit_joint: str = ""
     limit_share: float = 1.0
     limit_distance: float = 0.0
+    configuration: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class ViewAnswer:
+    """Where an object lies for the camera that detects it: in the optical frame, m, from a pose or goal of the arm."""
+
+    name: str
+    camera_frame: str
+    posture: str
+    place: tuple[float, float, float]
 
 
 @dataclass(frozen=True, slots=True)
 class MotionAnswer:
-    """All answers of a cell; ``refused`` and ``limit`` as in `DisabledAnswer`."""
+    """All answers of a cell; ``refused`` and ``limit`` as in `DisabledAnswer`.
+
+    Attributes:
+        views: where detected objects lie for their cameras.
+        rigid: links that touch whatever the joints do, neighbors in the tree apart.
+    """
 
     start: tuple[BodyContact, ...] = ()
     poses: tuple[PoseAnswer, ...] = ()
     goals: tuple[GoalAnswer, ...] = ()
     refused: str = ""
     limit: str = ""
+    views: tuple[ViewAnswer, ...] = ()
+    rigid: tuple[BodyContact, ...] = ()

@@ -16,11 +16,13 @@ from cellc.feasibility.answers import (
     GoalAnswer,
     MotionAnswer,
     PoseAnswer,
+    ViewAnswer,
 )
-from cellc.feasibility.question import GoalQuestion, GroupQuestion, MotionQuestion
+from cellc.feasibility.question import GoalQuestion, GroupQuestion, MotionQuestion, PoseQuestion
 from cellc.limits import Purse, PurseError, limits
 from cellc.planning import (
     CollisionScene,
+    DisabledReason,
     IkFailure,
     JointLimits,
     JointPath,
@@ -97,12 +99,52 @@ def _answer(question: MotionQuestion, mesh_roots: Sequence[Path], purse: Purse) 
     scene = CollisionScene(robot, disabled_collisions=[pair.links for pair in disabled], other_positions=start)
     asked = {goal.group for goal in question.goals}
     planners = {group.name: _planner(group, robot, scene) for group in question.groups if group.name in asked}
-    poses = [(pose.name, _contacts(scene, start | dict(pose.positions))) for pose in purse.over(question.poses)]
+    poses = tuple(_pose(pose, planners, scene, start) for pose in purse.over(question.poses))
+    goals = tuple(_goal(goal, planners[goal.group], robot, start) for goal in purse.over(question.goals))
+    rigid = (pair.links for pair in disabled if pair.reason is DisabledReason.ALWAYS)
     return MotionAnswer(
         start=_contacts(scene, start),
-        poses=tuple(PoseAnswer(*pose) for pose in poses),
-        goals=tuple(_goal(goal, planners[goal.group], robot, start) for goal in purse.over(question.goals)),
+        poses=poses,
+        goals=goals,
+        views=_views(question, goals, robot, start),
+        rigid=tuple(BodyContact(*links) for links in rigid),
     )
+
+
+def _pose(
+    pose: PoseQuestion, planners: Mapping[str, Planner], scene: CollisionScene, start: Mapping[str, float]
+) -> PoseAnswer:
+    """Return what touches in a named pose, and how near the groups that have goals are to a singularity."""
+    positions = {**start, **dict(pose.positions)}
+    placed = dict(pose.positions)
+    least = tuple(
+        (name, planner.min_singular_value([placed[joint] for joint in planner.limits.joints]))
+        for name, planner in planners.items()
+        if all(joint in placed for joint in planner.limits.joints)
+    )
+    return PoseAnswer(pose.name, _contacts(scene, positions), least)
+
+
+def _views(
+    question: MotionQuestion, goals: Sequence[GoalAnswer], robot: RobotModel, start: Mapping[str, float]
+) -> tuple[ViewAnswer, ...]:
+    """Return where each detected object is for its camera; nothing where the arm cannot get to look."""
+    joints = {group.name: group.joints for group in question.groups}
+    groups = {goal.name: goal.group for goal in question.goals}
+    postures = {pose.name: {**start, **dict(pose.positions)} for pose in question.poses} | {"": dict(start)}
+    for goal in goals:
+        if goal.configuration:
+            taken = dict(zip(joints[groups[goal.name]], goal.configuration, strict=True))
+            postures.setdefault(goal.name, {**start, **taken})
+    found = []
+    for view in question.views:
+        positions = postures.get(view.posture)
+        if positions is not None:
+            movable = {joint: value for joint, value in positions.items() if joint in robot.joints}
+            camera = robot.link_pose(view.camera_frame, movable, base_link=WORLD)
+            place = (camera.inverse() @ view.place).position
+            found.append(ViewAnswer(view.name, view.camera_frame, view.posture, place))
+    return tuple(found)
 
 
 def _planner(group: GroupQuestion, robot: RobotModel, scene: CollisionScene) -> Planner:
@@ -157,5 +199,10 @@ def _margins(name: str, planner: Planner, configuration: Configuration) -> GoalA
             nearest = (joint, distance / (upper - lower), distance)
     least = planner.min_singular_value(configuration)
     return GoalAnswer(
-        name, min_singular_value=least, limit_joint=nearest[0], limit_share=nearest[1], limit_distance=nearest[2]
+        name,
+        min_singular_value=least,
+        limit_joint=nearest[0],
+        limit_share=nearest[1],
+        limit_distance=nearest[2],
+        configuration=tuple(map(float, configuration)),
     )

@@ -71,7 +71,8 @@ def _sampled(urdf: str, roots: tuple[Path, ...]) -> DisabledAnswer:
 
 def _motion(graph: CellGraph) -> MotionAnswer:
     if refused := _refused(graph):
-        return MotionAnswer((), (), (), *refused)
+        message, limit = refused
+        return MotionAnswer(refused=message, limit=limit)
     question = motion_question(graph)
     roots = mesh_roots(graph.cell)
     return _kept("motion", repr(question), graph, MotionAnswer, lambda: _answered(question, roots))

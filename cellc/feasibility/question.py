@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from cellc.cell.cell import Cell
@@ -51,6 +51,16 @@ class GoalQuestion:
 
 
 @dataclass(frozen=True, slots=True)
+class ViewQuestion:
+    """An object that a step detects: its pose in the world, the optical frame, and the pose or goal taken before."""
+
+    name: str
+    camera_frame: str
+    posture: str
+    place: Pose
+
+
+@dataclass(frozen=True, slots=True)
 class MotionQuestion:
     """The whole question; its text is what an answer is kept under."""
 
@@ -59,6 +69,7 @@ class MotionQuestion:
     groups: tuple[GroupQuestion, ...]
     poses: tuple[PoseQuestion, ...]
     goals: tuple[GoalQuestion, ...]
+    views: tuple[ViewQuestion, ...] = ()
 
 
 def shapes_and_joints(cell: Cell) -> str:
@@ -82,7 +93,25 @@ def motion_question(graph: CellGraph) -> MotionQuestion:
             if goal.group in tips
             for question in _goal(graph.frames, goal, tips[goal.group][1])
         ),
+        views=tuple(_views(graph)),
     )
+
+
+def _views(graph: CellGraph) -> Iterator[ViewQuestion]:
+    """Yield each object that is detected in the frame of a camera, with where the arm stands then."""
+    cell = graph.cell
+    optical = {device.frames[name] for device in cell.devices for name in device.optical_frames}
+    seen: set[tuple[str, str]] = set()
+    for rehearsal in cell.rehearsals:
+        posture = ""
+        for step in rehearsal.steps:
+            posture = step.name if step.kind == "move" else posture
+            frame = graph.frames.get(step.name) if step.kind == "detect" else None
+            place = None if frame is None else graph.frames.in_world(frame.name)
+            if frame is not None and place is not None and frame.parent in optical:
+                if (frame.name, posture) not in seen:
+                    yield ViewQuestion(frame.name, frame.parent, posture, place)
+                seen.add((frame.name, posture))
 
 
 def _group(group: PlanningGroup, joints: Mapping[str, DeviceJoint], tip_link: str) -> GroupQuestion:
@@ -106,7 +135,7 @@ def _poses(cell: Cell) -> tuple[PoseQuestion, ...]:
 
 def _goal(frames: FrameTree, goal: CartesianGoal, transform_tip_to_link: Pose) -> tuple[GoalQuestion, ...]:
     """Return the question of one goal, none where its frame moves or nobody knows where it will be."""
-    place = _pose_in_world(frames, goal.frame)
+    place = frames.in_world(goal.frame)
     if place is None:
         return ()
     tip = place @ goal.transform_tip_to_frame
@@ -132,24 +161,3 @@ def _tip(frames: FrameTree, name: str) -> tuple[str, Pose]:
             return frame.name, pose
         pose = frame.transform_to_parent @ pose
     return name, identity()
-
-
-def _pose_in_world(frames: FrameTree, name: str) -> Pose | None:
-    """Return the pose of a frame in the world; a dynamic frame stands where the mock puts what it follows.
-
-    Returns:
-        None for a frame that a joint moves, and for a dynamic frame without a simulated pose.
-    """
-    pose = identity()
-    seen: set[str] = set()
-    while (frame := frames.get(name)) is not None and name not in seen:
-        seen.add(name)
-        if not frame.parent:
-            return pose
-        if frame.simulated_pose is not None:
-            pose, name = frame.simulated_pose.pose @ pose, frame.simulated_pose.parent
-        elif frame.moving or frame.transform_to_parent is None:
-            return None
-        else:
-            pose, name = frame.transform_to_parent @ pose, frame.parent
-    return None

@@ -210,6 +210,15 @@ def _exposure_s(cell: Cell, topic: Interface) -> float:
     return max((stamp.exposure_s for stamp in found if stamp is not None and stamp.exposure_s is not None), default=0.0)
 
 
+def is_state_on_change(topic: Interface) -> bool:
+    """Tell whether a topic keeps its last sample for late readers and has no stamp: it holds until it is changed."""
+    facts = interface_types().get(topic.type)
+    latched = bool(topic.sources) and all(
+        source.qos.durability == "transient_local" and source.qos.reliability == "reliable" for source in topic.sources
+    )
+    return latched and topic.rate_hz is None and facts is not None and not facts.stamped
+
+
 def interface_types() -> Mapping[str, InterfaceTypeFacts]:
     """Return the known types by full name; a cell may use others of its own packages."""
     table = load_message_types().value

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from cellc.catalog.device_interfaces import ViewFacts
 from cellc.catalog.device_model import DeviceModel
 from cellc.cell.device import (
     Adapter,
@@ -13,6 +14,7 @@ from cellc.cell.device import (
     Connection,
     Device,
     DeviceVersions,
+    FieldOfView,
     Gripper,
     LimitShares,
     NetworkNeeds,
@@ -183,10 +185,22 @@ def _camera(facts: DeviceModel, written: DeviceSpec, known: Placeholders, prefix
                 info_topic=known.fill(stream.info_topic),
                 frame=prefix + stream.frame,
                 rate_hz=stream.rate.si,
+                view=_view(stream.view),
             )
             for stream in camera.streams.values()
         ),
         exposure_s=0.0 if exposure is None else exposure.si,
+    )
+
+
+def _view(facts: ViewFacts | None) -> FieldOfView | None:
+    if facts is None:
+        return None
+    return FieldOfView(
+        horizontal=facts.horizontal.si,
+        vertical=facts.vertical.si,
+        nearest_m=facts.nearest.si,
+        farthest_m=facts.farthest.si,
     )
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from cellc.diagnostics import Diagnostic, Severity
+from cellc.diagnostics import Diagnostic, Severity, Span
 from cellc.printing import Line, Style, Styled
 from cellc.report.snippet import Texts, render_snippet
 
@@ -25,16 +25,20 @@ SEVERITY_STYLES: Mapping[Severity, Style] = {
 
 
 def render_text(diagnostics: Iterable[Diagnostic], texts: Mapping[str, str]) -> list[Line]:
-    """Return every finding with its place, ordered by place and separated by empty lines.
+    """Return every finding with its place, the worst first, those alike by place, separated by empty lines.
 
     Args:
         texts: the text of every file that was read, by the name that spans carry, with line breaks as ``\\n``.
     """
     lines: Texts = {file: text.split("\n") for file, text in texts.items()}
     shown: list[Line] = []
-    for diagnostic in sorted(diagnostics, key=Diagnostic.sort_key):
+    for diagnostic in sorted(diagnostics, key=_worst_first):
         shown += ["", *_render(diagnostic, lines)]
     return shown[1:]
+
+
+def _worst_first(diagnostic: Diagnostic) -> tuple[int, tuple[Span, str, str]]:
+    return tuple(Severity).index(diagnostic.severity), diagnostic.sort_key()
 
 
 def _render(diagnostic: Diagnostic, texts: Texts) -> Iterator[Line]:

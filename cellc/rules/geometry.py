@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from cellc.cell.frame import Frame, FrameKind
 from cellc.feasibility import BodyContact, DisabledAnswer, MotionAnswer, mesh_faults
 from cellc.limits import option
-from cellc.rules.kit import CellGraph, Finding, Findings, found
+from cellc.rules.kit import CellGraph, Finding, Findings, Related, found
 
 USABLE_MESHES = ("malformed-mesh", "mesh-not-found", "mesh-outside-root", "mesh-too-large")
 """What keeps a collision shape from being known."""
@@ -70,3 +71,38 @@ def named(contacts: Sequence[BodyContact]) -> str:
     """Name the first contact, and say how many more there are."""
     more = f", and {len(contacts) - 1} more such pairs" if len(contacts) > 1 else ""
     return f"`{contacts[0].first}` and `{contacts[0].second}` touch{more}"
+
+
+def in_the_chain(graph: CellGraph, goal_name: str) -> tuple[Related, ...]:
+    """Return what a goal rests on and somebody wrote: its frame and what carries it, the tool with its tip, the arm."""
+    goal = next((goal for goal in graph.cell.goals if goal.name == goal_name), None)
+    group = next((group for group in graph.cell.groups if goal is not None and group.name == goal.group), None)
+    if goal is None or group is None:
+        return ()
+    places = [*_written(graph, goal.frame), *_written(graph, group.tip_frame)]
+    return tuple(Related(f"`{frame.name}` is placed here", frame.span) for frame in dict.fromkeys(places))
+
+
+def mounts(graph: CellGraph, contacts: Sequence[BodyContact]) -> tuple[Related, ...]:
+    """Return where the devices are mounted whose links touch."""
+    links = {link for contact in contacts for link in (contact.first, contact.second)}
+    return tuple(
+        Related(f"`{device.name}` is mounted here", graph.cell.locate(*device.path, "mount"))
+        for device in graph.cell.devices
+        if any(link.name in links for link in device.description.links)
+    )
+
+
+def _written(graph: CellGraph, name: str) -> list[Frame]:
+    """Return the frames from one up to the world that the spec places; an object stands where it is simulated."""
+    found: list[Frame] = []
+    frame = graph.frames.get(name)
+    while frame is not None and frame not in found:
+        if frame.kind in (FrameKind.FIXED, FrameKind.MOUNT, FrameKind.DYNAMIC):
+            found.append(frame)
+        simulated = frame.simulated_pose
+        parent = frame.parent if simulated is None else simulated.parent
+        frame = graph.frames.get(parent)
+        while frame is not None and frame.kind is FrameKind.LINK:
+            frame = graph.frames.get(frame.parent)
+    return found

@@ -192,4 +192,5 @@ JointAcceleration = Annotated[Quantity, QuantityType((ANGULAR_ACCELERATION, ACCE
 JointJerk = Annotated[Quantity, QuantityType((ANGULAR_JERK, JERK), "20 rad/s^3", least=1e-6)]
 JointPositions = Annotated[QuantityVector, QuantityType((ANGLE, LENGTH), "0 -90 90 -90 -90 0 deg", size=0)]
 Position = Annotated[QuantityVector, QuantityType((LENGTH,), "0 0 162 mm", size=3)]
+FieldAngle = Annotated[Quantity, QuantityType((ANGLE,), "69 deg", least=0.0)]
 RollPitchYaw = Annotated[QuantityVector, QuantityType((ANGLE,), "0 90 0 deg", size=3)]

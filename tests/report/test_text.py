@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import pytest
 from hypothesis import given
@@ -48,6 +49,13 @@ def test_finding_looks_like_that_of_a_compiler() -> None:
         "   | -----\n"
         "help: swap them\n"
     )
+
+
+def test_error_stands_before_the_blockers_above_it() -> None:
+    blocker = replace(finding(Span(FILE, 1, 1, 1, 2), "asked"), severity=Severity.BLOCKER)
+    error = finding(Span(FILE, 9, 1, 9, 2), "wrong")
+    shown = _shown([blocker, error], {}, colour=False)
+    assert shown.index("wrong") < shown.index("asked")
 
 
 def test_findings_stand_in_the_order_of_the_file() -> None:

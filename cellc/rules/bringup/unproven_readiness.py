@@ -27,6 +27,11 @@ from __future__ import annotations
 from cellc.cell.interface import NodeSource
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
+_LISTENERS = frozenset(
+    ("foxglove_bridge", "plotjuggler", "rosbag2_transport", "rosbridge_server", "rqt_gui", "rviz2", "web_video_server")
+)
+"""Packages whose programs only show or record: nothing of the cell waits for them."""
+
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
@@ -35,6 +40,8 @@ def check(graph: CellGraph) -> Findings:
     shown |= {frame.authority for frame in graph.cell.frames}
     shown |= {controller.client for controller in graph.cell.controllers if controller.client}
     for node in graph.cell.nodes:
+        if node.package in _LISTENERS:
+            continue
         if node.source is NodeSource.SPEC and not node.lifecycle and node.name not in shown:
             message = f"no state, interface or transform shows that `{node.name}` is ready"
             yield found(graph, node.path, message)

@@ -28,6 +28,7 @@ Source: docs/principles.md#failing-closed
 from __future__ import annotations
 
 from cellc.cell.interface import InterfaceKind
+from cellc.graph.data_flow import is_state_on_change
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
@@ -41,7 +42,7 @@ def check(graph: CellGraph) -> Findings:
     ]
     feeding = graph.data.feeding_motion() if unlimited else frozenset()
     for interface in unlimited:
-        if interface.name in feeding:
+        if interface.name in feeding and not is_state_on_change(interface):
             way = graph.data.way_to_motion(interface)
             message = f"`{interface.name}` feeds motion ({way}) and has no `max_age`"
             yield found(graph, interface.path, message)

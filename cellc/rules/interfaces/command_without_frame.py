@@ -32,11 +32,16 @@ from __future__ import annotations
 from cellc.cell.interface import InterfaceKind
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
+_WITHOUT_PLACE = frozenset({"control_msgs/action/GripperCommand", "control_msgs/action/ParallelGripperCommand"})
+"""Actions whose goals are an opening and a force, in no frame."""
+
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
-    """Yield actions of the spec without a frame."""
+    """Yield actions of the spec without a frame, apart from those whose goals have no place."""
     for interface in graph.cell.interfaces:
+        if interface.type in _WITHOUT_PLACE:
+            continue
         if interface.kind is InterfaceKind.ACTION and not interface.derived and interface.frame is None:
             message = f"action `{interface.name}` does not say in which frame its goals are"
             yield found(graph, interface.path, message)

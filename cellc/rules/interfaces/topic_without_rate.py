@@ -27,6 +27,7 @@ Source: docs/principles.md#command-contracts
 from __future__ import annotations
 
 from cellc.cell.interface import InterfaceKind
+from cellc.graph.data_flow import is_state_on_change
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
@@ -40,6 +41,6 @@ def check(graph: CellGraph) -> Findings:
     ]
     feeding = graph.data.feeding_motion() if without else frozenset()
     for interface in without:
-        if interface.name in feeding:
+        if interface.name in feeding and not is_state_on_change(interface):
             way = graph.data.way_to_motion(interface)
             yield found(graph, interface.path, f"`{interface.name}` feeds motion ({way}) and has no `rate`")

@@ -26,7 +26,7 @@ Source: docs/principles.md#how-geometry-is-checked
 from __future__ import annotations
 
 from cellc.feasibility import motion_answer
-from cellc.rules.geometry import KNOWN_GOALS
+from cellc.rules.geometry import KNOWN_GOALS, in_the_chain
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
@@ -37,4 +37,4 @@ def check(graph: CellGraph) -> Findings:
     for goal in motion_answer(graph).goals:
         if goal.failure == "goal_in_collision":
             message = f"at goal `{goal.name}` {goal.detail}"
-            yield found(graph, (*paths[goal.name], "frame"), message)
+            yield found(graph, (*paths[goal.name], "frame"), message, related=in_the_chain(graph, goal.name))

@@ -31,6 +31,7 @@ from __future__ import annotations
 import math
 
 from cellc.cell.motion import PlanningGroup
+from cellc.rules.geometry import in_the_chain
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 from cellc.transforms import Pose, identity
 
@@ -52,7 +53,8 @@ def check(graph: CellGraph) -> Findings:
             message = (
                 f"goal `{goal.name}` is {distance:.3g} m from `{group.base_link}`, but the chain is {length:.3g} m long"
             )
-            yield found(graph, (*goal.path, "frame"), message)
+            related = in_the_chain(graph, goal.name)
+            yield found(graph, (*goal.path, "frame"), message, related=related)
 
 
 def _pose_in_world(graph: CellGraph, name: str) -> Pose | None:

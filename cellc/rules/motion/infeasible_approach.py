@@ -25,7 +25,7 @@ Source: docs/principles.md#how-geometry-is-checked
 from __future__ import annotations
 
 from cellc.feasibility import motion_answer
-from cellc.rules.geometry import KNOWN_GOALS
+from cellc.rules.geometry import KNOWN_GOALS, in_the_chain
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
@@ -36,4 +36,5 @@ def check(graph: CellGraph) -> Findings:
     for goal in motion_answer(graph).goals:
         if goal.approach_failure:
             message = f"no straight line leads to goal `{goal.name}`: {goal.approach_failure}"
-            yield found(graph, (*paths[goal.name], "approach"), message)
+            related = in_the_chain(graph, goal.name)
+            yield found(graph, (*paths[goal.name], "approach"), message, related=related)

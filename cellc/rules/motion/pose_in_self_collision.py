@@ -25,7 +25,7 @@ Source: docs/principles.md#how-geometry-is-checked
 from __future__ import annotations
 
 from cellc.feasibility import motion_answer
-from cellc.rules.geometry import KNOWN_POSES, named, within_robot
+from cellc.rules.geometry import KNOWN_POSES, mounts, named, within_robot
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
@@ -37,4 +37,4 @@ def check(graph: CellGraph) -> Findings:
         contacts = within_robot(graph, pose.contacts)
         if contacts:
             message = f"in pose `{pose.name}` {named(contacts)}"
-            yield found(graph, paths[pose.name], message)
+            yield found(graph, paths[pose.name], message, related=mounts(graph, contacts))

@@ -24,13 +24,16 @@ from __future__ import annotations
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _STOPPED = ("protective_stop", "emergency_stop", "fault")
+_EVERYWHERE = "emergency_stop"
 
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
-    """Yield the states that are missing, in one finding."""
+    """Yield the states that are missing, in one finding; what no device has that states its own is not asked for."""
     states = graph.cell.safety.recovery.states
-    missing = [state for state in _STOPPED if state not in states]
+    known = {state.name for device in graph.cell.devices for state in device.safety.states}
+    asked = [state for state in _STOPPED if state in known or not known or state == _EVERYWHERE]
+    missing = [state for state in asked if state not in states]
     if missing:
         names = ", ".join(f"`{state}`" for state in missing)
         yield found(graph, ("safety", "recovery", "states"), f"no recovery is named for {names}", f"add {names}")

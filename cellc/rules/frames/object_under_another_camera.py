@@ -1,0 +1,60 @@
+"""An object hangs on one camera, and its images come from another.
+
+The node that publishes the frame hears only the other camera. What it measures in one image is placed in front of the
+wrong lens, often a meter away.
+
+Example that is reported:
+
+```yaml
+devices:
+  second: {model: ./demo_camera, mount: {parent: world, xyz: 450 0 1900 mm, rpy: 0 90 0 deg, calibration: second_eye},
+           revision: C, serial: D4-0756, firmware: sensor 5.16.0, driver: demo_camera_driver 4.58.3,
+           description: demo_camera_description 4.58.3, connection: {host: control_pc, nic: bulk},
+           stamp: {source: hardware, clock: second, exposure: 8 ms, synchronised_by: global_time, max_offset: 2 ms}}
+  camera: {serial: D4-0712}
+calibrations:
+  second_eye: {revision: 1, measured: 2026-07-01, method: charuco, samples: 40, residual: 0.8 mm, owner: perception}
+frames:
+  object: {parent: second/color_optical}  # expect at parent
+```
+
+Example that is accepted:
+
+```yaml
+frames:
+  object: {parent: camera/color_optical}
+```
+
+Fix: name the camera whose images the publisher reads.
+
+Source: docs/principles.md#transforms-at-the-time-of-observation
+"""
+
+from __future__ import annotations
+
+from cellc.cell.frame import FrameKind
+from cellc.cell.interface import InterfaceKind
+from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
+
+
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
+    """Yield dynamic frames under a camera whose publisher hears other cameras, and not this one."""
+    cameras = {device.name: device for device in graph.cell.devices if device.camera is not None}
+    owners = {frame: name for name, device in cameras.items() for frame in device.frames.values()}
+    for frame in graph.cell.frames:
+        own = owners.get(frame.parent)
+        if frame.kind is not FrameKind.DYNAMIC or own is None:
+            continue
+        heard = {
+            source.node: interface
+            for interface in graph.cell.interfaces
+            if interface.kind is InterfaceKind.TOPIC and any(sink.node == frame.authority for sink in interface.sinks)
+            for source in interface.sources
+            if source.node in cameras
+        }
+        if heard and own not in heard:
+            other, interface = next(iter(heard.items()))
+            message = f"`{frame.name}` hangs on `{own}`, but its publisher `{frame.authority}` hears `{other}` alone"
+            related = (Related("its images", interface.span),)
+            yield found(graph, (*frame.path, "parent"), message, related=related)
