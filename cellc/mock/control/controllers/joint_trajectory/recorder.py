@@ -23,7 +23,8 @@ class Recording:
         actual: measured positions.
         actual_velocity: measured velocities, NaN where the controller does not read them.
         error: desired - actual, for continuous joints the shortest way round.
-        command: commanded values of the first command interface, after limits.
+        command: commanded values of the first command interface, after limits, as the state topic shows them: the
+            last ones from before while a wanted command holds NaN, and NaN, for a field that stays empty, afterwards.
         scaling: speed scaling factor, shape (m,).
     """
 
@@ -51,20 +52,44 @@ class Recorder:
         self._period_ns = period_ns
         self._next_ns = 0
         self._kept: list[Recording] = []
+        self._shown: Array | None = None
+        self._held_nan = False
 
     def add_update(self, time_ns: int, samples: Samples, state: Array, command: Array, factor: float) -> None:
         """Record one update; ``state`` has all state interfaces, ``command`` those of the first kind."""
         times = np.array([time_ns], dtype=np.int64)
+        shown = self._output(samples.next, command[None, :])
         if len(self._due(times)):
-            self._keep(times, samples, np.array([0]), state[None, :], command[None, :], factor)
+            self._keep(times, samples, np.array([0]), state[None, :], shown, factor)
 
     def add_block(self, block: Block, start: int, samples: Samples, command: Columns, factor: float) -> None:
         """Record a block from `start` on; `command` are columns of its commands."""
-        rows = self._due(block.times_ns[start:]) + start
+        shown = self._output(samples.next[start : len(block)], block.command[start:, command])
+        rows = self._due(block.times_ns[start:])
         if len(rows):
-            self._keep(
-                block.times_ns[rows], samples, rows, block.state[rows], block.command[np.ix_(rows, command)], factor
-            )
+            kept = rows + start
+            self._keep(block.times_ns[kept], samples, kept, block.state[kept], shown[rows], factor)
+
+    def _output(self, wanted: Array, command: Array) -> Array:
+        """Return what the state topic shows of successive commands.
+
+        Recorded of ros2_controllers 5.17: the field is not renewed while a wanted command holds NaN, and stays empty
+        from the first one that does not.
+        """
+        invalid = np.isnan(wanted).any(axis=1)
+        if not self._held_nan and not invalid.any():
+            self._shown = command[-1].copy()
+            return command
+        shown = command.copy()
+        for row in range(len(command)):
+            if invalid[row] and self._shown is not None:
+                shown[row], self._held_nan = self._shown, True
+            elif self._held_nan:
+                self._shown = np.full(command.shape[1], np.nan)
+                shown[row] = self._shown
+            else:
+                self._shown = command[row].copy()
+        return shown
 
     def recording(self) -> Recording:
         """Return everything that was recorded and not taken."""
