@@ -76,11 +76,11 @@ class Recorder:
         Recorded of ros2_controllers 5.17: the field is not renewed while a wanted command holds NaN, and stays empty
         from the first one that does not.
         """
-        invalid = np.isnan(wanted).any(axis=1)
-        if not self._held_nan and not invalid.any():
-            self._shown = command[-1].copy()
+        if not self._held_nan and not np.isnan(wanted).any():
+            self._shown = np.array(command[-1])
             return command
-        shown = command.copy()
+        invalid: list[bool] = [bool(np.isnan(row).any()) for row in wanted]
+        shown: Array = np.array(command)
         for row in range(len(command)):
             if invalid[row] and self._shown is not None:
                 shown[row], self._held_nan = self._shown, True
@@ -88,7 +88,7 @@ class Recorder:
                 self._shown = np.full(command.shape[1], np.nan)
                 shown[row] = self._shown
             else:
-                self._shown = command[row].copy()
+                self._shown = np.array(command[row])
         return shown
 
     def recording(self) -> Recording:
