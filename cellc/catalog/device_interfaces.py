@@ -63,18 +63,32 @@ class HardwareRelease(CatalogModel):
     source: Text
 
 
+class CommandFacts(CatalogModel):
+    """What a kind of controller claims of each joint of this hardware, and is told, where a spec states nothing.
+
+    ``because`` is what the hardware does with commands of another interface.
+    """
+
+    interfaces: tuple[InterfaceName, ...] = Field(min_length=1)
+    parameters: dict[Text, ParameterFact] = Field(default_factory=dict)
+    because: Text
+    source: Text
+
+
 class HardwareFacts(CatalogModel):
     """A hardware plugin, the ``<param>`` values that it is given, and what it does in the world.
 
-    ``left_out_when_empty`` are parameters that the plugin has a default for: an empty ``<param>`` makes the reader of
-    ros2_control complain. ``command_timeout`` is the longest silence of the controller manager before the device ends
-    what it does. ``nodes`` are those that the plugin makes in the manager's process.
+    ``left_out_when_empty`` are parameters that the plugin has a default for: an empty ``<param>`` makes the reader
+    of ros2_control complain. ``commands`` is what a kind of controller claims on this hardware. ``command_timeout``
+    is the longest silence of the controller manager before the device ends what it does. ``nodes`` are those that the
+    plugin makes in the manager's process.
     """
 
     plugin: Text
     parameters: dict[Text, Text] = Field(default_factory=dict)
     left_out_when_empty: tuple[Text, ...] = ()
     releases: tuple[HardwareRelease, ...] = ()
+    commands: dict[BehaviourName, CommandFacts] = Field(default_factory=dict)
     effects: dict[MomentName, EffectFacts] = Field(default_factory=dict)
     start: StartFacts | None = None
     told: dict[NeedName, ToldFacts] = Field(default_factory=dict)

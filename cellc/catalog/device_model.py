@@ -111,13 +111,31 @@ class DescriptionFacts(CatalogModel):
 class CommissioningStep(CatalogModel):
     """What a person does at the real device in a gate, by its vendor's procedure; ``only`` on some distributions.
 
-    ``shows`` where it is what must be seen once the release of that gate has been made.
+    ``shows`` where it is what must be seen once the release of that gate has been made, ``log`` where it
+    stands in the driver's log: what the lines hold of which the newest counts.
     """
 
     gate: GateName
     does: Text
+    log: tuple[Text, ...] = ()
     shows: bool = False
     only: tuple[DistroName, ...] = ()
+    source: Text
+
+
+class KinematicsFacts(CatalogModel):
+    """How the vendor's tool writes where the joints of one very robot stand.
+
+    In the file, each entry of ``joints`` below ``root`` gives the joint that it names x, y, z in m and roll, pitch, yaw
+    in rad in its parent link. ``hash`` is the key of a text that names the robot's own table; the real plugin is told
+    it as ``hash_parameter``, whose value in the catalog is that of the nominal one. ``tool`` is what writes the file.
+    """
+
+    root: Token
+    joints: dict[Token, Token] = Field(min_length=1)
+    hash: Token
+    hash_parameter: Text
+    tool: Text
     source: Text
 
 
@@ -196,6 +214,7 @@ class DeviceModel(CatalogModel):
     tool_frame: Token | None = None
     optical_frames: tuple[Token, ...] = ()
     home: dict[Token, JointPosition] | None = None
+    kinematics: KinematicsFacts | None = None
     limits: LimitFacts = Field(default_factory=LimitFacts)
     packages: PackageFacts
     control: ControlFacts | None = None

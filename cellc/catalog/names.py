@@ -84,6 +84,8 @@ def _joints_named(model: DeviceModel) -> Iterator[tuple[YamlPath, str]]:
         yield from ((("control", "joints", joint), joint) for joint in model.control.joints)
     if model.gripper is not None:
         yield ("gripper", "joint"), model.gripper.joint
+    if model.kinematics is not None:
+        yield from ((("kinematics", "joints", entry), joint) for entry, joint in model.kinematics.joints.items())
 
 
 def _of_catalog(model: DeviceModel, catalog: CatalogNames) -> Iterator[_Reference]:

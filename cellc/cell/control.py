@@ -21,6 +21,27 @@ class StandIn:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class VendorCommand:
+    """What the vendor commands on real hardware with a kind of controller, and what happens with anything else.
+
+    Args:
+        interfaces: command interfaces of each joint.
+        because: what the hardware does with commands of another interface.
+    """
+
+    interfaces: tuple[str, ...]
+    because: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OnReal:
+    """What a controller claims and is told on the real target where that differs from what it does on the mock."""
+
+    command_interfaces: tuple[str, ...]
+    parameters: Mapping[str, ParameterValue]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Controller(Entity):
     """A controller with its plugin for the cell's distribution.
 
@@ -32,7 +53,9 @@ class Controller(Entity):
         kind: kind in the catalog, such as ``joint_trajectory``.
         behaviour: what it does; a vendor's scaled variant is ``scaled_joint_trajectory``.
         plugin: type string for the controller manager.
-        command_interfaces: full names that it claims, such as ``arm_elbow_joint/position``.
+        command_interfaces: full names that it claims on the mock, such as ``arm_elbow_joint/position``.
+        on_real: what it claims and is told on the real target; None where that is the same.
+        vendor: what the vendor of its device commands on real hardware; None where the catalog does not say.
         state_interfaces: full names that it reads.
         package: the ROS package of its plugin.
         declared: what the catalog says of its kind: parameters, topics, services.
@@ -57,6 +80,8 @@ class Controller(Entity):
     device: str | None = None
     joints: tuple[str, ...] = ()
     command_interfaces: tuple[str, ...] = ()
+    on_real: OnReal | None = None
+    vendor: VendorCommand | None = None
     state_interfaces: tuple[str, ...] = ()
     parameters: Mapping[str, ParameterValue] = field(default_factory=dict)
     written_parameters: Mapping[str, ParameterValue] = field(default_factory=dict)
@@ -74,6 +99,19 @@ class Controller(Entity):
     def full_name(self) -> str:
         """Fully qualified name of its node, with a leading slash."""
         return f"{self.namespace}/{self.name}"
+
+    def claims(self, target: str) -> tuple[str, ...]:
+        """Return the full names of the command interfaces that it claims on ``mock`` or ``real``."""
+        return self.command_interfaces if self.on_real is None or target != "real" else self.on_real.command_interfaces
+
+    def told(self, target: str) -> Mapping[str, ParameterValue]:
+        """Return everything that goes to its node on ``mock`` or ``real``."""
+        return self.parameters if self.on_real is None or target != "real" else self.on_real.parameters
+
+    @property
+    def all_claims(self) -> tuple[str, ...]:
+        """What it claims on any target, each interface once."""
+        return tuple(dict.fromkeys(name for target in self.targets for name in self.claims(target)))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -111,6 +111,40 @@ class Payload:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class KinematicCalibration(Entity):
+    """A file of one robot's kinematics; ``name`` is its path as written.
+
+    Args:
+        sha256: of its text.
+        hash: what names the table in the robot; the driver compares it.
+        measured, owner: as written; UNKNOWN where nothing is.
+        offset_m, turn_rad: the most by which a joint differs from that of the type.
+    """
+
+    sha256: str
+    hash: str
+    measured: str
+    owner: str
+    offset_m: float
+    turn_rad: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Kinematics:
+    """Whether the description has the joints of this very robot, or those of its type.
+
+    Args:
+        tool: the command that reads them off the robot.
+        nominal_hash: what names the table of the type.
+        calibration: the file that they are from; None where they are nominal.
+    """
+
+    tool: str
+    nominal_hash: str
+    calibration: KinematicCalibration | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Adapter:
     """Watchdog and bounds of a direct SDK; None where the spec leaves them to the default."""
 
@@ -224,12 +258,14 @@ class VendorSafety:
 class CommissioningStep:
     """What a person does at the real device in a gate, by its vendor's procedure.
 
-    ``shows`` where it is what must be seen once the release of that gate has been made.
+    ``shows`` where it is what must be seen once the release of that gate has been made, ``log`` where it
+    stands in the driver's log: what the lines hold of which the newest counts.
     """
 
     gate: GateCode
     does: str
     shows: bool = False
+    log: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -259,6 +295,7 @@ class Device(Entity):
         versions, connection, limit_shares, stamp, payload, adapter, simulated_joints: what the spec states of it.
         home: prefixed joint → position where the catalog says a mock begins.
         optical_frames: short names of frames that look along z.
+        kinematics: whose joints the description has; None where robots of the type do not differ.
         payload_limit_kg: what may hang on the flange, tool included.
         update_rates_hz: those that the device accepts; any where empty.
         controller_kinds: kinds of controllers that only this device has.
@@ -291,6 +328,7 @@ class Device(Entity):
     limit_shares: LimitShares = field(default_factory=LimitShares)
     stamp: Stamp | None = None
     payload: Payload | None = None
+    kinematics: Kinematics | None = None
     adapter: Adapter | None = None
     simulated_joints: tuple[SimulatedJoint, ...] = ()
     home: Mapping[str, float] = field(default_factory=dict)

@@ -140,6 +140,9 @@ class ContractController(ContractModel):
     device: str | None = Field(None, description="Device whose joints it drives.")
     joints: tuple[str, ...] = Field(description="Joints in the controller's order.")
     command_interfaces: tuple[str, ...] = Field(description="Interfaces it claims, as `joint/interface`.")
+    real_command_interfaces: tuple[str, ...] | None = Field(
+        None, description="Interfaces it claims on real hardware, where those are others."
+    )
     state_interfaces: tuple[str, ...] = Field(description="Interfaces it reads, as `joint/interface`.")
     active: bool = Field(description="Active after start-up.")
     client: str | None = Field(None, description="Name of the one node that may command it.")

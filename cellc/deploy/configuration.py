@@ -72,6 +72,9 @@ def _versions(cell: Cell) -> Iterator[OpenQuestion]:
             device = of in {device.name for device in cell.devices}
             path = ("devices", of, part) if device else ("versions", *name.split("."))
             yield OpenQuestion(f"{part} of {of}" if of else name, path)
+    for one in cell.devices:
+        if one.kinematics is not None and one.kinematics.calibration is None:
+            yield OpenQuestion(f"kinematic calibration of {one.name}", (*one.path, "calibration"))
 
 
 def _owners(graph: CellGraph) -> Iterator[OpenQuestion]:

@@ -52,9 +52,10 @@ def manager_description_file(cell: Cell, manager: ControllerManager, target: str
     return f"urdf/{cell.name}{'' if len(cell.managers) == 1 else f'.{manager.name}'}.{target}.urdf"
 
 
-def controllers_file(cell: Cell, manager: ControllerManager) -> str:
-    """Return the path of a controller manager's parameter file."""
-    return "config/controllers.yaml" if len(cell.managers) == 1 else f"config/{manager.name}.controllers.yaml"
+def controllers_file(cell: Cell, manager: ControllerManager, target: str) -> str:
+    """Return the path of a controller manager's parameter file for a target: one, unless the targets differ."""
+    of_target = f".{target}" if any(one.on_real is not None for one in manager.controllers) else ""
+    return f"config/{'' if len(cell.managers) == 1 else f'{manager.name}.'}controllers{of_target}.yaml"
 
 
 def node_file(node: Node) -> str:

@@ -138,7 +138,29 @@ def _by_vendors(graph: CellGraph, *, shows: bool) -> Iterator[Values]:
     for device in graph.cell.devices:
         for step in device.commissioning:
             if step.shows is shows:
-                yield device.name, step.does, step.gate
+                yield device.name, step.does, _newest_of(step.log), step.gate
+
+
+def _newest_of(lines: tuple[str, ...]) -> str:
+    """Return what prints the newest line of the logs of this host that holds one of these texts; empty for none."""
+    wanted = " ".join(f"-e {shell_word(line)}" for line in lines)
+    newest = "xargs -r -d '\\n' ls -t | head -n 1 | xargs -r -d '\\n'"
+    found = f'grep -rlF {wanted} "$(printenv ROS_LOG_DIR || echo ~/.ros/log)"'
+    return f"{found} | {newest} grep -hF {wanted} | tail -n 1" if lines else ""
+
+
+def _nominal_devices(graph: CellGraph) -> Iterator[Values]:
+    for device in graph.cell.devices:
+        if device.kinematics is not None and device.kinematics.calibration is None:
+            yield device.name, device.kinematics.tool
+
+
+def _calibrated_devices(graph: CellGraph) -> Iterator[Values]:
+    for device in graph.cell.devices:
+        one = None if device.kinematics is None else device.kinematics.calibration
+        if one is not None:
+            path = f"cells/{graph.cell.name}/{one.name}"
+            yield device.name, one.name, one.hash, one.measured, one.owner, one.sha256, path
 
 
 def _released(graph: CellGraph, release: Release, phase: BringUpPhase) -> Iterator[Values]:
@@ -220,6 +242,8 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "installed_part": (("part", "version", "command"), _installed),
     "visible_part": (("part", "version"), _visible),
     "unknown_part": (("part",), _unknown),
+    "nominal_device": (("device", "tool"), _nominal_devices),
+    "calibrated_device": (("device", "file", "hash", "measured", "owner", "sha256", "path"), _calibrated_devices),
     "calibrated_frame": (("frame", "calibration"), _calibrated_frames),
     "mock_statement": (("device", "loaded", "by", "date"), _mock_statements),
     "mock_motion": (("command",), lambda graph: _each(move_mock(graph.cell))),
@@ -234,8 +258,8 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "first_motion": (("joint", "direction", "max_delta", "velocity", "timeout"), _first_motion),
     "missing_first_motion": ((), _missing_first_motion),
     "stop_reason": (("reason",), _stop_reasons),
-    "vendor_step": (("device", "does", "gate"), lambda graph: _by_vendors(graph, shows=False)),
-    "vendor_sign": (("device", "does", "gate"), lambda graph: _by_vendors(graph, shows=True)),
+    "vendor_step": (("device", "does", "command", "gate"), lambda graph: _by_vendors(graph, shows=False)),
+    "vendor_sign": (("device", "does", "command", "gate"), lambda graph: _by_vendors(graph, shows=True)),
     "real_activation": (("command",), lambda graph: _released(graph, ACTIVATE, BringUpPhase.ACTIVATE)),
     "real_claim": (("command",), lambda graph: _released(graph, CLAIM, BringUpPhase.CLAIM)),
     "real_motion": (("command",), lambda graph: _each(move_real(graph.cell))),

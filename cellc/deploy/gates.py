@@ -64,8 +64,9 @@ class Gate:
 
     @property
     def key_command(self) -> str:
-        """The first command that reads, empty for a gate that people alone pass."""
-        return next((command for check in self.checks if not check.starts for command in check.commands), "")
+        """The first plain command that reads, without a pipe; empty for a gate that people alone pass."""
+        read = (command for check in self.checks if not check.starts for command in check.commands)
+        return next((command for command in read if "|" not in command), "")
 
 
 class Line(CatalogModel):
@@ -166,7 +167,7 @@ def _checks(line: Line, graph: CellGraph, base: Row) -> Iterator[Check]:
         filled = {**base, **row}
         words = ({name: _word(name, value) for name, value in {**filled, **other}.items()} for other in repeated)
         commands = (command.format_map(known) for known in words for command in line.run)
-        yield Check(_said(line.text, filled), tuple(commands))
+        yield Check(_said(line.text, filled), tuple(command for command in commands if command))
 
 
 def _said(text: str, row: Row) -> str:

@@ -107,7 +107,7 @@ def claim_facts(cell: Cell, manager: ControllerManager, controller: Controller) 
     """Yield interfaces, frame, unit, rate, time source, owner, failure behavior and hardware of a claim."""
     device = cell.device(controller.device) if controller.device is not None else None
     rate = controller.update_rate_hz or manager.update_rate_hz
-    yield ", ".join(folded(controller.command_interfaces))
+    yield "; ".join(_claims(controller))
     yield (
         f"frame joints, unit {units(cell, controller)}, {shortest(rate)} Hz, time of the update loop on "
         f"{manager.host or 'its host'}"
@@ -118,6 +118,19 @@ def claim_facts(cell: Cell, manager: ControllerManager, controller: Controller) 
         state = "from start-up" if controller.active else "as an alternate, inactive at start-up"
         through = f"through {real_driver(device)}" if "real" in controller.targets else "on the mock alone"
         yield f"{through}; {state}; architecture: {device.architecture}"
+
+
+def _claims(controller: Controller) -> Iterator[str]:
+    """Yield what is claimed, for each target by itself where they differ."""
+    by_target = {target: ", ".join(folded(controller.claims(target))) for target in controller.targets}
+    if len(set(by_target.values())) == 1:
+        yield from dict.fromkeys(by_target.values())
+    else:
+        yield from (f"{claims} on {ON_TARGET[target]}" for target, claims in by_target.items())
+
+
+ON_TARGET = {"mock": "the mock", "real": "real hardware"}
+"""How people are told of a target."""
 
 
 def driver_facts(cell: Cell, device: Device, driver: DeviceDriver) -> Iterator[str]:
@@ -146,7 +159,7 @@ def units(cell: Cell, controller: Controller) -> str:
     types = {joint.name: joint.type for device in cell.devices for joint in device.joints}
     found = (
         _UNITS[kind][types[joint] == "prismatic"] if joint in types and kind in _UNITS else f"as {kind} of the device"
-        for joint, _, kind in (name.rpartition("/") for name in controller.command_interfaces)
+        for joint, _, kind in (name.rpartition("/") for name in controller.all_claims)
     )
     return "as its services" if controller.behaviour in PASSIVE else ", ".join(dict.fromkeys(found))
 

@@ -1,8 +1,9 @@
 """``config/*.yaml``: ROS parameter files of controller managers, nodes and drivers, and the overrides of QoS.
 
 ``controllers.yaml`` tells a manager its rate and the plugin of each controller, then each controller its parameters;
-there is one file for each manager (``<manager>.controllers.yaml`` where there are several) and one for each node,
-because each is read by another process. ``qos_overrides.yaml`` has the QoS of the contract with the names of rclcpp's
+there is one file for each manager (``<manager>.controllers.yaml`` where there are several, ``controllers.mock.yaml``
+and ``controllers.real.yaml`` where a controller commands real hardware otherwise) and one for each node, because each
+is read by another process. ``qos_overrides.yaml`` has the QoS of the contract with the names of rclcpp's
 QosOverridingOptions; a node whose author passed no such options ignores it without a word: gate L4 looks at what the
 endpoints really offer. Left out: what is a matter of launching, such as which controllers are active; nodes without
 parameters; overrides of controllers and the controller manager, which allow none, and of interfaces that the spec does
@@ -16,7 +17,7 @@ from collections.abc import Iterator
 from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
 from cellc.cell.control import Controller, ControllerManager
-from cellc.cell.interface import NodeSource, ParameterValue
+from cellc.cell.interface import TARGETS, NodeSource, ParameterValue
 from cellc.deploy.deployment import Deployment
 from cellc.deploy.files import QOS_OVERRIDES, controllers_file, node_file
 from cellc.formats.header import Header
@@ -33,14 +34,16 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
 
 
 def _of_managers(graph: CellGraph, header: Header) -> Iterator[Artifact]:
-    for manager in graph.cell.managers:
-        yield Artifact(controllers_file(graph.cell, manager), parameter_file(header, _sections(graph.cell, manager)))
+    cell = graph.cell
+    for manager in cell.managers:
+        for file, target in {controllers_file(cell, manager, target): target for target in TARGETS}.items():
+            yield Artifact(file, parameter_file(header, _sections(cell, manager, target)))
 
 
-def _sections(cell: Cell, manager: ControllerManager) -> Iterator[NodeParameters]:
+def _sections(cell: Cell, manager: ControllerManager, target: str) -> Iterator[NodeParameters]:
     yield NodeParameters(f"{manager.namespace}/controller_manager", manager.path, _of_manager(cell, manager))
     for controller in manager.controllers:
-        yield _of_controller(manager, controller)
+        yield _of_controller(manager, controller, target)
 
 
 def _of_manager(cell: Cell, manager: ControllerManager) -> dict[str, ParameterValue]:
@@ -58,8 +61,8 @@ def _of_manager(cell: Cell, manager: ControllerManager) -> dict[str, ParameterVa
     return rate | {f"{controller.name}.type": controller.plugin for controller in manager.controllers}
 
 
-def _of_controller(manager: ControllerManager, controller: Controller) -> NodeParameters:
-    return NodeParameters(f"{manager.namespace}/{controller.name}", controller.path, controller.parameters)
+def _of_controller(manager: ControllerManager, controller: Controller, target: str) -> NodeParameters:
+    return NodeParameters(f"{manager.namespace}/{controller.name}", controller.path, controller.told(target))
 
 
 def _of_nodes(graph: CellGraph, header: Header) -> Iterator[Artifact]:

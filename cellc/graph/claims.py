@@ -36,7 +36,7 @@ class ControlState:
         """Return the controllers that claim each command interface in this state."""
         claims: dict[str, list[Controller]] = {}
         for controller in self.active:
-            for interface in controller.command_interfaces:
+            for interface in controller.all_claims:
                 claims.setdefault(interface, []).append(controller)
         return {interface: tuple(owners) for interface, owners in claims.items()}
 

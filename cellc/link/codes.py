@@ -231,6 +231,14 @@ CODES: tuple[CodePage, ...] = (
         "add `device:` to the controller",
     ),
     _page(
+        "invalid-kinematics",
+        "a calibration of a robot's kinematics is not what its vendor's tool writes",
+        "A robot differs from its type by up to centimetres at the tool. The file that the vendor's tool reads off it "
+        "gives each joint's place in m and rad, and a hash that the driver compares; a figure that is missing, or "
+        "written by hand, would put the tool somewhere else.",
+        "read it off the robot again, and name the file as it was written",
+    ),
+    _page(
         "event-never-comes",
         "a fault waits for a step that is not there, or that sends no goal",
         "A fault may begin when a step is started, when its goal is accepted or when a joint first moves. Only moves "

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from cellc.catalog.controller_kind import ControllerKind
 from cellc.catalog.device_controller import DeviceController
-from cellc.catalog.device_interfaces import PluginUse
+from cellc.catalog.device_interfaces import CommandFacts, PluginUse
 from cellc.catalog.load import controller_kinds, kind_behind
-from cellc.cell.control import Controller, StandIn
+from cellc.cell.control import Controller, OnReal, StandIn, VendorCommand
 from cellc.cell.device import Device
 from cellc.cell.interface import TARGETS, ParameterValue
 from cellc.diagnostics import Diagnostic, Outcome, Severity, YamlPath, did_you_mean
@@ -57,6 +57,13 @@ class _Chosen:
     def device(self) -> Device | None:
         """The device that it drives."""
         return None if self.bound is None else self.bound.device
+
+    @property
+    def on_real(self) -> CommandFacts | None:
+        """What the vendor claims and tells on real hardware with a controller of this kind."""
+        control = None if self.bound is None else self.bound.facts.control
+        real = None if control is None else control.hardware.real
+        return None if real is None else real.commands.get(self.kind.kind)
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,7 +136,7 @@ def _controller(
     context: ControlContext,
 ) -> Controller:
     device, kind, plugin = chosen.device, chosen.kind, chosen.plugin
-    targets = _targets(chosen)
+    targets, vendor = _targets(chosen), chosen.on_real
     return Controller(
         name=place.name,
         path=place.path,
@@ -148,6 +155,8 @@ def _controller(
         device=written.device,
         joints=interfaces.joints,
         command_interfaces=interfaces.command,
+        on_real=_on_real(written, chosen, interfaces, context) if "real" in targets else None,
+        vendor=None if vendor is None else VendorCommand(interfaces=vendor.interfaces, because=vendor.because),
         state_interfaces=interfaces.state,
         parameters=_parameters(written, chosen, interfaces, context),
         written_parameters=written.parameters,
@@ -191,6 +200,21 @@ def _parameters(
     joints, claims, reads = interfaces.joints, interfaces.claims, interfaces.reads
     values = bind_parameters(chosen.kind, chosen.plugin, written, joints, claims, reads, chosen.device, context.distro)
     return values if chosen.bound is None else chosen.bound.names.fill_parameters(values)
+
+
+def _on_real(
+    written: ControllerSpec, chosen: _Chosen, interfaces: _Interfaces, context: ControlContext
+) -> OnReal | None:
+    """Return what the vendor's own configuration claims and tells; None where the spec states its interfaces."""
+    facts = chosen.on_real
+    if facts is None or written.command_interfaces or (chosen.own is not None and chosen.own.command_interfaces):
+        return None
+    command = tuple(f"{joint}/{claim}" for joint in interfaces.joints for claim in facts.interfaces)
+    plugin = chosen.plugin.model_copy(update={"parameters": chosen.plugin.parameters | facts.parameters})
+    there = replace(interfaces, claims=facts.interfaces, command=command)
+    told = _parameters(written, replace(chosen, plugin=plugin), there, context)
+    same = command == interfaces.command and not facts.parameters
+    return None if same else OnReal(command_interfaces=command, parameters=told)
 
 
 def _targets(chosen: _Chosen) -> tuple[str, ...]:

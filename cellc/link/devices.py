@@ -10,13 +10,14 @@ from pathlib import Path
 from cellc.catalog.device_interfaces import JointInterfaces
 from cellc.catalog.device_model import AccelerationLimit, DeviceModel, JerkLimit
 from cellc.catalog.load import CatalogDevice, device_names, load_device, load_device_folder
-from cellc.cell.device import EVERY_JOINT, Device, DeviceJoint
+from cellc.cell.device import EVERY_JOINT, Device, DeviceJoint, Kinematics
 from cellc.cell.frame import WORLD
 from cellc.description.model import Description, Joint
 from cellc.diagnostics import Diagnostic, Outcome, Related, Severity, Span, YamlPath, did_you_mean
 from cellc.limits import Purse, children_seconds, limits
 from cellc.link.device_facts import limit_shares, with_catalog, with_statements
 from cellc.link.hardware import device_driver, hardware_component
+from cellc.link.kinematics import link_kinematics, with_kinematics
 from cellc.link.names import Placeholders, home_host, placeholders, unknown_name
 from cellc.link.quantities import pose
 from cellc.source.document import SourceDocument
@@ -43,13 +44,17 @@ def link_devices(spec: CellSpec, document: SourceDocument, distro: Distro | None
         distro: the distribution that decides which release of a driver runs; None where the spec names none.
     """
     entries: dict[str, CatalogDevice] = {}
+    kinematics: dict[str, Kinematics | None] = {}
     problems: list[Diagnostic] = []
     purse = Purse(limits().xacro_seconds_together, children_seconds)
     for name, written in spec.devices.items():
         entry = _catalog_entry(name, written, document, purse)
         problems += entry.diagnostics
         if entry.value is not None:
-            entries[name] = entry.value
+            known = placeholders(name, prefix_of(name, written), written, spec)
+            own = link_kinematics(name, written, entry.value, known, document)
+            problems += own.diagnostics
+            entries[name], kinematics[name] = own.value or (entry.value, None)
         problems += _connection_problems(name, written, spec, document)
     if len(entries) < len(spec.devices):
         return Outcome(None, tuple(problems))
@@ -59,6 +64,7 @@ def link_devices(spec: CellSpec, document: SourceDocument, distro: Distro | None
         problems += parent.diagnostics
         if parent.value is not None:
             bound = _device(name, written, spec, document, entries[name], parent.value, distro)
+            bound = replace(bound, device=with_kinematics(bound.device, kinematics[name], bound.facts))
             problems += _unknown_simulated_joints(bound.device, document)
             devices.append(bound)
     return Outcome(tuple(devices), tuple(problems))

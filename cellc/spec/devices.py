@@ -84,6 +84,16 @@ class PayloadSpec(SpecModel):
     center_of_mass: Position = Field(..., description="Centre of mass in the arm's tool0.", examples=["0 0 58 mm"])
 
 
+class KinematicsSpec(SpecModel):
+    """Where the joints of this very robot stand, as its vendor's tool has read it off."""
+
+    file: Text = Field(
+        ..., description="What the tool wrote, beside this file or below.", examples=["arm_kinematics.yaml"]
+    )
+    measured: Pin = Field("UNKNOWN", description="Date on which it was read, YYYY-MM-DD.", examples=["2026-07-01"])
+    owner: Text = Field("UNKNOWN", description="Who answers for it.", examples=["robot"])
+
+
 class AdapterSpec(SpecModel):
     """What guards the commands of a direct SDK: its adapter's own contract."""
 
@@ -168,6 +178,11 @@ class DeviceSpec(SpecModel):
         None,
         description="Time stamps of a sensor.",
         examples=[{"source": "hardware", "clock": "camera", "exposure": "8 ms"}],
+    )
+    calibration: KinematicsSpec | None = Field(
+        None,
+        description="Kinematics of this very robot; those of its type if absent, which keeps the real cell closed.",
+        examples=[{"file": "arm_kinematics.yaml", "measured": "2026-07-01", "owner": "robot"}],
     )
     payload: PayloadSpec | None = Field(
         None,

@@ -10,7 +10,7 @@ import pytest
 from cellc.catalog.load import CatalogDevice, load_device
 from cellc.catalog.starter import starter_spec
 from cellc.description.model import Box
-from cellc.vocabulary import Distro
+from cellc.vocabulary import Behaviour, Distro
 from tests.catalog.chains import Matrix, transform
 
 PI = math.pi
@@ -104,16 +104,17 @@ def test_links_weigh_what_is_published() -> None:
         assert link.inertial.mass == pytest.approx(mass, abs=5e-6)  # published with five figures there
 
 
-def test_effort_controller_has_the_shipped_gains() -> None:
-    controller = _device("franka_fr3").model.controllers["effort_joint_trajectory"]
-    assert controller.command_interfaces == ("effort",)
-    expected = {
+def test_trajectories_on_the_robot_are_torques_with_the_shipped_gains() -> None:
+    control = _device("franka_fr3").model.control
+    assert control is not None
+    assert control.hardware.real is not None
+    commands = control.hardware.real.commands[Behaviour.JOINT_TRAJECTORY]
+    assert commands.interfaces == ("effort",)
+    assert commands.parameters == {
         f"gains.{{prefix}}{joint}.{gain}": float(values[index])
         for gain, values in GAINS.items()
         for index, joint in enumerate(JOINTS)
     }
-    for plugin in controller.plugins.values():
-        assert plugin.parameters == expected
 
 
 def test_hand_weighs_and_opens_as_published() -> None:

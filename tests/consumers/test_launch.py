@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from fnmatch import fnmatch
 from xml.etree.ElementTree import fromstring
 
 import pytest
@@ -228,7 +229,7 @@ def test_plugins_are_of_packages_that_the_manifest_names(cell: str, distro: str)
     for path, text in texts.items():
         if path.endswith(".real.urdf"):
             used |= {plugin.split("/")[0] for plugin in re.findall(r"<plugin>(.*?)</plugin>", text)}
-        if path.endswith("controllers.yaml") and "moveit" not in path:
+        if fnmatch(path, "*controllers*.yaml") and "moveit" not in path:
             types = re.findall(r"^ +type: (\S+)$", text, re.MULTILINE)
             used |= {_PACKAGES.get(plugin, plugin.split("/")[0]) for plugin in types}
     assert used <= depends

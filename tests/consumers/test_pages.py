@@ -95,15 +95,20 @@ def _counted(name: str) -> list[str]:
 @every_build
 def test_audit_names_one_owner_for_each_command_interface(cell: str, distro: str) -> None:
     promised = contract_data(build(cell, distro).texts["contract.json"])["managers"].values()
-    claims = [
-        (name, controller, one["active"])
-        for manager in promised
-        for controller, one in manager["controllers"].items()
-        for name in one["command_interfaces"]
-    ]
+    claims = []
+    for manager in promised:
+        for controller, one in manager["controllers"].items():
+            by_target = {"": one["command_interfaces"]}
+            if one["real_command_interfaces"] is not None:
+                by_target = {
+                    " on the mock": one["command_interfaces"],
+                    " on real hardware": one["real_command_interfaces"],
+                }
+            suffix = "" if one["active"] else " (inactive)"
+            claims += [(name, controller + suffix + where) for where, names in by_target.items() for name in names]
     rows = tables(cell, distro)["Command owners"]
     told = [(name, row[1]) for row in rows for name in _counted(row[0].strip("`"))]
-    assert told == [(name, controller + ("" if active else " (inactive)")) for name, controller, active in claims]
+    assert told == claims
 
 
 @every_build

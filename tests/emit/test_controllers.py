@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from fnmatch import fnmatch
 from pathlib import Path
 from typing import Any
 
@@ -56,15 +57,18 @@ def _declared(distro: str, plugin: str, joints: list[str]) -> dict[str, str]:
 @pytest.mark.parametrize("distro", DISTROS)
 @pytest.mark.parametrize("cell", CELLS)
 def test_every_parameter_is_declared_with_its_type(cell: str, distro: str) -> None:
-    sections = _controllers(artifacts_of(cell, distro)["config/controllers.yaml"])
-    manager = sections.pop("controller_manager")["ros__parameters"]
-    assert sections
-    for name, section in sections.items():
-        parameters = section["ros__parameters"]
-        declared = _declared(distro, manager[name]["type"], parameters.get("joints", []))
-        for parameter, value in _flat(parameters):
-            assert parameter in declared, f"{name}: {parameter} on {distro}"
-            assert type(value) is _TYPES[declared[parameter]], f"{name}: {parameter} = {value!r}"
+    artifacts = artifacts_of(cell, distro)
+    files = [path for path in artifacts if fnmatch(path, "config/controllers*.yaml")]
+    assert files
+    for sections in (_controllers(artifacts[file]) for file in files):
+        manager = sections.pop("controller_manager")["ros__parameters"]
+        assert sections
+        for name, section in sections.items():
+            parameters = section["ros__parameters"]
+            declared = _declared(distro, manager[name]["type"], parameters.get("joints", []))
+            for parameter, value in _flat(parameters):
+                assert parameter in declared, f"{name}: {parameter} on {distro}"
+                assert type(value) is _TYPES[declared[parameter]], f"{name}: {parameter} = {value!r}"
 
 
 def test_manager_learns_rate_and_plugins() -> None:

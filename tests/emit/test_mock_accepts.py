@@ -20,7 +20,7 @@ def test_every_controller_becomes_active(cell: str, distro: str) -> None:
     (manager,) = contract["managers"].values()
     machine = control.ControllerManager(
         artifacts[contract["files"]["urdf_mock"]],
-        artifacts["config/controllers.yaml"],
+        artifacts[contract["files"]["parameters"]["control"]],
         distro=Distro(distro),
         plugin_behaviours=contract["plugin_behaviours"],
     )

@@ -81,7 +81,7 @@ def test_each_target_spawns_what_it_has() -> None:
 def test_parameters_are_given_in_the_types_that_the_vendor_declares() -> None:
     sections = safe_load(_artifacts("ur5e_pick")["config/controllers.yaml"])
     assert sections["scaling"]["ros__parameters"] == {"state_publish_rate": 100.0, "tf_prefix": "arm_"}
-    state = safe_load(_artifacts("fr3_hand")["config/controllers.yaml"])["arm_state"]["ros__parameters"]
+    state = safe_load(_artifacts("fr3_hand")["config/controllers.real.yaml"])["arm_state"]["ros__parameters"]
     assert state == {"arm_prefix": "", "convenience_publish_rate": 1000, "robot_type": "fr3"}
 
 

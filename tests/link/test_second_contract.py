@@ -64,24 +64,21 @@ def test_limits_of_the_cell_are_shares_of_the_documented_ones(cell: Cell) -> Non
     assert by_name["fr3_joint2"].jerk == 5000.0
 
 
-def test_alternate_claims_effort_with_a_gain_for_each_joint(cell: Cell) -> None:
-    effort = _controller(cell, "arm_effort")
-    assert not effort.active
-    assert effort.command_interfaces == tuple(f"{joint}/effort" for joint in JOINTS)
-    assert effort.parameters["command_interfaces"] == ("effort",)
-    assert effort.parameters["gains.fr3_joint1.p"] == 600.0
-    assert effort.parameters["gains.fr3_joint7.d"] == 5.0
-    assert _controller(cell, "arm_trajectory").command_interfaces == tuple(f"{joint}/position" for joint in JOINTS)
-
-
-def test_alternate_of_a_device_acts_as_its_neutral_kind(cell: Cell) -> None:
-    assert _controller(cell, "arm_effort").behaviour == "joint_trajectory"
-    assert cell.behaviours[TRAJECTORY] == "joint_trajectory"
+def test_arm_is_commanded_by_position_on_the_mock_and_by_effort_on_the_robot(cell: Cell) -> None:
+    arm = _controller(cell, "arm_trajectory")
+    assert arm.behaviour == cell.behaviours[TRAJECTORY] == "joint_trajectory"
+    assert arm.claims("mock") == tuple(f"{joint}/position" for joint in JOINTS)
+    assert arm.claims("real") == tuple(f"{joint}/effort" for joint in JOINTS)
+    assert arm.told("mock")["command_interfaces"] == ("position",)
+    assert arm.told("real")["command_interfaces"] == ("effort",)
+    assert not [name for name in arm.told("mock") if name.startswith("gains.")]
+    assert arm.told("real")["gains.fr3_joint1.p"] == 600.0
+    assert arm.told("real")["gains.fr3_joint7.d"] == 5.0
 
 
 def test_parameter_names_carry_the_prefix(tmp_path: Path) -> None:
     prefixed = _changed('    prefix: ""                 # joints', "    prefix: left_  # joints", tmp_path)
-    parameters = _controller(prefixed, "arm_effort").parameters
+    parameters = _controller(prefixed, "arm_trajectory").told("real")
     assert parameters["gains.left_fr3_joint4.p"] == 600.0
     assert not [name for name in parameters if "{" in name]
     arm = prefixed.device("arm").hardware
@@ -89,10 +86,13 @@ def test_parameter_names_carry_the_prefix(tmp_path: Path) -> None:
     assert (arm.name, arm.parameters["real"]["prefix"]) == ("left_FrankaHardwareInterface", "left_")
 
 
-def test_claims_of_the_spec_come_before_those_of_the_kind(tmp_path: Path) -> None:
-    claimed = "{type: effort_joint_trajectory, command_interfaces: [position, effort], device: arm, active: false"
-    changed = _changed("{type: effort_joint_trajectory, device: arm, active: false", claimed, tmp_path)
-    assert _controller(changed, "arm_effort").parameters["command_interfaces"] == ("position", "effort")
+def test_claims_of_the_spec_hold_on_every_target_and_come_before_those_of_the_vendor(tmp_path: Path) -> None:
+    written = "{type: joint_trajectory, device: arm,"
+    changed = _changed(written, f"{written} command_interfaces: [position, velocity],", tmp_path)
+    arm = _controller(changed, "arm_trajectory")
+    assert arm.claims("mock") == arm.claims("real")
+    assert arm.told("real")["command_interfaces"] == ("position", "velocity")
+    assert not [name for name in arm.told("real") if name.startswith("gains.")]
 
 
 def test_node_of_the_hand_reaches_it_through_the_arm(cell: Cell) -> None:
@@ -123,7 +123,7 @@ def test_hand_has_hardware_on_the_mock_alone(cell: Cell) -> None:
 @pytest.mark.parametrize("distro", ["humble", "jazzy", "kilted", "lyrical"])
 def test_cell_links_on_every_distribution(distro: str, tmp_path: Path) -> None:
     changed = _changed("ros: humble", f"ros: {distro}", tmp_path)
-    assert _controller(changed, "arm_effort").plugin == TRAJECTORY
+    assert _controller(changed, "arm_trajectory").plugin == TRAJECTORY
 
 
 @pytest.mark.parametrize(

@@ -77,7 +77,7 @@ def test_everything_that_a_controller_claims_or_reads_of_the_device_is_exported(
     joints = {joint.name for joint in device.joints}
     groups = {name for side in ("command", "state") for name in exports(case.release, side, target.prefix)}
     for controller in target.cell.controllers:
-        for side, names in (("command", controller.command_interfaces), ("state", controller.state_interfaces)):
+        for side, names in (("command", controller.claims("real")), ("state", controller.state_interfaces)):
             exported = exports(case.release, side, target.prefix)
             for name in names:
                 owner, _, interface = name.partition("/")

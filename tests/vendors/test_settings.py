@@ -51,6 +51,20 @@ def test_the_speed_scaling_of_the_arm_is_followed_by_a_controller_that_is_not_de
         assert parameters["speed_scaling"]["state_interface"] == scaling
 
 
+@pytest.mark.parametrize("case", [one for one in CASES if one.release.device == "franka_fr3"], ids=str)
+def test_trajectories_on_the_robot_claim_and_weigh_what_the_vendor_s_do(case: Case) -> None:
+    told = facts(case.release, "controllers")["vendor_moveit"]["active"]["fr3_arm_controller"]
+    parameters = real_target(case).yaml("config/controllers.real.yaml")["arm_trajectory"]["ros__parameters"]
+    assert parameters["command_interfaces"] == told["command_interfaces"] == ["effort"]
+    assert parameters["gains"] == {
+        joint: {gain: value for gain, value in gains.items() if gain != "i_clamp"}  # i is 0: nothing to clamp
+        for joint, gains in told["gains"].items()
+    }
+    assert real_target(case).yaml("config/controllers.mock.yaml")["arm_trajectory"]["ros__parameters"][
+        "command_interfaces"
+    ] == ["position"]
+
+
 def test_the_camera_is_told_the_exposure_and_the_serial_that_the_spec_states(tmp_path: Path) -> None:
     # realsense2_camera: a serial of digits alone becomes an integer and fails; the node cuts the underscore off.
     model = "    model: realsense_d435i\n"

@@ -126,6 +126,9 @@ def _asked(cell: Cell, question: OpenQuestion) -> tuple[str, str]:
 
 
 def _asked_of_device(cell: Cell, device: Device, part: str) -> tuple[str, str]:
+    if part == "calibration" and device.kinematics is not None:
+        tool = code(device.kinematics.tool)
+        return _person(cell.owners.approvals.vendor), f"Which kinematics does {device.name} have? {tool} reads them."
     if part in _READ_ON_THE_DEVICE:
         owner = _person(cell.owners.approvals.vendor)
         return owner, f"Which {part} does {device.name} have, by its nameplate or panel?"

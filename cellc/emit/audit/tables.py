@@ -8,7 +8,16 @@ from cellc.cell.cell import Cell
 from cellc.cell.control import Controller, ControllerManager
 from cellc.cell.interface import Endpoint, Interface, InterfaceKind, Node, NodeSource
 from cellc.deploy.files import QOS_OVERRIDES, controllers_file, is_planner, parameter_files, plans
-from cellc.deploy.labels import failure_label, folded, frame_label, interface_facts, rate_label, units, watchdog
+from cellc.deploy.labels import (
+    ON_TARGET,
+    failure_label,
+    folded,
+    frame_label,
+    interface_facts,
+    rate_label,
+    units,
+    watchdog,
+)
 from cellc.formats.escape import code, markdown
 from cellc.formats.numbers import shortest
 from cellc.formats.parameter_file import qos_parameters
@@ -44,10 +53,17 @@ def command_section(graph: CellGraph) -> str:
 def _owners(cell: Cell) -> Iterator[tuple[str, ...]]:
     people = {node.name: node.owner for node in cell.nodes}
     for controller in cell.controllers:
-        for name in folded(controller.command_interfaces):
-            client = controller.client or "nobody"
-            state = "" if controller.active else " (inactive)"
-            yield code(name), f"{controller.label}{state}", client, people.get(client, _NOT_STATED)
+        client = controller.client or "nobody"
+        state = "" if controller.active else " (inactive)"
+        for claims, where in _claims(controller).items():
+            for name in folded(claims):
+                yield code(name), f"{controller.label}{state}{where}", client, people.get(client, _NOT_STATED)
+
+
+def _claims(controller: Controller) -> dict[tuple[str, ...], str]:
+    """Return what a controller claims → where, which is empty for every target alike."""
+    claims = {controller.claims(target): f" on {ON_TARGET[target]}" for target in controller.targets}
+    return claims if len(claims) > 1 else dict.fromkeys(claims, "")
 
 
 def _requests(cell: Cell) -> Iterator[tuple[str, ...]]:
@@ -141,12 +157,12 @@ def _nodes(cell: Cell) -> Iterator[tuple[str, ...]]:
         for one in manager.controllers:
             owner = cell.owners.approvals.controller
             name = f"`{manager.namespace}/{one.name}`"
-            yield name, one.plugin, manager.host or "not stated", owner, _code(one.parameters)
+            yield name, one.plugin, manager.host or "not stated", owner, _code(one.told("real"))
 
 
 def _parameters(cell: Cell, node: Node) -> tuple[str, ...]:
     """Return the names of parameters, and the files of those that several nodes or controllers share."""
-    files = {manager.node: controllers_file(cell, manager) for manager in cell.managers}
+    files = {manager.node: controllers_file(cell, manager, "real") for manager in cell.managers}
     if node.full_name in files:
         return (files[node.full_name],)
     if node.name == DESCRIPTION_PUBLISHER:

@@ -83,7 +83,7 @@ def _files(cell: Cell) -> ContractFiles:
     return ContractFiles(
         urdf_mock=description_file(cell, "mock"),
         urdf_real=description_file(cell, "real"),
-        parameters={manager.name: controllers_file(cell, manager) for manager in cell.managers},
+        parameters={manager.name: controllers_file(cell, manager, "mock") for manager in cell.managers},
         srdf=semantic_file(cell) if cell.groups else None,
         rehearsals=REHEARSALS,
         bring_up=BRING_UP,

@@ -141,7 +141,7 @@ def _manager(manager: ControllerManager) -> ContractManager:
 
 
 def _controller(controller: Controller) -> ContractController:
-    other = controller.stand_in
+    other, on_real = controller.stand_in, controller.on_real
     return ContractController.model_validate(
         {
             "plugin": controller.plugin,
@@ -151,6 +151,7 @@ def _controller(controller: Controller) -> ContractController:
             "device": controller.device,
             "joints": controller.joints,
             "command_interfaces": controller.command_interfaces,
+            "real_command_interfaces": None if on_real is None else on_real.command_interfaces,
             "state_interfaces": controller.state_interfaces,
             "active": controller.active,
             "client": controller.client,

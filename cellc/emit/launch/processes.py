@@ -159,7 +159,7 @@ def _description_publisher(cell: Cell, manager: ControllerManager, node: Node) -
 def _manager(cell: Cell, manager: ControllerManager) -> Element:
     # Without a name: it would apply to the nodes of the hardware as well.
     place = _place(manager)
-    parameters = [element("param", {"from": share(cell, controllers_file(cell, manager))})]
+    parameters = [element("param", {"from": share(cell, controllers_file(cell, manager, TARGET))})]
     if Feature.DESCRIPTION_TOPIC not in features(cell.distro):
         parameters.append(_description_parameter(share(cell, manager_description_file(cell, manager, TARGET))))
     topic = f"{description_home(manager) if len(cell.managers) > 1 else ''}/{_TOPIC}"

@@ -36,8 +36,9 @@ def check(graph: CellGraph) -> Findings:
         if kind is None or not kind.command_combinations or not controller.joints:
             continue
         prefix = f"{controller.joints[0]}/"
-        names = tuple(c.removeprefix(prefix) for c in controller.command_interfaces if c.startswith(prefix))
-        if names not in kind.command_combinations:
-            allowed = "; ".join(", ".join(combination) for combination in kind.command_combinations)
-            message = f"`{controller.name}` refuses the command interfaces {' + '.join(names)}"
-            yield found(graph, (*controller.path, "command_interfaces"), message, f"use one of: {allowed}")
+        for claims in dict.fromkeys(controller.claims(target) for target in controller.targets):
+            names = tuple(c.removeprefix(prefix) for c in claims if c.startswith(prefix))
+            if names not in kind.command_combinations:
+                allowed = "; ".join(", ".join(combination) for combination in kind.command_combinations)
+                message = f"`{controller.name}` refuses the command interfaces {' + '.join(names)}"
+                yield found(graph, (*controller.path, "command_interfaces"), message, f"use one of: {allowed}")

@@ -42,7 +42,7 @@ def check(graph: CellGraph) -> Findings:
         for gpio in device.hardware.gpios if device.hardware is not None else ():
             provided |= {f"{gpio.name}/{name}" for name in gpio.command_interfaces}
     for controller in graph.cell.controllers:
-        missing = [claim for claim in controller.command_interfaces if claim not in provided]
+        missing = [claim for claim in controller.all_claims if claim not in provided]
         if missing:
             more = f" and {len(missing) - 1} more" if len(missing) > 1 else ""
             message = f"`{controller.name}` claims `{missing[0]}`{more}, which no hardware provides"

@@ -180,7 +180,11 @@ def _folder(number: int, chance: random.Random) -> FuzzInput:
 
 def _read_by_the_mock(base: bases.FolderBase) -> list[str]:
     """Return the files that the mock reads, the contract most often."""
-    parsed = [name for name in base.files if name.endswith((".srdf", "controllers.yaml", ".mock.urdf"))]
+    parsed = [
+        name
+        for name in base.files
+        if name.endswith((".srdf", "controllers.yaml", "controllers.mock.yaml", ".mock.urdf"))
+    ]
     return ["contract.json"] * 5 + ["rehearsals.json"] * 3 + ["manifest.json", *parsed]
 
 
