@@ -52,6 +52,11 @@ rehearsals:
   late: {use: pick_and_place, inject: {mismatch_qos: /object_pos, at: 1 s},  # expect at mismatch_qos
          expect: stale_state}
 """,
+    "invalid-kinematics": """
+devices:
+  gripper:
+    calibration: {file: measured_arm/side_arm.yaml}  # expect at calibration
+""",
     "unknown-joint": """
 devices:
   arm:
