@@ -4,10 +4,15 @@ from __future__ import annotations
 
 import re
 import subprocess
+from pathlib import Path
 from xml.etree.ElementTree import fromstring
 
+import pytest
+
+from tests.cells import DISTROS
 from tests.consumers.matrix import build, every_build, spec_for
 from tests.consumers.starting import every_process
+from tests.emit.cells import emitted
 from tests.foreign_yaml import safe_load
 
 
@@ -22,7 +27,10 @@ def test_environment_is_the_spec_and_leads_to_files_of_the_package(cell: str, di
         if "network" in spec:
             assert stated["ROS_DOMAIN_ID"] == str(spec["network"]["domain_id"])
         discovery = "ROS_LOCALHOST_ONLY" if distro == "humble" else "ROS_AUTOMATIC_DISCOVERY_RANGE"
-        assert stated[discovery] in ({"0", "1"} if distro == "humble" else {"SUBNET", "LOCALHOST", "OFF"})
+        # rmw_fastrtps adds a UDP transport on every card under LOCALHOST, and under SYSTEM_DEFAULT nothing.
+        fast = stated["RMW_IMPLEMENTATION"] == "rmw_fastrtps_cpp"
+        here = {"SUBNET", "SYSTEM_DEFAULT", "OFF"} if fast else {"SUBNET", "LOCALHOST", "OFF"}
+        assert stated[discovery] in ({"0", "1"} if distro == "humble" else here)
         leads = {name: value.split("/", 1)[1] for name, value in stated.items() if "_cell_share" in value}
         leads = {name: value.removeprefix("/").removeprefix("${_cell_share}/") for name, value in leads.items()}
         assert set(leads.values()) <= set(texts)
@@ -47,6 +55,32 @@ def test_fast_dds_uses_the_transports_that_it_describes(cell: str, distro: str) 
         assert sorted(map(str, kinds)) == ["SHM", "UDPv4"]
         assert dds.findtext(".//useBuiltinTransports") == "false"  # they would use every card
         assert dds.findall(".//interfaceWhiteList/*")
+
+
+@pytest.mark.parametrize("distro", DISTROS)
+@pytest.mark.parametrize("discovery", ["unicast", "localhost"])
+def test_fast_dds_without_multicast_asks_its_peers_on_the_cards_for_ros_alone(
+    discovery: str, distro: str, tmp_path: Path
+) -> None:
+    spec = safe_load(spec_for("fr3_hand", distro))
+    text = spec_for("fr3_hand", distro)
+    text = text.replace(spec["versions"]["rmw"].split(" ")[0], "rmw_fastrtps_cpp", 1)
+    text = re.sub(r"(\bdiscovery: )\w+", rf"\g<1>{discovery}", text)
+    texts = emitted(tmp_path, text)
+    for host in spec["hosts"]:
+        dds = fromstring(re.sub(' xmlns="[^"]*"', "", texts[f"middleware/{host}.fastdds.xml"]))
+        # Fast DDS 2.6 to 3: four processes of a peer are asked where nothing is said.
+        assert int(dds.findtext(".//transport_descriptor/maxInitialPeersRange") or 4) >= 32
+        # A locator of no address, and no multicast group is joined.
+        assert len(dds.findall(".//metatrafficUnicastLocatorList/locator")) == 1
+        assert not dds.findall(".//metatrafficUnicastLocatorList//address")
+        peers = [tag.text for tag in dds.findall(".//initialPeersList//address")]
+        assert peers[0] == "127.0.0.1"
+        assert (len(peers) > 1) is (discovery == "unicast")
+        shell = texts[f"middleware/{host}.sh"]
+        assert 'LOCALHOST"' not in shell
+        if distro != "humble":
+            assert 'export ROS_AUTOMATIC_DISCOVERY_RANGE="SYSTEM_DEFAULT"' in shell
 
 
 @every_build

@@ -10,6 +10,7 @@ from __future__ import annotations
 import importlib.util
 import json
 import os
+import re
 import subprocess
 import sys
 from functools import lru_cache
@@ -151,3 +152,27 @@ def test_the_wheels_enforce_nothing(tmp_path: Path) -> None:
     )
     assert said.returncode != 0
     assert "doesn't have the security libraries" in said.stderr, said.stderr[-600:]
+
+
+_SOCKETS = """
+import os, rclpy
+rclpy.init()
+node = rclpy.create_node("a")
+own = {os.readlink(one.path)[8:-1] for one in os.scandir("/proc/self/fd") if os.path.islink(one.path)}
+for line in open("/proc/self/net/udp").read().splitlines()[1:]:
+    if line.split()[9] in own:
+        address = line.split()[1].split(":")[0]
+        print(".".join(str(int(address[at : at + 2], 16)) for at in (6, 4, 2, 0)))
+"""
+
+
+def test_a_real_node_opens_no_socket_beyond_the_cards_of_its_profile(tmp_path: Path) -> None:
+    # Discovery is `localhost` there: under LOCALHOST sockets stood on every card and on 0.0.0.0, with the same profile.
+    texts = build("ur5e_pick", _DISTRO).texts
+    (tmp_path / "profile.xml").write_text(texts["middleware/control_pc.fastdds.xml"], encoding="utf-8")
+    told = dict(re.findall(r'^export (\w+)="([^$"]*)"$', texts["middleware/control_pc.sh"], re.MULTILINE))
+    told |= {"FASTDDS_DEFAULT_PROFILES_FILE": str(tmp_path / "profile.xml"), "ROS_DOMAIN_ID": "97"}
+    run = subprocess.run(
+        [sys.executable, "-c", _SOCKETS], env={**os.environ, **told}, capture_output=True, text=True, check=True
+    )
+    assert set(run.stdout.split()) == {"127.0.0.1"}, run.stderr

@@ -64,23 +64,27 @@ def test_no_ros_traffic_is_bound_to_the_control_card(rmw: str, discovery: str, t
 
 
 @pytest.mark.parametrize(
-    ("distro", "discovery", "lines"),
+    ("rmw", "distro", "discovery", "lines"),
     [
-        ("jazzy", "multicast", ['export ROS_AUTOMATIC_DISCOVERY_RANGE="SUBNET"']),
+        ("rmw_fastrtps_cpp", "jazzy", "multicast", ['export ROS_AUTOMATIC_DISCOVERY_RANGE="SUBNET"']),
         (
+            "rmw_cyclonedds_cpp",
             "jazzy",
             "unicast",
             ['export ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST"', 'export ROS_STATIC_PEERS="10.10.0.11"'],
         ),
-        ("kilted", "localhost", ['export ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST"']),
-        ("humble", "localhost", ['export ROS_LOCALHOST_ONLY="1"']),
-        ("humble", "unicast", ['export ROS_LOCALHOST_ONLY="0"']),
+        ("rmw_cyclonedds_cpp", "kilted", "localhost", ['export ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST"']),
+        # Under LOCALHOST rmw_fastrtps adds a transport on every card; the profile says who is asked.
+        ("rmw_fastrtps_cpp", "jazzy", "unicast", ['export ROS_AUTOMATIC_DISCOVERY_RANGE="SYSTEM_DEFAULT"']),
+        ("rmw_fastrtps_cpp", "kilted", "localhost", ['export ROS_AUTOMATIC_DISCOVERY_RANGE="SYSTEM_DEFAULT"']),
+        ("rmw_fastrtps_cpp", "humble", "localhost", ['export ROS_LOCALHOST_ONLY="1"']),
+        ("rmw_fastrtps_cpp", "humble", "unicast", ['export ROS_LOCALHOST_ONLY="0"']),
     ],
 )
 def test_environment_speaks_the_words_of_the_distribution(
-    distro: str, discovery: str, lines: list[str], tmp_path: Path
+    rmw: str, distro: str, discovery: str, lines: list[str], tmp_path: Path
 ) -> None:
-    shell = emitted(tmp_path, _text("rmw_fastrtps_cpp", discovery, distro))["middleware/control_pc.sh"].splitlines()
+    shell = emitted(tmp_path, _text(rmw, discovery, distro))["middleware/control_pc.sh"].splitlines()
     about_discovery = [line for line in shell if "DISCOVERY" in line or "LOCALHOST_ONLY" in line or "PEERS" in line]
     assert about_discovery == lines
     assert 'export ROS_DOMAIN_ID="42"' in shell

@@ -28,6 +28,7 @@ from cellc.graph.cell_graph import CellGraph
 from cellc.vocabulary import Feature, features
 
 _RANGE = {"multicast": "SUBNET", "unicast": "LOCALHOST", "localhost": "LOCALHOST", "off": "OFF"}
+_FAST = ("rmw_fastrtps_cpp", "rmw_fastrtps_dynamic_cpp")
 _VARIABLES = {
     ".cyclonedds.xml": ("CYCLONEDDS_URI",),
     ".zenoh_router.json5": ("ZENOH_ROUTER_CONFIG_URI",),
@@ -57,7 +58,7 @@ def _profiles(graph: CellGraph, header: Header, binding: Binding) -> Iterator[Ar
             header.commented("//") + f"// {', '.join(origins(binding))}\n" + zenoh_router(binding),
         )
         yield Artifact(f"{stem}.zenoh_session.json5", header.commented("//") + zenoh_session())
-    elif rmw in ("rmw_fastrtps_cpp", "rmw_fastrtps_dynamic_cpp"):
+    elif rmw in _FAST:
         yield Artifact(f"{stem}.fastdds.xml", render(fast_profile(graph.cell, binding), head))
 
 
@@ -85,6 +86,9 @@ def _discovery(cell: Cell, binding: Binding) -> Iterator[tuple[str, str]]:
     discovery = cell.network.discovery
     if Feature.STATIC_PEERS not in features(cell.distro):  # one switch; peers stand in the profile
         yield "ROS_LOCALHOST_ONLY", "1" if discovery in ("localhost", "off") else "0"
+        return
+    if cell.versions.rmw_name in _FAST and discovery in ("unicast", "localhost"):
+        yield "ROS_AUTOMATIC_DISCOVERY_RANGE", "SYSTEM_DEFAULT"  # peers and cards stand in the profile, and no others
         return
     # Without multicast a host finds others by their addresses alone: a static peer reaches out of LOCALHOST too.
     yield "ROS_AUTOMATIC_DISCOVERY_RANGE", _RANGE[discovery]

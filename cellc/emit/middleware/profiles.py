@@ -2,7 +2,9 @@
 
 A card for control carries the vendor's protocol and nothing else: it is left out of every list here, so that no image
 and no bag reaches it. Cyclone DDS: only elements that 0.10.5 and 11.0.1 share, because an element that a version does
-not know makes the domain fail. Fast DDS: UDP on the listed cards alone, shared memory within the host. Zenoh: a router
+not know makes the domain fail. Fast DDS: UDP on the listed cards alone, shared memory in the host; without multicast
+the profile says all of discovery, because rmw_fastrtps 9.2.0 adds a second UDP transport on every card for LOCALHOST,
+and none for SYSTEM_DEFAULT (rmw_fastrtps_shared_cpp/src/participant.cpp:184-213). Zenoh: a router
 on the listed cards, sessions that know it alone; it has no discovery range, so that who is not connected to the router
 is not in the cell. Values that rmw_zenoh sets in its own files, timestamps and the long query time among them, stand
 here too, because these files take their place.
@@ -22,7 +24,8 @@ from cellc.vocabulary import Feature, features
 
 _LOOPBACK = "127.0.0.1"
 
-_MOST_PROCESSES = "99"  # rmw_cyclonedds stops at 32 participants where discovery is unicast
+# A peer without a port is asked at the ports of so many processes: 4 is the default of Fast DDS, 32 that of the rmws.
+_MOST_PROCESSES = "99"
 _UDP, _SHARED = "cell_udp", "cell_shared_memory"
 # Fast DDS 2 and 3 name the same elements under different namespaces.
 _OLD_NAMESPACE = "http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles"
@@ -110,14 +113,15 @@ def fast_profile(cell: Cell, binding: Binding) -> Element:
     """Return the default profile of every participant on a host."""
     namespace = _NAMESPACE if Feature.FAST_DDS_3 in features(cell.distro) else _OLD_NAMESPACE
     return element(
-        "dds", {"xmlns": namespace}, [element("profiles", children=[_transports(binding), _all(cell, binding)])]
+        "dds", {"xmlns": namespace}, [element("profiles", children=[_transports(cell, binding), _all(cell, binding)])]
     )
 
 
-def _transports(binding: Binding) -> Element:
+def _transports(cell: Cell, binding: Binding) -> Element:
     # interfaceWhiteList is the one list that every supported version reads.
     cards = element("interfaceWhiteList", children=[element("address", text=a) for a in binding.addresses])
-    udp = [element("transport_id", text=_UDP), element("type", text="UDPv4"), cards]
+    asked = () if cell.network.discovery == "multicast" else (element("maxInitialPeersRange", text=_MOST_PROCESSES),)
+    udp = [element("transport_id", text=_UDP), element("type", text="UDPv4"), *asked, cards]
     shared = [element("transport_id", text=_SHARED), element("type", text="SHM")]
     return element(
         "transport_descriptors",
@@ -140,13 +144,15 @@ def _all(cell: Cell, binding: Binding) -> Element:
 
 
 def _peers(cell: Cell, binding: Binding) -> Iterator[Element]:
-    if Feature.STATIC_PEERS in features(cell.distro) or not binding.peers:
+    if cell.network.discovery not in ("unicast", "localhost"):
         return
     locators = [
         element("locator", children=[element("udpv4", children=[element("address", text=address)])])
         for address in (*binding.addresses[:1], *binding.peers)
     ]
-    yield element("builtin", children=[element("initialPeersList", children=locators)])
+    # One unicast locator, of no address, and no multicast group is joined.
+    unicast = element("metatrafficUnicastLocatorList", children=[element("locator", children=[element("udpv4")])])
+    yield element("builtin", children=[unicast, element("initialPeersList", children=locators)])
 
 
 def zenoh_router(binding: Binding) -> str:

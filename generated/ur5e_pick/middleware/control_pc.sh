@@ -5,7 +5,7 @@
 _cell_share="$(ros2 pkg prefix --share ur5e_pick)"
 export RMW_IMPLEMENTATION="rmw_fastrtps_cpp"
 export ROS_DOMAIN_ID="42"
-export ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST"
+export ROS_AUTOMATIC_DISCOVERY_RANGE="SYSTEM_DEFAULT"
 export FASTRTPS_DEFAULT_PROFILES_FILE="${_cell_share}/middleware/control_pc.fastdds.xml"
 export FASTDDS_DEFAULT_PROFILES_FILE="${_cell_share}/middleware/control_pc.fastdds.xml"
 unset _cell_share
