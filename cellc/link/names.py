@@ -45,18 +45,27 @@ def home_host(spec: CellSpec) -> str:
     return next(stated, next(iter(spec.hosts), ""))
 
 
+_PORT = re.compile(r"\{port_(\d{1,5})\}")
+_PORTS_OF_A_DEVICE = 10
+"""More than any driver of the catalog listens on, and easy to read."""
 _PLACEHOLDER = re.compile(r"\{(\w+)\}")  # `{share:PACKAGE}` stays: only an installed workspace knows the folder
 
 
 @dataclass(frozen=True, slots=True)
 class Placeholders:
-    """The values for one device of the cell."""
+    """The values for one device of the cell.
+
+    ``twins`` is the number of devices of its model before it on its host: ``{port_50001}`` is a port of the host that
+    none of them listens on.
+    """
 
     values: Mapping[str, str]
+    twins: int = 0
 
     def fill(self, text: str) -> str:
         """Return the text with every known placeholder replaced; others stay as they are."""
-        return _PLACEHOLDER.sub(lambda match: self.values.get(match[1], match[0]), text)
+        ports = _PORT.sub(lambda match: str(int(match[1]) + _PORTS_OF_A_DEVICE * self.twins), text)
+        return _PLACEHOLDER.sub(lambda match: self.values.get(match[1], match[0]), ports)
 
     def fill_parameters(self, parameters: Mapping[str, ParameterValue]) -> dict[str, ParameterValue]:
         """Return parameters with the texts of names, values and lists filled: a joint may stand in any of them."""
@@ -89,8 +98,17 @@ def placeholders(name: str, prefix: str, written: DeviceSpec, spec: CellSpec) ->
             "carrier_address": _carrier_address(written, spec),
             "prefix_namespace": "/" + prefix.removesuffix("_") if prefix.removesuffix("_") else "",
             **{f"controller_{kind}": name for kind, name in _controllers(name, spec)},
-        }
+        },
+        twins=_twins(name, written, spec),
     )
+
+
+def _twins(name: str, written: DeviceSpec, spec: CellSpec) -> int:
+    """Return how many devices of the same model stand before one in the spec, with their driver on the same host."""
+    before = list(spec.devices.values())[: list(spec.devices).index(name)]
+    host = None if written.connection is None else written.connection.host
+    alike = (one.connection for one in before if one.model == written.model)
+    return sum(one is not None and one.host == host for one in alike)
 
 
 def _controllers(device: str, spec: CellSpec) -> Iterator[tuple[str, str]]:
