@@ -109,7 +109,10 @@ def test_alternates_are_configured_and_not_activated(tmp_path: Path) -> None:
     artifacts = emitted(tmp_path, text)
     launch = ElementTree.fromstring(artifacts["launch/cell.launch.xml"])
     spawners = [node.get("args") for node in launch.findall("node") if node.get("exec") == "spawner"]
-    assert spawners == ["joint_states arm_trajectory arm_forward gripper_action -c /controller_manager --inactive"]
+    assert spawners == [
+        "joint_states arm_trajectory arm_forward gripper_action -c /controller_manager --inactive",
+        "arm_io -c /controller_manager --inactive",  # on the real target alone
+    ]
     plan = json.loads(artifacts["config/bring_up.json"])
     requests = [step["request"] for step in plan["mock"] if "request" in step]
     activated = [one["controllers"] for one in requests if one["kind"] == "controllers"]
