@@ -16,7 +16,7 @@ import pytest
 
 from tests.cells import ROOT
 from tests.cli.refused import everything_below
-from tests.cli.run import MINIMAL, PICK, run
+from tests.cli.run import MINIMAL, run
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals are those of POSIX")
 
@@ -100,7 +100,7 @@ def _signalled(
     ],
 )
 def test_interrupted_build_leaves_nothing(moment: str, tmp_path: Path) -> None:
-    _assert_interrupted(moment, ["build", PICK, "-o", str(tmp_path / "out")])
+    _assert_interrupted(moment, ["build", MINIMAL, "-o", str(tmp_path / "out")])
     assert everything_below(tmp_path) == []
 
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from cellc.limits import DEFAULTS, in_force
 from cellc.source.codes import CODES
 from tests.source.reading import codes, places, read_bytes
 
@@ -91,7 +93,8 @@ def test_aliases_cannot_nest_deeper_than_the_limit(tmp_path: Path) -> None:
 
 
 def test_many_values_without_aliases_are_refused(tmp_path: Path) -> None:
-    assert codes(read_bytes(tmp_path, "a: [" + "1," * 200_001 + "]")) == ["too-many-values"]
+    with in_force(replace(DEFAULTS, spec_values=2_000)):
+        assert codes(read_bytes(tmp_path, "a: [" + "1," * 2_001 + "]")) == ["too-many-values"]
 
 
 def test_reading_stops_after_a_hundred_findings(tmp_path: Path) -> None:
