@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import PurePosixPath
 
@@ -96,15 +97,25 @@ def _told(before: Facts, after: Facts) -> list[Change]:
             told += [] if change is None else [change]
     known = _known(told, ids)
     edited = before.edited | after.edited
-    left = lines_left(before.lines, after.lines, known)
+    renamed = before.contract.cell != after.contract.cell
+    left = lines_left(_lines_of(before, renamed), _lines_of(after, renamed), known)
     return told + [_of_lines(one) for one in left if one.file in edited or not one.file.startswith(_SHOWS)]
 
 
+def _lines_of(facts: Facts, renamed: bool) -> Mapping[str, Sequence[str]]:
+    """Return the lines of every file, with the name of the cell left open where it changed: each file repeats it."""
+    if not renamed:
+        return facts.lines
+    name = re.compile(rf"(?<!\w){re.escape(facts.contract.cell)}(?!\w)")
+    return {file: tuple(name.sub("CELL", line) for line in lines) for file, lines in facts.lines.items()}
+
+
 def _ids(facts: Facts) -> frozenset[str]:
-    """Return what changes with whatever is told: ids, and names of spawners, which are those of a first controller."""
+    """Return what follows from whatever is told: ids, names of files, and of spawners after their first controller."""
     names = (name for manager in facts.contract.managers.values() for name in manager.controllers)
     ids = (facts.contract.configuration_id, facts.manifest.configuration_inputs.urdf_sha256)
-    return frozenset((*ids, *(f"spawner_{name}" for name in names)))
+    files = (facts.contract.files.urdf_mock, facts.contract.files.urdf_real, facts.contract.files.srdf or "")
+    return frozenset((*ids, *files, *(f"spawner_{name}" for name in names)))
 
 
 def _known(told: Iterable[Change], ids: frozenset[str]) -> Known:

@@ -99,7 +99,10 @@ def facts_of(files: Mapping[str, str], cell: Cell | None = None) -> Facts:
         if path.endswith((".yaml", ".json")):
             read.add(path)
             leaves.update(flatten(_loaded(path, files[path]), of_manager.get(path, ("file", path))))
-    lines = {path: _lines(files[path], is_srdf=path == named.srdf) for path in sorted(files.keys() - read)}
+    own = {named.urdf_real: "urdf/real", named.urdf_mock: "urdf/mock", named.srdf: "config/moveit/srdf"}
+    lines = {
+        own.get(path, path): _lines(files[path], is_srdf=path == named.srdf) for path in sorted(files.keys() - read)
+    }
     joints = {joint.child: joint for joint in real.joints}
     edited = {path for path, known in manifest.files.items() if path in files and _sha256(files[path]) != known}
     return Facts(contract, manifest, leaves, lines, joints, frozenset(edited), cell is not None)

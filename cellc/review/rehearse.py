@@ -7,6 +7,7 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Sequence
+from contextlib import ExitStack
 from pathlib import Path
 from typing import TypeAlias
 
@@ -42,17 +43,14 @@ def _rehearsal(name: str, was: _Ended, now: _Ended) -> ReviewRehearsal:
 
 
 def _run(packages: Sequence[Package], folder: Path) -> list[_Ended]:
-    running: list[subprocess.Popen[str]] = []
-    try:
+    with ExitStack() as stack:
+        running = []
         for number, package in enumerate(packages):
             place = folder / f"{number}" / package.facts.contract.cell
             write([Artifact(path, text) for path, text in package.files.items()], place)
-            running.append(_started(place))
+            running.append(stack.enter_context(_started(place)))
+            stack.callback(running[-1].kill)
         return [_ended(package, child) for package, child in zip(packages, running, strict=True)]
-    finally:
-        for child in running:
-            child.kill()
-            child.wait()
 
 
 def _started(place: Path) -> subprocess.Popen[str]:

@@ -77,7 +77,10 @@ class Repository:
             RevisionError: the revision has no such file or folder, or more of it than is read.
         """
         commit = self.commit(revision)
-        is_folder = self._kind(commit, path) == "tree"
+        kind = _asked(self.top, "cat-file", "-t", f"{commit}:{path}")
+        if kind is None:
+            raise RevisionError(f"revision `{revision}` has no `{path}`")
+        is_folder = kind == b"tree\n"
         folder = path if is_folder else PurePosixPath(path).parent.as_posix()
         entries = tuple(self._entries(f"{commit}:{'' if folder == '.' else folder}"))
         name = PurePosixPath(path).name
@@ -91,12 +94,6 @@ class Repository:
                 target.parent.mkdir(parents=True, exist_ok=True)
                 target.write_bytes(content)
             yield Taken(Path(private) if is_folder else Path(private, name), Path(private), len(entries) - len(kept))
-
-    def _kind(self, commit: str, path: str) -> str:
-        found = _asked(self.top, "cat-file", "-t", f"{commit}:{path}")
-        if found is None:
-            raise RevisionError(f"`{path}` is not in revision `{commit[:12]}`")
-        return found.decode().strip()
 
     def _entries(self, tree: str) -> Iterator[_Entry]:
         found = _asked(self.top, "ls-tree", "-r", "-z", "-l", "--full-tree", tree)

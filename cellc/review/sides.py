@@ -133,10 +133,10 @@ def _package(side: Side, stack: ExitStack) -> tuple[Package, Path]:
     path = PurePosixPath(side.path).as_posix()
     taken = stack.enter_context(repository.taken(revision, path))
     found = _read(side.name, taken.path, taken.path.as_posix())
-    folder = taken.folder.as_posix()
-    shown = tuple(_shown_from(one, f"{folder}/", f"{side.revision}:") for one in found.findings)
+    shown = f"{side.revision}:{PurePosixPath(path).parent.as_posix()}/"
+    findings = tuple(_shown_from(one, f"{taken.folder.as_posix()}/", shown) for one in found.findings)
     links = (f"{side.name}: {taken.links} links or submodules were left out",) if taken.links else ()
-    return replace(found, findings=shown, notes=(*found.notes, *links)), taken.path
+    return replace(found, findings=findings, notes=(*found.notes, *links)), taken.path
 
 
 def _shown_from(found: ReviewFinding, folder: str, name: str) -> ReviewFinding:

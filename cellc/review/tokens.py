@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-from collections import Counter
 
 from cellc.spec import quantity
 
@@ -17,26 +16,30 @@ _FACTORS = {
 _UNITS = "|".join(re.escape(unit) for unit in sorted(_FACTORS, key=len, reverse=True))
 # Bounded, so that a line of a stranger costs no square.
 _NUMBER = r"[-+]?(?:[0-9]{1,30}(?:\.[0-9]{0,30})?|\.[0-9]{1,30})(?:[eE][-+]?[0-9]{1,3})?"
-_WORD = re.compile(
-    rf"(?<![\w.+-])(?P<numbers>{_NUMBER}(?:[ ,]{{1,3}}{_NUMBER}){{0,31}})[ ]?(?P<unit>{_UNITS})(?![\w/^])"
-    rf"|(?<![\w.+-])(?P<number>{_NUMBER})(?![\w.]{{0,30}}\w)"
-    r"|(?P<word>[^\W\d_][\w./:@-]*\w|[\w/~][\w./:@-]*|\S)"
+_TOKEN = re.compile(
+    rf"(?<![\w.+-])(?P<number>{_NUMBER})(?:(?P<unit>{_UNITS})(?![\w/^]))?(?![\w.]{{0,30}}\w)"
+    r"|(?P<word>[^\W\d_][\w./:@^-]*\w|[\w/~][\w./:@-]*|\S)"
 )
-_IGNORED = frozenset(",;|`'\"()[]{}<>=*")
+_IGNORED = frozenset(";|`'\"()[]{}<>=*")
 
 
 def tokens(line: str) -> tuple[str, ...]:
     """Return the words of a line, sorted, with quantities in SI and without punctuation."""
-    found: Counter[str] = Counter()
-    for match in _WORD.finditer(line):
-        if match["unit"]:
-            factor = _FACTORS[match["unit"]]
-            found.update(_figure(float(one) * factor) for one in re.split("[ ,]+", match["numbers"]))
-        elif match["number"]:
-            found[_figure(float(match["number"]))] += 1
-        elif match["word"] not in _IGNORED:
-            found[match["word"]] += 1
-    return tuple(sorted(found.elements()))
+    found: list[str] = []
+    waiting: list[float] = []  # figures, until the unit behind the last of them is seen
+    for match in _TOKEN.finditer(line):
+        if match["number"]:
+            waiting.append(float(match["number"]))
+        word = match["unit"] or match["word"]
+        if word == "," or word is None:
+            continue
+        factor = _FACTORS.get(word) if waiting else None
+        found += (_figure(value * (1.0 if factor is None else factor)) for value in waiting)
+        waiting.clear()
+        if factor is None and word not in _IGNORED:
+            found.append(word)
+    found += map(_figure, waiting)
+    return tuple(sorted(found))
 
 
 def _figure(value: float) -> str:

@@ -17,9 +17,9 @@ cellc reads files of strangers. What it reads, expands and simulates is bounded,
 and some hundred megabytes, and ends with a message that names the file, the limit and the option. A real cell stays far
 below.
 
-`--limit NAME=VALUE` raises a limit for one call of `cellc check`, `build`, `audit`, `show`, `diagnose` or `mock`; it
-may be given several times. A value is a whole number, from the default to the largest; an unknown name ends with 2 and
-lists the names.
+`--limit NAME=VALUE` raises a limit for one call of `cellc check`, `build`, `audit`, `show`, `diagnose`, `diff` or
+`mock`; it may be given several times. A value is a whole number, from the default to the largest; an unknown name ends
+with 2 and lists the names.
 
 | limit | default | largest | it bounds |
 |---|---|---|---|

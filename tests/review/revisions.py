@@ -13,6 +13,7 @@ from cellc.review.sides import Package, Side, packages
 from tests.cells import spec_text
 
 SPEC = "cells/ur5e_pick/cell.yaml"
+SMALL = "cells/minimal/cell.yaml"
 Edit = tuple[str, str]
 """A piece of the spec, which stands there once, and what it becomes."""
 
@@ -51,19 +52,19 @@ class Repository:
         return self.git("rev-parse", "HEAD")
 
 
-def new_repository(folder: Path) -> Repository:
-    """Return a repository with the cell."""
+def new_repository(folder: Path, spec: str = SPEC) -> Repository:
+    """Return a repository with a cell."""
     repository = Repository(folder)
     repository.git("init", "-q", "-b", "main")
-    repository.write(spec_text("ur5e_pick"))
+    repository.write(spec_text(spec.split("/")[1]), spec)
     repository.git("add", "-A")
     repository.git("commit", "-q", "-m", "the cell")
     return repository
 
 
-def edited(*edits: Edit) -> str:
-    """Return the spec with edits."""
-    text = spec_text("ur5e_pick")
+def edited(*edits: Edit, cell: str = "ur5e_pick") -> str:
+    """Return the spec of a cell with edits."""
+    text = spec_text(cell)
     for old, new in edits:
         assert text.count(old) == 1, old
         text = text.replace(old, new)

@@ -11,18 +11,18 @@ import pytest
 from cellc.spec.schema import schema_files
 from tests.cells import generated
 from tests.cli.run import run
-from tests.review.revisions import SPEC, Repository, edited, new_repository
+from tests.review.revisions import SMALL, Repository, edited, new_repository
 
-FASTER = ("limits: {velocity: 50 %", "limits: {velocity: 60 %")
-RENAMED = ("  /object_pose:", "  /part_pose:")
+LONGER = ("goal_time: 1 s", "goal_time: 2 s")
+RENAMED = ("cell: minimal", "cell: bench")
 
 
 @pytest.fixture(scope="module")
 def repository(tmp_path_factory: pytest.TempPathFactory) -> Repository:
     """Return a repository of these tests alone, with two branches and an edit in the work tree."""
-    repository = new_repository(tmp_path_factory.mktemp("command"))
-    for branch, edit in (("faster", FASTER), ("renamed", RENAMED)):
-        repository.git("branch", branch, repository.commit(edited(edit)))
+    repository = new_repository(tmp_path_factory.mktemp("command"), SMALL)
+    for branch, edit in (("longer", LONGER), ("renamed", RENAMED)):
+        repository.git("branch", branch, repository.commit(edited(edit, cell="minimal"), SMALL))
     repository.git("checkout", "-q", "main")
     return repository
 
@@ -34,69 +34,73 @@ def _inside(repository: Repository, monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.usefixtures("_inside")
 def test_a_diff_ends_with_one_and_begins_with_its_sum() -> None:
-    ran = run("diff", "main..faster", SPEC)
+    ran = run("diff", "main..longer", SMALL)
     assert (ran.code, ran.err) == (1, "")
     lines = ran.out.splitlines()
-    assert lines[0] == f"faster:{SPEC}: 1 change: 1 dangerous"
-    assert lines[1].startswith(f"before  main:{SPEC}, cfg-")
-    assert "      90 deg/s -> 108 deg/s (+20 %)" in lines
-    assert (
-        "      the joint may go further or faster than people at the cell know it; approval controller: controls"
-        in lines
-    )
-    # A limit is looked at by G1, and everything after it rests on that.
-    assert [
-        line.split()[0] for line in lines[lines.index("to be passed again, for their evidence counts no longer") + 1 :]
-    ] == [f"G{number}" for number in range(1, 8)]
+    assert lines[0] == f"longer:{SMALL}: 1 change: 1 dangerous"
+    assert lines[1].startswith(f"before  main:{SMALL}, cfg-")
+    assert lines[5:8] == [
+        "  control  arm_trajectory: time past the end",
+        "      1 s -> 2 s (+100 %)",
+        "      older data may be used, or a failure goes unseen for longer; approval controller: UNKNOWN",
+    ]
+    # Tolerances are looked at by G2 and L6, and everything after them rests on that.
+    again = lines[lines.index("to be passed again, for their evidence counts no longer") + 1 :]
+    assert [line.split()[0] for line in again] == ["G2", "G3", "G4", "G5", "G6", "G7", "L6"]
 
 
 @pytest.mark.usefixtures("_inside")
 def test_one_path_is_head_against_the_work_tree(repository: Repository) -> None:
-    ran = run("diff", SPEC)
-    assert (ran.code, ran.out.splitlines()[0]) == (0, f"{SPEC}: no change")
-    repository.write(edited(FASTER))
+    ran = run("diff", SMALL)
+    assert (ran.code, ran.out.splitlines()[0]) == (0, f"{SMALL}: no change")
+    repository.write(edited(LONGER, cell="minimal"), SMALL)
     try:
-        assert run("diff", SPEC).out.splitlines()[0] == f"{SPEC}: 1 change: 1 dangerous"
-        assert run("diff", "faster", SPEC).code == 0
-        assert run("diff", f"faster:{SPEC}", SPEC).code == 0
+        assert run("diff", SMALL).out.splitlines()[0] == f"{SMALL}: 1 change: 1 dangerous"
+        assert run("diff", "longer", SMALL).code == 0
+        assert run("diff", f"longer:{SMALL}", SMALL).code == 0
     finally:
-        repository.git("checkout", "-q", SPEC)
+        repository.git("checkout", "-q", SMALL)
 
 
 @pytest.mark.usefixtures("_inside")
 def test_three_dots_are_what_a_branch_did_since_it_left_the_other() -> None:
-    assert "1 change: 1 dangerous" in run("diff", "renamed...faster", SPEC).out.splitlines()[0]
-    assert "3 changes" in run("diff", "renamed..faster", SPEC).out.splitlines()[0]
+    assert "1 change: 1 dangerous" in run("diff", "renamed...longer", SMALL).out.splitlines()[0]
+    assert "2 changes" in run("diff", "renamed..longer", SMALL).out.splitlines()[0]
 
 
 @pytest.mark.usefixtures("_inside")
 def test_breaking_fails_only_where_a_consumer_outside_breaks() -> None:
-    assert run("diff", "main..faster", SPEC, "--breaking").code == 0
-    ran = run("diff", "main..renamed", SPEC, "--breaking")
+    assert run("diff", "main..longer", SMALL, "--breaking").code == 0
+    ran = run("diff", "main..renamed", SMALL, "--breaking")
     assert ran.code == 1
     assert ran.out.splitlines()[0].endswith("; 1 breaks consumers outside of the cell")
 
 
 @pytest.mark.usefixtures("_inside")
 def test_json_is_what_its_schema_says() -> None:
-    ran = run("diff", "main..renamed", SPEC, "--format", "json")
+    ran = run("diff", "main..renamed", SMALL, "--format", "json")
     assert ran.code == 1
     found = json.loads(ran.out)
     jsonschema.validate(found, json.loads(schema_files()["review.schema.json"]))
-    assert [change["subjects"] for change in found["changes"]] == [["/part_pose"], ["/object_pose"]]
-    assert {change["owner"] for change in found["changes"]} == {"integration"}
+    (change,) = found["changes"]
+    assert (change["before"], change["after"], change["grade"], change["breaking"]) == (
+        "minimal",
+        "bench",
+        "review",
+        True,
+    )
 
 
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (("nowhere.yaml",), "nowhere.yaml` is not in revision"),
-        (("nosuch..main", SPEC), "there is no revision `nosuch`"),
-        (("--", "-x..main", SPEC), "`-x` is no revision"),
-        (("main:nowhere.yaml", SPEC), "`nowhere.yaml` is not in revision"),
-        (("main", SPEC, SPEC), "expected one or two of spec, folder and revision, got 3"),
-        (("/dev/null", SPEC), "/dev/null"),
-        (("cells", SPEC), "manifest.json: is missing from the generated folder"),
+        (("nowhere.yaml",), "revision `HEAD` has no `nowhere.yaml`"),
+        (("nosuch..main", SMALL), "there is no revision `nosuch`"),
+        (("--", "-x..main", SMALL), "`-x` is no revision"),
+        (("main:nowhere.yaml", SMALL), "revision `main` has no `nowhere.yaml`"),
+        (("main", SMALL, SMALL), "expected one or two of spec, folder and revision, got 3"),
+        (("/dev/null", SMALL), "/dev/null"),
+        (("cells", SMALL), "manifest.json: is missing from the generated folder"),
     ],
 )
 @pytest.mark.usefixtures("_inside")
@@ -109,8 +113,8 @@ def test_what_cannot_be_read_ends_with_two_and_one_line(arguments: tuple[str, ..
 
 def test_a_spec_with_errors_is_not_compared(tmp_path: Path) -> None:
     spec = tmp_path / "cell.yaml"
-    spec.write_text(edited(("update_rate: 500 Hz", "update_rate: 250 Hz")), encoding="utf-8")
-    ran = run("diff", generated("ur5e_pick").as_posix(), spec.as_posix())
+    spec.write_text(edited(("update_rate: 500 Hz", "update_rate: 250 Hz"), cell="minimal"), encoding="utf-8")
+    ran = run("diff", generated("minimal").as_posix(), spec.as_posix())
     assert ran.code == 2
     assert "`update_rate` for `arm` must be 500 Hz, got 250 Hz; see `cellc check`" in ran.err
 
