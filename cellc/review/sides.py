@@ -68,6 +68,8 @@ def sides(arguments: Sequence[str]) -> tuple[Side, Side]:
     Raises:
         SideError: an argument names nothing.
     """
+    if len(arguments) == 1 and ".." in arguments[0] and "/" not in arguments[0] and not Path(arguments[0]).exists():
+        raise SideError(f"expected a spec or a folder after `{arguments[0]}`")
     if len(arguments) == 1:
         return _revised("HEAD", arguments[0]), _stated(arguments[0])
     first, second = arguments

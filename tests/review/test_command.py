@@ -95,6 +95,7 @@ def test_json_is_what_its_schema_says() -> None:
     ("arguments", "said"),
     [
         (("nowhere.yaml",), "revision `HEAD` has no `nowhere.yaml`"),
+        (("main..longer",), "expected a spec or a folder after `main..longer`"),
         (("nosuch..main", SMALL), "there is no revision `nosuch`"),
         (("--", "-x..main", SMALL), "`-x` is no revision"),
         (("main:nowhere.yaml", SMALL), "revision `main` has no `nowhere.yaml`"),
