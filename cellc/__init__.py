@@ -67,12 +67,15 @@ def build(spec: str | Path, output: str | Path = "generated", *, force: bool = F
     return Outcome(written.value, (*found, *written.diagnostics))
 
 
-def load_mock(folder: str | Path) -> MockCell:
+def load_mock(folder: str | Path, *, edited: bool = False) -> MockCell:
     """Load a generated folder, whose rehearsals ``run(name)`` executes.
+
+    Args:
+        edited: take a folder that differs from its manifest; every result says so, and no gate is signed.
 
     Raises:
         cellc.mock.MockError: the folder cannot be executed; the message names the file and the reason.
     """
     from cellc.mock import load
 
-    return load(Path(folder))
+    return load(Path(folder), edited=edited)

@@ -26,6 +26,7 @@ from cellc.cli.limit_option import limit_option
     "--evidence", type=click.Path(path_type=str, file_okay=False), help="Write bags, records, key figures and a report."
 )
 @click.option("--seed", default=0, show_default=True, help="Seed of planning, of seeded faults and of pairs.")
+@click.option("--edited", is_flag=True, help="Run a folder that was edited; every result says so, no gate is signed.")
 @limit_option
 def mock(
     folder: str,
@@ -40,6 +41,7 @@ def mock(
     records: str | None,
     evidence: str | None,
     seed: int,
+    edited: bool,
 ) -> None:
     """Execute the rehearsals of the generated FOLDER; exit 1 where one does not end as it should."""
     from cellc.mock.command.options import MockOptions, run_mock
@@ -57,6 +59,7 @@ def mock(
         records=records,
         evidence=evidence,
         seed=seed,
+        edited=edited,
     )
     problem = options.contradiction()
     if problem:

@@ -42,6 +42,7 @@ def _arguments() -> _Parser:
     parser.add_argument("--records", metavar="FILE", help="write the attempt records as JSON lines")
     parser.add_argument("--evidence", metavar="FOLDER", help="write bags, records, key figures and a report")
     parser.add_argument("--seed", type=int, default=0, help="seed of everything drawn (default 0)")
+    parser.add_argument("--edited", action="store_true", help="run a folder that was edited; every result says so")
     parser.add_argument(
         "--limit", action="append", default=[], metavar="NAME=VALUE", help="raise a limit of docs/limits.md; repeatable"
     )
@@ -73,6 +74,7 @@ def main() -> int:
         records=given.records,
         evidence=given.evidence,
         seed=given.seed,
+        edited=given.edited,
     )
     problem = options.contradiction()
     if problem:

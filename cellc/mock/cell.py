@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from cellc.contract.contract import Contract
@@ -42,9 +43,10 @@ def rehearse(
         MockError: a fault names what the contract does not have.
     """
     try:
-        return _executed(folder, memory, rehearsal, seed, watch)
+        result = _executed(folder, memory, rehearsal, seed, watch)
     except LimitReachedError as error:
-        return _not_run(rehearsal, error)
+        result = _not_run(rehearsal, error)
+    return replace(result, edited=folder.edited)
 
 
 def _executed(
@@ -187,7 +189,7 @@ class MockCell:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What is odd about the folder but no reason to stop, such as files edited by hand."""
+        """How the folder differs from its manifest, one line each."""
         return self._folder.notes
 
     def entry(self, rehearsal: str) -> RehearsalEntry:
@@ -219,13 +221,16 @@ class MockCell:
         return rehearse(self._folder, self._memory, entry, seed, watch)
 
 
-def load(folder: Path) -> MockCell:
+def load(folder: Path, *, edited: bool = False) -> MockCell:
     """Load a generated folder.
+
+    Args:
+        edited: take a folder that differs from its manifest; every result says so, and no gate is signed.
 
     Raises:
         MockError: the folder cannot be executed; names the file and the reason.
     """
-    return cell_of(read_folder(folder))
+    return cell_of(read_folder(folder, edited=edited))
 
 
 def cell_of(folder: GeneratedFolder) -> MockCell:

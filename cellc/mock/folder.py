@@ -29,6 +29,7 @@ from cellc.store.regular_file import FileTooLargeError, read_regular
 CONTRACT_FILE = "contract.json"
 MANIFEST_FILE = "manifest.json"
 _Model = TypeVar("_Model", bound=BaseModel)
+_BUILD_OR_EDITED = "build it again, or take `--edited` to run it under an id that signs no gate"
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +43,7 @@ class GeneratedFolder:
         parameters: text of the parameter file of each controller manager, by manager.
         bring_up, real_bring_up: the steps of the mock, and of the real target.
         watches: what lets go of claims as a robot no longer listens.
-        notes: what is odd but no reason to stop, such as a file edited by hand.
+        notes: how it differs from its manifest, one line each; empty as it was generated.
     """
 
     contract: Contract
@@ -56,12 +57,20 @@ class GeneratedFolder:
     watches: tuple[Watch, ...]
     notes: tuple[str, ...]
 
+    @property
+    def edited(self) -> bool:
+        """Tell whether it is another folder than the one that was generated."""
+        return bool(self.notes)
 
-def read_folder(folder: Path) -> GeneratedFolder:
+
+def read_folder(folder: Path, *, edited: bool = False) -> GeneratedFolder:
     """Read and validate what the mock needs.
 
+    Args:
+        edited: take a folder that differs from its manifest, under an id of its own.
+
     Raises:
-        MockError: a file is missing, unreadable, not what its name says, or lies outside the folder.
+        MockError: a file is missing, unreadable, not what its name says, lies outside the folder, or was edited.
     """
     if not folder.is_dir():
         problem = "is not a folder" if folder.exists() else "no such folder"
@@ -78,8 +87,12 @@ def read_folder(folder: Path) -> GeneratedFolder:
         raise MockError(CONTRACT_FILE, f"controller manager `{missing[0]}` has no parameter file")
     urdf = read_text(folder, contract.files.urdf_mock)
     plan = _bring_up(folder, contract)
+    notes, own_id = differences(folder, contract, manifest)
+    if notes and not edited:
+        more = f", and {len(notes) - 1} more" if len(notes) > 1 else ""
+        raise MockError(folder.as_posix(), f"{notes[0]}{more}; {_BUILD_OR_EDITED}")
     return GeneratedFolder(
-        contract=contract,
+        contract=contract.model_copy(update={"configuration_id": own_id}) if notes else contract,
         rehearsals=rehearsals.rehearsals,
         urdf=urdf,
         description=_described(urdf, contract.files.urdf_mock),
@@ -88,7 +101,7 @@ def read_folder(folder: Path) -> GeneratedFolder:
         bring_up=plan.mock,
         real_bring_up=plan.real,
         watches=plan.watches,
-        notes=tuple(_notes(folder, contract, manifest)),
+        notes=notes,
     )
 
 
@@ -213,21 +226,40 @@ def _inside(folder: Path, name: str) -> Path:
     return file
 
 
-def _notes(folder: Path, contract: Contract, manifest: Manifest) -> Iterator[str]:
+def differences(folder: Path, contract: Contract, manifest: Manifest) -> tuple[tuple[str, ...], str]:
+    """Return how a folder differs from its manifest, one line each, and an id of what it holds instead.
+
+    Raises:
+        MockError: the manifest names a file outside of the folder, or more of them than may be read.
+    """
     own, of_manifest = contract.configuration_id, manifest.configuration_id
-    if of_manifest != own:
-        yield f"`{MANIFEST_FILE}` belongs to configuration `{of_manifest}`, not `{own}`"
+    notes = [] if own == of_manifest else [f"`{MANIFEST_FILE}` belongs to configuration `{of_manifest}`, not `{own}`"]
     total, most = 0, limits().folder_total_bytes
-    for name, expected in sorted(manifest.files.items()):
+    held = hashlib.sha256()
+    executed = {CONTRACT_FILE, *_named(contract)}
+    for name in sorted({*manifest.files, *executed}):
         if not _inside(folder, name).is_file():
-            yield f"`{name}` is listed in the manifest and missing"
+            notes.append(f"`{name}` is listed in the manifest and missing")
             continue
         content = _read_bytes(folder, name)
         total += len(content)
         if total > most:
             raise MockError(MANIFEST_FILE, f"names more than {most} bytes of files; {option('folder-total-bytes')}")
-        if hashlib.sha256(content).hexdigest() != expected.removeprefix("sha256:"):
-            yield f"`{name}` differs from the manifest: it was edited after it was generated"
+        digest = hashlib.sha256(content).hexdigest()
+        held.update(f"{name}\0{digest}\0".encode())
+        if name not in manifest.files:
+            notes.append(f"`{name}` is executed and not listed in the manifest")
+        elif digest != manifest.files[name].removeprefix("sha256:"):
+            notes.append(f"`{name}` differs from the manifest: it was edited after it was generated")
+    return tuple(notes), f"edited-{held.hexdigest()[:12]}"
+
+
+def _named(contract: Contract) -> Iterator[str]:
+    """Yield the files that a contract has executed."""
+    files = contract.files
+    yield from (files.rehearsals, files.urdf_mock, files.bring_up, *files.parameters.values())
+    if files.srdf is not None:
+        yield files.srdf
 
 
 def path_tolerances(parameters: Mapping[str, str]) -> dict[str, float]:

@@ -147,6 +147,7 @@ class RehearsalResult:
         response_s: simulated time from the fault taking effect to the bounded end; None without a fault.
         within_s: bound of ``response_s``; None where there is none.
         findings: what was odd, such as endpoints that do not connect or a second authority of a frame.
+        edited: the folder was not as its manifest has it, so that this is evidence of no configuration.
         vacuous: it shows nothing of a fault, which never began although no other one ended the run; a finding says why.
     """
 
@@ -160,6 +161,7 @@ class RehearsalResult:
     bringup: tuple[StageEvidence, ...]
     findings: tuple[str, ...]
     vacuous: bool = False
+    edited: bool = False
 
     @property
     def reason(self) -> str:
@@ -168,6 +170,11 @@ class RehearsalResult:
         if problems:
             return "; ".join(problems)
         return self.attempts[-1].fault_code if self.attempts else ""
+
+    @property
+    def title(self) -> str:
+        """The name, with what is unlike other runs."""
+        return f"{self.name} of an edited folder" if self.edited else self.name
 
     @property
     def in_time(self) -> bool:

@@ -66,7 +66,7 @@ HARM: dict[str, Callable[[Path], object]] = {
 @pytest.mark.parametrize("name", ["contract.json", "rehearsals.json", "manifest.json", CONTROLLERS, URDF])
 def test_broken_file_is_named(name: str, harm: str, folder: Path) -> None:
     HARM[harm](folder / name)
-    ran = run("mock", folder.as_posix())
+    ran = run("mock", folder.as_posix(), "--edited")
     assert_refused(ran, name.rpartition("/")[2])
     assert all(len(line) < 1000 for line in (ran.out + ran.err).splitlines())
 
@@ -82,7 +82,7 @@ def test_broken_file_is_named(name: str, harm: str, folder: Path) -> None:
 )
 def test_parameter_file_that_rcl_refuses_ends_bringup(text: str, words: str, folder: Path) -> None:
     (folder / CONTROLLERS).write_text(text)
-    ran = run("mock", folder.as_posix())
+    ran = run("mock", folder.as_posix(), "--edited")
     assert_refused(ran, words)
     assert "bringup_failure" in ran.out
 

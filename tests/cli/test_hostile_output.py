@@ -194,10 +194,11 @@ def _spoilt(built: Path, here: Path, edit: Callable[[Any, Any, Any], None]) -> s
 def test_mock_of_a_folder_of_strangers(edit: Callable[[Any, Any, Any], None], built: Path, here: Path) -> None:
     folder = _spoilt(built, here, edit)
     _clean(run("mock", folder))
+    _clean(run("mock", folder, "--edited"))
     # The reader refuses hidden characters; without it the output is held by itself.
     with patch("cellc.mock.folder._refuse_hidden"):
         for name, options in _RUNS.items():
-            ran = _clean(run("mock", folder, *options))
+            ran = _clean(run("mock", folder, "--edited", *options))
             assert ran.code in ((0, 1) if edit is _named else (1, 2))
             if name == "json" and ran.code != 2:
                 assert json.loads(ran.out)["rehearsals"]
@@ -212,5 +213,5 @@ def test_campaign_of_a_folder_of_strangers(options: tuple[str, ...], built: Path
     folder = _spoilt(built, here, _named)
     few = patch("cellc.mock.command.campaign.possible_faults", lambda contract: possible_faults(contract)[:2])
     with patch("cellc.mock.folder._refuse_hidden"), few:
-        ran = _clean(run("mock", folder, *options))
+        ran = _clean(run("mock", folder, "--edited", *options))
         assert ran.code in (0, 1), ran.err

@@ -279,4 +279,4 @@ def test_mock_reads_the_collision_pairs_of_the_semantic_description(cell: str, d
         for path, text in build(cell, distro).texts.items():
             (Path(folder) / path).parent.mkdir(parents=True, exist_ok=True)
             (Path(folder) / path).write_text(text, encoding="utf-8")
-        assert read_folder(Path(folder)).allowed_collisions == tuple(pairs)
+        assert read_folder(Path(folder), edited=True).allowed_collisions == tuple(pairs)

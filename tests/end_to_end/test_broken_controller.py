@@ -21,10 +21,10 @@ def test_wrong_joint_name_fails_as_in_the_real_controller_manager(pick: Path, tm
     broken = file.read_text().replace("      - arm_elbow_joint\n", "      - jointX\n")
     assert broken != file.read_text()
     file.write_text(broken)
-    ran = process("mock", str(folder), "--json")
+    ran = process("mock", str(folder), "--edited", "--json")
     assert ran.code == 1
     told = json.loads(ran.out)
-    assert [one["outcome"] for one in told["rehearsals"]] == ["bringup_failure"] * 3
+    assert {one["outcome"] for one in told["rehearsals"]} == {"bringup_failure"}
     reason = _reason_of_the_real_one().replace("arm_controller", "arm_trajectory")
     assert all(reason in one["reason"] for one in told["rehearsals"])
     assert any("controllers.yaml" in note and "edited" in note for note in told["notes"])

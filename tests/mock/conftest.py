@@ -55,7 +55,7 @@ def load_with(folder: Path) -> LoadWith:
         plain = next(entry for entry in rehearsals["rehearsals"] if entry["name"] == "pick_and_place")
         rehearsals["rehearsals"] = [plain | {"name": "faulty", "faults": list(faults)} | changes]
         file.write_text(json.dumps(rehearsals))
-        return load(folder)
+        return load(folder, edited=True)
 
     return build
 
@@ -69,7 +69,7 @@ def edit_contract(folder: Path) -> Callable[[Callable[[Any], None]], MockCell]:
         contract = json.loads(file.read_text())
         change(contract)
         file.write_text(json.dumps(contract))
-        return load(folder)
+        return load(folder, edited=True)
 
     return edit
 
@@ -99,7 +99,7 @@ def two_managers(folder: Path) -> MockCell:
     (folder / "grip.yaml").write_text(yaml.safe_dump(sections))
     (folder / "contract.json").write_text(json.dumps(contract))
     _plan_for_two(folder / contract["files"]["bring_up"])
-    return load(folder)
+    return load(folder, edited=True)
 
 
 def _plan_for_two(file: Path) -> None:

@@ -30,7 +30,7 @@ MARK = "@@"
 def refusal(folder: Path) -> MockError:
     """Return why a folder is refused."""
     with pytest.raises(MockError) as caught:
-        load(folder)
+        load(folder, edited=True)
     assert "\n" not in str(caught.value)
     return caught.value
 
@@ -151,7 +151,10 @@ def test_update_rate_of_the_parameters_is_bounded(folder: Path, rate: str) -> No
     text = file.read_text()
     assert "update_rate: 500" in text
     file.write_text(text.replace("update_rate: 500", f"update_rate: {rate}"))
-    assert load(folder).run("pick_and_place").outcome in (RunFailure.LIMIT_REACHED, RunFailure.BRINGUP_FAILURE)
+    assert load(folder, edited=True).run("pick_and_place").outcome in (
+        RunFailure.LIMIT_REACHED,
+        RunFailure.BRINGUP_FAILURE,
+    )
 
 
 def _leaves(value: Any, path: tuple[str | int, ...] = ()) -> Iterator[tuple[str | int, ...]]:
@@ -212,7 +215,7 @@ def test_initial_value_that_hardware_cannot_have_fails_the_bring_up(folder: Path
     before = '<param name="initial_value">-1.5707963267948966</param>'
     assert before in file.read_text()
     file.write_text(file.read_text().replace(before, f'<param name="initial_value">{value}</param>', 1))
-    assert load(folder).run("pick_and_place").outcome is RunFailure.BRINGUP_FAILURE
+    assert load(folder, edited=True).run("pick_and_place").outcome is RunFailure.BRINGUP_FAILURE
 
 
 @pytest.mark.parametrize("options", [{"pairs": 10**9}, {"jobs": 10**9}, {"pairs": 10**400}])
@@ -233,7 +236,7 @@ def test_stop_that_takes_for_ever_is_refused_before_it_is_computed() -> None:
 def test_lack_of_memory_is_told_in_one_line(
     built_folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def out_of_memory(_: Path) -> MockCell:
+    def out_of_memory(_: Path, *, edited: bool) -> MockCell:
         raise MemoryError
 
     monkeypatch.setattr("cellc.mock.command.rehearsals.load", out_of_memory)

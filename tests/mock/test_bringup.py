@@ -18,7 +18,7 @@ def run_with(folder: Path, file: str, old: str, new: str) -> RehearsalResult:
     text = (folder / file).read_text()
     assert old in text
     (folder / file).write_text(text.replace(old, new, 1))
-    return load(folder).run("pick_and_place")
+    return load(folder, edited=True).run("pick_and_place")
 
 
 def problems(result: RehearsalResult) -> str:
@@ -61,7 +61,7 @@ def test_claim_that_differs_from_the_contract_is_a_problem(folder: Path) -> None
     claims = text.index('"command_interfaces"', text.index('"arm_trajectory": {'))
     at = text.index(wanted, claims)
     contract.write_text(text[:at] + '"arm_wrist_4_joint/position"' + text[at + len(wanted) :])
-    result = load(folder).run("pick_and_place")
+    result = load(folder, edited=True).run("pick_and_place")
     assert result.outcome == "bringup_failure"
     assert "`arm_wrist_4_joint/position` is claimed by `nobody`" in problems(result)
 
@@ -104,7 +104,7 @@ def plan_with(folder: Path, step: str, change: Callable[[dict[str, Any]], None])
     plan = json.loads(file.read_text())
     change(next(one for one in plan["mock"] if one["name"] == step))
     file.write_text(json.dumps(plan))
-    return load(folder).run("pick_and_place")
+    return load(folder, edited=True).run("pick_and_place")
 
 
 @pytest.mark.parametrize(("kind", "fields", "missing"), NEVER, ids=[f"{one[0]}-{one[2]}" for one in NEVER])
@@ -134,7 +134,7 @@ def test_steps_in_another_order_do_not_find_their_proof(folder: Path) -> None:
     plan = json.loads(file.read_text())
     plan["mock"].insert(0, plan["mock"].pop([one["name"] for one in plan["mock"]].index("activate_perception")))
     file.write_text(json.dumps(plan))
-    told = problems(load(folder).run("pick_and_place"))
+    told = problems(load(folder, edited=True).run("pick_and_place"))
     assert told == "step `activate_perception`: /perception must be inactive, is unconfigured"
 
 

@@ -13,7 +13,10 @@ from typing import Any
 import pytest
 
 from cellc.mock import MockCell, MockError, load
+from cellc.mock.gates import sign_gates
+from cellc.mock.gates.gate import gate_lines
 from tests.cells import ROOT
+from tests.cli.run import run
 from tests.end_to_end.test_mock_alone import copy_the_mock
 from tests.mock.conftest import LoadWith, fault
 
@@ -22,7 +25,7 @@ Edit = Callable[[Callable[[Any], None]], MockCell]
 
 def refusal(folder: Path) -> MockError:
     with pytest.raises(MockError) as caught:
-        load(folder)
+        load(folder, edited=True)
     assert "\n" not in caught.value.reason
     return caught.value
 
@@ -137,18 +140,81 @@ def test_folder_as_generated_has_no_notes(cell: MockCell) -> None:
     assert cell.notes == ()
 
 
-def test_edit_by_hand_is_a_note(folder: Path) -> None:
-    path = folder / "config" / "controllers.yaml"
+@pytest.mark.parametrize("name", ["config/controllers.yaml", "config/joint_limits.yaml", "gates/promotion.md"])
+def test_edit_by_hand_is_refused_with_the_file_and_what_to_do(folder: Path, name: str) -> None:
+    path = folder / name
     path.write_text(path.read_text() + "# by hand\n")
-    assert load(folder).notes == (
-        "`config/controllers.yaml` differs from the manifest: it was edited after it was generated",
-    )
+    edit = f"`{name}` differs from the manifest: it was edited after it was generated"
+    with pytest.raises(MockError) as caught:
+        load(folder)
+    assert caught.value.reason.startswith(f"{edit}; build it again, or take `--edited`")
+    assert load(folder, edited=True).notes == (edit,)
 
 
-def test_manifest_of_another_configuration_is_a_note(folder: Path) -> None:
+def test_several_edits_are_counted(folder: Path) -> None:
+    for name in ("config/controllers.yaml", "config/joint_limits.yaml"):
+        (folder / name).write_text((folder / name).read_text() + "# by hand\n")
+    with pytest.raises(
+        MockError, match=r"`config/controllers\.yaml` differs from the manifest.*, and 1 more; build it"
+    ):
+        load(folder)
+
+
+def test_file_that_is_executed_and_stands_in_no_manifest_is_an_edit(folder: Path) -> None:
+    path = folder / "manifest.json"
+    manifest = json.loads(path.read_text())
+    del manifest["files"]["config/controllers.yaml"]
+    path.write_text(json.dumps(manifest))
+    with pytest.raises(MockError, match=r"`config/controllers\.yaml` is executed and not listed in the manifest"):
+        load(folder)
+
+
+def test_manifest_of_another_configuration_is_refused(folder: Path) -> None:
     path = folder / "manifest.json"
     path.write_text(json.dumps(json.loads(path.read_text()) | {"configuration_id": "cfg-other"}))
-    assert any("belongs to configuration `cfg-other`" in note for note in load(folder).notes)
+    with pytest.raises(MockError, match="belongs to configuration `cfg-other`"):
+        load(folder)
+    assert any("belongs to configuration `cfg-other`" in note for note in load(folder, edited=True).notes)
+
+
+def test_edited_folder_has_an_id_of_its_own_in_every_result(folder: Path, cell: MockCell) -> None:
+    path = folder / "config" / "controllers.yaml"
+    path.write_text(path.read_text() + "# by hand\n")
+    edited = load(folder, edited=True)
+    result = edited.run("cancelled")
+    ids = {record.configuration_id for record in result.attempts}
+    assert result.edited
+    assert ids == {edited.contract.configuration_id}
+    assert edited.contract.configuration_id.startswith("edited-")
+    path.write_text(path.read_text() + "# more\n")
+    assert load(folder, edited=True).contract.configuration_id not in ids
+    assert not cell.run("cancelled").edited
+
+
+def test_no_gate_of_an_edited_folder_is_signed(folder: Path, cell: MockCell) -> None:
+    path = folder / "config" / "controllers.yaml"
+    path.write_text(path.read_text() + "# by hand\n")
+    edited = load(folder, edited=True)
+    gates = sign_gates(edited.folder, (), 0)
+    assert {gate.signature for gate in gates} == {None}
+    lines = [line for line in gate_lines(gates) if "signed" in line]
+    assert lines == [f"  not signed: {edited.contract.configuration_id}, the folder differs from its manifest"] * 4
+    assert cell.contract.configuration_id not in "".join(lines)
+    assert all(gate.signature for gate in sign_gates(cell.folder, (), 0))
+
+
+def test_edited_folder_is_refused_and_run_by_the_command(folder: Path, tmp_path: Path) -> None:
+    path = folder / "config" / "controllers.yaml"
+    path.write_text(path.read_text() + "# by hand\n")
+    refused = run("mock", str(folder), "--rehearsal", "cancelled")
+    assert (refused.code, "differs from the manifest" in refused.err) == (2, True)
+    told = run("mock", str(folder), "--rehearsal", "cancelled", "--edited", "--records", str(tmp_path / "records"))
+    assert told.out.startswith("note: `config/controllers.yaml` differs from the manifest")
+    assert "passed  cancelled of an edited folder: cancelled" in told.out
+    assert '"configuration_id":"edited-' in (tmp_path / "records").read_text()
+    as_json = json.loads(run("mock", str(folder), "--rehearsal", "cancelled", "--edited", "--json").out)
+    assert as_json["rehearsals"][0]["edited"] is True
+    assert as_json["configuration_id"].startswith("edited-")
 
 
 def test_command_says_what_is_wrong_and_ends_with_two(tmp_path: Path) -> None:
@@ -197,4 +263,4 @@ def test_link_out_of_the_folder_is_not_followed(name: str, folder: Path, tmp_pat
 def test_link_within_the_folder_is_followed(folder: Path) -> None:
     (folder / "config").rename(folder / "settings")
     (folder / "config").symlink_to("settings")
-    assert load(folder).contract.cell
+    assert load(folder, edited=True).contract.cell

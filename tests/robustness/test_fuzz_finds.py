@@ -60,7 +60,7 @@ def _folder_with(folder: Path, cell: str, change: Callable[[Any, Any], None]) ->
     change(*texts)
     for file, text in zip(files, texts, strict=True):
         file.write_text(json.dumps(text), encoding="utf-8")
-    return load(folder / cell)
+    return load(folder / cell, edited=True)
 
 
 def test_a_grip_of_what_is_no_device_is_a_rejected_goal(tmp_path: Path) -> None:

@@ -123,7 +123,12 @@ def campaign_lines(campaign: Campaign, replay: ReplayCommand) -> Iterator[str]:
         yield from failure_lines(end, replay(end.run.identifier))
     total, failed = len(campaign.all_ends), len(campaign.failed)
     verdict = "passed" if campaign.passed else "FAILED"
-    yield f"{verdict}: {total - failed} of {total} runs ended in a named outcome within bounds and limits"
+    of = ", of an edited folder" if any(end.result.edited for end in campaign.all_ends) else ""
+    yield f"{verdict}: {total - failed} of {total} runs ended in a named outcome within bounds and limits{of}"
+
+
+def _of(end: RunEnd) -> str:
+    return f"{end.run.identifier} of an edited folder" if end.result.edited else end.run.identifier
 
 
 def end_lines(end: RunEnd, command: str) -> Iterator[str]:
@@ -133,7 +138,7 @@ def end_lines(end: RunEnd, command: str) -> Iterator[str]:
         yield from failure_lines(end, command)
         yield f"        digest: {end.digest}"
         return
-    yield f"passed  {run.identifier}: {result.outcome} (named: {', '.join(run.outcomes)})"
+    yield f"passed  {_of(end)}: {result.outcome} (named: {', '.join(run.outcomes)})"
     if run.within_s is not None and result.response_s is not None and result.outcome != AttemptOutcome.SUCCEEDED:
         yield f"        bound: {result.response_s * 1e3:.0f} ms of {run.within_s * 1e3:.0f} ms"
     if result.reason:
@@ -144,7 +149,7 @@ def end_lines(end: RunEnd, command: str) -> Iterator[str]:
 def failure_lines(end: RunEnd, command: str) -> Iterator[str]:
     """Yield why a run failed, and how to run it again."""
     result, run = end.result, end.run
-    yield f"FAILED  {run.identifier}: {result.outcome}"
+    yield f"FAILED  {_of(end)}: {result.outcome}"
     if not end.named:
         yield f"        expected: {' or '.join(run.outcomes)}"
     elif not end.in_time and run.within_s is not None:
@@ -227,6 +232,7 @@ def _run(end: RunEnd, replay: ReplayCommand) -> dict[str, object]:
         "excesses": [asdict(excess) for excess in end.limits.excesses],
         "sim_time_s": result.sim_time_s,
         "reason": end.crash or result.reason,
+        "edited": result.edited,
         "digest": end.digest,
         "replay": replay(run.identifier),
     }

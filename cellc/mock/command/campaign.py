@@ -69,7 +69,8 @@ def replay_runs(options: MockOptions) -> int:
     if options.as_json:
         show_document(campaign_json(replace(campaign, baselines=()), cell.notes, replay))
     else:
-        show(*(line for end in campaign.ends for line in end_lines(end, replay(end.run.identifier))))
+        lines = (line for end in campaign.ends for line in end_lines(end, replay(end.run.identifier)))
+        show(*(f"note: {note}" for note in cell.notes), *lines)
     return 0 if all(end.passed for end in campaign.ends) else 1
 
 
@@ -130,7 +131,7 @@ def load_checked(options: MockOptions) -> MockCell:
     for name, value in (("number of pairs", options.pairs), ("number of jobs", options.jobs)):
         if value is not None and value > most:
             raise MockError("", f"the {name} is {value}; it must be at most {most}; {option('campaign-runs')}")
-    return load(Path(options.folder))
+    return load(Path(options.folder), edited=options.edited)
 
 
 def conduct_all(cell: MockCell, options: MockOptions) -> Campaign:
@@ -167,6 +168,7 @@ def _found(plan: CampaignPlan, identifier: str) -> CampaignRun:
 
 def _replay_command(options: MockOptions, identifier: str) -> str:
     seed = f" --seed {options.seed}" if options.seed else ""
+    seed += " --edited" if options.edited else ""
     return f"{options.program} {shlex.quote(options.folder)} --replay {shlex.quote(identifier)}{seed}"
 
 
@@ -199,7 +201,7 @@ def run_gates(options: MockOptions) -> int:
         judged = {"gates": gates_as_data(gates), "notes": list(cell.notes)}
         show_document(harmless_json(json.dumps(judged, ensure_ascii=False, indent=2)))
     else:
-        show(*list(gate_lines(gates))[:-1])
+        show(*(f"note: {note}" for note in cell.notes), *list(gate_lines(gates))[:-1])
     return 1 if any(_failed(gate) for gate in gates) else 0
 
 

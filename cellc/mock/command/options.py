@@ -34,6 +34,7 @@ class MockOptions:
         records: file that attempt records are written to, as JSON lines.
         evidence: folder that bags, records, figures and a report are written to.
         seed: of everything that is drawn.
+        edited: run a folder that differs from its manifest too.
     """
 
     folder: str
@@ -49,6 +50,7 @@ class MockOptions:
     records: str | None = None
     evidence: str | None = None
     seed: int = 0
+    edited: bool = False
 
     def modes(self) -> list[str]:
         """Return the options that ask for something else than rehearsals."""

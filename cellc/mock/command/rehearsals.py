@@ -41,6 +41,7 @@ def to_summary_json(configuration_id: str, timed: Sequence[TimedResult], notes: 
             "response_s": each.result.response_s,
             "within_s": each.result.within_s,
             "reason": each.result.reason,
+            "edited": each.result.edited,
         }
         for each in timed
     ]
@@ -59,7 +60,7 @@ def to_lines(timed: Sequence[TimedResult], notes: Sequence[str]) -> Iterator[str
         verdict = "passed" if result.passed else "FAILED"
         speed = result.sim_time_s / each.wall_time_s if each.wall_time_s > 0.0 else 0.0
         yield (
-            f"{verdict}  {result.name}: {result.outcome} (expected {result.expected}), "
+            f"{verdict}  {result.title}: {result.outcome} (expected {result.expected}), "
             f"{result.sim_time_s:.2f} s simulated in {each.wall_time_s:.2f} s ({speed:.0f} x real time)"
         )
         if result.within_s is not None and result.response_s is not None:
@@ -81,7 +82,7 @@ def run_rehearsals(options: MockOptions) -> int:
             raise MockError("", f"the seed is {options.seed}; it must be 0 or greater")
         if options.records is not None:
             refuse_foreign(Path(options.records))  # before the minutes that a run may take
-        cell = load(Path(options.folder))
+        cell = load(Path(options.folder), edited=options.edited)
         timed = _run(cell, tuple(dict.fromkeys(options.rehearsals)) or cell.rehearsals, options)
         if options.records is not None:
             records = (record for each in timed for record in each.result.attempts)

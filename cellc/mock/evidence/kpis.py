@@ -76,6 +76,7 @@ def to_kpi_json(entry: RehearsalEntry, result: RehearsalResult, figures: Sequenc
         "outcome": result.outcome,
         "expected": result.expected,
         "passed": result.passed,
+        "edited": result.edited,
         "faults": [fault.kind for fault in entry.faults],
         "kpis": [asdict(figure) for figure in figures],
     }

@@ -44,6 +44,7 @@ class GateResult:
         state: state of the robot that the gate is for.
         configuration_id: configuration that was judged.
         seed: of the runs that are the evidence.
+        signed: False for a folder that is not the one that was generated: it is no configuration.
     """
 
     gate: GateCode
@@ -52,6 +53,7 @@ class GateResult:
     configuration_id: str
     seed: int
     checks: tuple[GateCheck, ...]
+    signed: bool = True
 
     @property
     def verdict(self) -> Verdict:
@@ -63,10 +65,19 @@ class GateResult:
         return Verdict.PASSED
 
     @property
-    def signature(self) -> str:
+    def signature(self) -> str | None:
         """A digest over everything the result says: another line, run or configuration gives another one."""
+        if not self.signed:
+            return None
         text = repr((self.gate.value, self.title, self.state, self.configuration_id, self.seed, self.checks))
         return f"sha256:{hashlib.sha256(text.encode()).hexdigest()}"
+
+    @property
+    def signed_by(self) -> str:
+        """By what it is signed, in words."""
+        if not self.signed:
+            return f"not signed: {self.configuration_id}, the folder differs from its manifest"
+        return f"signed by result: {self.configuration_id}, seed {self.seed}, {self.signature}"
 
 
 def passed(text: str, evidence: Iterable[str]) -> GateCheck:
@@ -110,7 +121,7 @@ def gate_lines(gates: Sequence[GateResult]) -> Iterator[str]:
             yield f"  {_LABELS[check.verdict]}  {check.text}"
             prefix = "needs " if check.verdict is Verdict.UNKNOWN else ""
             yield from (f"             {prefix}{line}" for line in check.evidence)
-        yield f"  signed by result: {gate.configuration_id}, seed {gate.seed}, {gate.signature}"
+        yield f"  {gate.signed_by}"
         yield ""
 
 

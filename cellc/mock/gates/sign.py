@@ -30,8 +30,9 @@ def sign_gates(folder: GeneratedFolder, runs: Sequence[JudgedRun], seed: int) ->
         seed: of the runs.
     """
     evidence = GateEvidence(folder, tuple({run.name: run for run in runs}.values()))
+    known = folder.contract.configuration_id
     return tuple(
-        GateResult(gate, title, state, folder.contract.configuration_id, seed, tuple(_distinct(checks(evidence))))
+        GateResult(gate, title, state, known, seed, tuple(_distinct(checks(evidence))), signed=not folder.edited)
         for gate, title, state, checks in _GATES
     )
 

@@ -210,9 +210,8 @@ def _gate(gate: GateResult, *, open_: bool) -> Element:
     verdict = tag("span", gate.verdict.value, class_=_CLASSES[gate.verdict])
     title = tag("summary", tag("b", f"{gate.gate} {gate.title} "), verdict, f", {held} of {lines} passed")
     rows = tag("ul", *(_check(check) for check in gate.checks), class_="checks")
-    signed = tag(
-        "p", f"State of the robot: {gate.state}. Signed by result: ", tag("code", gate.signature), class_="hint"
-    )
+    by = tag("code", gate.signature) if gate.signature else "nobody, since the folder was edited"
+    signed = tag("p", f"State of the robot: {gate.state}. Signed by result: ", by, class_="hint")
     section = tag("details", title, rows, signed, class_="gate")
     if open_:
         section.set("open", "open")

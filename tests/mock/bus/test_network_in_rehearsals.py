@@ -23,7 +23,7 @@ def cell_with(folder: Path, change: Change) -> MockCell:
     contract = json.loads(file.read_text())
     change(contract)
     file.write_text(json.dumps(contract))
-    return load(folder)
+    return load(folder, edited=True)
 
 
 def run(cell: MockCell, seed: int = 0) -> tuple[RehearsalResult, Plant]:

@@ -159,7 +159,9 @@ def test_folder_whose_rehearsals_all_have_faults_has_no_campaign(folders: dict[s
     fault = {"kind": "skip_cycles", "target": "", "at_s": 0.0, "cycles": 1}
     rehearsals["rehearsals"] = [{**entry, "faults": [fault]} for entry in rehearsals["rehearsals"]]
     (folder / "rehearsals.json").write_text(json.dumps(rehearsals), encoding="utf-8")
-    assert_refused(run("mock", str(folder), "--campaign"), "has no rehearsal without faults to run a campaign over")
+    assert_refused(
+        run("mock", str(folder), "--campaign", "--edited"), "has no rehearsal without faults to run a campaign over"
+    )
 
 
 @pytest.mark.usefixtures("few_faults")

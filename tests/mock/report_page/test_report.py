@@ -113,7 +113,7 @@ def test_names_of_the_spec_are_text_and_never_markup(built_folder: Path, tmp_pat
     contract["version_tuple"][hostile] = hostile
     (folder / "contract.json").write_text(json.dumps(contract), encoding="utf-8")
     out = tmp_path / "evidence"
-    write_evidence(load(folder), out)
+    write_evidence(load(folder, edited=True), out)
     page = Page((out / "report.html").read_text(encoding="utf-8"))
     assert "script" not in page.tags
     assert not [name for name, _ in page.attributes if name.startswith("on")]

@@ -184,7 +184,7 @@ def _unreadable(artifacts: Sequence[Artifact]) -> Iterator[Find]:
 def _generated(given: FuzzInput, sandbox: Sandbox) -> Iterator[Find]:
     """Judge a generated folder: it runs, or is refused in words."""
     try:
-        cell = load(Path(FOLDER))
+        cell = load(Path(FOLDER), edited=True)
         names = cell.rehearsals if given.chance.random() < SHARES["rehearse"] else ()
         for name in names[:1]:
             cell.run(name)
