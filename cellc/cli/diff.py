@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import click
 
 from cellc.cli.limit_option import limit_option
 from cellc.printing import refuse, show, show_document
+
+if TYPE_CHECKING:
+    from cellc.contract.review import ReviewRehearsal
+    from cellc.review.sides import Package
 
 
 @click.command()
@@ -35,15 +41,13 @@ def diff(sides: tuple[str, ...], output_format: str, breaking: bool, rehearse: b
     if len(sides) > 2:
         raise click.UsageError(f"expected one or two of spec, folder and revision, got {len(sides)}.")
     # Comparing loads the compiler.
-    from cellc.review.rehearse import outcomes_of
     from cellc.review.review import review
     from cellc.review.sides import SideError, packages
     from cellc.review.sides import sides as asked
 
     try:
         with packages(*asked(sides)) as ((before, _), (after, _)):
-            outcomes = outcomes_of(before, after) if rehearse else ()
-            found = review(before, after, outcomes)
+            found = review(before, after, _outcomes(before, after) if rehearse else ())
     except SideError as problem:
         refuse(str(problem))
         raise click.exceptions.Exit(2) from None
@@ -62,3 +66,9 @@ def diff(sides: tuple[str, ...], output_format: str, breaking: bool, rehearse: b
     counted = [change for change in found.changes if change.breaking or not breaking]
     if counted or (found.rehearsals_differ() and not breaking):
         raise click.exceptions.Exit(1)
+
+
+def _outcomes(before: Package, after: Package) -> tuple[ReviewRehearsal, ...]:
+    from cellc.review.rehearse import outcomes_of
+
+    return outcomes_of(before, after)

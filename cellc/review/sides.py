@@ -14,7 +14,6 @@ from cellc.diagnostics import Diagnostic, Severity
 from cellc.limits import limits, option
 from cellc.mock.errors import MockError
 from cellc.mock.folder import read_text
-from cellc.pipeline import check, emit_cell
 from cellc.review.facts import MANIFEST, Facts, FactsError, facts_of
 from cellc.review.revisions import RevisionError, repository_of
 
@@ -155,6 +154,9 @@ def _read(name: str, path: Path, shown: str) -> Package:
 
 
 def _of_spec(name: str, file: str) -> Package:
+    # Folders are compared without the compiler, which takes a second to load.
+    from cellc.pipeline import check, emit_cell
+
     checked = check(file)
     emitted = emit_cell(checked)
     if emitted.value is None or checked.graph is None:
