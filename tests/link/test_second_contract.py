@@ -64,6 +64,17 @@ def test_limits_of_the_cell_are_shares_of_the_documented_ones(cell: Cell) -> Non
     assert by_name["fr3_joint2"].jerk == 5000.0
 
 
+def test_alternate_that_claims_effort_by_name_has_the_gains_of_the_vendor(tmp_path: Path) -> None:
+    # Cells of strangers switch to it, as the cell here did until its trajectories became torques on the robot.
+    old = "    hand_action:"
+    alternate = "{type: effort_joint_trajectory, device: arm, active: false, goal_time: 1 s, path_tolerance: 0.1 rad,"
+    new = f"    arm_effort:\n      {alternate}\n       goal_tolerance: 0.01 rad, client: move_group}}\n{old}"
+    controller = _controller(_changed(old, new, tmp_path), "arm_effort")
+    assert controller.claims("real") == tuple(f"{joint}/effort" for joint in JOINTS)
+    assert controller.parameters["gains.fr3_joint1.p"] == 600.0
+    assert not [found for found in check(tmp_path / "cell.yaml").diagnostics if found.severity.value == "error"]
+
+
 def test_arm_is_commanded_by_position_on_the_mock_and_by_effort_on_the_robot(cell: Cell) -> None:
     arm = _controller(cell, "arm_trajectory")
     assert arm.behaviour == cell.behaviours[TRAJECTORY] == "joint_trajectory"
