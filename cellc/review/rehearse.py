@@ -54,8 +54,9 @@ def _run(packages: Sequence[Package], folder: Path) -> list[_Ended]:
 
 
 def _started(place: Path) -> subprocess.Popen[str]:
+    # What was edited is told as a note; here no gate is signed by it.
     raised = [word for option in as_options(limits()) for word in ("--limit", option)]
-    command = [sys.executable, "-m", "cellc", "mock", place.as_posix(), "--json", *raised]
+    command = [sys.executable, "-m", "cellc", "mock", place.as_posix(), "--json", "--edited", *raised]
     return subprocess.Popen(
         command,
         stdout=subprocess.PIPE,
