@@ -62,13 +62,17 @@ def joint_states_topic(contract: Contract, manager: str, broadcaster: str) -> Ba
 
 def controller_state_topic(contract: Contract, manager: str, controller: str) -> BagTopic:
     """Return the topic on which a trajectory controller publishes its state, `~/controller_state`."""
-    name = _in_namespace(contract, manager, f"{controller}/controller_state")
+    name = f"{contract.managers[manager].controllers[controller].full_name}/controller_state"
     return BagTopic(name, CONTROLLER_STATE, _of_broadcasters(contract))
 
 
 def goal_topic(controller: str, *, gripper: bool) -> BagTopic:
-    """Return the topic of the goals of a controller, as they were sent."""
-    return BagTopic(f"/cellc/{controller}/goal", JOINT_STATE if gripper else JOINT_TRAJECTORY, DEFAULT)
+    """Return the topic of the goals of a controller, as they were sent.
+
+    The contract calls a controller by its full name where several managers have one of its name.
+    """
+    name = f"/cellc/{controller.removeprefix('/')}/goal"
+    return BagTopic(name, JOINT_STATE if gripper else JOINT_TRAJECTORY, DEFAULT)
 
 
 def pose_topic(contract: Contract, frame: str) -> BagTopic | None:
