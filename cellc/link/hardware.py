@@ -24,6 +24,13 @@ from cellc.link.programs import inner_nodes
 from cellc.pins import older
 from cellc.vocabulary import Distro, Unmet
 
+JOINT_STATES = "/joint_states"
+"""Where robot_state_publisher and planners hear of all joints.
+
+Nobody merges: several publishers on it are usual, readers put joints together by name. joint_state_publisher with a
+``source_list`` would stamp old states anew, and report zero for joints that it has not heard of.
+"""
+
 
 def hardware_component(
     facts: DeviceModel, known: Placeholders, prefix: str, distro: Distro | None, driver: str
@@ -134,12 +141,13 @@ def started_nodes(nodes: Iterable[NodeFacts], known: Placeholders, distro: Distr
 def offered_interfaces(
     facts: DeviceModel, nodes: Iterable[NodeFacts], known: Placeholders, distro: Distro | None
 ) -> Iterator[OfferedInterface]:
-    """Yield what the driver offers in this distribution, topics first, then services and actions.
+    """Yield what the driver offers in this distribution, topics first, then services and actions, as the cell has it.
 
     Args:
         nodes: those that run; what another one would offer is not there.
     """
-    absent = {node.name for node in facts.nodes} - {node.name for node in nodes}
+    remaps = {node.name: driver_remaps(facts, node, known) for node in nodes}
+    absent = {node.name for node in facts.nodes} - set(remaps)
     offered = (
         *((InterfaceKind.TOPIC, topic.name, topic.type, topic.publisher, None) for topic in facts.topics),
         *((InterfaceKind.SERVICE, one.name, one.type, one.server, one.effect) for one in facts.services),
@@ -151,13 +159,22 @@ def offered_interfaces(
     )
     for kind, name, type_, node, does in offered:
         if node not in absent:
+            said = known.fill(name)
             yield OfferedInterface(
                 kind=kind,
-                name=known.fill(name),
+                name=remaps.get(node, {}).get(said, said),
                 type=type_,
                 node="/" + known.fill(node),
                 effect=None if does is None else effect(does, distro),
             )
+
+
+def driver_remaps(facts: DeviceModel, node: NodeFacts, known: Placeholders) -> dict[str, str]:
+    """Return names of a node of the driver → those of the cell: joint states join those of the controller managers."""
+    driver = facts.driver
+    states = driver.joint_states if driver is not None and driver.node == node.name else None
+    joined = {} if states is None else {states: JOINT_STATES}
+    return {known.fill(name): known.fill(target) for name, target in (joined | node.remaps).items()}
 
 
 def device_driver(facts: DeviceModel, known: Placeholders) -> DeviceDriver | None:

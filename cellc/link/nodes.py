@@ -3,30 +3,22 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import replace
 
 from cellc.cell.control import ControllerManager
-from cellc.cell.device import Device
 from cellc.cell.interface import Node, NodeSource
 from cellc.diagnostics import Diagnostic, Outcome, Severity, Span, YamlPath
 from cellc.link.devices import BoundDevice
 from cellc.link.frames import ROBOT_STATE_PUBLISHER
-from cellc.link.hardware import camera_parameters, run_nodes
-from cellc.link.names import Placeholders, home_host, unknown_name
+from cellc.link.hardware import JOINT_STATES, camera_parameters, driver_remaps, run_nodes
+from cellc.link.names import home_host, unknown_name
 from cellc.link.programs import endpoints
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
 
 DESCRIPTION_PUBLISHER = "description_publisher"
 """Says the description of one of several controller managers."""
-
-JOINT_STATES = "/joint_states"
-"""Where robot_state_publisher and planners hear of all joints.
-
-Nobody merges: several publishers on it are usual, readers put joints together by name. joint_state_publisher with a
-``source_list`` would stamp old states anew, and report zero for joints that it has not heard of.
-"""
 
 _RUN = re.compile(r"[A-Za-z][A-Za-z0-9_-]*/[A-Za-z0-9_][A-Za-z0-9_.+-]*")
 """A package as REP-144 and REP-127 name it, and a file that `ros2 run` finds in its folder of programs."""
@@ -148,21 +140,9 @@ def _driver_nodes(spec: CellSpec, devices: tuple[BoundDevice, ...]) -> Iterator[
                 real_only=entry.provides == "real",
                 device=device.name,
                 parameters=known.fill_parameters(entry.parameters) | camera_parameters(bound.facts, device),
-                remaps=_joined(device, f"{namespace}/{name}") | _named(entry.remaps, known),
+                remaps=driver_remaps(bound.facts, entry, known),
                 endpoints=endpoints(entry.endpoints, known.fill),
             )
-
-
-def _named(remaps: Mapping[str, str], known: Placeholders) -> dict[str, str]:
-    return {known.fill(name): known.fill(target) for name, target in remaps.items()}
-
-
-def _joined(device: Device, node: str) -> dict[str, str]:
-    """Return the remap by which a driver's joint states join those of the controller managers."""
-    driver = device.driver
-    if driver is None or driver.joint_states is None or driver.node != node:
-        return {}
-    return {driver.joint_states: JOINT_STATES}
 
 
 def _not_a_run(run: str, document: SourceDocument, path: tuple[str, ...]) -> Diagnostic:

@@ -136,6 +136,12 @@ def test_people_of_the_spec_answer_for_what_it_says(cell: str, distro: str) -> N
 
 
 @every_build
+def test_audit_expects_no_name_of_a_driver_that_the_launch_file_gives_to_another(cell: str, distro: str) -> None:
+    given_away = {source for one in processes(cell, distro, "real") for source in one.remaps}
+    assert not {row[0].strip("`") for row in tables(cell, distro)["Expected of drivers"]} & given_away
+
+
+@every_build
 def test_audit_expects_the_nodes_that_are_launched_with_what_they_are_told(cell: str, distro: str) -> None:
     rows = {row[0].strip("`"): row for row in tables(cell, distro)["Expected nodes"]}
     started = {

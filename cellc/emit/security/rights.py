@@ -86,10 +86,9 @@ def _offered(cell: Cell, node: Node) -> NodeEndpoints:
     def own(kind: InterfaceKind) -> tuple[str, ...]:
         return tuple(one.name for one in device.offers if one.kind is kind and one.node == node.full_name)
 
-    offers = NodeEndpoints(
+    return NodeEndpoints(
         publishes=own(InterfaceKind.TOPIC), serves=own(InterfaceKind.SERVICE), executes=own(InterfaceKind.ACTION)
     )
-    return _renamed(node, offers)
 
 
 def _renamed(node: Node, own: NodeEndpoints) -> NodeEndpoints:
