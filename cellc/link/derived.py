@@ -17,7 +17,8 @@ from cellc.cell.interface import Endpoint, Interface, InterfaceKind, Qos
 from cellc.diagnostics import YamlPath
 from cellc.link.endpoints import LATCHED, SENSOR_DATA, TF, TF_STATIC_LISTENER, EndName, EndpointNames, QosResolver
 from cellc.link.frames import ROBOT_STATE_PUBLISHER
-from cellc.link.nodes import DESCRIPTION_PUBLISHER, JOINT_STATES, description_home
+from cellc.link.hardware import JOINT_STATES
+from cellc.link.nodes import DESCRIPTION_PUBLISHER, description_home
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
 from cellc.vocabulary import PASSIVE, Distro

@@ -17,7 +17,7 @@ from cellc.contract.bring_up import TARGETS, BringUp, TopicProof
 from cellc.deploy.processes import bring_up_nodes, description_nodes, motion_clients
 from cellc.deploy.recording import recorded_topics
 from cellc.formats.xml_text import element
-from cellc.link.nodes import JOINT_STATES
+from cellc.link.hardware import JOINT_STATES
 from cellc.vocabulary import Feature, features
 
 _OF_SPAWNER = ("configure_controller", "list_controllers", "load_controller")  # what `spawner --inactive` calls
