@@ -44,14 +44,14 @@ def _disabled(graph: CellGraph) -> DisabledAnswer:
     return DisabledAnswer(_touching(graph), 0, answer.refused, answer.limit)
 
 
-def _refused(graph: CellGraph) -> tuple[str, ...]:
-    """Return why the shapes are not looked at, and the limit that they are beyond."""
+def _refused(graph: CellGraph) -> tuple[str, str] | None:
+    """Return why the shapes are not looked at, and the limit that they are beyond if it is one; None where they are."""
     if faults := mesh_faults(graph):
-        return (faults[0].message,)
+        return faults[0].message, ""
     shapes = len(graph.cell.scene) + sum(len(part.link.collisions) for part in graph.model.links())
     pairs, most = shapes * (shapes - 1) // 2, limits().robot_pairs
     if pairs <= most:
-        return ()
+        return None
     return f"the {shapes} collision shapes make {pairs} pairs, and must make at most {most}", "robot-pairs"
 
 

@@ -40,8 +40,10 @@ def _cube(file: Path, side: float) -> None:
 def _cell(folder: Path, mesh: str) -> Path:
     """Write a cell whose arm carries a mesh, in a xacro that includes another."""
     shutil.copytree(CORPUS / "invalid" / "base" / "stage", folder / "arm")
-    device = (folder / "arm" / "device.yaml").read_text().replace("stage.urdf", "arm.urdf.xacro")
-    (folder / "arm" / "device.yaml").write_text(device)
+    device = yaml.safe_load((folder / "arm" / "device.yaml").read_text())
+    device["description"]["file"] = "arm.urdf.xacro"
+    device["limits"] = {kind: {"turn": each["turn"]} for kind, each in device["limits"].items()}
+    (folder / "arm" / "device.yaml").write_text(yaml.safe_dump(device))
     (folder / "arm" / "arm.urdf.xacro").write_text(
         '<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:include filename="hand.xacro"/>'
         '<link name="base"/><joint name="turn" type="revolute"><parent link="base"/><child link="hand"/>'

@@ -34,6 +34,9 @@ ARM = f"""<robot name="bars">
 def _graph(folder: Path, **sections: object) -> CellGraph:
     shutil.copytree(DEVICES / "stage", folder / "bars")
     (folder / "bars" / "stage.urdf").write_text(ARM)
+    device = yaml.safe_load((folder / "bars" / "device.yaml").read_text())
+    device["limits"] = {kind: {"*": each["turn"]} for kind, each in device["limits"].items()}
+    (folder / "bars" / "device.yaml").write_text(yaml.safe_dump(device))
     spec = {
         "format": 1,
         "cell": "flat",
