@@ -22,6 +22,8 @@ from cellc.spec.cell_spec import CellSpec
 from cellc.spec.control import ControllerSpec
 from cellc.vocabulary import PASSIVE, Behaviour, Distro
 
+_MOVES_THE_MOCK = {"position", "velocity", "acceleration"}
+
 
 @dataclass(frozen=True, slots=True)
 class ControlContext:
@@ -136,7 +138,7 @@ def _controller(
     context: ControlContext,
 ) -> Controller:
     device, kind, plugin = chosen.device, chosen.kind, chosen.plugin
-    targets, vendor = _targets(chosen), chosen.on_real
+    targets, vendor = _targets(chosen, interfaces, context), chosen.on_real
     return Controller(
         name=place.name,
         path=place.path,
@@ -217,13 +219,31 @@ def _on_real(
     return None if same else OnReal(command_interfaces=command, parameters=told)
 
 
-def _targets(chosen: _Chosen) -> tuple[str, ...]:
+def _targets(chosen: _Chosen, interfaces: _Interfaces, context: ControlContext) -> tuple[str, ...]:
     """Return the targets whose hardware has what the controller takes."""
     device, own = chosen.device, chosen.own
-    if device is None:
-        return TARGETS
-    have = TARGETS if device.hardware is None else device.hardware.targets
-    return tuple(target for target in have if target == "real" or own is None or not own.real_only)
+    have = TARGETS if device is None or device.hardware is None else device.hardware.targets
+    lacks = (own is not None and own.real_only) or _beyond_the_mock(interfaces, context)
+    return tuple(target for target in have if target == "real" or not (lacks and "real" in have))
+
+
+def _beyond_the_mock(interfaces: _Interfaces, context: ControlContext) -> bool:
+    """Tell whether a controller takes what mock hardware lacks: a group of the real one, or joints by effort alone.
+
+    GenericSystem refuses a claim of joints without position, velocity or acceleration, as was observed
+    (mock_components of ros2_control 5.16).
+    """
+    if interfaces.claims and not set(interfaces.claims) & _MOVES_THE_MOCK:
+        return True
+    hardware = [bound.device.hardware for bound in context.devices.values()]
+    groups = [group for one in hardware if one is not None for group in (*one.sensors, *one.gpios)]
+    absent = {
+        f"{group.name}/{name}"
+        for group in groups
+        if group.real_only or not group.declared
+        for name in (*group.command_interfaces, *group.state_interfaces)
+    }
+    return not absent.isdisjoint((*interfaces.command, *interfaces.state))
 
 
 def _stand_in(kind: ControllerKind, device: Device) -> StandIn | None:

@@ -17,6 +17,7 @@ SOUND_MODEL = (
     "degrees-as-radians",
     "duplicate-model-name",
     "frame-cycle",
+    "mount-on-dynamic-frame",
     "group-without-joints",
     "implausible-distance",
     "joint-of-unknown-link",

@@ -153,3 +153,25 @@ def test_every_kind_is_offered_by_a_device() -> None:
 def test_every_behaviour_is_named_by_the_catalogue() -> None:
     run = {_expected(offer, distro) for offer in OFFERS for distro in offer.distros}
     assert run | PASSIVE == set(Behaviour)
+
+
+# A gpio that the driver exports and no description lists, and joints by effort alone, which GenericSystem refuses.
+BEYOND_THE_MOCK = {
+    "a command of a gpio": ("ur5e", "gpio_command", "command", "standard_digital_output_cmd_0"),
+    "a state of a gpio": ("ur5e", "gpio_command", "state", "digital_output_0"),
+    "joints by effort": ("franka_fr3", "forward_command", "effort", ""),
+}
+
+
+@pytest.mark.parametrize("taken", BEYOND_THE_MOCK)
+def test_controller_that_takes_what_mock_hardware_lacks_is_started_on_the_real_target_alone(
+    taken: str, tmp_path: Path
+) -> None:
+    device, kind, what, gpio = BEYOND_THE_MOCK[taken]
+    named = f'{{gpios: ["{{prefix}}gpio"], "{what}_interfaces.{{prefix}}gpio.interfaces": [{gpio}]}}'
+    said = f", parameters: {named}" if gpio else f", command_interfaces: [{what}]"
+    offer = Offer(kind, device, Behaviour(kind), (Distro.JAZZY,), said)
+    cell = load(build_into(tmp_path / "built", written(tmp_path, _spec(offer, Distro.JAZZY))))
+    (manager,) = cell.contract.managers.values()
+    assert manager.controllers["tested"].targets == ("real",)
+    assert cell.run("ready").outcome == "succeeded"
