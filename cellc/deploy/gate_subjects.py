@@ -16,7 +16,9 @@ from cellc.formats.escape import shell_word
 from cellc.formats.header import Header
 from cellc.formats.numbers import shortest
 from cellc.graph.cell_graph import CellGraph
+from cellc.graph.versions import compatibility
 from cellc.link.derived import JOINT_STATE_TYPE
+from cellc.pins import is_commit, last_word
 from cellc.vocabulary import BringUpPhase
 
 Row = Mapping[str, str]
@@ -51,8 +53,18 @@ def cell_row(cell: Cell, header: Header, code: str) -> Row:
 
 def _installed(graph: CellGraph) -> Iterator[Values]:
     for name, value in version_tuple(graph.cell).items():
-        if command := _command(name, value):
+        if (command := _command(name, value)) and not is_commit(last_word(value)):
             yield name, value, command
+
+
+def _built(graph: CellGraph) -> Iterator[Values]:
+    """Yield what is pinned to a commit, which the source that was built shows and no version of a package."""
+    for judged in compatibility(graph.cell):
+        pin = judged.pin
+        if pin.part in _INSTALLED and is_commit(last_word(pin.text)):
+            source = next((f"src/{one.name}" for one in judged.built_from[:1]), "")
+            name = pin.part if pin.holder == graph.cell.name else f"{pin.holder}.{pin.part}"
+            yield name, pin.text, f"git -C {shell_word(source)} rev-parse HEAD" if source else ""
 
 
 def _visible(graph: CellGraph) -> Iterator[Values]:
@@ -240,6 +252,7 @@ def _each(values: tuple[str, ...]) -> Iterator[Values]:
 
 _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] = {
     "installed_part": (("part", "version", "command"), _installed),
+    "built_part": (("part", "version", "command"), _built),
     "visible_part": (("part", "version"), _visible),
     "unknown_part": (("part",), _unknown),
     "nominal_device": (("device", "tool"), _nominal_devices),

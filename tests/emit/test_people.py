@@ -15,6 +15,7 @@ _ALLOWED = (
     "cellc build ",
     "cellc mock ",
     "chronyc tracking",
+    "git -C src/",
     "ip ",
     "lsb_release -ds",
     "ping -c ",
@@ -48,6 +49,15 @@ def test_gates_stand_in_order_with_evidence_and_stop(page: str, letter: str, num
         assert "- [ ] " in section
         assert re.search(rf"Evidence `{section.split()[0]}-[\w.-]+`, signed by ", section)
         assert re.search(r"\*\*Stop on:\*\* \S", section)
+
+
+def test_inventory_asks_for_a_commit_where_the_source_lies_that_the_workspace_imports() -> None:
+    page = artifacts_of("ur5e_pick")["gates/promotion.md"]
+    assert "gripper.driver is `robotiq_driver 3b6cf8f`, a commit" in page
+    assert "git -C src/ros2_robotiq_gripper rev-parse HEAD" in page
+    assert "  ros2_robotiq_gripper:\n" in artifacts_of("ur5e_pick")["sources.repos"]
+    # Its number never moved: no package could agree with the pin.
+    assert "ros2 pkg xml -t version robotiq_driver" not in page
 
 
 @pytest.mark.parametrize("cell", CELLS)
