@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import shutil
 import subprocess
 import sys
 from collections.abc import Callable
@@ -12,10 +13,12 @@ from typing import Any
 
 import pytest
 
+from cellc.contract.manifest import Manifest
 from cellc.mock import MockCell, MockError, load
+from cellc.mock.folder import differences
 from cellc.mock.gates import sign_gates
 from cellc.mock.gates.gate import gate_lines
-from tests.cells import ROOT
+from tests.cells import CELLS, ROOT, generated
 from tests.cli.run import run
 from tests.end_to_end.test_mock_alone import copy_the_mock
 from tests.mock.conftest import LoadWith, fault
@@ -149,6 +152,23 @@ def test_edit_by_hand_is_refused_with_the_file_and_what_to_do(folder: Path, name
         load(folder)
     assert caught.value.reason.startswith(f"{edit}; build it again, or take `--edited`")
     assert load(folder, edited=True).notes == (edit,)
+
+
+@pytest.mark.parametrize("name", CELLS)
+def test_one_digit_more_or_less_in_any_file_of_a_cell_is_seen_and_its_file_named(name: str, tmp_path: Path) -> None:
+    folder = Path(shutil.copytree(generated(name), tmp_path / name))
+    contract = load(folder).contract
+    manifest = Manifest.model_validate_json((folder / "manifest.json").read_text())
+    untouched = differences(folder, contract, manifest)
+    assert untouched[0] == ()
+    for path in manifest.files:
+        text = (folder / path).read_text()
+        last = [place for place, letter in enumerate(text) if letter.isalnum()][-1]
+        (folder / path).write_text(text[:last] + text[last + 1 :])
+        notes, own_id = differences(folder, contract, manifest)
+        assert notes == (f"`{path}` differs from the manifest: it was edited after it was generated",)
+        assert own_id != untouched[1]
+        (folder / path).write_text(text)
 
 
 def test_several_edits_are_counted(folder: Path) -> None:
