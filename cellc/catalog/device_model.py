@@ -111,14 +111,16 @@ class DescriptionFacts(CatalogModel):
 class CommissioningStep(CatalogModel):
     """What a person does at the real device in a gate, by its vendor's procedure; ``only`` on some distributions.
 
-    ``shows`` where it is what must be seen once the release of that gate has been made, ``log`` where it
-    stands in the driver's log: what the lines hold of which the newest counts.
+    ``shows`` where it is what must be seen once the release of that gate has been made, ``powers`` where drives have
+    power by it, so that the stop can be tried. ``log`` where it stands in the driver's log: what the lines hold of
+    which the newest counts.
     """
 
     gate: GateName
     does: Text
     log: tuple[Text, ...] = ()
     shows: bool = False
+    powers: bool = False
     only: tuple[DistroName, ...] = ()
     source: Text
 

@@ -258,13 +258,15 @@ class VendorSafety:
 class CommissioningStep:
     """What a person does at the real device in a gate, by its vendor's procedure.
 
-    ``shows`` where it is what must be seen once the release of that gate has been made, ``log`` where it
-    stands in the driver's log: what the lines hold of which the newest counts.
+    ``shows`` where it is what must be seen once the release of that gate has been made, ``powers`` where drives have
+    power by it, so that the stop can be tried. ``log`` where it stands in the driver's log: what the lines hold of
+    which the newest counts.
     """
 
     gate: GateCode
     does: str
     shows: bool = False
+    powers: bool = False
     log: tuple[str, ...] = ()
 
 

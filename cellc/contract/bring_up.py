@@ -35,7 +35,7 @@ class LifecycleProof(ContractModel):
 
 
 class ControllerProof(ContractModel):
-    """A controller manager lists a controller in a state."""
+    """A controller manager lists a controller in a state, or in one that comes after it."""
 
     kind: Literal["controller"]
     manager: str = Field(description="Full name of the controller manager.")
@@ -78,18 +78,30 @@ class TransformProof(ContractModel):
 
 
 class MockProof(ContractModel):
-    """The description that a node holds names no hardware plugin but those of the mock, and no name is taken twice."""
+    """The description that a node holds names no hardware plugin but those of the mock."""
 
     kind: Literal["mock"]
     node: str = Field(description="Full name of the node with the parameter `robot_description`.")
     plugins: tuple[str, ...] = Field(description="Plugins that touch no hardware.")
-    alone: tuple[str, ...] = Field(
-        (), description="Full names of nodes that are asked: each must be there once, for a real cell has them too."
-    )
+
+
+class AloneProof(ContractModel):
+    """No second cell answers in this domain: the mock and the real one have the same names, and both would hear."""
+
+    kind: Literal["alone"]
+    nodes: tuple[str, ...] = Field(description="Full names of nodes, none of which may be there twice.")
 
 
 Proof = (
-    NodeProof | LifecycleProof | ControllerProof | HardwareProof | TopicProof | ActionProof | TransformProof | MockProof
+    NodeProof
+    | LifecycleProof
+    | ControllerProof
+    | HardwareProof
+    | TopicProof
+    | ActionProof
+    | TransformProof
+    | MockProof
+    | AloneProof
 )
 
 
@@ -136,7 +148,7 @@ class BringUpStep(ContractModel):
     host: str = Field(description="Computer that takes it; empty where the cell names none.")
     proof: tuple[Proof, ...] = Field(description="What must show before it.")
     request: Request | None = Field(None, description="What is asked for; null where only the proof counts.")
-    effect: tuple[Proof, ...] = Field((), description="What must show after it; looked at before it is asked for, too.")
+    effect: tuple[Proof, ...] = Field((), description="What must show after it; looked at once the proof holds, too.")
     deadline_s: float = Field(description="Time until the proof, and again until the effect.", gt=0.0)
 
 

@@ -20,6 +20,7 @@ from cellc.cell.interface import TARGETS, InterfaceKind, Node
 from cellc.contract.bring_up import (
     ActionProof,
     Activation,
+    AloneProof,
     BringUp,
     BringUpStep,
     ControllerProof,
@@ -205,18 +206,20 @@ def _move(cell: Cell, target: Target) -> BringUpStep:
     return _step(BringUpPhase.MOVE, "move", "", proof, None, [])
 
 
-def _mocked(cell: Cell, target: Target) -> Iterator[MockProof]:
-    """Yield the proofs that nothing but the mock answers, on the mock: a real cell has the same names and domain.
+def _mocked(cell: Cell, target: Target) -> Iterator[AloneProof | MockProof]:
+    """Yield the proofs that one cell answers, and on the mock that it is the mock.
 
-    What describes the mock may stand beside a real one of its name, which hears the same requests: each is there once.
+    The mock and the real cell have the same names and domain, so that one of them that nobody ended hears every request
+    of the other: what is asked, and what describes the robot, is there once.
     """
+    describing = tuple(description_nodes(cell))
+    asked = (*(manager.node for manager in cell.managers), *(one.full_name for one in cell.nodes if one.lifecycle))
+    if nodes := tuple(dict.fromkeys((*describing, *asked))):
+        yield AloneProof(kind="alone", nodes=nodes)
     if target == "mock":
         hardware = (one.hardware for one in cell.devices if _on(one, "mock"))
         plugins = tuple(sorted({one.plugins["mock"] for one in hardware if one is not None}))
-        describing = tuple(description_nodes(cell))
-        asked = (*(manager.node for manager in cell.managers), *(one.full_name for one in cell.nodes if one.lifecycle))
-        alone = tuple(dict.fromkeys((*describing, *asked)))
-        yield from (MockProof(kind="mock", node=node, plugins=plugins, alone=alone) for node in describing)
+        yield from (MockProof(kind="mock", node=node, plugins=plugins) for node in describing)
 
 
 def _step(

@@ -145,11 +145,14 @@ def _stop_reasons(graph: CellGraph) -> Iterator[Values]:
     return ((reason,) for reason in (() if first is None else first.stop_if))
 
 
-def _by_vendors(graph: CellGraph, *, shows: bool) -> Iterator[Values]:
-    """Yield what the vendors have people do in the gates, or what must show there once something was released."""
+def _by_vendors(graph: CellGraph, *, shows: bool = False, powers: bool = False) -> Iterator[Values]:
+    """Yield what the vendors have people do in the gates, or what must show there once something was released.
+
+    What gives drives their power is yielded by itself: a stop is tried on drives that can lose it.
+    """
     for device in graph.cell.devices:
         for step in device.commissioning:
-            if step.shows is shows:
+            if (step.shows, step.powers) == (shows, powers):
                 yield device.name, step.does, _newest_of(step.log), step.gate
 
 
@@ -271,7 +274,8 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "first_motion": (("joint", "direction", "max_delta", "velocity", "timeout"), _first_motion),
     "missing_first_motion": ((), _missing_first_motion),
     "stop_reason": (("reason",), _stop_reasons),
-    "vendor_step": (("device", "does", "command", "gate"), lambda graph: _by_vendors(graph, shows=False)),
+    "vendor_step": (("device", "does", "command", "gate"), _by_vendors),
+    "vendor_power": (("device", "does", "command", "gate"), lambda graph: _by_vendors(graph, powers=True)),
     "vendor_sign": (("device", "does", "command", "gate"), lambda graph: _by_vendors(graph, shows=True)),
     "real_activation": (("command",), lambda graph: _released(graph, ACTIVATE, BringUpPhase.ACTIVATE)),
     "real_claim": (("command",), lambda graph: _released(graph, CLAIM, BringUpPhase.CLAIM)),

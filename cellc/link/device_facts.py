@@ -72,7 +72,7 @@ def with_catalog(
         safety=_vendor_safety(facts),
         packages=_packages(facts),
         commissioning=tuple(
-            CommissioningStep(gate=one.gate, does=known.fill(one.does), shows=one.shows, log=one.log)
+            CommissioningStep(gate=one.gate, does=known.fill(one.does), shows=one.shows, powers=one.powers, log=one.log)
             for one in facts.commissioning
             if not one.only or distro in one.only
         ),

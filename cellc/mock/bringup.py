@@ -44,14 +44,17 @@ class LogMark:
 def activate(
     plant: Plant, manager_name: str, controllers: tuple[str, ...], *, again: bool = False
 ) -> Waiting[tuple[str, ...]]:
-    """Activate controllers of one manager one after the other; return the problems, in the words of the manager.
+    """Activate those of some controllers that are not active, one by one; return the problems, in the manager's words.
 
     Args:
         again: they are active, and are deactivated by the same request, to read interfaces that are new.
     """
     manager = plant.control.managers[manager_name]
     problems: list[str] = []
+    before = {entry.name: entry.state for entry in manager.list_controllers()}
     for controller in controllers:
+        if before.get(controller) == "active" and not again:
+            continue
         mark = LogMark(manager)
         response = manager.switch_controllers([controller], [controller] if again else [])
         until_ns = plant.now_ns + _SETTLE_CYCLES * manager.period_ns
@@ -88,10 +91,10 @@ class PlanTaker:
     def _step(self, step: BringUpStep) -> Waiting[tuple[tuple[str, ...], tuple[str, ...]]]:
         asked = step.request
         again = isinstance(asked, Restart)
-        if asked is not None and step.effect and not again and not self._proofs.missing(step.effect):
-            return (), ()  # it was done before
         if absent := (yield from self._awaited(step.proof, step.deadline_s)):
             return (), (absent,)
+        if asked is not None and step.effect and not again and not self._proofs.missing(step.effect):
+            return (), ()  # it was done before
         facts: tuple[str, ...] = ()
         problems: tuple[str, ...] = ()
         if isinstance(asked, Transition):

@@ -95,7 +95,8 @@ class StandIn:
 
     def _switch_controller(self, node: str, **fields: Any) -> Any:
         start, stop = fields["activate_controllers"], fields["deactivate_controllers"]
-        if self.refuses & {*start, *stop}:
+        active = {name for name, state in self.controllers.items() if state == "active"}
+        if self.refuses & {*start, *stop} or {*start} & active - {*stop}:
             return SimpleNamespace(ok=False)
         self.controllers.update(dict.fromkeys(stop, "inactive"))
         self.controllers.update(dict.fromkeys(start, "active"))

@@ -31,6 +31,7 @@ from tests.emit.cells import contract_data
 from tests.foreign_yaml import safe_load
 
 TARGETS = ("mock", "real")
+_DESCRIBING = ("robot_state", "description")
 _RUNNING = "/arm_io/robot_program_running"
 
 
@@ -105,6 +106,8 @@ def test_conditions_name_what_the_cell_has(cell: str, distro: str) -> None:
         for manager in contract["managers"].values()
         for one in manager["controllers"].values()
     }
+    asked = {f"{one['namespace']}/controller_manager" for one in contract["managers"].values()}
+    asked |= {f"{one['namespace']}/{name}_publisher" for one in contract["managers"].values() for name in _DESCRIBING}
     managed = {f"/{name}" for name, node in written(cell).get("nodes", {}).items() if node.get("lifecycle")}
     kinds = {name: one["kind"] for name, one in contract["interfaces"].items()}
     descriptions = {path: fromstring(text) for path, text in texts.items() if path.endswith(".urdf")}
@@ -118,6 +121,8 @@ def test_conditions_name_what_the_cell_has(cell: str, distro: str) -> None:
             assert {proof["parent"], proof["child"]} <= frames
         elif proof["kind"] == "hardware":
             assert proof["component"] in components
+        elif proof["kind"] == "alone":
+            assert set(proof["nodes"]) <= {*managed, *asked}
         else:
             assert proof["kind"] == "mock" or proof["node"] in managed, proof
 
@@ -131,13 +136,21 @@ def test_mover_of_the_mock_looks_at_the_description_of_every_manager(cell: str, 
     moving = [step for step in plan(cell, distro)["mock"] if step["phase"] == "move"]
     looked = [proof["node"] for step in moving for proof in step["proof"] if proof["kind"] == "mock"]
     assert looked == ([f"{one}{asked}" for one in managers] if moving else [])
-    # Nor does the mock ask anything of a real cell that waits in the same domain, or is heard beside it.
+    # Nor does the mock ask anything of a real cell that waits in the same domain.
     for step in plan(cell, distro)["mock"]:
         if step.get("request") is not None:
             looked = [proof for proof in step["proof"] if proof["kind"] == "mock"]
             assert [proof["node"] for proof in looked] == [f"{one}{asked}" for one in managers]
-            to = step["request"].get("manager", step["request"].get("node"))
-            assert all({to, proof["node"]} <= set(proof["alone"]) for proof in looked)
+
+
+@every_build
+def test_nothing_is_asked_where_a_second_cell_would_hear_it(cell: str, distro: str) -> None:
+    # A mock that nobody ended has the names of the real cell, and answers in its place.
+    for target in TARGETS:
+        for step in plan(cell, distro)[target]:
+            (alone,) = [proof["nodes"] for proof in step["proof"] if proof["kind"] == "alone"]
+            to = step["request"] if step.get("request") is not None else {}
+            assert {to[key] for key in ("manager", "node") if key in to} <= set(alone)
 
 
 @every_build
@@ -297,6 +310,35 @@ def test_mock_asks_nothing_where_another_cell_has_its_names(graph: StandIn, tmp_
     assert run(graph, tmp_path, "--target", "mock", "start", "activate", "claim", wait_s=0.05) == 1
     assert set(graph.controllers.values()) == {"inactive"}
     assert graph.nodes_["/perception"] == "unconfigured"
+
+
+def test_real_target_asks_nothing_where_a_mock_was_not_ended(
+    graph: StandIn, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    graph.nodes_["/controller_manager"] = ""
+    graph.twice = ["/controller_manager"]
+    assert run(graph, tmp_path, "--target", "real", "start", wait_s=0.05) == 1
+    assert "/controller_manager must be there once" in capsys.readouterr().err
+    assert graph.log == ["leave"]
+
+
+@pytest.mark.parametrize("left", ["arm_trajectory", "gripper_action"])
+def test_claim_after_a_stop_asks_for_what_was_lost_alone(graph: StandIn, tmp_path: Path, left: str) -> None:
+    # A strict request that names an active controller is refused as a whole: ros2_control 4.47.0, controller_manager.
+    run(graph, tmp_path, "--target", "real", "start", "activate", "claim")
+    graph.controllers[left] = "inactive"
+    graph.log.clear()
+    assert run(graph, tmp_path, "--target", "real", "claim", wait_s=0.05) == 0
+    assert graph.log == [f"activate {left}", "leave"]
+
+
+def test_claims_that_hold_are_not_called_done_while_the_robot_is_deaf(
+    graph: StandIn, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    run(graph, tmp_path, "--target", "real", "start", "activate", "claim")
+    graph.messages[_RUNNING] = SimpleNamespace(data=False)
+    assert run(graph, tmp_path, "--target", "real", "claim", wait_s=0.05) == 1
+    assert "robot_program_running must say True, says False" in capsys.readouterr().err
 
 
 def test_processes_that_come_up_late_are_waited_for(graph: StandIn, tmp_path: Path) -> None:

@@ -36,6 +36,7 @@ LOST = 3  # looks in a row that must miss a claim before the program behind it i
 PATIENCE_S = 0.0  # in place of the deadlines of the plan, where it is not 0
 BEST_EFFORT, STRICT = 1, 2  # controller_manager_msgs/srv/SwitchController: what can be done; all of it or nothing
 TRANSITIONS, ACTIVE = {"configure": 1, "activate": 3}, 3  # lifecycle_msgs/msg/Transition; lifecycle_msgs/msg/State
+FROM = {"inactive": ("inactive", "active"), "active": ("active",)}  # what is active was inactive before
 # Of a child: it gets SIGINT when this program is gone, killed too (prctl(2), PR_SET_PDEATHSIG).
 END_WITH_PARENT = partial(ctypes.CDLL(None).prctl, 1, signal.SIGINT) if sys.platform == "linux" else None
 
@@ -156,6 +157,12 @@ def listed_controllers(graph: Graph, manager: str) -> Any:
     return graph.ask("controller_manager_msgs/srv/ListControllers", f"{manager}/list_controllers").controller
 
 
+def active_of(graph: Graph, one: SimpleNamespace) -> list[str]:
+    """Return which of the controllers that a request or a watch names are active."""
+    listed = listed_controllers(graph, one.manager)
+    return [entry.name for entry in listed if entry.name in one.controllers and entry.state == "active"]
+
+
 class Missing:
     """What is there in the place of a proof, by its kind; an empty text where it holds."""
 
@@ -171,13 +178,12 @@ class Missing:
 
     def _lifecycle(self, proof: SimpleNamespace) -> str:
         state = self._graph.ask("lifecycle_msgs/srv/GetState", f"{proof.node}/get_state").current_state.label
-        passed = ("inactive", "active") if proof.state == "inactive" else ("active",)  # active ones were inactive
-        return "" if state in passed else f"{proof.node} must be {proof.state}, is {state}"
+        return "" if state in FROM[proof.state] else f"{proof.node} must be {proof.state}, is {state}"
 
     def _controller(self, proof: SimpleNamespace) -> str:
         listed = listed_controllers(self._graph, proof.manager)
         state = next((one.state for one in listed if one.name == proof.controller), "not loaded")
-        return "" if state == proof.state else f"controller {proof.controller} must be {proof.state}, is {state}"
+        return "" if state in FROM[proof.state] else f"controller {proof.controller} must be {proof.state}, is {state}"
 
     def _hardware(self, proof: SimpleNamespace) -> str:
         service = f"{proof.manager}/list_hardware_components"
@@ -199,9 +205,11 @@ class Missing:
         there = self._graph.connects(proof.parent, proof.child)
         return "" if there else f"no transform from {proof.parent} to {proof.child}"
 
+    def _alone(self, proof: SimpleNamespace) -> str:
+        twice = ", ".join(name for name in proof.nodes if self._graph.nodes().count(name) > 1)
+        return f"{twice} must be there once: a cell of the same names runs in this domain" if twice else ""
+
     def _mock(self, proof: SimpleNamespace) -> str:
-        if twice := ", ".join(name for name in proof.alone if self._graph.nodes().count(name) > 1):
-            return f"{twice} must be there once: a cell of the same names runs in this domain"
         service = f"{proof.node}/get_parameters"
         answer = self._graph.ask("rcl_interfaces/srv/GetParameters", service, names=["robot_description"])
         text = answer.values[0].string_value if answer.values else ""
@@ -231,8 +239,10 @@ def request(graph: Graph, wanted: SimpleNamespace, answer_s: float) -> str:
         answer = graph.ask(service, f"{wanted.manager}/{name}", answer_s, name=wanted.component, target_state=state)
         return "" if answer.ok else f"{wanted.manager} could not activate hardware {wanted.component}"
     stopped = wanted.controllers if wanted.kind == "restart" else []
-    done = switch(graph, wanted.manager, wanted.controllers, stopped, STRICT, answer_s)
-    return "" if done else f"{wanted.manager} refused to activate {', '.join(wanted.controllers)}"
+    active = active_of(graph, wanted)
+    started = [name for name in wanted.controllers if name in stopped or name not in active]
+    done = not started or switch(graph, wanted.manager, started, stopped, STRICT, answer_s)
+    return "" if done else f"{wanted.manager} refused to activate {', '.join(started)}"
 
 
 def switch(
@@ -247,14 +257,12 @@ def switch(
 def take(graph: Graph, step: SimpleNamespace) -> str:
     """Take one step; return an empty text, or why it ended."""
     deadline_s = PATIENCE_S or step.deadline_s
-    effect = getattr(step, "effect", [])
-    wanted = getattr(step, "request", None)
-    restarts = wanted is not None and wanted.kind == "restart"
-    if wanted is not None and effect and not restarts and not missing(graph, effect):
-        return ""  # it was done before: by an earlier try, or by a person
+    effect, wanted = getattr(step, "effect", []), getattr(step, "request", None)
     if absent := _awaited(graph, step.proof, deadline_s):
         return absent
-    return "" if wanted is None else _asked(graph, wanted, effect, deadline_s)
+    if wanted is None or (effect and wanted.kind != "restart" and not missing(graph, effect)):
+        return ""  # nothing is asked, or it was done before: by an earlier try, or by a person
+    return _asked(graph, wanted, effect, deadline_s)
 
 
 def _awaited(graph: Graph, proofs: Sequence[SimpleNamespace], deadline_s: float) -> str:
@@ -336,17 +344,9 @@ def watch(graph: Graph, watches: Sequence[SimpleNamespace]) -> Iterator[str]:
     while True:
         graph.spin(LOOK_S)
         for one in watches:
-            if (absent := missing(graph, [one.while_holds])) and (active := _active(graph, one)):
-                yield f"{', '.join(active)}: {_deactivated(graph, one.manager, active)}: {absent}"
-
-
-def _active(graph: Graph, one: SimpleNamespace) -> list[str]:
-    """Return the watched controllers that are active; none where the manager does not say."""
-    try:
-        listed = listed_controllers(graph, one.manager)
-    except UnansweredError:
-        return []
-    return [entry.name for entry in listed if entry.name in one.controllers and entry.state == "active"]
+            with suppress(UnansweredError):  # it is asked again
+                if (absent := missing(graph, [one.while_holds])) and (active := active_of(graph, one)):
+                    yield f"{', '.join(active)}: {_deactivated(graph, one.manager, active)}: {absent}"
 
 
 def _deactivated(graph: Graph, manager: str, controllers: Sequence[str]) -> str:
