@@ -24,7 +24,7 @@ from cellc.description.xml_tree import read_xml
 from cellc.diagnostics.unsafe_text import hidden_in_json, hidden_on_line
 from cellc.limits import limits, option
 from cellc.mock.errors import MockError
-from cellc.store.regular_file import FileTooLargeError, read_regular
+from cellc.store.regular_file import FileTooLargeError, NotRegularError, read_regular
 
 CONTRACT_FILE = "contract.json"
 MANIFEST_FILE = "manifest.json"
@@ -202,6 +202,8 @@ def _read_bytes(folder: Path, name: str) -> bytes:
         return read_regular(_inside(folder, name), most)
     except FileTooLargeError as large:
         raise MockError(name, f"{large.strerror}; {option('folder-bytes')}") from None
+    except NotRegularError:
+        raise MockError(name, "is not a regular file") from None
     except FileNotFoundError:
         raise MockError(name, "is missing from the generated folder") from None
     except OSError as error:

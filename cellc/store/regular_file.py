@@ -13,6 +13,10 @@ class FileTooLargeError(OSError):
     """A file holds more than may be read."""
 
 
+class NotRegularError(OSError):
+    """What stands in the place of a file is a pipe, a device, a socket or a folder."""
+
+
 def open_regular(path: Path, *, follow: bool = True) -> BinaryIO:
     """Open a regular file for reading; a pipe in its place is not waited for, and a device is not read.
 
@@ -20,13 +24,14 @@ def open_regular(path: Path, *, follow: bool = True) -> BinaryIO:
         follow: whether the name may be a symbolic link.
 
     Raises:
-        OSError: there is none, it cannot be read, or it is something else.
+        NotRegularError: it is something else.
+        OSError: there is none, or it cannot be read.
     """
     flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
     descriptor = os.open(path, flags if follow else flags | getattr(os, "O_NOFOLLOW", 0))
     if not stat.S_ISREG(os.fstat(descriptor).st_mode):
         os.close(descriptor)
-        raise OSError(errno.EINVAL, "is not a regular file")
+        raise NotRegularError(errno.EINVAL, "Not a regular file")
     return os.fdopen(descriptor, "rb")
 
 

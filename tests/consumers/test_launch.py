@@ -98,10 +98,12 @@ def test_real_target_has_no_mock_hardware_and_the_mock_has_no_driver(cell: str, 
     real = processes(cell, distro, "real")
     assert not [process for process in real if "mock_components" in _told(process, texts)]
     mock = processes(cell, distro, "mock")
-    drivers = {node_name(process) for process in real} - {node_name(process) for process in mock}
-    assert {node_name(process) for process in mock} <= {node_name(process) for process in real}
+    names, on_mock = {node_name(process) for process in real}, {node_name(process) for process in mock}
+    # The mock starts and claims in one process; a claim on real hardware is a person's, and is watched.
+    assert on_mock - names == {"/bring_up_claim"}
     if cell == "ur5e_pick":
-        assert drivers == {"/arm_dashboard_client", "/arm_state_helper", "/camera"}
+        drivers = {"/arm_dashboard_client", "/arm_state_helper", "/camera"}
+        assert names - on_mock == {*drivers, "/bring_up_start", "/claim_watch"}
 
 
 @pytest.mark.parametrize("target", TARGETS)
@@ -110,7 +112,8 @@ def test_processes_of_the_pick_cell_start_in_this_order(target: str) -> None:
     names = [node_name(process) for process in processes("ur5e_pick", "jazzy", target)]
     nodes = ["/perception", "/move_group"]
     # On real hardware a second spawner brings the controllers that the mock lacks, and the claims are watched.
-    steps = ["/spawner", "/bring_up"] if target == "mock" else ["/spawner", "/spawner", "/bring_up", "/bring_up"]
+    real = ["/spawner", "/spawner", "/bring_up_start", "/claim_watch"]
+    steps = ["/spawner", "/bring_up_claim"] if target == "mock" else real
     assert names == ["/robot_state_publisher", "/controller_manager", *nodes, *drivers, *steps, "/task"]
 
 

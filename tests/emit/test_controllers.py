@@ -110,7 +110,8 @@ def test_namespaced_manager_gets_keys_with_its_namespace(tmp_path: Path) -> None
     # Observed: with namespace /cell, plain top-level keys do not match and nothing loads.
     text = spec_text("minimal").replace("control:\n", "control:\n  namespace: /cell\n")
     sections = _controllers(emitted(tmp_path, text)["config/controllers.yaml"])
-    assert sorted(sections) == ["/cell/arm_trajectory", "/cell/controller_manager", "/cell/gripper_action"]
+    named = ["arm_io", "arm_trajectory", "controller_manager", "gripper_action"]
+    assert sorted(sections) == [f"/cell/{name}" for name in named]
 
 
 def test_no_section_is_empty() -> None:

@@ -111,6 +111,7 @@ def test_package_depends_on_what_it_starts_and_loads() -> None:
         "ros2controlcli",
         "ros2launch",
         "rosbag2_storage_mcap",
+        "sros2",
         "tf2_msgs",
         "tf2_ros",
         "ur_client_library",

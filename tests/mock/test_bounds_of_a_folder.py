@@ -20,6 +20,7 @@ from cellc.mock.command.options import MockOptions, run_mock
 from cellc.mock.control.controllers.joint_trajectory.motion import stop_points
 from cellc.mock.errors import LimitReachedError
 from cellc.mock.result import RunFailure
+from cellc.store.regular_file import NotRegularError, read_regular
 from tests.mock.conftest import LoadWith
 
 READ = ("contract.json", "rehearsals.json", "manifest.json", "config/controllers.yaml", "urdf/ur5e_pick.mock.urdf")
@@ -38,8 +39,13 @@ def refusal(folder: Path) -> MockError:
 @pytest.mark.parametrize("name", READ)
 def test_device_in_place_of_a_file_is_refused(folder: Path, name: str) -> None:
     (folder / name).unlink()
-    (folder / name).symlink_to("/dev/zero")
-    assert (refusal(folder).file, refusal(folder).reason) == (name, "is not a regular file")
+    (folder / name).symlink_to("/dev/zero")  # to put a device itself there takes root
+    assert (refusal(folder).file, refusal(folder).reason) == (name, "is a link that leads out of the folder")
+
+
+def test_device_is_not_read_by_its_own_name() -> None:
+    with pytest.raises(NotRegularError):
+        read_regular(Path("/dev/zero"), 10)
 
 
 @pytest.mark.parametrize("name", READ)

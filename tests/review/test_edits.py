@@ -140,10 +140,11 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "review time | camera | exposure | 8 ms -> 10 ms | +25 %",
             "review versions | arm.driver | pinned version | ur_robot_driver 3.8.0 -> ur_robot_driver 3.7.0",
             "review versions | arm.firmware | pinned version | polyscope 5.21.0 -> polyscope 5.22.0",
-            "review network | middleware/control_pc.fastdds.xml | 1 line that no other change explains | "
-            "None -> <address>10.10.0.10</address>",
+            "review network | middleware/control_pc.fastdds.xml | 14 lines that no other change explains | "
+            "<maxInitialPeersRange>99</maxInitialPeersRange> / <builtin> / <metatrafficUnicastLocatorList> / and 11 "
+            "more -> <address>10.10.0.10</address>",
             "review network | cell | network discovery | localhost -> multicast",
-            "review network | control_pc | variable ROS_AUTOMATIC_DISCOVERY_RANGE | LOCALHOST -> SUBNET",
+            "review network | control_pc | variable ROS_AUTOMATIC_DISCOVERY_RANGE | SYSTEM_DEFAULT -> SUBNET",
         ],
     ),
     "who takes part": (
@@ -158,7 +159,7 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             ),
             ("lifecycle: true, ", ""),
             ("  /object_pose:", "  /part_pose:"),
-            ("goal_tolerance: 0.01 rad\n      client: move_group", "goal_tolerance: 0.01 rad\n      client: task"),
+            ("      client: move_group\n    gripper_action:", "      client: task\n    gripper_action:"),
             ("pick: {frame: object,", "pick: {frame: fixture_A,"),
         ),
         [
