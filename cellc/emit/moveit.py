@@ -31,8 +31,8 @@ _GROUPS: YamlPath = ("motion", "groups")
 _CONTROL: YamlPath = ("control", "controllers")
 _MANAGER = "moveit_simple_controller_manager"
 _TYPES = ("FollowJointTrajectory", "GripperCommand", "ParallelGripperCommand")
-# The limits below are the cell's own and already tightened, so that nothing is scaled a second time.
-_SCALING: dict[str, float] = {"default_velocity_scaling_factor": 1.0, "default_acceleration_scaling_factor": 1.0}
+# For a request that states none: MoveIt's own default, so that nobody gets full speed who did not ask for it.
+_SCALING: dict[str, float] = {"default_velocity_scaling_factor": 0.1, "default_acceleration_scaling_factor": 0.1}
 
 _SAMPLING = "ompl"
 _INDUSTRIAL = "pilz_industrial_motion_planner"

@@ -86,6 +86,38 @@ def test_robot_listens_before_it_is_claimed_and_is_claimed_before_anything_asks_
     assert not [line for code in ("G3", "G4", "G5", "G6") for line in gates[code] if "releases the claims" in line]
 
 
+@pytest.mark.parametrize("distro", DISTROS)
+def test_one_small_goal_ends_before_the_application_is_started(distro: str) -> None:
+    # The application picks, grips and places at once: a person cannot follow that as the first motion.
+    lines = _gates("ur5e_pick", distro)["G7"]
+    small = _place(lines, "a person sends the controller one goal")
+    assert _place(lines, "releases the claims") < small < _place(lines, "releases what asks for motion")
+
+
+def test_load_is_read_back_before_the_brakes_open_and_a_robot_is_local_before_its_driver_starts() -> None:
+    gates = _gates("ur5e_pick", "jazzy")
+    assert _place(gates["G5"], "were read back there") < _place(gates["G5"], "releases the brakes")
+    assert _place(gates["G3"], "shows LOCAL") < _place(gates["G3"], "releases the real target")
+    assert _place(gates["G4"], "shows LOCAL") < _place(gates["G4"], "releases the real target")
+
+
+def test_fci_is_active_before_the_driver_that_connects_to_it_starts() -> None:
+    # franka_ros2 v3.4.0: on_init connects, and without FCI it is an error.
+    lines = _gates("fr3_hand", "humble")["G3"]
+    assert _place(lines, "FCI is activated in Desk") < _place(lines, "releases the real target")
+
+
+def test_program_that_a_stop_has_paused_is_stopped_before_anyone_goes_to_the_robot() -> None:
+    # Universal_Robots_ROS2_Driver, doc/robot_state_helper.rst:54-58: resumed, the arm goes on with what it did.
+    recovery = artifacts_of("ur5e_pick")["audit.md"].split("\n## Recovery\n")[1]
+    for state in ("protective_stop", "emergency_stop"):
+        steps = recovery.split(f"arm, {state}:")[1].split("\n\n")[1].splitlines()
+        stopped, person, play, claim = (
+            _place(steps, one) for one in ("stop the program", "a person", "play the External", "release the claims")
+        )
+        assert stopped < person < play < claim
+
+
 @pytest.mark.parametrize("cell", CELLS)
 def test_every_gate_has_a_place_for_result_name_date_and_signature(cell: str) -> None:
     artifacts = artifacts_of(cell)
