@@ -53,7 +53,9 @@ MISTAKES = {
         "0 -90 90 -90 -90 0 deg", "0 -90 200 -90 -90 0 deg", "pose-outside-limits"
     ),
     "NET: a robot outside of the subnet": Mistake("192.168.56.101", "192.168.57.101", "device-outside-subnet"),
-    "LIF: recovery without a person": Mistake("acknowledge: operator", "acknowledge: automatic", "automatic-recovery"),
+    "LIF: recovery without a person": Mistake(
+        "fault], acknowledge: operator", "fault], acknowledge: automatic", "automatic-recovery"
+    ),
     "SAF: a stop by software": Mistake("path: hardwired", "path: software", "software-stop-path"),
     "LOG: commands of a wrong owner are tolerated": Mistake(
         "wrong_owner_events: 0", "wrong_owner_events: 1", "tolerated-wrong-owner"

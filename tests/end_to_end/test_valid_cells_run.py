@@ -10,13 +10,10 @@ from cellc.mock import load
 from tests.cells import CORPUS, build_into
 
 CELLS = sorted((CORPUS / "valid").glob("*.yaml"))
-TOO_SHORT = {"equal_bounds"}
-"""Cells whose goals may take no longer than an observation may be old: they time out, as their spec has it."""
 
 
 @pytest.mark.parametrize("spec", CELLS, ids=lambda spec: spec.stem)
 def test_rehearsals_of_a_valid_cell_pass(spec: Path, tmp_path: Path) -> None:
     cell = load(build_into(tmp_path / "cell", spec))
     ended = {name: cell.run(name, seed=0) for name in cell.rehearsals}
-    failed = [f"{name}: {result.outcome}" for name, result in ended.items() if not result.passed]
-    assert failed == ([f"{name}: timeout" for name in ended] if spec.stem in TOO_SHORT else [])
+    assert not [f"{name}: {result.outcome}" for name, result in ended.items() if not result.passed]

@@ -10,8 +10,8 @@ control:
   controllers:
     gripper_action: null
     gripper_trajectory: {type: joint_trajectory, device: gripper, client: task,  # expect at gripper_trajectory
-                         goal_time: 1 s, path_tolerance: 0.2 rad,
-                         goal_tolerance: 0.1 rad,
+                         goal_time: 1 s, path_tolerance: 10 mm,
+                         goal_tolerance: 1 mm,
                          parameters: {speed_scaling.state_interface: arm_speed_scaling/speed_scaling_factor}}
 ```
 
@@ -21,8 +21,8 @@ Example that is accepted:
 control:
   controllers:
     gripper_action: null
-    gripper_trajectory: {type: joint_trajectory, device: gripper, client: task, goal_time: 1 s, path_tolerance: 0.2 rad,
-                         goal_tolerance: 0.1 rad}
+    gripper_trajectory: {type: joint_trajectory, device: gripper, client: task, goal_time: 1 s, path_tolerance: 10 mm,
+                         goal_tolerance: 1 mm}
 ```
 
 Fix: use `type: joint_trajectory` without a scaling interface.

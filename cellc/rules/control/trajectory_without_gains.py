@@ -31,7 +31,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 from cellc.vocabulary import TRAJECTORIES
 
 
-@rule(Severity.ERROR)
+@rule(Severity.ERROR, assumes=("unprovided-command-interface",))
 def check(graph: CellGraph) -> Findings:
     """Yield trajectory controllers without position commands that have a joint without a proportional gain."""
     for controller in graph.cell.controllers:

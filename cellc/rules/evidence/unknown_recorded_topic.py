@@ -5,13 +5,13 @@ The bag has no such channel, and it is noticed when it is needed.
 Example that is reported:
 
 ```yaml
-recording: {topics: [/object_posee]}  # expect at topics.0
+recording: {topics: [/object_posee, /camera/camera/color/image_raw]}  # expect at topics.0
 ```
 
 Example that is accepted:
 
 ```yaml
-recording: {topics: [/object_pose]}
+recording: {topics: [/object_pose, /camera/camera/color/image_raw]}
 ```
 
 Fix: name a topic of the cell.

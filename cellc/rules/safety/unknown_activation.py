@@ -19,8 +19,8 @@ devices:
   side_arm: {model: ./stage, mount: {parent: world, xyz: 0 2 0 m}, revision: A, firmware: stage 1.0.0}
 ```
 
-Fix: ask the supplier, and state it in `device.yaml`: `effects: {activate: {motion: ..., does: ..., source: ...}}` of
-the real hardware, or `effect:` of the driver's node.
+Fix: ask the supplier, and state `effects: {activate: {motion, does, source}}` of the hardware in `device.yaml`, or
+`effect:` of its driver.
 
 Source: docs/principles.md#facts-of-the-catalog
 """

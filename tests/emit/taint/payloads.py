@@ -60,7 +60,12 @@ def text_of(payload: str, number: int, way: str, original: str) -> str:
     return f"{mark} {payload}" if way == "last" else f"{original}{mark}{payload}"
 
 
-def twin_of(text: str) -> str:
-    """Return a harmless text of the same length and the same words."""
-    line = re.sub(r"\s", " ", text)
-    return re.sub(r"[^\w ./-]|-(?=[->])|(?<=-)-|^[#-]", "x", line)
+def twin_of(text: str, original: str = "") -> str:
+    """Return a harmless text of the same length and the same words.
+
+    Args:
+        original: what the text may be glued to; it is harmless already, and its placeholders are filled in both.
+    """
+    kept = original if text.startswith(original) else ""
+    line = re.sub(r"\s", " ", text[len(kept) :])
+    return kept + re.sub(r"[^\w ./-]|-(?=[->])|(?<=-)-|^[#-]", "x", line)

@@ -65,7 +65,7 @@ def _texts(files: Files, kind: str, turn: int, endings: tuple[str, ...]) -> dict
 
 
 def _faults(folder: Path, files: Files, trial: Trial) -> Iterator[str]:
-    harmless = {place: twin_of(text) for place, text in trial.taken.items()}
+    harmless = {place: twin_of(text, place.original) for place, text in trial.taken.items()}
     twin = checked_with(folder, files, harmless)
     yield from (f"the harmless twin is refused: {error.span}: {error.message}" for error in errors_of(twin))
     if twin.ok:
