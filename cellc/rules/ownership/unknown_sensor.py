@@ -40,7 +40,7 @@ def check(graph: CellGraph) -> Findings:
     }
     for controller in graph.cell.controllers:
         for name, (names, why, kind) in known.items():
-            value = controller.written_parameters.get(name)
+            value = controller.parameters.get(name) if name in controller.written_parameters else None
             if isinstance(value, str) and value and value not in names:
                 path = (*controller.path, "parameters", name)
                 message = f"`{controller.name}` names `{value}` as its `{name}`, but {why}"

@@ -65,19 +65,26 @@ def _combinations(kind: ControllerKind, device: DeviceModel) -> Iterator[tuple[s
             yield wanted
 
 
-def _written(kind: ControllerKind, device: DeviceModel) -> Iterator[str]:
+def _gains(device: CatalogDevice) -> str:
+    """Return a proportional gain for each joint that is driven: without one, velocity alone moves nothing."""
+    driven = [joint.name for joint in device.description.joints if joint.type != "fixed" and joint.mimic is None]
+    return ", parameters: {" + ", ".join(f'"gains.{{prefix}}{name}.p": 1.0' for name in driven) + "}"
+
+
+def _written(kind: ControllerKind, catalog: CatalogDevice) -> Iterator[str]:
     """Yield what the spec says of a neutral kind on a device that offers it, once for each way of offering it."""
-    control = device.control
+    device, control = catalog.model, catalog.model.control
     if control is None:
         return
     if kind.scope == "manager":
         yield ""
     for wanted in _combinations(kind, device):
-        yield f", command_interfaces: [{', '.join(wanted)}]"
+        by_pid = kind.kind in TRAJECTORIES and "position" not in wanted
+        yield f", command_interfaces: [{', '.join(wanted)}]{_gains(catalog) if by_pid else ''}"
     if kind.kind is Behaviour.FORCE_TORQUE_SENSOR_BROADCASTER:
         for name, group in _simulated(control.sensors).items():
             if set(kind.state_interfaces) <= set(group.state):
-                yield f', parameters: {{sensor_name: "{{prefix}}{name}", frame_id: tool}}'
+                yield f', parameters: {{sensor_name: "{{prefix}}{name}", frame_id: world}}'
     if kind.kind is Behaviour.GPIO_COMMAND:
         for name, group in _simulated(control.gpios).items():
             gpio, taken = f"{{prefix}}{name}", f"[{', '.join(group.command)}]"
@@ -88,7 +95,7 @@ def _offers() -> Iterator[Offer]:
     for name in device_names():
         device = _device(name)
         for kind in map(_kind, controller_kinds()):
-            for text in _written(kind, device.model):
+            for text in _written(kind, device):
                 yield Offer(kind.kind.value, name, kind.kind, tuple(kind.plugins), text)
         for own, facts in device.model.controllers.items():
             moves = not facts.command_interfaces or facts.command_interfaces in SIMULATED
@@ -101,7 +108,7 @@ OFFERS = tuple(_offers())
 def _spec(offer: Offer, distro: Distro) -> str:
     device = _device(offer.device)
     mount = "" if device.model.kind == "gripper" else ", mount: {parent: world, xyz: 0 0 0 m}"
-    bounds = ", goal_time: 1 s, path_tolerance: 0.2 rad, goal_tolerance: 0.01 rad"
+    bounds = ", goal_time: 1 s, path_tolerance: 0.02 rad, goal_tolerance: 0.01 rad"  # fits a finger of 40 mm, too
     tested = f"    tested: {{type: {offer.type}, device: dev{offer.written}{bounds if _follows(offer) else ''}}}\n"
     if offer.behaviour is Behaviour.JOINT_STATE_BROADCASTER:
         tested = ""
