@@ -15,6 +15,15 @@ from tests.review.revisions import Edit, Repository, changes_of, edited, package
 ARM = "arm_elbow_joint, arm_shoulder_lift_joint, arm_shoulder_pan_joint, arm_wrist_1_joint, arm_wrist_2_joint, "
 ARM += "arm_wrist_3_joint"
 OF_TRAJECTORY = ", ".join(f"arm_trajectory {joint}" for joint in ARM.split(", "))
+LOOKED_AT = "in its tool0; what it shows then stands in the evidence"
+# The bring-up asks a node of a lifecycle, and what is asked must be there once.
+ALONE = "alone nodes /robot_state_publisher, /controller_manager"
+OF_CONTROLS = "hardware /controller_manager arm_hardware active, " + ", ".join(
+    f"controller /controller_manager {name} inactive"
+    for name in ("joint_states", "arm_trajectory", "gripper_action", "arm_io")
+)
+STATES = "controller /controller_manager joint_states active"
+LESS_ALONE = f"lost {ALONE}, /perception; new {ALONE}"
 STALE = "stale_camera: {use: pick_and_place, inject: {freeze: camera, at: 2 s}, expect: stale_state}"
 CANCELLED = "cancelled: {use: pick_and_place, inject: {cancel: move, at: 3 s}, expect: cancelled, within: 200 ms}"
 
@@ -39,8 +48,9 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "dangerous calibration | tcp | pose in its parent | xyz 0 0 162 mm, rpy 0 0 0 deg -> "
             "xyz 0 0 163 mm, rpy 0 0 0 deg | moves 1 mm",
             "dangerous calibration | hand_eye | residual | 0.8 mm -> 1.2 mm | +50 %",
-            "dangerous payload | arm | payload that the robot is told | 1.0 kg, center of mass 0 0 58 mm -> "
-            "1.5 kg, center of mass 0 0 58 mm",
+            "dangerous payload | arm | payload that the robot is told | 1.0 kg with the tool included, "
+            f"center of mass 0 0 58 mm {LOOKED_AT} -> 1.5 kg with the tool included, "
+            f"center of mass 0 0 58 mm {LOOKED_AT}",
             "dangerous rehearsals | cancelled | bound of the outcome | 200 ms -> 400 ms | +100 %",
             "review motion | manipulator in home | tip | xyz 491.9 133.3 1114.9 mm, rpy -180 0 -180 deg -> "
             "xyz 491.9 133.3 1113.9 mm, rpy -180 0 -180 deg | moves 1 mm",
@@ -168,16 +178,24 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "dangerous motion | pick | frame | object -> fixture_A",
             "dangerous start order | activate_perception, configure_perception | step on the real target went | "
             "start -> None",
-            "dangerous start order | claim_control | what must show before it | 8 entries -> 7 entries | "
-            "lost lifecycle /perception active",
+            f"dangerous start order | activate_gripper | what must show before it | {ALONE}, /perception -> {ALONE}",
+            "dangerous start order | claim_control | what must show before it | 9 entries -> 8 entries | "
+            f"lost {ALONE}, /perception, lifecycle /perception active; new {ALONE}",
             "dangerous start order | move | what must show before it | "
+            f"{ALONE}, /perception, "
             "controller /controller_manager arm_trajectory active, controller /controller_manager gripper_action "
             "active, "
             "action /move_action, action /gripper_action/gripper_cmd, lifecycle /perception active -> "
+            f"{ALONE}, "
             "controller /controller_manager arm_trajectory active, controller /controller_manager gripper_action "
             "active, "
             "action /move_action, action /arm_trajectory/follow_joint_trajectory, action /gripper_action/gripper_cmd | "
-            "lost lifecycle /perception active; new action /arm_trajectory/follow_joint_trajectory",
+            f"lost {ALONE}, /perception, lifecycle /perception active; "
+            f"new action /arm_trajectory/follow_joint_trajectory, {ALONE}",
+            f"dangerous start order | observe_control | what must show before it | {ALONE}, /perception, {OF_CONTROLS} "
+            f"-> {ALONE}, {OF_CONTROLS} | {LESS_ALONE}",
+            f"dangerous start order | observe_control_again | what must show before it | {ALONE}, /perception, "
+            f"{STATES} -> {ALONE}, {STATES} | {LESS_ALONE}",
             "review control | /arm_trajectory/follow_joint_trajectory move_group | client went | there -> None",
             "review control | /watcher | node came | None -> cell_tasks",
             "review motion | pick | place in the root frame | xyz 450 -150 860 mm, rpy 180 0 0 deg -> "
