@@ -15,7 +15,7 @@ _ALLOWED = (
     "cellc build ",
     "cellc mock ",
     "chronyc tracking",
-    "git -C src/",
+    "git -C src/ros2_robotiq_gripper rev-parse HEAD",
     "grep ",
     "ip ",
     "lsb_release -ds",
