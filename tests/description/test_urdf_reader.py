@@ -198,14 +198,14 @@ _FRAGMENTS = st.sampled_from(
 )  # fmt: skip
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=150, deadline=None)
 @given(st.one_of(st.binary().map(lambda data: data.decode("latin-1")), st.text(), st.lists(_FRAGMENTS).map("".join)))
 def test_reader_answers_any_text(text: str) -> None:
     outcome = read_urdf(text, "r.urdf")
     assert (outcome.value is None) == bool(outcome.diagnostics)
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(st.integers(0, len(ROBOT)), st.integers(0, 40), _FRAGMENTS)
 def test_reader_answers_any_damage(start: int, length: int, patch: str) -> None:
     outcome = read_urdf(ROBOT[:start] + patch + ROBOT[start + length :], "r.urdf")

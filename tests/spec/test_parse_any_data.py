@@ -23,7 +23,7 @@ _DATA = st.recursive(
     max_leaves=12,
 )
 _LIBRARY_TALK = re.compile(r"pydantic|https?://|[a-z]Spec\b|validat|(?<!version )tuple|dict\b|NoneType|\bstr\b|\bint\b")
-_SETTINGS = settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+_SETTINGS = settings(max_examples=100, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 
 
 def _assert_speaks(data: Plain) -> None:

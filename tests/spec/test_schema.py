@@ -126,7 +126,7 @@ _VALUES = st.one_of(
 
 
 @given(st.sampled_from(CELLS), st.data())
-@settings(max_examples=200, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=100, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 def test_compiler_and_schema_give_one_verdict(path: Path, data: st.DataObject) -> None:
     spec = mutated(path, data, _VALUES)
     assert schema_accepts(spec) == compiler_accepts(spec)
