@@ -11,8 +11,8 @@ import pytest
 @pytest.fixture(scope="session", autouse=True)
 def _cache_of_the_session(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
-        patch.setenv("XDG_STATE_HOME", str(tmp_path_factory.mktemp("state")))
+        patch.setenv("XDG_CACHE_HOME", _shared(tmp_path_factory, "cache"))
+        patch.setenv("XDG_STATE_HOME", _shared(tmp_path_factory, "state"))
         patch.delenv("CELLC_NO_CACHE", raising=False)
         yield
 
@@ -23,5 +23,13 @@ def _bytecode_of_the_session(tmp_path_factory: pytest.TempPathFactory) -> Iterat
     with pytest.MonkeyPatch.context() as patch:
         if os.environ.get("PYTHONDONTWRITEBYTECODE"):
             patch.delenv("PYTHONDONTWRITEBYTECODE")
-            patch.setenv("PYTHONPYCACHEPREFIX", str(tmp_path_factory.mktemp("bytecode")))
+            patch.setenv("PYTHONPYCACHEPREFIX", _shared(tmp_path_factory, "bytecode"))
         yield
+
+
+def _shared(factory: pytest.TempPathFactory, name: str) -> str:
+    """Return a folder that the workers of one session share: what one has computed is there for the other."""
+    base = factory.getbasetemp()
+    folder = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / f"shared_{name}"
+    folder.mkdir(mode=0o700, exist_ok=True)
+    return str(folder)
