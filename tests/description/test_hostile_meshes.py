@@ -133,7 +133,7 @@ def test_what_is_no_file_of_the_spec_is_refused(make: Callable[[Path], None], co
 
 def test_fifo_that_takes_the_place_of_a_file_is_not_waited_for(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "part.stl")
-    with pytest.raises(OSError, match="not a regular file"):
+    with pytest.raises(OSError, match="Not a regular file"):
         next(read_pieces(tmp_path / "part.stl"))
 
 

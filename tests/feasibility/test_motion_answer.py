@@ -128,7 +128,8 @@ def test_what_takes_too_long_is_refused_and_asked_again_the_next_time(tmp_path: 
     assert [pose.name for pose in motion_answer(graph_of(tmp_path / "cell.yaml")).poses] == ["stretched"]
 
 
-def test_no_artifact_rests_on_pairs_that_took_too_long_to_find(tmp_path: Path) -> None:
+def test_no_artifact_rests_on_pairs_that_took_too_long_to_find(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("CELLC_NO_CACHE", "1")
     file = CORPUS.parents[1] / "cells" / "minimal" / "cell.yaml"
     checked = check(file)
     with in_force(replace(DEFAULTS, planning_seconds=0)):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import tempfile
+import unicodedata
 from pathlib import Path
 
 from hypothesis import HealthCheck, given, settings
@@ -16,9 +17,12 @@ from tests.spec.reading import CELLS, as_yaml, parsed
 
 _KEYS = st.sampled_from([*CellSpec.model_fields, "from", "to", "topic", "[key]", "mapping", "text", "a", "é", "a\n"])
 _SCALARS = st.none() | st.booleans() | st.integers(-(2**62), 2**62) | st.floats(allow_nan=False, allow_infinity=False)
+# What nobody sees is refused before a spec is read: controls, and marks that choose the form of the character before.
+_SEEN = st.characters(codec="utf-8", exclude_categories=["Cc", "Cf", "Zl", "Zp", "Cn", "Co"]).filter(
+    lambda character: not unicodedata.name(character, "").startswith("VARIATION SELECTOR")
+)
 _DATA = st.recursive(
-    _SCALARS
-    | st.text(st.characters(codec="utf-8", exclude_categories=["Cc", "Cf", "Zl", "Zp", "Cn", "Co"]), max_size=8),
+    _SCALARS | st.text(_SEEN, max_size=8),
     lambda inner: st.lists(inner, max_size=3) | st.dictionaries(_KEYS, inner, max_size=4),
     max_leaves=12,
 )

@@ -34,7 +34,7 @@ from cellc.cell.device import Device
 from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 
 
-@rule(Severity.BLOCKER)
+@rule(Severity.BLOCKER, assumes=("shared-prefix",))
 def check(graph: CellGraph) -> Findings:
     """Yield each device of a manager that exports what an earlier one exports, one finding a device."""
     for manager in graph.cell.managers:
