@@ -7,7 +7,7 @@ requests what it relies on. History, depth and lifespan are never compared. The 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -51,6 +51,13 @@ class Incompatibility:
 def incompatibilities(offered: QosProfile, requested: QosProfile) -> tuple[Incompatibility, ...]:
     """Return every policy that keeps two endpoints from being matched; none where they connect."""
     return tuple(_compare(offered, requested))
+
+
+def weakest(offered: Sequence[QosProfile]) -> tuple[str, str]:
+    """Return the reliability and durability that every publisher of a topic offers."""
+    weak = any(profile.reliability == "best_effort" for profile in offered)
+    volatile = any(profile.durability == "volatile" for profile in offered) or not offered
+    return "best_effort" if weak else "reliable", "volatile" if volatile else "transient_local"
 
 
 def _compare(offered: QosProfile, requested: QosProfile) -> Iterator[Incompatibility]:

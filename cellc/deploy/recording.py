@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from cellc.cell.cell import Cell
 from cellc.cell.interface import Interface, InterfaceKind, Qos
+from cellc.contract.qos import weakest
 from cellc.deploy.files import RECORDING
 from cellc.formats.escape import shell_word
 from cellc.vocabulary import Feature, features
@@ -43,10 +44,9 @@ def _on_the_path(interface: Interface) -> bool:
 def _offered(interface: Interface) -> Qos:
     """Return a profile that every publisher satisfies: the weakest that one of them offers."""
     offered = [source.qos for source in interface.sources]
-    weak = any(qos.reliability == "best_effort" for qos in offered)
-    volatile = any(qos.durability == "volatile" for qos in offered) or not offered
+    reliability, durability = weakest(offered)
     return Qos(
-        reliability="best_effort" if weak else "reliable",
-        durability="volatile" if volatile else "transient_local",
+        reliability=reliability,
+        durability=durability,
         depth=max((qos.depth for qos in offered), default=10),
     )

@@ -75,9 +75,10 @@ def _mapping(tree: Tree, depth: int) -> Iterator[str]:
     for key, value in tree.items():
         name = f"{indent}{scalar(key)}:"
         if isinstance(value, Mapping):
-            if value:
+            # Without a value for its name: rcl refuses the file.
+            if inner := tuple(_mapping(value, depth + 1)):
                 yield name
-                yield from _mapping(value, depth + 1)
+                yield from inner
         elif isinstance(value, tuple):
             yield from _sequence(name, value, indent)
         else:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from cellc.contract.contract import Contract
 from cellc.contract.rehearsals import RehearsalEntry
+from cellc.mock.agreement.agreement import refuse_disagreement
 from cellc.mock.assemble import assemble, start_nodes
 from cellc.mock.bringup import Bringup
 from cellc.mock.bus.qos import unmatched_pairs
@@ -228,9 +229,12 @@ def load(folder: Path, *, edited: bool = False) -> MockCell:
         edited: take a folder that differs from its manifest; every result says so, and no gate is signed.
 
     Raises:
-        MockError: the folder cannot be executed; names the file and the reason.
+        MockError: the folder cannot be executed, or an edited file says otherwise than what is; names it and why.
     """
-    return cell_of(read_folder(folder, edited=edited))
+    read = read_folder(folder, edited=edited)
+    if read.edits:
+        read = replace(read, notes=(*read.notes, *refuse_disagreement(folder, read)))
+    return cell_of(read)
 
 
 def cell_of(folder: GeneratedFolder) -> MockCell:

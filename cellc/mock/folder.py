@@ -44,6 +44,8 @@ class GeneratedFolder:
         bring_up, real_bring_up: the steps of the mock, and of the real target.
         watches: what lets go of claims as a robot no longer listens.
         notes: how it differs from its manifest, one line each; empty as it was generated.
+        edits: paths of the files that differ.
+        listed: paths of all files of the manifest.
     """
 
     contract: Contract
@@ -56,6 +58,8 @@ class GeneratedFolder:
     real_bring_up: tuple[BringUpStep, ...]
     watches: tuple[Watch, ...]
     notes: tuple[str, ...]
+    edits: tuple[str, ...]
+    listed: tuple[str, ...]
 
     @property
     def edited(self) -> bool:
@@ -87,7 +91,7 @@ def read_folder(folder: Path, *, edited: bool = False) -> GeneratedFolder:
         raise MockError(CONTRACT_FILE, f"controller manager `{missing[0]}` has no parameter file")
     urdf = read_text(folder, contract.files.urdf_mock)
     plan = _bring_up(folder, contract)
-    notes, own_id = differences(folder, contract, manifest)
+    notes, edits, own_id = differences(folder, contract, manifest)
     if notes and not edited:
         more = f", and {len(notes) - 1} more" if len(notes) > 1 else ""
         raise MockError(folder.as_posix(), f"{notes[0]}{more}; {_BUILD_OR_EDITED}")
@@ -102,6 +106,8 @@ def read_folder(folder: Path, *, edited: bool = False) -> GeneratedFolder:
         real_bring_up=plan.real,
         watches=plan.watches,
         notes=notes,
+        edits=edits,
+        listed=tuple(manifest.files),
     )
 
 
@@ -228,20 +234,22 @@ def _inside(folder: Path, name: str) -> Path:
     return file
 
 
-def differences(folder: Path, contract: Contract, manifest: Manifest) -> tuple[tuple[str, ...], str]:
-    """Return how a folder differs from its manifest, one line each, and an id of what it holds instead.
+def differences(folder: Path, contract: Contract, manifest: Manifest) -> tuple[tuple[str, ...], tuple[str, ...], str]:
+    """Return how a folder differs from its manifest, one line each, in which files, and an id of what it holds.
 
     Raises:
         MockError: the manifest names a file outside of the folder, or more of them than may be read.
     """
     own, of_manifest = contract.configuration_id, manifest.configuration_id
     notes = [] if own == of_manifest else [f"`{MANIFEST_FILE}` belongs to configuration `{of_manifest}`, not `{own}`"]
+    edits: list[str] = []
     total, most = 0, limits().folder_total_bytes
     held = hashlib.sha256()
     executed = {CONTRACT_FILE, *_named(contract)}
     for name in sorted({*manifest.files, *executed}):
         if not _inside(folder, name).is_file():
             notes.append(f"`{name}` is listed in the manifest and missing")
+            edits.append(name)
             continue
         content = _read_bytes(folder, name)
         total += len(content)
@@ -253,7 +261,8 @@ def differences(folder: Path, contract: Contract, manifest: Manifest) -> tuple[t
             notes.append(f"`{name}` is executed and not listed in the manifest")
         elif digest != manifest.files[name].removeprefix("sha256:"):
             notes.append(f"`{name}` differs from the manifest: it was edited after it was generated")
-    return tuple(notes), f"edited-{held.hexdigest()[:12]}"
+            edits.append(name)
+    return tuple(notes), tuple(edits), f"edited-{held.hexdigest()[:12]}"
 
 
 def _named(contract: Contract) -> Iterator[str]:

@@ -54,3 +54,8 @@ def test_lists_take_a_line_an_item_and_empty_ones_none() -> None:
     assert render({"joints": ("j1", "on"), "gains": (1.0, 2.5), "none": ()}) == (
         'joints:\n  - j1\n  - "on"\ngains: [1.0, 2.5]\n'
     )
+
+
+def test_name_of_what_is_empty_is_left_out() -> None:
+    """rcl refuses a parameter file with a name without a value (rcl_yaml_param_parser, `No value at line`)."""
+    assert yaml.safe_load(render({"a": {"b": {"c": (), "d": {}}, "e": {"f": ()}}, "g": 1})) == {"g": 1}

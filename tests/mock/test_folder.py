@@ -143,15 +143,27 @@ def test_folder_as_generated_has_no_notes(cell: MockCell) -> None:
     assert cell.notes == ()
 
 
-@pytest.mark.parametrize("name", ["config/controllers.yaml", "config/joint_limits.yaml", "gates/promotion.md"])
-def test_edit_by_hand_is_refused_with_the_file_and_what_to_do(folder: Path, name: str) -> None:
+@pytest.mark.parametrize(
+    ("name", "more"),
+    [
+        ("config/controllers.yaml", []),
+        ("config/qos_overrides.yaml", []),
+        (
+            "config/joint_limits.yaml",
+            ["`config/joint_limits.yaml` says what is executed; no run shows: default scaling"],
+        ),
+        ("gates/promotion.md", ["`gates/promotion.md` is not executed: people read it"]),
+    ],
+)
+def test_edit_by_hand_is_refused_with_the_file_and_what_to_do(folder: Path, name: str, more: list[str]) -> None:
     path = folder / name
     path.write_text(path.read_text() + "# by hand\n")
     edit = f"`{name}` differs from the manifest: it was edited after it was generated"
     with pytest.raises(MockError) as caught:
         load(folder)
     assert caught.value.reason.startswith(f"{edit}; build it again, or take `--edited`")
-    assert load(folder, edited=True).notes == (edit,)
+    notes = load(folder, edited=True).notes
+    assert [note.partition(": move_group")[0] for note in notes] == [edit, *more]
 
 
 @pytest.mark.parametrize("name", CELLS)
@@ -165,9 +177,10 @@ def test_one_digit_more_or_less_in_any_file_of_a_cell_is_seen_and_its_file_named
         text = (folder / path).read_text()
         last = [place for place, letter in enumerate(text) if letter.isalnum()][-1]
         (folder / path).write_text(text[:last] + text[last + 1 :])
-        notes, own_id = differences(folder, contract, manifest)
+        notes, edits, own_id = differences(folder, contract, manifest)
+        assert edits == (path,)
         assert notes == (f"`{path}` differs from the manifest: it was edited after it was generated",)
-        assert own_id != untouched[1]
+        assert own_id != untouched[2]
         (folder / path).write_text(text)
 
 

@@ -137,6 +137,30 @@ def _token_matches(token: str, name: str) -> bool:
     return name.endswith(rest[-1]) and len(name) - len(rest[-1]) > end
 
 
+def flat(text: str) -> dict[str, ParameterValue]:
+    """Return the values of a YAML file that no node is started with, read as those of one: nesting as dots.
+
+    Raises:
+        ParameterFileError: where rcl would refuse the same as parameters.
+    """
+    root = _root(text)
+    if not isinstance(root, yaml.MappingNode):
+        raise ParameterFileError("Cannot have a value without a name")
+    return _parameters(root, "")
+
+
+def _root(text: str) -> yaml.Node | None:
+    if any("\t" in line[: len(line) - len(line.lstrip())] for line in text.splitlines()):
+        raise ParameterFileError("found character that cannot start any token (tab)")
+    try:
+        return _compose(text)
+    except yaml.MarkedYAMLError as error:
+        line = 1 if error.problem_mark is None else error.problem_mark.line + 1
+        raise ParameterFileError(f"Error parsing a event near line {line}: {error.problem}") from None
+    except yaml.YAMLError as error:
+        raise ParameterFileError(f"Error parsing a event: {' '.join(str(error).split())}") from None
+
+
 class ParameterFile:
     """The text of one parameter file.
 
@@ -148,15 +172,7 @@ class ParameterFile:
     """
 
     def __init__(self, text: str) -> None:
-        if any("\t" in line[: len(line) - len(line.lstrip())] for line in text.splitlines()):
-            raise ParameterFileError("found character that cannot start any token (tab)")
-        try:
-            root = _compose(text)
-        except yaml.MarkedYAMLError as error:
-            line = 1 if error.problem_mark is None else error.problem_mark.line + 1
-            raise ParameterFileError(f"Error parsing a event near line {line}: {error.problem}") from None
-        except yaml.YAMLError as error:
-            raise ParameterFileError(f"Error parsing a event: {' '.join(str(error).split())}") from None
+        root = _root(text)
         self._sections = [] if root is None else _sections(root, "")
 
     def of_node(self, name: str, namespace: str) -> dict[str, ParameterValue]:

@@ -1,0 +1,1 @@
+"""An edited folder: what its files say that no run executes, against what a run executes."""

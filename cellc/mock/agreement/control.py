@@ -1,0 +1,139 @@
+"""What real controller managers and the real bring-up are told, and QoS of nodes and recorder."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Literal
+
+from cellc.contract.bring_up import Activation, HardwareActivation, Restart, Target
+from cellc.contract.contract import Contract, ContractInterface, ContractQos
+from cellc.contract.qos import weakest
+from cellc.mock.agreement.said import Edited, Names, Said, below, differing, parameters, plain
+
+Side = Literal["publisher", "subscription"]
+_NS = 1_000_000_000
+_STANDARD = frozenset({"robot_state_publisher", "controller_manager"})
+"""Names of nodes that no spec writes, so that nobody overrides their QoS."""
+
+
+def real_controllers(edited: Edited, file: str) -> Iterator[str]:
+    """Compare the parameter file of the real target, where it has one of its own, with the contract."""
+    mock_file = file.replace(".real.yaml", ".mock.yaml")
+    names = [name for name, one in edited.contract.files.parameters.items() if one == mock_file]
+    for manager in (edited.contract.managers[name] for name in names):
+        node = f"{manager.namespace}/controller_manager"
+        said = parameters(file, edited.texts[file], node)
+        types = {name: value for name, value in said.items() if name.endswith(".type")}
+        loaded = [one for one in manager.controllers.values() if "real" in one.targets]
+        executed = {f"{one.full_name.rpartition('/')[2]}.type": one.plugin for one in manager.controllers.values()}
+        yield from differing(types, executed, f"{node}: ")
+        rate: Names = {"update_rate": said.get("update_rate")}
+        yield from differing(rate, {"update_rate": manager.update_rate_hz}, f"{node}: ")
+        for one in loaded:
+            joints = parameters(file, edited.texts[file], one.full_name).get("joints")
+            if joints is not None:
+                yield from differing({"joints": joints}, {"joints": one.joints}, f"{one.full_name}: ")
+
+
+def bring_up(edited: Edited, _: str) -> Iterator[str]:
+    """Compare what the steps of each target start with what the contract has active, and never on the other one."""
+    for target in ("mock", "real"):
+        requests = [step.request for step in edited.steps(target) if step.request is not None]
+        asked = {
+            f"{one.manager.rpartition('/')[0]}/{name}"
+            for one in requests
+            if isinstance(one, Activation)
+            for name in one.controllers
+        }
+        yield from differing(
+            {"activates": sorted(asked)}, {"activates": _active(edited.contract, target)}, f"{target} "
+        )
+        known = {one.hardware_component for one in edited.contract.devices.values()}
+        for one in requests:
+            if isinstance(one, HardwareActivation) and one.component not in known:
+                yield f"`{target}` asks for the hardware component `{one.component}`, which the contract does not have"
+            if isinstance(one, Restart):
+                for name in one.controllers:
+                    if f"{one.manager.rpartition('/')[0]}/{name}" not in asked:
+                        yield f"`{target}` restarts `{name}`, which it does not activate"
+
+
+def _active(contract: Contract, target: Target) -> list[str]:
+    return sorted(
+        one.full_name
+        for manager in contract.managers.values()
+        for one in manager.controllers.values()
+        if one.active and target in one.targets
+    )
+
+
+def qos_overrides(edited: Edited, file: str) -> Iterator[str]:
+    """Compare the QoS that nodes are started with and the QoS that the mock connects them by."""
+    contract = edited.contract
+    written = plain(file, edited.texts[file])
+    topics = [name for name in contract.interfaces if any(f".{name}." in key for key in written)]
+    for node in dict.fromkeys(node for topic in topics for node in _writable(contract, topic)):
+        executed: dict[str, Said] = {}
+        for topic in topics:
+            for side, qos in _profiles(contract.interfaces[topic], node):
+                executed |= {f"{topic}.{side}.{name}": value for name, value in _policies(qos, side).items()}
+        said = below(parameters(file, edited.texts[file], node), "qos_overrides.")
+        yield from differing(said, executed, f"{node}: ")
+    for key in written:
+        topic = key.partition(".qos_overrides.")[2].partition(".")[0]
+        if topic and topic not in contract.interfaces:
+            yield f"`{topic}` must be a topic of `contract.json`"
+
+
+def _writable(contract: Contract, topic: str) -> Iterator[str]:
+    """Yield the full names of the nodes at a topic whose QoS a spec may write: no controllers, no devices."""
+    others = {one.full_name for manager in contract.managers.values() for one in manager.controllers.values()}
+    for end in (*contract.interfaces[topic].sources, *contract.interfaces[topic].sinks):
+        own = end.full_name.rpartition("/")[2]
+        if end.full_name not in others and end.node not in contract.devices and own not in _STANDARD:
+            yield end.full_name
+
+
+def _profiles(interface: ContractInterface, node: str) -> Iterator[tuple[Side, ContractQos]]:
+    for end in interface.sources:
+        if end.full_name == node:
+            yield "publisher", end.qos
+    for end in interface.sinks:
+        if end.full_name == node:
+            yield "subscription", end.qos
+
+
+def _policies(qos: ContractQos, side: Side) -> dict[str, Said]:
+    stated: dict[str, Said] = {
+        "reliability": qos.reliability,
+        "durability": qos.durability,
+        "history": qos.history,
+        "depth": qos.depth,
+        "liveliness": qos.liveliness,
+    }
+    durations = {"deadline": qos.deadline_s, "liveliness_lease_duration": qos.lease_duration_s}
+    if side == "publisher":
+        durations["lifespan"] = qos.lifespan_s
+    return stated | {name: round(value * _NS) for name, value in durations.items() if value is not None}
+
+
+def recording(edited: Edited, file: str) -> Iterator[str]:
+    """Compare the QoS of the recorder with what every publisher of a topic offers."""
+    said = plain(file, edited.texts[file])
+    for topic, interface in edited.contract.interfaces.items():
+        if interface.kind == "topic" and (own := below(said, f"{topic}.")):
+            yield from differing(own, _recorded(interface), f"{topic} ")
+        elif interface.kind == "topic" and not interface.type.endswith(("/Image", "/PointCloud2")):
+            yield f"`{topic}` must be recorded"
+
+
+def _recorded(interface: ContractInterface) -> Names:
+    """Return the profile that suits every publisher: the weakest that one of them offers."""
+    offered = [end.qos for end in interface.sources]
+    reliability, durability = weakest(offered)
+    return {
+        "history": "keep_last",
+        "depth": max((qos.depth for qos in offered), default=10),
+        "reliability": reliability,
+        "durability": durability,
+    }
