@@ -9,7 +9,8 @@ from pathlib import Path
 from typing import Literal
 
 from cellc.artifact import Artifact
-from cellc.output.plan import MANIFEST, content_of, plan
+from cellc.output.manifest import MANIFEST
+from cellc.output.plan import content_of, plan
 
 
 @dataclass(frozen=True, slots=True)

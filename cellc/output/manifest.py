@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 from collections.abc import Mapping, Sequence
 
 from cellc.artifact import Artifact
 from cellc.contract.manifest import ConfigurationInputs, Manifest
 from cellc.formats.json_text import render
-from cellc.output.plan import MANIFEST, sha256
+from cellc.limits import limits
 from cellc.version import __version__
+
+MANIFEST = "manifest.json"
+_FORMAT = 1
 
 
 def with_manifest(
@@ -28,7 +33,7 @@ def with_manifest(
     """
     ordered = sorted(artifacts, key=lambda artifact: artifact.path)
     manifest = Manifest(
-        format=1,
+        format=_FORMAT,
         cell=cell,
         cellc_version=__version__,
         configuration_id=configuration_id,
@@ -37,3 +42,27 @@ def with_manifest(
         files={artifact.path: sha256(artifact.text.encode()) for artifact in ordered},
     )
     return (*ordered, Artifact(MANIFEST, render(manifest)))
+
+
+def sha256(content: bytes) -> str:
+    """Return the digest of a file's bytes as hexadecimal digits."""
+    return hashlib.sha256(content).hexdigest()
+
+
+def hashes_in(content: bytes | None) -> dict[str, str]:
+    """Return the hashes of the files that a manifest lists; none where it is absent or not a manifest.
+
+    Only what is needed is read, without the model of the whole file: a build that changes nothing loads no models.
+    """
+    if content is None or len(content) > limits().folder_bytes:  # parsed it would take thirty times as much
+        return {}
+    try:
+        manifest = json.loads(content)
+    except (ValueError, RecursionError):
+        return {}
+    if not isinstance(manifest, dict) or manifest.get("format") != _FORMAT:
+        return {}
+    files = manifest.get("files")
+    if not isinstance(files, dict) or not all(isinstance(digest, str) for digest in files.values()):
+        return {}
+    return files

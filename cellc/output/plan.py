@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 import stat
 import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
@@ -14,11 +12,10 @@ from cellc.artifact import Artifact
 from cellc.diagnostics import Diagnostic
 from cellc.limits import limits
 from cellc.output.codes import finding
+from cellc.output.manifest import MANIFEST, hashes_in, sha256
 from cellc.store.regular_file import open_regular
 from cellc.store.swap import link_above, link_on_the_way
 
-MANIFEST = "manifest.json"
-_FORMAT = 1
 # Forbidden in names of one of the common file systems.
 _RESERVED = frozenset('<>:"|?*\\')
 _LONGEST_NAME, _LONGEST_PATH = 255, 1000  # bytes; Linux takes 4095 with the folder's own path (limits.h, PATH_MAX)
@@ -120,30 +117,6 @@ def _is_inside(path: str, folder: Path) -> bool:
     # A manifest is data that others may have written, and so are the links in the folder: neither must make a build
     # remove what lies elsewhere. Whoever made a file of cellc's had a path that cellc makes.
     return not _reason(path) and link_above(path, folder) is None
-
-
-def sha256(content: bytes) -> str:
-    """Return the digest of a file's bytes as hexadecimal digits."""
-    return hashlib.sha256(content).hexdigest()
-
-
-def hashes_in(content: bytes | None) -> dict[str, str]:
-    """Return the hashes of the files that a manifest lists; none where it is absent or not a manifest.
-
-    Only what is needed is read, without the model of the whole file: a build that changes nothing loads no models.
-    """
-    if content is None or len(content) > limits().folder_bytes:  # parsed it would take thirty times as much
-        return {}
-    try:
-        manifest = json.loads(content)
-    except (ValueError, RecursionError):
-        return {}
-    if not isinstance(manifest, dict) or manifest.get("format") != _FORMAT:
-        return {}
-    files = manifest.get("files")
-    if not isinstance(files, dict) or not all(isinstance(digest, str) for digest in files.values()):
-        return {}
-    return files
 
 
 def check_paths(artifacts: Sequence[Artifact], folder: Path) -> Iterator[Diagnostic]:

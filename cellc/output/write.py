@@ -10,7 +10,8 @@ from pathlib import Path
 from cellc.artifact import Artifact
 from cellc.diagnostics import Diagnostic, Outcome
 from cellc.output.codes import finding
-from cellc.output.plan import MANIFEST, Plan, check_paths, check_places, content_of, hashes_in, plan
+from cellc.output.manifest import MANIFEST, hashes_in
+from cellc.output.plan import Plan, check_paths, check_places, content_of, plan
 from cellc.store.swap import Swap, discard, is_alive, make_staging, others, staging_of
 
 

@@ -11,7 +11,7 @@ READERS = {
     "description/xacro_confinement.py",
     "description/xml_tree.py",
     "planning/mesh_shapes.py",  # takes meshes out of a text that the reader has accepted
-    "verify/files.py",
+    "verify/verify.py",
 }
 
 

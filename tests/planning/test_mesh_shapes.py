@@ -16,13 +16,14 @@ CORNERS = ((0, 0, 0), (0.1, 0, 0), (0, 0.2, 0), (0, 0, 0.3))
 FACES = ((0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3))
 ROBOT = """<robot name="r"><link name="base">
 <collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision>
-<collision><origin xyz="1 2 3" rpy="0.1 0.2 0.3"/><geometry><mesh filename="package://parts/a.stl" scale="2 -1 0.5"/></geometry></collision>
+<collision><origin xyz="1 2 3" rpy="0.1 0.2 0.3"/>
+<geometry><mesh filename="package://parts/a.stl" scale="2 -1 0.5"/></geometry></collision>
 </link><link name="a_1"><visual><geometry><mesh filename="package://absent/b.dae"/></geometry></visual>
 <collision><geometry><mesh filename="package://parts/b.obj"/></geometry></collision>
 <collision><geometry><sphere radius="0.1"/></geometry></collision>
 <collision><geometry><mesh filename="package://parts/a.stl"/></geometry></collision></link>
 <joint name="turn" type="revolute"><parent link="base"/><child link="a_1"/><axis xyz="0 0 1"/>
-<limit lower="-1" upper="1" velocity="1" effort="1"/></joint></robot>"""  # noqa: E501  # a start tag on one line
+<limit lower="-1" upper="1" velocity="1" effort="1"/></joint></robot>"""
 
 
 @pytest.fixture(name="shelf")

@@ -1,5 +1,8 @@
 """Runs the examples of a rule's page: a fragment merged into a complete cell, or into a description of it.
 
+A first line such as ``# a cell of two computers`` names a situation, ``situations/two_computers.yaml``, which is merged
+before the fragment: the page shows only what the rule is about.
+
 The reported example marks what is found: ``# expect at KEY`` on the line of the key, ``# expect: CODE at KEY`` where it
 is another code than the page's, ``<!-- expect -->`` in a description. A mark on a line of its own, such as
 ``# expect at a.b.KEY``, names a place of the complete cell, which the example does not show.
@@ -26,6 +29,8 @@ BASE = CORPUS / "invalid" / "base"
 """The parts of a complete cell of made-up devices; nothing in it is to be reported."""
 HEAD = {"format": "1", "cell": "demo"}
 _DUMPER = getattr(yaml, "CSafeDumper", yaml.SafeDumper)
+_SITUATIONS = Path(__file__).with_name("situations")
+_SITUATION = re.compile(r"# a cell of (.+)")
 _FENCE = re.compile(r"```(yaml|xml)\n(.*?)```", re.DOTALL)
 _MARK = re.compile(r"(?:#|<!--) expect(?:: (?P<code>[a-z0-9-]+))?(?: at (?P<key>\S+))?")
 
@@ -126,9 +131,18 @@ def diagnose_example(example: Example, folder: Path) -> tuple[Diagnostic, ...]:
         fragment = {"devices": {"stage": {"model": "./stage", "revision": "A", "firmware": "stage 1.0.0"}}}
     else:
         fragment = yaml.load(example.text, Loader=yaml.BaseLoader)
-    merged = _typed(_merged(complete_cell(), fragment))
+    merged = _typed(_merged(_merged(complete_cell(), _situation(example)), fragment))
     (folder / "cell.yaml").write_text(yaml.dump(merged, Dumper=_DUMPER, sort_keys=False), encoding="utf-8")
     return diagnose(folder / "cell.yaml")
+
+
+def _situation(example: Example) -> Any:
+    """Return what the first line of an example says of its cell."""
+    named = _SITUATION.match(example.text)
+    if named is None:
+        return {}
+    text = (_SITUATIONS / f"{named[1].replace(' ', '_')}.yaml").read_text(encoding="utf-8")
+    return yaml.load(text, Loader=yaml.BaseLoader)
 
 
 def _merged(base: Any, fragment: Any) -> Any:

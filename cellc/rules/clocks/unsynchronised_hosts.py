@@ -5,19 +5,17 @@ A stamp from another computer is only as good as the offset between the two cloc
 Example that is reported:
 
 ```yaml
+# a cell of two computers
 hosts:
-  vision_pc: {scheduling: generic, clock: {domain: ros}}  # expect at clock
-network: {discovery: multicast}
-safety: {stop: {independent_of: [control_pc, vision_pc]}}
+  vision_pc: {clock: {domain: ros, synchronised_by: null, max_offset: null}}  # expect at clock
 ```
 
 Example that is accepted:
 
 ```yaml
+# a cell of two computers
 hosts:
-  vision_pc: {scheduling: generic, clock: {domain: ros, synchronised_by: chrony, max_offset: 1 ms}}
-network: {discovery: multicast}
-safety: {stop: {independent_of: [control_pc, vision_pc]}}
+  vision_pc: {clock: {domain: ros, synchronised_by: chrony, max_offset: 1 ms}}
 ```
 
 Fix: synchronize the hosts by PTP or chrony, and write `synchronised_by` and the monitored `max_offset`.

@@ -6,14 +6,7 @@ wrong lens, often a meter away.
 Example that is reported:
 
 ```yaml
-devices:
-  second: {model: ./demo_camera, mount: {parent: world, xyz: 450 0 1900 mm, rpy: 0 90 0 deg, calibration: second_eye},
-           revision: C, serial: D4-0756, firmware: sensor 5.16.0, driver: demo_camera_driver 4.58.3,
-           description: demo_camera_description 4.58.3, connection: {host: control_pc, nic: bulk},
-           stamp: {source: hardware, clock: second, exposure: 8 ms, synchronised_by: global_time, max_offset: 2 ms}}
-  camera: {serial: D4-0712}
-calibrations:
-  second_eye: {revision: 1, measured: 2026-07-01, method: charuco, samples: 40, residual: 0.8 mm, owner: perception}
+# a cell of two cameras
 frames:
   object: {parent: second/color_optical}  # expect at parent
 ```
@@ -21,6 +14,7 @@ frames:
 Example that is accepted:
 
 ```yaml
+# a cell of two cameras
 frames:
   object: {parent: camera/color_optical}
 ```

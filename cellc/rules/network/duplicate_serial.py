@@ -6,29 +6,17 @@ one camera are taken for those of the other.
 Example that is reported:
 
 ```yaml
+# a cell of two cameras
 devices:
-  camera: {serial: D4-0712}
-  second: {model: ./demo_camera, mount: {parent: world, xyz: 1 0 2 m, calibration: second_eye}, revision: C,
-           serial: D4-0712,  # expect at serial
-           firmware: sensor 5.16.0, driver: demo_camera_driver 4.58.3, description: demo_camera_description 4.58.3,
-           connection: {host: control_pc, nic: bulk},
-           stamp: {source: hardware, clock: second, exposure: 8 ms, synchronised_by: global_time, max_offset: 2 ms}}
-calibrations:
-  second_eye: {revision: 1, measured: 2026-07-01, method: charuco, samples: 40, residual: 0.8 mm, owner: perception}
+  second: {serial: D4-0712}  # expect at serial
 ```
 
 Example that is accepted:
 
 ```yaml
+# a cell of two cameras
 devices:
-  camera: {serial: D4-0712}
-  second: {model: ./demo_camera, mount: {parent: world, xyz: 1 0 2 m, calibration: second_eye}, revision: C,
-           serial: D4-0756,
-           firmware: sensor 5.16.0, driver: demo_camera_driver 4.58.3, description: demo_camera_description 4.58.3,
-           connection: {host: control_pc, nic: bulk},
-           stamp: {source: hardware, clock: second, exposure: 8 ms, synchronised_by: global_time, max_offset: 2 ms}}
-calibrations:
-  second_eye: {revision: 1, measured: 2026-07-01, method: charuco, samples: 40, residual: 0.8 mm, owner: perception}
+  second: {serial: D4-0757}
 ```
 
 Fix: read the serial number from each device.

@@ -6,28 +6,19 @@ that is depends on the order in which the units came up.
 Example that is reported:
 
 ```yaml
-# expect at devices.camera
+# a cell of two cameras
 devices:
-  second: {model: ./demo_camera, mount: {parent: world, xyz: 1 0 2 m, calibration: second_eye},  # expect at second
-           revision: C, firmware: sensor 5.16.0, driver: demo_camera_driver 4.58.3,
-           description: demo_camera_description 4.58.3, connection: {host: control_pc, nic: bulk},
-           stamp: {source: hardware, clock: second, exposure: 8 ms, synchronised_by: global_time, max_offset: 2 ms}}
-calibrations:
-  second_eye: {revision: 1, measured: 2026-07-01, method: charuco, samples: 40, residual: 0.8 mm, owner: perception}
+  camera: {serial: null}  # expect at camera
+  second: {serial: null}  # expect at second
 ```
 
 Example that is accepted:
 
 ```yaml
+# a cell of two cameras
 devices:
   camera: {serial: D4-0712}
-  second: {model: ./demo_camera, mount: {parent: world, xyz: 1 0 2 m, calibration: second_eye}, revision: C,
-           serial: D4-0756,
-           firmware: sensor 5.16.0, driver: demo_camera_driver 4.58.3, description: demo_camera_description 4.58.3,
-           connection: {host: control_pc, nic: bulk},
-           stamp: {source: hardware, clock: second, exposure: 8 ms, synchronised_by: global_time, max_offset: 2 ms}}
-calibrations:
-  second_eye: {revision: 1, measured: 2026-07-01, method: charuco, samples: 40, residual: 0.8 mm, owner: perception}
+  second: {serial: D4-0756}
 ```
 
 Fix: add `serial:`, which the driver is then told.

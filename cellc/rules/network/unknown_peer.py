@@ -6,22 +6,14 @@ anybody sees: the computer that was meant is simply never found.
 Example that is reported:
 
 ```yaml
-hosts:
-  control_pc: {nics: {cell: {address: 10.20.0.10/24, carries: [ros]}}}
-  vision_pc: {scheduling: generic, clock: {domain: ros, synchronised_by: chrony, max_offset: 1 ms},
-              nics: {cell: {address: 10.20.0.11/24, carries: [ros]}}}
-safety: {stop: {independent_of: [control_pc, vision_pc]}}
+# a cell of two computers
 network: {discovery: unicast, peers: [10.20.0.10, 10.20.1.11]}  # expect at 1
 ```
 
 Example that is accepted:
 
 ```yaml
-hosts:
-  control_pc: {nics: {cell: {address: 10.20.0.10/24, carries: [ros]}}}
-  vision_pc: {scheduling: generic, clock: {domain: ros, synchronised_by: chrony, max_offset: 1 ms},
-              nics: {cell: {address: 10.20.0.11/24, carries: [ros]}}}
-safety: {stop: {independent_of: [control_pc, vision_pc]}}
+# a cell of two computers
 network: {discovery: unicast, peers: [10.20.0.10, 10.20.0.11]}
 ```
 

@@ -68,8 +68,8 @@ def _be_child(module: str, given: int, answer: int) -> None:
         os.dup2(given, 0)
         os.dup2(answer, 1)
         os.dup2(os.open(os.devnull, os.O_WRONLY), 2)
-        sys.stdin = open(0, closefd=False)  # noqa: SIM115  the process ends with it
-        sys.stdout = open(1, "w", closefd=False)  # noqa: SIM115  the same
+        sys.stdin = os.fdopen(0, closefd=False)  # the process ends with it
+        sys.stdout = os.fdopen(1, "w", closefd=False)
         program = _CHILDREN.get(module) or import_module(module)
         program.main()
         sys.stdout.flush()

@@ -92,12 +92,15 @@ def paths(tree: Tree, at: tuple[str | int, ...] = ()) -> list[tuple[tuple[str | 
 
 def value_at(holder: Holder, key: str | int) -> Tree:
     """Return the value at a place."""
-    return holder[key]  # type: ignore[index]  # a place's key fits its holder
+    return holder[str(key)] if isinstance(holder, dict) else holder[int(key)]
 
 
 def put(holder: Holder, key: str | int, value: Tree) -> None:
     """Set the value at a place."""
-    holder[key] = value  # type: ignore[index]  # a place's key fits its holder
+    if isinstance(holder, dict):
+        holder[str(key)] = value
+    else:
+        holder[int(key)] = value
 
 
 def remove(holder: Holder, key: str | int) -> None:
