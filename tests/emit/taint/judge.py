@@ -7,8 +7,10 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from tests.emit.taint.judges import Reading, readings, without_hashes
+from tests.emit.taint.payloads import PLACEHOLDER
 
 _SPACE = re.compile(r"\s+")
+_END = re.compile(r"[\n\t\r]")
 _MARK = re.compile(r"tq\d{4}q")
 
 
@@ -43,21 +45,29 @@ class Change:
         self._marked = {_MARK.findall(twin)[0]: (twin, text) for twin, text in texts.items()}
 
     def expected(self, wanted: str) -> tuple[str, ...]:
-        """Return what may stand in place of a text: exactly so, on one line, without backticks, or without spaces."""
-        exact = lined = joined = wanted
+        """Return what may stand in place of a text.
+
+        Exactly so, with a space for each line end as in XML's attributes, on one line, without backticks, or without
+        spaces.
+        """
+        exact = attribute = lined = joined = wanted
         for mark in dict.fromkeys(_MARK.findall(wanted)):
-            for twin, text in self._pairs(mark):
+            for twin, text in self._pairs(mark, wanted):
                 exact = exact.replace(twin, text)
+                attribute = attribute.replace(_END.sub(" ", twin), _END.sub(" ", text))
                 lined = _SPACE.sub(" ", lined).replace(_line(twin), _line(text))
                 joined = _SPACE.sub("", joined).replace(_SPACE.sub("", twin), _SPACE.sub("", text))
-        return exact, lined, lined.replace("`", ""), joined
+        return exact, attribute, lined, lined.replace("`", ""), joined
 
-    def _pairs(self, mark: str) -> Iterator[tuple[str, str]]:
+    def _pairs(self, mark: str, wanted: str) -> Iterator[tuple[str, str]]:
         """Yield the whole text, and what is from its mark on: what stood there before may be split off."""
         if mark in self._marked:
             twin, text = self._marked[mark]
-            yield twin, text
-            yield twin[twin.index(mark) :], text[text.index(mark) :]
+            for one, other in ((twin, text), (twin[twin.index(mark) :], text[text.index(mark) :])):
+                yield one, other
+                filled = re.search(re.escape(one).replace(re.escape(PLACEHOLDER), r"(\w+)"), wanted)
+                if filled is not None and filled.groups():
+                    yield filled[0], other.replace(PLACEHOLDER, filled[1])
 
 
 def _line(text: str) -> str:

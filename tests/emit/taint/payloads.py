@@ -38,6 +38,9 @@ PAYLOADS = {
 }
 """The payloads of one line and several, each by what would misread it."""
 
+PLACEHOLDER = "{device}"
+"""What a device's own files may say for its name in the cell: it is filled in both twins, or in neither."""
+
 HIDDEN = ("direction", "control", "zero")
 """Those that hold a character which no reader lets in."""
 
@@ -68,4 +71,5 @@ def twin_of(text: str, original: str = "") -> str:
     """
     kept = original if text.startswith(original) else ""
     line = re.sub(r"\s", " ", text[len(kept) :])
-    return kept + re.sub(r"[^\w ./-]|-(?=[->])|(?<=-)-|^[#-]", "x", line)
+    parts = line.split(PLACEHOLDER)
+    return kept + PLACEHOLDER.join(re.sub(r"[^\w ./-]|-(?=[->])|(?<=-)-|^[#-]", "x", part) for part in parts)

@@ -10,6 +10,8 @@ from dataclasses import dataclass, field
 from functools import cache
 from xml.etree import ElementTree
 
+import yaml
+
 from tests.robustness.fuzz import bases, meshes
 from tests.robustness.fuzz.byte_mutations import mutate_bytes
 from tests.robustness.fuzz.hostile import TEXTS
@@ -207,7 +209,7 @@ def _damaged_artifact(name: str, data: bytes, chance: random.Random) -> bytes:
             .mutate(_times(chance))
             .encode("utf-8", "surrogatepass")
         )
-    except (ValueError, RecursionError, SyntaxError):  # what was damaged before is damaged in its bytes
+    except (ValueError, RecursionError, SyntaxError, yaml.YAMLError):  # what was damaged before is damaged in its bytes
         return mutate_bytes(data, chance)
 
 
