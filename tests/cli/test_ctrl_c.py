@@ -86,21 +86,19 @@ def _signalled(
 
 
 @pytest.mark.parametrize(
-    "moment",
+    ("moment", "number"),
     [
-        "pydantic",
-        "cellc.link.link",
-        "cellc.rules.run",
-        "cellc.spec.parse:parse",
-        "cellc.verify.verify:verify",
-        "cellc.store.swap:Swap.make_folder",
-        "cellc.store.swap:Swap.put",
-        "cellc.store.swap:Swap.put*7",
-        "cellc.store.swap:Swap.settle",
+        ("pydantic", signal.SIGINT),
+        ("cellc.rules.run", signal.SIGTERM),
+        ("cellc.spec.parse:parse", signal.SIGINT),
+        ("cellc.verify.verify:verify", signal.SIGHUP),
+        ("cellc.store.swap:Swap.make_folder", signal.SIGXCPU),
+        ("cellc.store.swap:Swap.put", signal.SIGTERM),
+        ("cellc.store.swap:Swap.settle", signal.SIGINT),
     ],
 )
-def test_interrupted_build_leaves_nothing(moment: str, tmp_path: Path) -> None:
-    _assert_interrupted(moment, ["build", MINIMAL, "-o", str(tmp_path / "out")])
+def test_build_that_a_signal_asks_to_end_leaves_nothing(moment: str, number: signal.Signals, tmp_path: Path) -> None:
+    _assert_interrupted(moment, ["build", MINIMAL, "-o", str(tmp_path / "out")], number)
     assert everything_below(tmp_path) == []
 
 
@@ -113,12 +111,6 @@ def test_interrupted_build_leaves_the_former_folder(moment: str, tmp_path: Path)
     _assert_interrupted(moment, ["build", str(edited), "-o", str(output)])
     assert run("build", "--check", MINIMAL, "-o", output.as_posix()).code == 0
     assert [name for name in everything_below(tmp_path) if "tmp-" in name] == []
-
-
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP, signal.SIGXCPU], ids=lambda number: number.name)
-def test_any_signal_that_asks_to_end_is_met_as_ctrl_c_is(number: signal.Signals, tmp_path: Path) -> None:
-    _assert_interrupted("cellc.store.swap:Swap.put*7", ["build", MINIMAL, "-o", str(tmp_path / "out")], number)
-    assert everything_below(tmp_path) == []
 
 
 def test_signals_that_follow_cut_no_cleaning_short(tmp_path: Path) -> None:
@@ -138,7 +130,7 @@ def test_signal_that_meets_a_finished_command_changes_nothing() -> None:
     ["cellc.rules.shared_domain:shared_domains", "cellc.rules.shared_domain:shared_domains*20"],
 )
 def test_interrupted_check_of_many_cells_ends_its_workers(moment: str) -> None:
-    cells = [file.as_posix() for file in sorted((ROOT / "tests/corpus/valid").glob("*.yaml"))]
+    cells = [file.as_posix() for file in sorted((ROOT / "tests/corpus/valid").glob("*.yaml"))][:32]
     _assert_interrupted(moment, ["check", *cells])
 
 

@@ -25,7 +25,7 @@ from tests.emit.taint.payloads import PAYLOADS, twin_of
 from tests.emit.taint.rounds import behind_the_readers, run
 
 # Each with another part of the payloads; places of descriptions take the longest, and are tried by the script.
-_ROUNDS = (("ur5e_pick-humble", "single", 2), ("fr3_hand-lyrical", "single", 7), ("complete", "family", 1))
+_ROUNDS = (("fr3_hand-lyrical", "single", 7), ("complete", "family", 1))
 
 
 @pytest.mark.parametrize(("name", "kind", "turn"), _ROUNDS)

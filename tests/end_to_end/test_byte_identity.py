@@ -31,9 +31,9 @@ def python_fixture(request: pytest.FixtureRequest) -> str:
     return interpreter.path
 
 
-@pytest.mark.parametrize("surroundings", SURROUNDINGS, ids=["plain", "odd"])
-def test_every_cell_is_built_as_it_is_committed(python: str, surroundings: dict[str, str], tmp_path: Path) -> None:
-    _run(python, "build", *(f"cells/{cell}/cell.yaml" for cell in CELLS), "-o", str(tmp_path), **surroundings)
+def test_every_cell_is_built_as_it_is_committed(python: str, tmp_path: Path) -> None:
+    # Committed in plain surroundings, built in odd ones.
+    _run(python, "build", *(f"cells/{cell}/cell.yaml" for cell in CELLS), "-o", str(tmp_path), **SURROUNDINGS[1])
     built, committed = _files(tmp_path), _files(ROOT / "generated")
     assert built.keys() == committed.keys()
     # Names first: the bytes of many files are no readable message.

@@ -11,8 +11,8 @@ from cellc.pipeline import check
 from tests.robustness.mutations import mutated
 
 CELLS = sorted((Path(__file__).resolve().parents[2] / "cells").glob("*/cell.yaml"))
-SEEDS = range(30)  # benchmarks/mutated_cells.py takes thousands
-LONGEST_S = 10.0  # far above what a check takes, far below what a hang does
+SEEDS = range(15)  # benchmarks/mutated_cells.py takes thousands
+LONGEST_S = 10.0  # on the processor: far above what a check takes, far below what a hang does
 
 
 @pytest.mark.parametrize("cell", CELLS, ids=lambda cell: cell.parent.name)
@@ -21,9 +21,9 @@ def test_mutated_cell_is_diagnosed(cell: Path, tmp_path: Path) -> None:
     for seed in SEEDS:
         file = tmp_path / "cell.yaml"
         file.write_bytes(mutated(text, seed).encode("utf-8", "surrogatepass"))
-        begin = time.perf_counter()
+        begin = time.process_time()
         checked = check(file)
-        assert time.perf_counter() - begin < LONGEST_S, seed
+        assert time.process_time() - begin < LONGEST_S, seed
         for diagnostic in checked.diagnostics:
             assert diagnostic.message, seed
             assert "\n" not in diagnostic.message, seed
