@@ -90,6 +90,8 @@ def read_folder(folder: Path, *, edited: bool = False) -> GeneratedFolder:
     if missing:
         raise MockError(CONTRACT_FILE, f"controller manager `{missing[0]}` has no parameter file")
     urdf = read_text(folder, contract.files.urdf_mock)
+    description = _described(urdf, contract.files.urdf_mock)
+    _refuse_unexported(contract, description)
     plan = _bring_up(folder, contract)
     notes, edits, own_id = differences(folder, contract, manifest)
     if notes and not edited:
@@ -99,7 +101,7 @@ def read_folder(folder: Path, *, edited: bool = False) -> GeneratedFolder:
         contract=contract.model_copy(update={"configuration_id": own_id}) if notes else contract,
         rehearsals=rehearsals.rehearsals,
         urdf=urdf,
-        description=_described(urdf, contract.files.urdf_mock),
+        description=description,
         allowed_collisions=tuple(_allowed_collisions(folder, contract.files.srdf)),
         parameters={name: read_text(folder, path) for name, path in contract.files.parameters.items()},
         bring_up=plan.mock,
@@ -135,6 +137,22 @@ def _described(urdf: str, file: str) -> Description:
     return read.value
 
 
+def _refuse_unexported(contract: Contract, description: Description) -> None:
+    """Refuse a state interface in the contract that no hardware of the description has."""
+    exported = {
+        f"{part.name}/{interface.name}"
+        for component in description.hardware
+        for part in (*component.joints, *component.sensors, *component.gpios)
+        for interface in part.state_interfaces
+    }
+    for name, device in contract.devices.items():
+        told = device.speed_scaling_interface
+        if told is not None and told not in exported:
+            path = f"devices.{name}.speed_scaling_interface"
+            message = f"must have the state interface of `{path}` of the contract, got no `{told}`"
+            raise MockError(contract.files.urdf_mock, message)
+
+
 def _allowed_collisions(folder: Path, file: str | None) -> Iterator[tuple[str, str]]:
     """Read the pairs of links that the SRDF excuses from the collision check; a cell without groups has none."""
     if file is None:
@@ -151,7 +169,7 @@ def _allowed_collisions(folder: Path, file: str | None) -> Iterator[tuple[str, s
 
 
 def _refuse_dangling(contract: Contract) -> None:
-    """Refuse a name in the contract of a group or device that it does not have."""
+    """Refuse a name in the contract of a group, device or controller that it does not have."""
     named = [(f"goals.{name}.group", goal.group) for name, goal in contract.goals.items()]
     named += [
         (f"poses.{name}[{at}].group", one.group) for name, pose in contract.poses.items() for at, one in enumerate(pose)
@@ -165,11 +183,25 @@ def _refuse_dangling(contract: Contract) -> None:
             if len(one.positions) != wanted:
                 path = f"poses.{name}[{at}].positions"
                 raise MockError(CONTRACT_FILE, f"`{path}` must be {wanted} positions, got {len(one.positions)}")
+    _refuse_unknown_servers(contract)
     for of, manager in contract.managers.items():
         for name, controller in manager.controllers.items():
             if controller.device is not None and controller.device not in contract.devices:
                 path = f"managers.{of}.controllers.{name}.device"
                 raise MockError(CONTRACT_FILE, f"`{path}` must be a device of the contract, got `{controller.device}`")
+
+
+def _refuse_unknown_servers(contract: Contract) -> None:
+    known = {name for manager in contract.managers.values() for name in manager.controllers} | set(contract.adapters)
+    named = [(f"groups.{name}.controller", group.controller) for name, group in contract.groups.items()]
+    named += [
+        (f"devices.{name}.gripper.controller", device.gripper.controller)
+        for name, device in contract.devices.items()
+        if device.gripper is not None
+    ]
+    for path, controller in named:
+        if controller is not None and controller not in known:
+            raise MockError(CONTRACT_FILE, f"`{path}` must be a controller of the contract, got `{controller}`")
 
 
 def _check_rehearsals(file: str, rehearsals: Rehearsals) -> None:

@@ -8,6 +8,8 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Callable
+from functools import reduce
+from operator import getitem
 from pathlib import Path
 from typing import Any
 
@@ -126,6 +128,19 @@ def test_group_with_a_joint_that_the_urdf_lacks_is_refused(edit_contract: Edit) 
         contract["joint_limits"]["missing"] = contract["joint_limits"]["arm_elbow_joint"]
 
     with pytest.raises(MockError, match=r"group `manipulator`.*`missing`"):
+        edit_contract(rename)
+
+
+@pytest.mark.parametrize(
+    "path",
+    ["groups.manipulator.controller", "devices.gripper.gripper.controller", "devices.arm.speed_scaling_interface"],
+)
+def test_controller_or_interface_that_nothing_has_is_refused(edit_contract: Edit, path: str) -> None:
+    def rename(contract: Any) -> None:
+        *above, last = path.split(".")
+        reduce(getitem, above, contract)[last] = "nobody"
+
+    with pytest.raises(MockError, match=r"must .*`nobody`"):
         edit_contract(rename)
 
 

@@ -43,12 +43,19 @@ class Change:
 
     def __init__(self, texts: Mapping[str, str]) -> None:
         self._marked = {_MARK.findall(twin)[0]: (twin, text) for twin, text in texts.items()}
+        # A parameter's name is nested at its dots, of which both twins have as many.
+        self._parts = {
+            part: other
+            for twin, text in texts.items()
+            for part, other in zip(twin.split("."), text.split("."), strict=True)
+            if "." in twin
+        }
 
     def expected(self, wanted: str) -> tuple[str, ...]:
         """Return what may stand in place of a text.
 
-        Exactly so, with a space for each line end as in XML's attributes, on one line, without backticks, or without
-        spaces.
+        Exactly so, with a space for each line end as in XML's attributes, on one line, without backticks, without
+        spaces, or as a part between dots.
         """
         exact = attribute = lined = joined = wanted
         for mark in dict.fromkeys(_MARK.findall(wanted)):
@@ -57,7 +64,7 @@ class Change:
                 attribute = attribute.replace(_END.sub(" ", twin), _END.sub(" ", text))
                 lined = _SPACE.sub(" ", lined).replace(_line(twin), _line(text))
                 joined = _SPACE.sub("", joined).replace(_SPACE.sub("", twin), _SPACE.sub("", text))
-        return exact, attribute, lined, lined.replace("`", ""), joined
+        return exact, attribute, lined, lined.replace("`", ""), joined, self._parts.get(wanted, wanted)
 
     def _pairs(self, mark: str, wanted: str) -> Iterator[tuple[str, str]]:
         """Yield the whole text, and what is from its mark on: what stood there before may be split off."""
