@@ -152,7 +152,8 @@ def _inline(tokens: list[Token]) -> Iterator[Reading]:
 
 def github_pages(text: str) -> Reading:
     """Return what GitHub adds to Markdown and finds outside of code: formulas, struck words, mentions."""
-    prose = re.sub(r"(?<!`)(`+)(?!`).*?(?<!`)\1(?!`)", "", _FENCE.sub("", text))
+    # A backtick behind an odd number of backslashes opens nothing.
+    prose = re.sub(r"(?<![\\`])(?:\\\\)*(`+)(?!`).*?(?<!`)\1(?!`)", "", _FENCE.sub("", text))
     return re.findall(r"(?<!\\)\$|(?<!\\)~~", prose)
 
 
