@@ -335,7 +335,7 @@ class Contract(ContractModel):
     format: Literal[2] = Field(description="Version of this format.")
     cell: str = Field(description="Name of the cell and its package.")
     summary: str = Field(description="What the cell does.")
-    configuration_id: str = Field(description="Id over calibrations, TF publishers and URDF.")
+    configuration_id: str = Field(description="Id over all that evidence rests on.")
     distro: Distro = Field(description="ROS 2 distribution.")
     version_tuple: dict[str, str] = Field(description="Pinned versions by part.")
     files: ContractFiles = Field(description="Files beside this one.")

@@ -1,4 +1,4 @@
-"""``manifest.json``: what the folder is made of, so that one id names calibration, TF publishers and URDF."""
+"""``manifest.json``: what the folder is made of, so that one id names all that evidence rests on."""
 
 from typing import Literal
 
@@ -13,6 +13,9 @@ class ConfigurationInputs(ContractModel):
     calibrations: dict[str, int] = Field(description="Revision of each calibration.")
     tf_publishers: dict[str, str] = Field(description="Authority of each frame.")
     urdf_sha256: str = Field(description="SHA-256 of the real URDF without its header comment.")
+    cell_sha256: str = Field(
+        "", description="SHA-256 of all else that evidence rests on; empty in manifests that were written before it."
+    )
 
 
 class Manifest(ContractModel):

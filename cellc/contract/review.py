@@ -18,7 +18,7 @@ class ReviewSide(ContractModel):
 
     name: str = Field(description="Spec, folder or revision, as it was asked for.")
     cell: str = Field(description="Name of the cell.")
-    configuration_id: str = Field(description="Id over calibrations, TF publishers and URDF.")
+    configuration_id: str = Field(description="Id over all that evidence rests on.")
 
 
 class ReviewChange(ContractModel):

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
+from enum import Enum
+from typing import Any
 
 from cellc.cell.cell import Cell
 from cellc.cell.site import UNKNOWN
@@ -13,11 +15,29 @@ from cellc.contract.manifest import ConfigurationInputs
 from cellc.diagnostics import YamlPath
 from cellc.formats.escape import shell_word
 from cellc.formats.header import Header
+from cellc.formats.numbers import rounded
 from cellc.formats.urdf.robot import robot_description
 from cellc.formats.xml_text import render
 from cellc.graph.cell_graph import CellGraph
 
 _DIGITS = 12
+
+_NOT_RESTED_ON = frozenset(
+    {
+        *("name", "places", "summary", "owners"),  # who answers is no part of what was tried
+        *("implied", "behaviours", "harmless_plugins", "harmless_programs", "hardware_packages"),  # the catalog's lists
+    }
+)
+"""Fields of a cell that leave evidence as it is."""
+_NOT_OF_AN_ENTITY = frozenset(
+    {
+        *("span", "places", "declared", "owner"),
+        *("endpoints", "inside", "version_rows", "commissioning", "mock_cannot_prove"),  # the catalog's
+    }
+)
+"""Fields of any part of it that do."""
+_IN_ORDER = frozenset({"joints", "positions", "steps"})
+"""Fields in which the order says something; elsewhere the user may write things in any order."""
 
 _OF_CELL = ("os", "kernel", "ros", "rmw", "ros2_control", "moveit")
 _OF_DEVICE = ("revision", "serial", "firmware", "driver", "sdk", "description")
@@ -30,13 +50,50 @@ def configuration_inputs(cell: Cell) -> ConfigurationInputs:
         calibrations={name: written.revision for name, written in cell.calibrations.items()},
         tf_publishers={frame.name: frame.authority for frame in cell.frames if frame.parent},
         urdf_sha256=hashlib.sha256(urdf.encode()).hexdigest(),
+        cell_sha256=_digest(_settled(cell, _NOT_RESTED_ON)),
     )
 
 
+def _digest(settled: object) -> str:
+    text = json.dumps(settled, sort_keys=True, separators=(",", ":"))
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _settled(value: object, left_out: frozenset[str] = _NOT_OF_AN_ENTITY) -> object:
+    """Return a linked value as plain data: without its places, what is at its default, and order that says nothing."""
+    if is_dataclass(value) and not isinstance(value, type):
+        told = {one.name: getattr(value, one.name) for one in fields(value) if one.name not in left_out}
+        place = "path" if isinstance(told.get("path"), tuple) else None  # a stop has a path too, and that is a text
+        stated = {name: one for name, one in told.items() if name != place and one != _default(value, name)}
+        return {name: _settled(one) if name in _IN_ORDER else _unordered(_settled(one)) for name, one in stated.items()}
+    if isinstance(value, Mapping):
+        return {str(name): _settled(one) for name, one in value.items()}
+    if isinstance(value, frozenset):
+        return sorted(map(str, value))
+    if isinstance(value, tuple):
+        return [_settled(one) for one in value]
+    if isinstance(value, float):
+        return rounded(value)
+    if isinstance(value, Enum):
+        return str(value.value)
+    return value if isinstance(value, (str, int)) or value is None else str(value)
+
+
+def _unordered(value: object) -> object:
+    """Return a list in one order, unless it is one of numbers."""
+    if isinstance(value, list) and not all(isinstance(one, (int, float)) for one in value):
+        return sorted(value, key=lambda one: json.dumps(one, sort_keys=True))
+    return value
+
+
+def _default(value: Any, name: str) -> object:
+    of: Field[Any] = value.__dataclass_fields__[name]
+    return of.default if of.default_factory is MISSING else of.default_factory()
+
+
 def configuration_id(inputs: ConfigurationInputs) -> str:
-    """Return ``cfg-`` and 12 hexadecimal digits; the order of calibrations and frames does not matter."""
-    canonical = json.dumps(inputs.model_dump(), sort_keys=True, separators=(",", ":"))
-    return "cfg-" + hashlib.sha256(canonical.encode()).hexdigest()[:_DIGITS]
+    """Return ``cfg-`` and 12 hexadecimal digits; the text of the URDF follows from the rest, but for its order."""
+    return "cfg-" + _digest(inputs.model_dump(exclude={"urdf_sha256"}))[:_DIGITS]
 
 
 def version_tuple(cell: Cell) -> dict[str, str]:

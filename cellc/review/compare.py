@@ -113,7 +113,8 @@ def _lines_of(facts: Facts, renamed: bool) -> Mapping[str, Sequence[str]]:
 def _ids(facts: Facts) -> frozenset[str]:
     """Return what follows from whatever is told: ids, names of files, and of spawners after their first controller."""
     names = (name for manager in facts.contract.managers.values() for name in manager.controllers)
-    ids = (facts.contract.configuration_id, facts.manifest.configuration_inputs.urdf_sha256)
+    inputs = facts.manifest.configuration_inputs
+    ids = (facts.contract.configuration_id, inputs.urdf_sha256, inputs.cell_sha256)
     files = (facts.contract.files.urdf_mock, facts.contract.files.urdf_real, facts.contract.files.srdf or "")
     return frozenset((*ids, *files, *(f"spawner_{name}" for name in names)))
 

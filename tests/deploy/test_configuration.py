@@ -1,4 +1,4 @@
-"""The configuration id names calibration, TF publishers and URDF, and nothing else."""
+"""The configuration id names what evidence rests on, and nothing else."""
 
 from __future__ import annotations
 
@@ -8,53 +8,56 @@ from pathlib import Path
 
 import pytest
 
+from cellc.contract.manifest import ConfigurationInputs
 from cellc.deploy.configuration import configuration_id, configuration_inputs
-from tests.cells import graph_of, spec_text, written
+from tests.cells import linked, spec_text, written
 from tests.emit.cells import emitted
+from tests.review.revisions import edited
+from tests.review.test_edits import GROUPS
 
 
 def _id(folder: Path, text: str) -> str:
-    return configuration_id(configuration_inputs(graph_of(written(folder, text)).cell))
+    return configuration_id(configuration_inputs(linked(written(folder, text))))
+
+
+@pytest.fixture(scope="module")
+def as_it_is(tmp_path_factory: pytest.TempPathFactory) -> str:
+    """The id of the cell as it is in the repository."""
+    return _id(tmp_path_factory.mktemp("cell"), spec_text("ur5e_pick"))
+
+
+_TOLD_ALONE = ("summary: ", "limits: controls, watchdogs")
+"""What a person reads, and who answers: no evidence rests on it."""
 
 
 @pytest.mark.parametrize(
-    ("before", "after"),
-    [
-        ("revision: 4", "revision: 5"),
+    "edit", [edit for edits, _ in GROUPS.values() for edit in edits], ids=lambda edit: edit[0][:40]
+)
+def test_every_edit_that_means_something_is_another_configuration(
+    edit: tuple[str, str], as_it_is: str, tmp_path: Path
+) -> None:
+    if "watcher" in edit[1]:
+        edit = (edit[0], edit[1].replace(", watcher: {depth: 1}", ""))
+    changed = _id(tmp_path, edited(edit)) != as_it_is
+    assert changed is not edit[0].startswith(_TOLD_ALONE)
+
+
+def test_id_changes_with_who_publishes_a_frame_and_with_a_bound(as_it_is: str, tmp_path: Path) -> None:
+    for edit in (
         ("published_by: perception", "published_by: task"),
-        ("xyz: 0 0 162 mm", "xyz: 0 0 163 mm"),
-        ("velocity: 50 %", "velocity: 40 %"),
-        ("192.168.56.101", "192.168.56.102"),
-    ],
-)
-def test_id_changes_with_what_it_names(before: str, after: str, tmp_path: Path) -> None:
-    text = spec_text("ur5e_pick")
-    assert before in text
-    assert _id(tmp_path, text) != _id(tmp_path, text.replace(before, after))
+        ("cancel_within: 200 ms", "cancel_within: 150 ms"),
+    ):
+        assert _id(tmp_path, spec_text("ur5e_pick").replace(*edit)) != as_it_is
 
 
-@pytest.mark.parametrize(
-    ("before", "after"),
-    [("rate: 30 Hz", "rate: 15 Hz"), ("goal_time: 1 s", "goal_time: 2 s"), ("domain_id: 42", "domain_id: 7")],
-)
-def test_id_stays_with_what_it_does_not_name(before: str, after: str, tmp_path: Path) -> None:
-    text = spec_text("ur5e_pick")
-    assert before in text
-    assert _id(tmp_path, text) == _id(tmp_path, text.replace(before, after))
-
-
-def test_id_does_not_depend_on_the_order_of_calibrations(tmp_path: Path) -> None:
-    text = spec_text("ur5e_pick")
-    lines = {
-        name: line for name in ("hand_eye", "tcp_2f") for line in text.splitlines() if line.startswith(f"  {name}:")
-    }
-    swapped = text.replace(lines["hand_eye"], "A").replace(lines["tcp_2f"], lines["hand_eye"])
-    assert _id(tmp_path, text) == _id(tmp_path, swapped.replace("\nA\n", f"\n{lines['tcp_2f']}\n"))
+def test_manifest_from_before_the_cell_was_hashed_is_read() -> None:
+    told = {"calibrations": {"hand_eye": 4}, "tf_publishers": {"tcp": "robot_state_publisher"}, "urdf_sha256": "0" * 64}
+    assert ConfigurationInputs.model_validate(told).cell_sha256 == ""
 
 
 def test_hash_is_that_of_the_real_urdf_without_its_header(tmp_path: Path) -> None:
     text = spec_text("ur5e_pick")
     urdf = emitted(tmp_path, text)["urdf/ur5e_pick.real.urdf"]
     body = re.sub(r"<!--.*?-->\n", "", urdf, count=1, flags=re.DOTALL)
-    inputs = configuration_inputs(graph_of(written(tmp_path, text)).cell)
+    inputs = configuration_inputs(linked(written(tmp_path, text)))
     assert inputs.urdf_sha256 == hashlib.sha256(body.encode()).hexdigest()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from pathlib import Path
 
@@ -17,6 +18,10 @@ from tests.review.revisions import changes_of, edited, reviewed, told
 def _package(path: Path, name: str = "after") -> Package:
     with packages(Side(name, path.as_posix())) as ((package, _),):
         return package
+
+
+def _configuration(package: Package) -> str:
+    return str(json.loads(package.files["contract.json"])["configuration_id"])
 
 
 def _turned(value: object) -> object:
@@ -45,12 +50,24 @@ def test_comments_order_and_spelling_of_units_say_nothing(tmp_path: Path, main: 
     after = _package(spec)
     assert changes_of(main, after) == []
     assert reviewed(main, after).files != ()
+    assert _configuration(after) == _configuration(main)
 
 
 def test_a_spec_and_what_was_generated_of_it_are_the_same(main: Package) -> None:
     folder = _package(generated("ur5e_pick"), "folder")
     assert changes_of(main, folder) == []
     assert changes_of(folder, main) == []
+
+
+def test_a_folder_from_before_the_cell_was_hashed_is_the_same_but_for_its_id(main: Package) -> None:
+    older = dict(main.files)
+    own = _configuration(main)
+    for path in ("contract.json", "manifest.json", "README.md"):
+        text = re.sub(r',\s*"cell_sha256": "[0-9a-f]{64}"', "", older[path])
+        older[path] = text.replace(own, "cfg-0123456789ab")
+    assert "cell_sha256" not in older["manifest.json"]
+    assert changes_between(facts_of(older), main.facts) == ()
+    assert changes_between(main.facts, facts_of(older)) == ()
 
 
 def test_an_edit_by_hand_is_told_wherever_it_is(main: Package) -> None:
