@@ -11,6 +11,7 @@ from pathlib import Path
 
 from tests.emit.taint.cells import variants
 from tests.emit.taint.payloads import PAYLOADS
+from tests.emit.taint.places import Place
 from tests.emit.taint.rounds import KINDS, behind_the_readers, run
 
 
@@ -20,6 +21,7 @@ def main() -> int:
     arguments.add_argument("--all", action="store_true", help="every payload in every place, not one of each")
     arguments.add_argument("--only", default="", help="folders whose name holds this")
     arguments.add_argument("--turns", default="", help="FIRST:LAST, in place of all")
+    arguments.add_argument("--alone", action="store_true", help="each place alone, and through the readers")
     given = arguments.parse_args()
     first, _, last = given.turns.partition(":")
     turns = range(int(first), int(last)) if last else range(len(PAYLOADS) if given.all else 1)
@@ -27,22 +29,32 @@ def main() -> int:
     count: Counter[str] = Counter()
     for name, files in variants().items():
         if given.only in name:
+            suspects: set[Place] = set()
             for turn in turns:
-                for kind in KINDS:
-                    count += _round(name, files, kind, turn)
+                for kind in KINDS[:1] if given.alone else KINDS:
+                    count += _round(name, files, kind, turn, suspects)
+                if given.alone:
+                    continue
                 with behind_the_readers():
                     # Names of a description are read back as they stand, so that no escape of one passes verify.
-                    count += _round(f"{name} behind the readers", files, KINDS[0], turn, (".yaml",))
+                    count += _round(f"{name} behind the readers", files, KINDS[0], turn, suspects, (".yaml",))
     print(f"{dict(count)} in {time.perf_counter() - begin:.0f} s")
     return 1 if count["faults"] else 0
 
 
 def _round(
-    name: str, files: Mapping[str, str], kind: str, turn: int, endings: tuple[str, ...] = (".yaml", ".urdf")
+    name: str,
+    files: Mapping[str, str],
+    kind: str,
+    turn: int,
+    suspects: set[Place],
+    endings: tuple[str, ...] = (".yaml", ".urdf"),
 ) -> Counter[str]:
+    """Run one round, print what it found, and add the culprits of errors on another line to the suspects."""
     with tempfile.TemporaryDirectory() as folder:
-        done = run(Path(folder), files, kind, turn, endings)
+        done = run(Path(folder), files, kind, turn, endings, suspects)
     trial = done.trial
+    suspects |= set(trial.elsewhere)
     for place, error in trial.elsewhere.items():
         at = f"{error.span.file.removeprefix(folder)}:{error.span.line}"
         print(f"{name} {turn}: {place} is refused at {at} {error.code}")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,6 +14,7 @@ from tests.emit.taint.outputs import outputs
 from tests.emit.taint.payloads import PAYLOADS, WAYS, text_of, twin_of
 from tests.emit.taint.places import Place, families, places_of, single
 from tests.emit.taint.trial import Files, Trial, checked_with, errors_of, tried
+from tests.robustness.fuzz.forked_child import forking
 
 KINDS = ("single", "family")
 """Each place alone, or a name at once with what refers to it."""
@@ -37,18 +38,27 @@ class Round:
     faults: tuple[str, ...]
 
 
-def run(folder: Path, files: Files, kind: str, turn: int, endings: tuple[str, ...] = (".yaml", ".urdf")) -> Round:
+def run(
+    folder: Path,
+    files: Files,
+    kind: str,
+    turn: int,
+    endings: tuple[str, ...] = (".yaml", ".urdf"),
+    suspects: Collection[Place] = (),
+) -> Round:
     """Give every place the payload whose turn it is, let what refuses refuse, and read what is made of the rest.
 
     Args:
         kind: one of ``KINDS``.
         turn: as many turns as there are payloads give each of them to each place.
         endings: of the files whose places are tried.
+        suspects: places whose texts are refused on the line of another, as far as they are known.
     """
     texts = _texts(files, kind, turn, endings)
-    trial = tried(folder, files, texts)
-    said = (fault for checked in (*trial.seen, trial.checked) for fault in outputs(checked))
-    return Round(trial, (*dict.fromkeys(said), *_faults(folder, files, trial)))
+    with forking():
+        trial = tried(folder, files, texts, suspects)
+        said = (fault for checked in (*trial.seen, trial.checked) for fault in outputs(checked))
+        return Round(trial, (*dict.fromkeys(said), *_faults(folder, files, trial)))
 
 
 def _texts(files: Files, kind: str, turn: int, endings: tuple[str, ...]) -> dict[Place, str]:
