@@ -91,6 +91,8 @@ class Behaviour(Term):
     FORCE_TORQUE_SENSOR_BROADCASTER = "force_torque_sensor_broadcaster"
     BROADCASTER = "broadcaster"
     SERVICE = "service"
+    OWN_MOTION = "own_motion"
+    """A device moves, or lets itself be moved, past its joints' interfaces: force control, hand guiding."""
 
 
 TRAJECTORIES = frozenset({Behaviour.JOINT_TRAJECTORY, Behaviour.SCALED_JOINT_TRAJECTORY})
@@ -98,6 +100,9 @@ TRAJECTORIES = frozenset({Behaviour.JOINT_TRAJECTORY, Behaviour.SCALED_JOINT_TRA
 
 PASSIVE = frozenset({Behaviour.BROADCASTER, Behaviour.SERVICE})
 """They command no joint: such a kind of a device publishes what the hardware reports, or answers services."""
+
+OF_ONE_DEVICE = PASSIVE | {Behaviour.OWN_MOTION}
+"""They act as no neutral kind: such a kind of a device says itself what it claims, reads, publishes and serves."""
 
 
 class AttemptOutcome(Term):

@@ -75,13 +75,25 @@ class CommandFacts(CatalogModel):
     source: Text
 
 
+class CommandModes(CatalogModel):
+    """Ways of commanding a device of which its plugin takes one at a time.
+
+    ``names`` are interfaces of joints, such as ``position``, and gpios that a controller claims something of; a gpio is
+    named without prefix. The plugin refuses a switch to two of them unless they are a pair of ``together``.
+    """
+
+    names: tuple[Token, ...] = Field(min_length=2)
+    together: tuple[tuple[Token, Token], ...] = ()
+    source: Text
+
+
 class HardwareFacts(CatalogModel):
     """A hardware plugin, the ``<param>`` values that it is given, and what it does in the world.
 
     ``left_out_when_empty`` are parameters that the plugin has a default for: an empty ``<param>`` makes the reader
     of ros2_control complain. ``commands`` is what a kind of controller claims on this hardware. ``command_timeout``
     is the longest silence of the controller manager before the device ends what it does. ``nodes`` are those that the
-    plugin makes in the manager's process.
+    plugin makes in the manager's process. ``modes`` exclude each other.
     """
 
     plugin: Text
@@ -94,6 +106,7 @@ class HardwareFacts(CatalogModel):
     told: dict[NeedName, ToldFacts] = Field(default_factory=dict)
     command_timeout: Duration | None = None
     nodes: tuple[InnerNodeFacts, ...] = ()
+    modes: CommandModes | None = None
     source: Text
 
     def release(self, distro: Distro, driver: str) -> HardwareRelease | None:

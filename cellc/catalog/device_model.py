@@ -10,7 +10,7 @@ joints, sensors and gpios are named without prefix.
 
 from typing import Literal
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from cellc.catalog.catalog_model import CatalogModel, Date, DistroName, FileName, GateName, Text, Token
 from cellc.catalog.device_controller import DeviceController
@@ -125,6 +125,27 @@ class CommissioningStep(CatalogModel):
     source: Text
 
 
+class RecordFacts(CatalogModel):
+    """Where the record of an attempt with the real device has a field from.
+
+    ``controller`` is a kind of controller of this device, ``topic`` the name below its node, ``field`` what holds it.
+    None of them where no topic of the driver has it: then ``read`` tells where a person reads it.
+    """
+
+    controller: Token | None = None
+    topic: Token | None = None
+    field: Token | None = None
+    read: Text | None = None
+    source: Text
+
+    @model_validator(mode="after")
+    def _by_a_topic_or_a_person(self) -> "RecordFacts":
+        told = (self.controller, self.topic, self.field)
+        if any(part is None for part in told) == (self.read is None) or (self.read and any(told)):
+            raise ValueError("must have `controller`, `topic` and `field`, or `read` alone")
+        return self
+
+
 class KinematicsFacts(CatalogModel):
     """How the vendor's tool writes where the joints of one very robot stand.
 
@@ -231,6 +252,7 @@ class DeviceModel(CatalogModel):
     actions: tuple[ActionFacts, ...] = ()
     network: NetworkFacts | None = None
     safety: SafetyFacts | None = None
+    record: dict[Literal["speed_scaling", "safety_state", "fault_code"], RecordFacts] = Field(default_factory=dict)
     commissioning: tuple[CommissioningStep, ...] = ()
     versions: tuple[VersionRow, ...] = ()
     mock_cannot_prove: tuple[Text, ...] = ()

@@ -19,7 +19,7 @@ from cellc.description.urdf_reader import read_urdf
 from cellc.diagnostics import Diagnostic, Outcome
 from cellc.limits import Purse
 from cellc.source.document import SourceDocument
-from cellc.vocabulary import PASSIVE
+from cellc.vocabulary import OF_ONE_DEVICE
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,7 +106,7 @@ def _load(
         return Outcome(None, tuple(_at_its_name(found, file, document) for found in description.diagnostics))
     profiles = load_qos_profiles().value
     assert profiles is not None  # package data, held valid by the catalog's tests
-    known = CatalogNames({*controller_kinds(), *PASSIVE}, set(profiles.profiles))
+    known = CatalogNames({*controller_kinds(), *OF_ONE_DEVICE}, set(profiles.profiles))
     unknown = tuple(unknown_names(model, description.value, document, known))
     device = None if unknown else CatalogDevice(model, description.value)
     return Outcome(device, description.diagnostics + unknown)
@@ -181,11 +181,11 @@ def kind_behind(type_: str, device: DeviceModel | None) -> ControllerKind | None
         device: the device that the controller is of, if it is of any.
 
     Returns:
-        The neutral kind, that which a device's variant acts as, or a passive kind of the device itself.
+        The neutral kind, that which a device's variant acts as, or a kind of the device itself.
     """
     own = None if device is None else device.controllers.get(type_)
     if own is None:
         return load_controller_kind(type_).value if type_ in controller_kinds() else None
     assert device is not None  # it has the controller
-    passive = own.passive_kind(device.as_of)
-    return passive if passive is not None else load_controller_kind(own.behaviour).value
+    kind = own.own_kind(device.as_of)
+    return kind if kind is not None else load_controller_kind(own.behaviour).value

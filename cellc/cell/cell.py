@@ -25,6 +25,7 @@ from cellc.cell.site import (
     Target,
     Versions,
 )
+from cellc.cell.vendor import RecordSource
 from cellc.diagnostics import Span
 from cellc.vocabulary import Behaviour, Distro
 
@@ -112,6 +113,12 @@ class Cell:
     def controllers(self) -> tuple[Controller, ...]:
         """Controllers of all managers, in order."""
         return tuple(controller for manager in self.managers for controller in manager.controllers)
+
+    def reporting(self, device: Device, source: RecordSource) -> Controller | None:
+        """Return the controller of a device that publishes a field of the record on the real target, if one does."""
+        kind = source.controller_kind
+        own = (one for one in self.controllers if one.device == device.name and one.kind == kind)
+        return next((one for one in own if one.active and "real" in one.targets), None)
 
     def device(self, name: str) -> Device:
         """Return a device by its name in the spec.

@@ -11,9 +11,9 @@ from cellc.cell.frame import WORLD
 from cellc.cell.hardware import Effect, HardwareComponent
 from cellc.cell.interface import InterfaceKind
 from cellc.cell.site import UNKNOWN, Clock, JointFigure
+from cellc.cell.vendor import CommissioningStep, RecordSource, VendorSafety
 from cellc.description.model import Description
 from cellc.transforms import Pose, Vector3, identity
-from cellc.vocabulary import GateCode
 
 EVERY_JOINT = "*"
 """Name of what the mock adds to every joint that is commanded."""
@@ -228,49 +228,6 @@ class NetworkNeeds:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class SafetyState:
-    """A state of the device's safety controller, and how its driver reports it."""
-
-    name: str
-    stops: bool
-    reported: str | None = None
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class RecoveryProcedure:
-    """The way out of one state: steps in order, the human ones first."""
-
-    state: str
-    steps: tuple[str, ...]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class VendorSafety:
-    """The vendor's safety boundary; no software of the cell is part of it."""
-
-    states: tuple[SafetyState, ...] = ()
-    modes: tuple[str, ...] = ()
-    recovery: tuple[RecoveryProcedure, ...] = ()
-    watchdog: str | None = None
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class CommissioningStep:
-    """What a person does at the real device in a gate, by its vendor's procedure.
-
-    ``shows`` where it is what must be seen once the release of that gate has been made, ``powers`` where drives have
-    power by it, so that the stop can be tried. ``log`` where it stands in the driver's log: what the lines hold of
-    which the newest counts.
-    """
-
-    gate: GateCode
-    does: str
-    shows: bool = False
-    powers: bool = False
-    log: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class Packages:
     """Packages or libraries of the vendor as they stand in the version tuple; None where there is none."""
 
@@ -305,6 +262,7 @@ class Device(Entity):
         offers: what the driver offers whether the spec names it or not.
         starts: full name of a node of the driver → what the start of its process does.
         version_rows: the matrix of versions that go together.
+        record: where the record of an attempt has fields from that the real one alone can tell.
         commissioning: what people do at the real one, in the vendor's order.
         mock_cannot_prove: what no mock shows of it.
     """
@@ -346,6 +304,7 @@ class Device(Entity):
     network: NetworkNeeds | None = None
     safety: VendorSafety = field(default_factory=VendorSafety)
     packages: Packages = field(default_factory=Packages)
+    record: tuple[RecordSource, ...] = ()
     commissioning: tuple[CommissioningStep, ...] = ()
     version_rows: tuple[VersionRow, ...] = ()
     mock_cannot_prove: tuple[str, ...] = ()

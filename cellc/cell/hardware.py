@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Container, Iterable, Mapping
 from dataclasses import dataclass, field
 
 from cellc.cell.interface import InnerNode
@@ -63,6 +63,27 @@ class Told:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class CommandModes:
+    """Ways of commanding the real device: interfaces of its joints, and full names of gpios.
+
+    Args:
+        together: pairs that may be commanded at once; every other switch to two is refused.
+    """
+
+    names: frozenset[str]
+    together: frozenset[frozenset[str]]
+
+    def of(self, claims: Iterable[str], joints: Container[str]) -> frozenset[str]:
+        """Return the modes that full names of claimed interfaces stand for; ``joints`` are those of the device."""
+        ends = (claim.rpartition("/") for claim in claims)
+        return self.names & {last if owner in joints else owner for owner, _, last in ends}
+
+    def allow(self, one: str, other: str) -> bool:
+        """Tell whether the plugin commands both at once."""
+        return one == other or frozenset((one, other)) in self.together
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class HardwareComponent:
     """A component of ros2_control; plugins and parameters by target (``mock``, ``real``).
 
@@ -75,6 +96,7 @@ class HardwareComponent:
         told: where the cell hears whether a need holds.
         nodes: those that the real plugin makes in the process of the controller manager.
         command_timeout_s: the longest silence before the device ends what it does; None where nobody told.
+        modes: ways of commanding the real one that exclude each other; None where nobody told.
     """
 
     name: str
@@ -90,6 +112,7 @@ class HardwareComponent:
     command_timeout_s: float | None = None
     told: Mapping[Need, Told] = field(default_factory=dict)
     nodes: tuple[InnerNode, ...] = ()
+    modes: CommandModes | None = None
 
     @property
     def kept_by_a_claim(self) -> tuple[Need, ...]:

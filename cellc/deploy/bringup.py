@@ -42,7 +42,7 @@ from cellc.contract.bring_up import (
 )
 from cellc.deploy.processes import asks_for_motion, bring_up_enclave, description_nodes, motion_clients
 from cellc.link.derived import JOINT_STATE_TYPE
-from cellc.vocabulary import PASSIVE, BringUpPhase
+from cellc.vocabulary import PASSIVE, Behaviour, BringUpPhase
 
 WATCH = "watch"
 """What the program of the bring-up is told to do where it deactivates claims of a robot that no longer listens."""
@@ -140,8 +140,9 @@ def _observe(cell: Cell, manager: ControllerManager, target: Target) -> Iterator
 
 
 def _activate_hardware(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[BringUpStep]:
-    """Yield what takes hardware to active that moves by it, and restarts what read the states before it was there."""
+    """Yield what takes hardware to active that moves by it, and restarts what read its states before it was there."""
     devices = _activated_later(cell, manager, target)
+    read = {None, *(device.name for device in devices)}  # a broadcaster of no device reads those of all
     for device in devices:
         yield _step(
             BringUpPhase.ACTIVATE,
@@ -151,7 +152,8 @@ def _activate_hardware(cell: Cell, manager: ControllerManager, target: Target) -
             HardwareActivation(kind="hardware", manager=manager.node, component=_component(device)),
             [_hardware(manager, device, "active")],
         )
-    observing = tuple(one.name for one in _active(manager, target) if not one.command_interfaces)
+    readers = (one for one in _active(manager, target) if not one.command_interfaces)
+    observing = tuple(one.name for one in readers if one.device in read)
     if devices and observing:
         yield _step(
             BringUpPhase.ACTIVATE,
@@ -286,7 +288,8 @@ def _watches(cell: Cell) -> Iterator[Watch]:
             claiming = tuple(
                 one.name
                 for one in manager.controllers
-                if "real" in one.targets and _claims(cell, one, ()) and own & set(one.joints)
+                if "real" in one.targets and _claims(cell, one, ())
+                if own & set(one.joints) or (one.behaviour is Behaviour.OWN_MOTION and one.device == device.name)
             )
             yield Watch(manager=manager.node, controllers=claiming, while_holds=proof)
 
@@ -315,7 +318,8 @@ def _transform(parent: str, child: str) -> TransformProof:
 def _joint_states(cell: Cell, manager: ControllerManager) -> Iterator[TopicProof]:
     own = {controller.full_name for controller in manager.controllers}
     for interface in cell.interfaces:
-        if interface.type == JOINT_STATE_TYPE and any(end.full_name in own for end in interface.sources):
+        published = any(end.full_name in own for end in interface.sources)
+        if interface.type == JOINT_STATE_TYPE and interface.sinks and published:
             yield TopicProof(kind="topic", topic=interface.name, type=interface.type)
 
 

@@ -106,7 +106,7 @@ def _mock_actions(graph: CellGraph) -> Iterator[Values]:
 
 
 def _joint_states(graph: CellGraph) -> Iterator[Values]:
-    return ((one.name,) for one in _on_real(graph) if one.type == JOINT_STATE_TYPE)
+    return ((one.name,) for one in _on_real(graph) if one.type == JOINT_STATE_TYPE and one.sinks)
 
 
 def _managed_nodes(graph: CellGraph) -> Iterator[Values]:

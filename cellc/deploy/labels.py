@@ -10,7 +10,7 @@ from cellc.cell.control import Controller, ControllerManager
 from cellc.cell.device import Device, DeviceDriver
 from cellc.cell.interface import Interface, InterfaceKind
 from cellc.formats.numbers import shortest
-from cellc.vocabulary import PASSIVE
+from cellc.vocabulary import PASSIVE, Behaviour
 
 TF_RATE_HZ = 20.0
 """Default of robot_state_publisher's ``publish_frequency``; the launch file states it."""
@@ -161,7 +161,9 @@ def units(cell: Cell, controller: Controller) -> str:
         _UNITS[kind][types[joint] == "prismatic"] if joint in types and kind in _UNITS else f"as {kind} of the device"
         for joint, _, kind in (name.rpartition("/") for name in controller.all_claims)
     )
-    return "as its services" if controller.behaviour in PASSIVE else ", ".join(dict.fromkeys(found))
+    if controller.behaviour in PASSIVE:
+        return "as its services"
+    return "as its device moves" if controller.behaviour is Behaviour.OWN_MOTION else ", ".join(dict.fromkeys(found))
 
 
 def folded(names: Iterable[str]) -> Iterator[str]:

@@ -20,7 +20,7 @@ from cellc.link.quantities import si
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
 from cellc.spec.control import ControllerSpec
-from cellc.vocabulary import PASSIVE, Behaviour, Distro
+from cellc.vocabulary import OF_ONE_DEVICE, Behaviour, Distro
 
 _MOVES_THE_MOCK = {"position", "velocity", "acceleration"}
 
@@ -256,7 +256,7 @@ def _stand_in(kind: ControllerKind, device: Device) -> StandIn | None:
 
 def _interfaces(joints: tuple[str, ...], written: ControllerSpec, chosen: _Chosen) -> _Interfaces:
     kind, bound, own = chosen.kind, chosen.bound, chosen.own
-    if bound is not None and own is not None and own.behaviour in PASSIVE:
+    if bound is not None and own is not None and own.behaviour in OF_ONE_DEVICE:
         # It drives no joint, and names what it takes in full.
         command, state = (tuple(map(bound.names.fill, names)) for names in own.taken(chosen.plugin))
         return _Interfaces((), (), (), command, state)

@@ -21,7 +21,7 @@ from cellc.link.hardware import JOINT_STATES
 from cellc.link.nodes import DESCRIPTION_PUBLISHER, description_home
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
-from cellc.vocabulary import PASSIVE, Distro
+from cellc.vocabulary import OF_ONE_DEVICE, Distro
 
 
 @dataclass(frozen=True, slots=True)
@@ -186,12 +186,12 @@ def _of_drivers(source: Derivation) -> Iterator[Endpoint]:
 
 
 def control_interfaces(source: Derivation) -> Iterator[Interface]:
-    """Yield the actions of all controllers, and the topics and services of the passive ones."""
+    """Yield the actions of all controllers, and the topics and services of those of one device."""
     for manager in source.managers:
         for controller in manager.controllers:
             yield from _actions(source, controller)
-            if controller.behaviour in PASSIVE:
-                yield from _passive(source, controller)
+            if controller.behaviour in OF_ONE_DEVICE:
+                yield from _of_one_device(source, controller)
 
 
 def _actions(source: Derivation, controller: Controller) -> Iterator[Interface]:
@@ -230,27 +230,29 @@ def _clients(source: Derivation, controller: Controller, interface: str) -> tupl
     return (source.end(controller.client, interface, (*controller.path, "client")),)
 
 
-def _passive(source: Derivation, controller: Controller) -> Iterator[Interface]:
+def _of_one_device(source: Derivation, controller: Controller) -> Iterator[Interface]:
     kind = controller.declared
     if kind is None:
         return
     for topic in kind.topics:
-        if topic.direction == "publish" and (not topic.only or source.distro in topic.only):
+        if not topic.only or source.distro in topic.only:
             yield _topic(source, controller, topic)
     yield from (_service(source, controller, service) for service in kind.services)
 
 
 def _topic(source: Derivation, controller: Controller, topic: ControllerTopic) -> Interface:
     name = _absolute(controller, topic.name)
-    qos = source.resolver.writer(topic.qos)
+    said = topic.direction == "publish"
+    qos = source.resolver.writer(topic.qos) if said else source.resolver.reader(topic.qos)
+    own = (source.end(controller.label, name, controller.path, qos),)
     return Interface(
         name=name,
         path=controller.path,
         span=controller.span,
         kind=InterfaceKind.TOPIC,
         type=topic.type,
-        sources=(source.end(controller.label, name, controller.path, qos),),
-        sinks=(),
+        sources=own if said else _clients(source, controller, name),
+        sinks=() if said else own,
         derived=True,
         time_source="ros",
         owner=source.spec.owners.responsibilities.command,

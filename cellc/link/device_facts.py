@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 from cellc.catalog.device_interfaces import ViewFacts
@@ -10,7 +11,6 @@ from cellc.cell.device import (
     Adapter,
     Camera,
     CameraStream,
-    CommissioningStep,
     Connection,
     Device,
     DeviceVersions,
@@ -20,12 +20,10 @@ from cellc.cell.device import (
     NetworkNeeds,
     Packages,
     Payload,
-    RecoveryProcedure,
-    SafetyState,
     SimulatedJoint,
     Stamp,
-    VendorSafety,
 )
+from cellc.cell.vendor import CommissioningStep, RecordSource, RecoveryProcedure, SafetyState, VendorSafety
 from cellc.link.hardware import offered_interfaces, run_nodes, started_nodes
 from cellc.link.names import Placeholders
 from cellc.link.quantities import joint_figure, si, vector
@@ -76,9 +74,17 @@ def with_catalog(
             for one in facts.commissioning
             if not one.only or distro in one.only
         ),
+        record=tuple(_record(facts)),
         version_rows=facts.versions,
         mock_cannot_prove=facts.mock_cannot_prove,
     )
+
+
+def _record(facts: DeviceModel) -> Iterator[RecordSource]:
+    for field, told in facts.record.items():
+        yield RecordSource(
+            attempt_field=field, controller_kind=told.controller, topic=told.topic, field=told.field, read=told.read
+        )
 
 
 def _versions(written: DeviceSpec) -> DeviceVersions:

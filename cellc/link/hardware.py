@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import replace
 
 from cellc.catalog.device_interfaces import (
@@ -16,7 +16,7 @@ from cellc.catalog.device_interfaces import (
 from cellc.catalog.device_model import DeviceModel
 from cellc.catalog.effects import EffectFacts
 from cellc.cell.device import Device, DeviceDriver, OfferedInterface
-from cellc.cell.hardware import Effect, HardwareComponent, InterfaceGroup, Told
+from cellc.cell.hardware import CommandModes, Effect, HardwareComponent, InterfaceGroup, Told
 from cellc.cell.interface import InterfaceKind, ParameterValue
 from cellc.cell.site import UNKNOWN
 from cellc.link.names import Placeholders
@@ -62,7 +62,16 @@ def hardware_component(
     if real is None:
         return component
     made = inner_nodes(real.nodes, "", distro, known.fill)
-    return replace(_with_effects(component, real, distro), nodes=made)
+    return replace(_with_effects(component, real, distro), nodes=made, modes=_modes(real, control.gpios, prefix))
+
+
+def _modes(real: HardwareFacts, gpios: Container[str], prefix: str) -> CommandModes | None:
+    told = real.modes
+    if told is None:
+        return None
+    full = {name: prefix + name if name in gpios else name for name in told.names}
+    pairs = (frozenset((full[one], full[other])) for one, other in told.together)
+    return CommandModes(names=frozenset(full.values()), together=frozenset(pairs))
 
 
 def _parameters(hardware: HardwareFacts, known: Placeholders, release: HardwareRelease | None) -> dict[str, str]:

@@ -28,11 +28,12 @@ _HIDDEN = {
     Device: {
         *("vendor", "kind", "description", "home", "optical_frames", "payload_limit_kg", "update_rates_hz"),
         *("controller_kinds", "speed_scaling", "gripper", "camera", "offers", "network", "safety", "packages"),
-        *("version_rows", "commissioning", "mock_cannot_prove", "starts"),
+        *("version_rows", "commissioning", "record", "mock_cannot_prove", "starts"),
     },
     Node: {"endpoints", "inside"},
     HardwareComponent: {
         *("effects", "told", "initial_state", "at_once", "command_timeout_s", "enforce_command_limits", "nodes"),
+        "modes",
     },
 }
 _DERIVED = {"measured_on", "joints"}

@@ -23,7 +23,7 @@ from cellc.catalog.load import (
     load_message_types,
     load_qos_profiles,
 )
-from cellc.vocabulary import PASSIVE, Distro
+from cellc.vocabulary import OF_ONE_DEVICE, Distro
 from tests.foreign_yaml import safe_load
 from tests.oracles import UPSTREAM
 
@@ -93,7 +93,7 @@ def test_device_speaks_of_known_types_profiles_and_kinds(name: str) -> None:
         assert types.kind_of(action.type) == "action"
     released = {row.distro for row in model.versions if row.part == "driver"}
     for controller in model.controllers.values():
-        assert controller.behaviour in (*controller_kinds(), *PASSIVE)
+        assert controller.behaviour in (*controller_kinds(), *OF_ONE_DEVICE)
         # A controller of the vendor exists where its driver is released, one of ros2_controllers everywhere.
         assert set(controller.plugins) in (set(Distro), released)
 

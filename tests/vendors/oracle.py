@@ -129,7 +129,7 @@ def exports(release: Release, side: str, prefix: str) -> dict[str, set[str]]:
     found: dict[str, set[str]] = {}
     for name, listed in told[f"exports_{side}"].items():
         names = listed["interfaces"] if isinstance(listed, dict) else listed
-        found[name.replace("<tf_prefix>", prefix)] = set(_counted(names))
+        found[name.replace("<tf_prefix>", prefix)] = set(counted(names))
     return found
 
 
@@ -143,7 +143,7 @@ def _exports_of_fr3(told: Any, side: str, prefix: str) -> dict[str, set[str]]:
     return found
 
 
-def _counted(names: Iterable[str]) -> Iterator[str]:
+def counted(names: Iterable[str]) -> Iterator[str]:
     """Yield names with ``_[0..17]`` written out."""
     for name in names:
         counted = re.fullmatch(r"(.*)\[(\d+)\.\.(\d+)\](.*)", name)

@@ -60,11 +60,12 @@ def _written(text: str, model: str, release: Release) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Case:
-    """A cell, the release of the driver of one of its devices, and a controller that is left out of the cell."""
+    """A cell, a release of the driver of one of its devices, and controllers that are left out of the cell or added."""
 
     cell: str
     release: Release
     without: str = ""
+    added: str = ""
 
     def __str__(self) -> str:
         return f"{self.cell}-{self.release}"
@@ -83,6 +84,7 @@ def real_target(case: Case) -> RealTarget:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "cell.yaml"
         text = re.sub(rf"\n    {case.without}: .*", "", spec_text(case.cell)) if case.without else spec_text(case.cell)
+        text = text.replace("  controllers:\n", f"  controllers:\n{case.added}", 1)
         path.write_text(_written(text, release.device, release), encoding="utf-8")
         graph = graph_of(path)
     plan = plan_deployment(graph)

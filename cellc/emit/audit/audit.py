@@ -21,6 +21,7 @@ from cellc.emit.audit.tables import (
     interfaces_section,
     nodes_section,
     owners_section,
+    record_section,
     table,
     tf_section,
 )
@@ -57,6 +58,7 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
         "Expected actions": interfaces_section(cell, InterfaceKind.ACTION),
         "Expected of drivers": drivers_section(cell),
         "Expected TF publishers": tf_section(cell),
+        "Attempt record": record_section(cell),
         "Approvals": table(("area", "question", "owner"), approvals(cell)),
         "Responsibilities": table(("responsibility", "owner"), responsibilities(cell)),
         "Recovery": "\n".join(recovery(cell)),

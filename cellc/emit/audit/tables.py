@@ -6,7 +6,9 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from cellc.cell.cell import Cell
 from cellc.cell.control import Controller, ControllerManager
+from cellc.cell.device import Device
 from cellc.cell.interface import Endpoint, Interface, InterfaceKind, Node, NodeSource
+from cellc.cell.vendor import RecordSource
 from cellc.deploy.files import QOS_OVERRIDES, controllers_file, is_planner, parameter_files, plans
 from cellc.deploy.labels import (
     ON_TARGET,
@@ -146,6 +148,25 @@ def tf_section(cell: Cell) -> str:
         if frame.parent:
             publishers.setdefault(frame.authority, []).append(frame.name)
     return table(("publisher", "frames"), ((name, _code(frames)) for name, frames in publishers.items()))
+
+
+def record_section(cell: Cell) -> str:
+    """Write where the record of an attempt on the real target has from what the devices alone can tell."""
+    return table(("field", "device", "from"), _record(cell))
+
+
+def _record(cell: Cell) -> Iterator[tuple[str, ...]]:
+    for device in cell.devices:
+        for source in device.record:
+            if source.attempt_field in cell.recording.attempt_fields:
+                yield code(source.attempt_field), device.name, _record_source(cell, device, source)
+
+
+def _record_source(cell: Cell, device: Device, source: RecordSource) -> str:
+    if source.read is not None:
+        return f"by hand: {source.read}"
+    told = cell.reporting(device, source)
+    return _NOT_STATED if told is None else f"`{source.field}` of {code(f'{told.full_name}/{source.topic}')}"
 
 
 def _nodes(cell: Cell) -> Iterator[tuple[str, ...]]:

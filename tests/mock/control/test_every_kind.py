@@ -99,6 +99,7 @@ def _offers() -> Iterator[Offer]:
                 yield Offer(kind.kind.value, name, kind.kind, tuple(kind.plugins), text)
         for own, facts in device.model.controllers.items():
             moves = not facts.command_interfaces or facts.command_interfaces in SIMULATED
+            moves = moves and facts.behaviour is not Behaviour.OWN_MOTION
             yield Offer(own, name, facts.behaviour, tuple(facts.plugins), "" if moves else ", active: false")
 
 

@@ -38,6 +38,7 @@ _FACTORIES: Mapping[Behaviour, Callable[[Context], Controller]] = {
     Behaviour.PID: PidController,
     Behaviour.BROADCASTER: DeclaredController,
     Behaviour.SERVICE: DeclaredController,
+    Behaviour.OWN_MOTION: DeclaredController,
 }
 
 _ALL = tuple(Distro)

@@ -1,0 +1,73 @@
+"""Two controllers are active together, and the driver of their device commands it in one of their ways at a time.
+
+No claim collides: one holds joints, the other a gpio of the same driver. The driver looks at both as the switch is
+prepared and refuses it, or takes one of them without a word. It shows the first time that the switch is needed.
+
+Example that is reported:
+
+```yaml
+control:
+  controllers:
+    arm_guiding: {type: hand_guiding, device: arm, client: task, active: false}
+  switches:
+    to_guiding: {activate: [arm_guiding]}  # expect at to_guiding
+    back: {deactivate: [arm_guiding]}
+```
+
+Example that is accepted:
+
+```yaml
+control:
+  controllers:
+    arm_guiding: {type: hand_guiding, device: arm, client: task, active: false}
+  switches:
+    to_guiding: {activate: [arm_guiding], deactivate: [arm_trajectory]}
+    back: {activate: [arm_trajectory], deactivate: [arm_guiding]}
+```
+
+Fix: deactivate one in the switch that activates the other.
+
+Source: https://github.com/UniversalRobots/Universal_Robots_ROS2_Driver/tree/3.8.0/ur_robot_driver/src (3.8.0)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import combinations
+
+from cellc.cell.cell import Cell
+from cellc.cell.control import Controller
+from cellc.graph.claims import ControlState
+from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
+
+
+@rule(Severity.ERROR, assumes=("own-motion-at-start", "double-claim-after-switch", "two-interfaces-of-one-joint"))
+def check(graph: CellGraph) -> Findings:
+    """Yield the switch that leads to two controllers whose ways of commanding exclude each other, once for a pair."""
+    seen: set[tuple[str, str, str]] = set()
+    for state in graph.claims.states:
+        for first, second, device, ways in _refused(graph.cell, state):
+            pair = (state.manager, first.name, second.name)
+            if pair in seen:
+                continue
+            seen.add(pair)
+            manager = next(one for one in graph.cell.managers if one.name == state.manager)
+            path = (*manager.path, "switches", state.switches[-1]) if state.switches else second.path
+            way = " → ".join(f"`{name}`" for name in ("start", *state.switches))
+            message = f"after {way} both `{first.name}` and `{second.name}` are active, but `{device}` takes {ways}"
+            related = (Related("the one stands here", first.span), Related("the other here", second.span))
+            yield found(graph, path, message, f"deactivate `{first.name}` in the same switch", related)
+
+
+def _refused(cell: Cell, state: ControlState) -> Iterator[tuple[Controller, Controller, str, str]]:
+    """Yield pairs of active controllers that no driver commands at once, with the device and its two ways."""
+    for device in cell.devices:
+        modes = None if device.hardware is None else device.hardware.modes
+        if modes is None:
+            continue
+        joints = {joint.name for joint in device.joints}
+        taken = [(one, modes.of(one.claims("real"), joints)) for one in state.active if "real" in one.targets]
+        for (first, ways), (second, others) in combinations(taken, 2):
+            refused = ((a, b) for a in sorted(ways) for b in sorted(others) if not modes.allow(a, b))
+            if (pair := next(refused, None)) is not None:
+                yield first, second, device.name, f"`{pair[0]}` or `{pair[1]}`"
