@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cells import CELLS, DISTROS, Compiled, compiled, spec_of, written
+from tests.cells import CELLS, DISTROS, Compiled, compiled, spec_of, without_absent, written
 from tests.foreign_yaml import safe_load
 
 HERE = Path(__file__).resolve().parent
@@ -64,10 +64,6 @@ def _compiled(cell: str, distro: str) -> Build:
     return Build(build.graph, build.artifacts, cell, distro)
 
 
-_ABSENT = {"kilted": ("robot_state_broadcaster",), "lyrical": ("robot_state_broadcaster",)}
-"""Kinds of controllers whose driver a distribution has in no release: each stands in one line of a spec."""
-
-
 def spec_for(cell: str, distro: str) -> str:
     """Return the spec of a cell with the version tuple of a distribution in place of its own."""
     text = SPECS[cell].read_text(encoding="utf-8")
@@ -79,6 +75,4 @@ def spec_for(cell: str, distro: str) -> str:
             text = re.sub(rf"^(  {name}: ){own}", rf"\g<1>{version}", text, flags=re.MULTILINE)
         pinned = "UNKNOWN" if version == "UNKNOWN" else f"{name} {version}"
         text = re.sub(rf": {name} \d{own}", f": {pinned}", text, flags=re.MULTILINE)
-    for kind in _ABSENT.get(distro, ()):
-        text = re.sub(rf"\n +\w+: {{type: {kind}, .*", "", text)
-    return text
+    return without_absent(text, distro)
