@@ -8,7 +8,7 @@ from typing import Any
 from xml.etree.ElementTree import fromstring
 
 from tests.consumers.launch_interpreter import Launch, Process
-from tests.consumers.matrix import SPECS, Build, build
+from tests.consumers.matrix import SPECS, Build, build, spec_for
 from tests.foreign_yaml import safe_load
 
 CONFIRMED = {"target": "real", "confirm_real": "I_HAVE_PASSED_GATES_G0_TO_G2"}
@@ -81,9 +81,9 @@ def written(cell: str) -> Any:
     return safe_load(SPECS[cell].read_text(encoding="utf-8"))
 
 
-def written_managers(cell: str) -> list[tuple[str, Any]]:
-    """Return namespace and text of each controller manager of the spec."""
-    spec = written(cell)
+def written_managers(cell: str, distro: str) -> list[tuple[str, Any]]:
+    """Return namespace and text of each controller manager of the spec for a distribution."""
+    spec = safe_load(spec_for(cell, distro))
     managers = list(spec.get("managers", {}).values()) or [spec["control"]]
     return [(manager.get("namespace", ""), manager) for manager in managers]
 

@@ -115,7 +115,7 @@ def _si(text: str) -> float:
 def test_tolerances_are_those_of_the_spec_for_every_joint(cell: str, distro: str) -> None:
     texts = build(cell, distro).texts
     loops = [one for one in processes(cell, distro, "mock") if one.executable == "ros2_control_node"]
-    for process, (namespace, manager) in zip(loops, written_managers(cell), strict=True):
+    for process, (namespace, manager) in zip(loops, written_managers(cell, distro), strict=True):
         for name, one in manager["controllers"].items():
             own = told(texts, process.files, f"{namespace}/{name}")
             for joint in own.get("joints", ()) if "goal_time" in one else ():

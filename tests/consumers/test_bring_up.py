@@ -32,6 +32,7 @@ from tests.foreign_yaml import safe_load
 
 TARGETS = ("mock", "real")
 _DESCRIBING = ("robot_state", "description")
+_REPORTING = ("arm_speed", "arm_io", "arm_tcp", "arm_software")
 _RUNNING = "/arm_io/robot_program_running"
 
 
@@ -130,7 +131,7 @@ def test_conditions_name_what_the_cell_has(cell: str, distro: str) -> None:
 @every_build
 def test_mover_of_the_mock_looks_at_the_description_of_every_manager(cell: str, distro: str) -> None:
     # Each host is started with a target of its own, so that one manager may run the mock and another a robot.
-    managers = [namespace for namespace, _ in written_managers(cell)]
+    managers = [namespace for namespace, _ in written_managers(cell, distro)]
     alone = f"/{'robot_state' if len(managers) == 1 else 'description'}_publisher"
     asked = "/controller_manager" if distro == "humble" else alone
     moving = [step for step in plan(cell, distro)["mock"] if step["phase"] == "move"]
@@ -156,7 +157,7 @@ def test_nothing_is_asked_where_a_second_cell_would_hear_it(cell: str, distro: s
 @every_build
 def test_everything_is_activated_once_and_alternates_never(cell: str, distro: str) -> None:
     for target in TARGETS:
-        for namespace, manager in written_managers(cell):
+        for namespace, manager in written_managers(cell, distro):
             spawned = _spawned(cell, distro, target, namespace)
             wanted = [n for n, one in manager["controllers"].items() if one.get("active", True) and n in spawned]
             assert sorted(activated(cell, distro, target, f"{namespace}/controller_manager")) == sorted(wanted)
@@ -209,7 +210,7 @@ def started() -> StandIn:
     return StandIn(
         module,
         nodes_={"/perception": "unconfigured", "/robot_state_publisher": ""},
-        controllers=dict.fromkeys(("joint_states", "arm_trajectory", "gripper_action", "arm_io"), "inactive"),
+        controllers=dict.fromkeys(("joint_states", "arm_trajectory", "gripper_action", *_REPORTING), "inactive"),
         hardware={"arm_hardware": "active", "gripper_hardware": "unconfigured"},
         messages={"/joint_states": SimpleNamespace(), _RUNNING: SimpleNamespace(data=True)},
         servers={"/move_action", "/gripper_action/gripper_cmd"},
@@ -242,6 +243,7 @@ def test_steps_are_taken_in_the_order_of_their_proofs(graph: StandIn, tmp_path: 
     assert graph.log == [
         "/perception inactive",
         "activate joint_states",
+        "activate arm_speed",
         "/perception active",
         "activate gripper_hardware",
         "deactivate joint_states",
@@ -264,7 +266,7 @@ def test_starting_the_real_target_claims_nothing(graph: StandIn, tmp_path: Path)
     assert run(graph, tmp_path, "--target", "real", "start") == 0
     # That of inputs and outputs claims no joint, and says whether the robot's program runs.
     active = {name for name, state in graph.controllers.items() if state == "active"}
-    assert active == {"joint_states", "arm_io"}
+    assert active == {"joint_states", *_REPORTING}
 
 
 def test_hardware_that_moves_as_it_is_activated_waits_for_a_person(graph: StandIn, tmp_path: Path) -> None:

@@ -142,7 +142,7 @@ def test_static_transforms_have_one_authority(cell: str, distro: str) -> None:
 @pytest.mark.parametrize("target", TARGETS)
 def test_spawners_follow_the_spec_and_activate_nothing(cell: str, distro: str, target: str) -> None:
     spawned = [process.arguments for process in spawners(cell, distro, target)]
-    for namespace, manager in written_managers(cell):
+    for namespace, manager in written_managers(cell, distro):
         flag = ("-c", f"{namespace}/controller_manager")
         own = [line for line in spawned if line[line.index("-c") :][:2] == flag]
         names = [name for line in own for name in line[: line.index("-c")]]

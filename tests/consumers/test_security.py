@@ -46,7 +46,7 @@ def test_controllers_serve_their_own_actions_alone_and_their_clients_alone_may_c
     for name, profile in found.items():
         for action in granted(profile, "actions", "call"):
             callers.setdefault(action, set()).add(name)
-    for namespace, manager in written_managers(cell):
+    for namespace, manager in written_managers(cell, distro):
         for controller, written in manager["controllers"].items():
             node = f"{namespace}/{controller}"
             served = granted(found[node], "actions", "execute")
@@ -117,7 +117,7 @@ _BY_SPAWNER = {"list_controllers", "load_controller", "configure_controller"}
 @every_build
 def test_managers_serve_what_they_have_and_spawners_may_call_what_they_need_and_no_more(cell: str, distro: str) -> None:
     found = profiles(cell, distro)
-    for namespace, _ in written_managers(cell):
+    for namespace, _ in written_managers(cell, distro):
         manager = f"{namespace}/controller_manager"
         served = {name.removeprefix(f"{manager}/") for name in granted(found[manager], "services", "reply")}
         assert {name for name in served if "/" not in name} - {"cleanup_controller"} == _OF_A_MANAGER
@@ -208,6 +208,6 @@ def test_people_may_neither_command_nor_switch_from_a_shell(cell: str, distro: s
     for name, one in contract_data(texts["contract.json"])["interfaces"].items():
         assert one["kind"] != "action" or not may.allow("call", name), name
         assert one["kind"] != "topic" or not may.allow("publish", name) or name in ("/rosout", "/parameter_events")
-    for namespace, _ in written_managers(cell):
+    for namespace, _ in written_managers(cell, distro):
         for service in ("switch_controller", "set_hardware_component_state", "load_controller", "set_parameters"):
             assert not may.allow("request", f"{namespace}/controller_manager/{service}")

@@ -24,9 +24,20 @@ _DECLARED_IN = {
     ),
     "position_controllers/GripperActionController": "gripper_controllers__gripper_action_controller",
     "ur_controllers/GPIOController": "../ur/gpio_controller",
+    "ur_controllers/SpeedScalingStateBroadcaster": "../ur/speed_scaling_state_broadcaster",
+    "ur_controllers/URConfigurationController": "../ur/ur_configuration_controller",
+    "pose_broadcaster/PoseBroadcaster": "pose_broadcaster__pose_broadcaster",
 }
 # Universal_Robots_ROS2_Driver, scaled_joint_trajectory_controller.cpp: declared in code, not in a parameter file.
-_OWN = {"ur_controllers/ScaledJointTrajectoryController": {"speed_scaling_interface_name": "string"}}
+_OWN = {
+    "ur_controllers/ScaledJointTrajectoryController": {"speed_scaling_interface_name": "string"},
+    # franka_ros2 2.5.0 and 3.4.0, franka_robot_state_broadcaster_parameters.yaml:10.
+    "franka_robot_state_broadcaster/FrankaRobotStateBroadcaster": {
+        "robot_type": "string",
+        "arm_prefix": "string",
+        "convenience_publish_rate": "int",
+    },
+}
 _TYPES = {"bool": bool, "int": int, "double": float, "string": str, "string_array": list, "double_array": list}
 
 
@@ -46,6 +57,8 @@ def _flat(tree: dict[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
 
 def _declared(distro: str, plugin: str, joints: list[str]) -> dict[str, str]:
     """Return the type of each parameter that the real controller declares, maps over joints filled in."""
+    if plugin not in _DECLARED_IN:
+        return _OWN[plugin]
     file = UPSTREAM / "parameters" / distro / f"{_DECLARED_IN[plugin]}_parameters.yaml"
     (tree,) = safe_load(file.read_text()).values()
     found = {name[: -len(".type")]: value for name, value in _flat(tree) if name.endswith(".type")}
@@ -84,6 +97,9 @@ def test_manager_learns_rate_and_plugins() -> None:
             "arm_trajectory": {"type": "ur_controllers/ScaledJointTrajectoryController"},
             "gripper_action": {"type": "parallel_gripper_action_controller/GripperActionController"},
             "arm_io": {"type": "ur_controllers/GPIOController"},
+            "arm_speed": {"type": "ur_controllers/SpeedScalingStateBroadcaster"},
+            "arm_tcp": {"type": "pose_broadcaster/PoseBroadcaster"},
+            "arm_software": {"type": "ur_controllers/URConfigurationController"},
         }
     }
 

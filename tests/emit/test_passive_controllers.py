@@ -20,7 +20,6 @@ from tests.oracles import UPSTREAM, needs_upstream
 
 SCALING = "      scaling: {type: speed_scaling_state_broadcaster, device: arm}\n"
 ACTIVATION = "      activation: {type: gripper_activation, device: gripper, client: task}\n"
-STATE = "    arm_state: {type: robot_state_broadcaster, device: arm}\n"
 
 
 def _arm_and_gripper(more: str = SCALING.replace("      ", "    ") + ACTIVATION.replace("      ", "    ")) -> str:
@@ -31,7 +30,7 @@ def _arm_and_gripper(more: str = SCALING.replace("      ", "    ") + ACTIVATION.
 def _artifacts(cell: str) -> dict[str, str]:
     text = _arm_and_gripper()
     if cell == "fr3_hand":
-        text = spec_text(cell).replace("  controllers:\n", f"  controllers:\n{STATE}", 1)
+        text = spec_text(cell)  # it has the broadcaster of its arm
     with TemporaryDirectory() as folder:
         return emitted(Path(folder), text)
 
@@ -69,10 +68,13 @@ def test_service_claims_interfaces_of_its_device_on_real_hardware_alone() -> Non
 
 def test_each_target_spawns_what_it_has() -> None:
     lists = {node.attrib["args"].split(" -c ")[0]: node.attrib for node in _spawners("ur5e_pick")}
-    both = "scaling joint_states arm_trajectory gripper_action"
-    assert set(lists) == {both, "activation arm_io"}
+    both, real = (
+        "scaling joint_states arm_trajectory gripper_action arm_speed",
+        "activation arm_io arm_tcp arm_software",
+    )
+    assert set(lists) == {both, real}
     assert not {"if", "unless"} & set(lists[both])
-    assert "real" in lists["activation arm_io"]["if"]
+    assert "real" in lists[real]["if"]
     alone = {node.attrib["args"].split(" -c ")[0]: node.attrib for node in _spawners("fr3_hand")}
     assert "if" in alone["arm_state"]
     assert "unless" in alone["hand_action"]

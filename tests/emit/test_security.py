@@ -83,7 +83,10 @@ def test_controllers_live_in_the_enclave_of_their_process() -> None:
         "joint_states",
         "arm_trajectory",
         "gripper_action",
+        "arm_speed",
         "arm_io",
+        "arm_tcp",
+        "arm_software",
         "arm_hardware",
         "gripper_hardware",
     ]
