@@ -188,7 +188,8 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "action /move_action, action /arm_trajectory/follow_joint_trajectory, action /gripper_action/gripper_cmd | "
             f"lost {ALONE}, /perception, lifecycle /perception active; "
             f"new action /arm_trajectory/follow_joint_trajectory, {ALONE}",
-            f"dangerous start order | observe_control | what must show before it | 9 entries -> 9 entries | {LESS_ALONE}",
+            "dangerous start order | observe_control | what must show before it | 9 entries -> 9 entries | "
+            f"{LESS_ALONE}",
             f"dangerous start order | observe_control_again | what must show before it | {ALONE}, /perception, "
             f"{STATES} -> {ALONE}, {STATES} | {LESS_ALONE}",
             "review control | /arm_trajectory/follow_joint_trajectory move_group | client went | there -> None",
