@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from cellc.cell.control import Controller
-from tests.consumers.permissions import Permissions, permissions
+from tests.consumers.permissions import Permissions, Right, permissions
 from tests.vendors.oracle import counted, facts
 from tests.vendors.packages import CASES, Case, RealTarget, real_target
 
@@ -126,7 +126,12 @@ def test_the_policy_grants_a_kind_what_its_node_has(case: Case, kind: str) -> No
     controller = _controller(real_target(case), kind)
     endpoints = _told(case, kind)["endpoints"]
     enclave = _policy(case)["/ur5e_pick/controller_manager"]
-    rights = {"service": "reply", "publisher": "publish", "subscription": "subscribe", "action_server": "execute"}
+    rights: dict[str, Right] = {
+        "service": "reply",
+        "publisher": "publish",
+        "subscription": "subscribe",
+        "action_server": "execute",
+    }
     for one in endpoints if isinstance(endpoints, list) else ():
         name = one["name"].replace("<controller>", "~").replace("~", controller.full_name)
         assert enclave.allow(rights[one["kind"]], name), name
