@@ -155,6 +155,7 @@ class FaultKind(Term):
     JOG = "jog"
     STALE_SET_POINTS = "stale_set_points"
     BRAKES_CLOSED = "brakes_closed"
+    SILENT_SENSOR = "silent_sensor"
 
 
 class Moment(Term):

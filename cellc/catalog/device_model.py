@@ -221,6 +221,27 @@ class GripperFacts(CatalogModel):
     source: Text
 
 
+class SwitchedState(CatalogModel):
+    """A state of a switched device: what its outputs are set to for it, and what its sensors read in it."""
+
+    outputs: dict[Token, bool] = Field(default_factory=dict)
+    sensors: dict[Token, bool] = Field(default_factory=dict)
+
+
+class SwitchedFacts(CatalogModel):
+    """A device of a few states that digital outputs of the cell switch, or that its sensors tell.
+
+    Which output of which device drives it, how long it takes, and what a loss of power does, is a fact of the cell.
+    ``holds`` is the state in which it holds a part or a tool.
+    """
+
+    outputs: tuple[Token, ...] = ()
+    sensors: tuple[Token, ...] = ()
+    states: dict[Token, SwitchedState] = Field(min_length=2)
+    holds: Token | None = None
+    source: Text
+
+
 class DeviceModel(CatalogModel):
     """One ``device.yaml``."""
 
@@ -228,7 +249,7 @@ class DeviceModel(CatalogModel):
     model: Token
     vendor: Text
     summary: Text
-    kind: Literal["arm", "gripper", "camera"]
+    kind: Literal["arm", "gripper", "camera", "digital"]
     as_of: Date
     sources: tuple[Text, ...] = Field(min_length=1)
     description: DescriptionFacts
@@ -246,6 +267,7 @@ class DeviceModel(CatalogModel):
     speed_scaling: SpeedScalingFacts | None = None
     gripper: GripperFacts | None = None
     camera: CameraFacts | None = None
+    switched: SwitchedFacts | None = None
     nodes: tuple[NodeFacts, ...] = ()
     topics: tuple[TopicFacts, ...] = ()
     services: tuple[ServiceFacts, ...] = ()

@@ -13,7 +13,7 @@ from cellc.catalog.device_model import DeviceModel
 from cellc.catalog.names import CatalogNames, unknown_names
 from cellc.catalog.programs import ProgramTable
 from cellc.catalog.read_model import ModelT, read_model
-from cellc.catalog.tables import ControllerManagerFacts, DistroTable, InterfaceTypeTable, QosTable
+from cellc.catalog.tables import ControllerManagerFacts, DistroTable, InterfaceTypeTable, PlannerTable, QosTable
 from cellc.description.model import Description
 from cellc.description.urdf_reader import read_urdf
 from cellc.diagnostics import Diagnostic, Outcome
@@ -151,6 +151,12 @@ def load_controller_manager() -> Outcome[ControllerManagerFacts]:
 def load_message_types() -> Outcome[InterfaceTypeTable]:
     """Load the interface types that are known."""
     return _table("message_types.yaml", InterfaceTypeTable)
+
+
+@lru_cache(maxsize=1)
+def load_planners() -> Outcome[PlannerTable]:
+    """Load what MoveIt may solve and plan with."""
+    return _table("moveit.yaml", PlannerTable)
 
 
 @lru_cache(maxsize=1)

@@ -119,6 +119,7 @@ def _of_device(model: DeviceModel) -> Iterator[_Reference]:
         yield own(("services", number, "server"), service.server, "node", (*nodes, _DRIVER))
     for number, action in enumerate(model.actions):
         yield own(("actions", number, "server"), action.server, "node", (*nodes, _DRIVER))
+    yield from _of_switched(model)
     driver = model.driver
     if driver is None:
         return
@@ -128,3 +129,19 @@ def _of_device(model: DeviceModel) -> Iterator[_Reference]:
         yield own(("driver", "joint_states"), driver.joint_states, "topic", topics)
     for kind, name in driver.actions.items():
         yield own(("driver", "actions", kind), name, "action", (one.name for one in model.actions))
+
+
+def _of_switched(model: DeviceModel) -> Iterator[_Reference]:
+    switched = model.switched
+    if switched is None:
+        return
+    for name, state in switched.states.items():
+        path: YamlPath = ("switched", "states", name)
+        for kind, named, known in (
+            ("output", state.outputs, switched.outputs),
+            ("sensor", state.sensors, switched.sensors),
+        ):
+            for signal in named:
+                yield _Reference((*path, f"{kind}s", signal), signal, kind, frozenset(known), "device")
+    if switched.holds is not None:
+        yield _Reference(("switched", "holds"), switched.holds, "state", frozenset(switched.states), "device")

@@ -135,3 +135,33 @@ class QosTable(CatalogModel):
     system_default: dict[Rmw, SystemDefaults]
     endpoints: tuple[KnownEndpoint, ...]
     action: dict[Literal["send_goal", "cancel_goal", "get_result", "feedback", "status"], Token]
+
+
+class PlannerPlugin(CatalogModel):
+    """A plugin of MoveIt, with what it is told, and the distributions that release its package."""
+
+    plugin: Text
+    package: Token
+    distros: tuple[DistroName, ...]
+    parameters: dict[Text, ParameterFact] = Field(default_factory=dict)
+    source: Text
+
+
+class PipelineFacts(PlannerPlugin):
+    """A planning pipeline; ``timed`` where it states its own times, ``joint_goals`` where it takes no others."""
+
+    timed: bool = False
+    joint_goals: bool = False
+    capabilities: tuple[Text, ...] = ()
+
+
+class PlannerTable(CatalogModel):
+    """``catalog/moveit.yaml``: what solves inverse kinematics, what plans, and the planners of OMPL."""
+
+    format: Literal[1]
+    as_of: Date
+    sources: tuple[Text, ...] = Field(min_length=1)
+    solvers: dict[Token, PlannerPlugin]
+    pipelines: dict[Token, PipelineFacts]
+    planners: tuple[Token, ...]
+    planners_source: Text

@@ -10,7 +10,7 @@ from cellc.cell.device import Device
 from cellc.cell.entity import Places
 from cellc.cell.frame import Frame, SceneBox
 from cellc.cell.interface import ImpliedEndpoints, Interface, Node
-from cellc.cell.motion import CartesianGoal, NamedPose, PlanningGroup, Rehearsal
+from cellc.cell.motion import CartesianGoal, NamedPose, Pipeline, PlanningGroup, Rehearsal
 from cellc.cell.site import (
     TARGET_DEFAULTS,
     Bringup,
@@ -73,6 +73,7 @@ class Cell:
     managers: tuple[ControllerManager, ...] = ()
     adapters: tuple[AdaptedDevice, ...] = ()
     groups: tuple[PlanningGroup, ...] = ()
+    pipelines: tuple[Pipeline, ...] = ()
     poses: tuple[NamedPose, ...] = ()
     goals: tuple[CartesianGoal, ...] = ()
     rehearsals: tuple[Rehearsal, ...] = ()

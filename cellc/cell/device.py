@@ -11,6 +11,7 @@ from cellc.cell.frame import WORLD
 from cellc.cell.hardware import Effect, HardwareComponent
 from cellc.cell.interface import InterfaceKind
 from cellc.cell.site import UNKNOWN, Clock, JointFigure
+from cellc.cell.switched import Switched
 from cellc.cell.vendor import CommissioningStep, RecordSource, VendorSafety
 from cellc.description.model import Description
 from cellc.transforms import Pose, Vector3, identity
@@ -221,10 +222,14 @@ class OfferedInterface:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NetworkNeeds:
-    """What a device asks of its network; ``realtime`` is required, recommended or not_needed."""
+    """What a device asks of its network; ``realtime`` is required, recommended or not_needed.
+
+    ``listens`` are the ports of its host on which its driver listens.
+    """
 
     dedicated_link: bool
     realtime: str
+    listens: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -241,7 +246,7 @@ class Device(Entity):
     """A robot, gripper or sensor where it stands.
 
     Args:
-        model, vendor, kind: as the catalog names them; the kind is arm, gripper or camera.
+        model, vendor, kind: as the catalog names them; the kind is arm, gripper, camera or digital.
         architecture: who owns the command path: ros2, direct_sdk or hybrid.
         description: links and joints with the prefix applied; frames as URDF.
         root_link: prefixed root link; its pose in ``parent_frame`` is ``transform_root_to_parent``.
@@ -299,6 +304,7 @@ class Device(Entity):
     speed_scaling: str | None = None
     gripper: Gripper | None = None
     camera: Camera | None = None
+    switched: Switched | None = None
     offers: tuple[OfferedInterface, ...] = ()
     starts: Mapping[str, Effect] = field(default_factory=dict)
     network: NetworkNeeds | None = None
@@ -326,6 +332,11 @@ class Device(Entity):
         activation = self.hardware is not None and not self.hardware.is_activation_known
         start = self.driver is not None and self.driver.node not in self.starts
         return (*(("the activation",) if activation else ()), *(("the start of the driver",) if start else ()))
+
+    @property
+    def is_only_switched(self) -> bool:
+        """Whether outputs of others switch it and no program runs in it or for it: it has no firmware and no driver."""
+        return self.switched is not None and self.hardware is None and self.driver is None
 
     @property
     def actuated_joints(self) -> tuple[DeviceJoint, ...]:

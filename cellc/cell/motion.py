@@ -2,20 +2,58 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from cellc.cell.entity import Entity
+from cellc.cell.interface import ParameterValue
 from cellc.transforms import Pose, Vector3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Solver:
+    """What solves the inverse kinematics of a group for MoveIt: a plugin, and what it is told."""
+
+    name: str
+    plugin: str
+    package: str
+    parameters: Mapping[str, ParameterValue]
+    search_resolution: float
+    timeout_s: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Pipeline:
+    """A planning pipeline of MoveIt.
+
+    Args:
+        timed: it states its own times, and needs no time parameterization.
+        joint_goals: it takes goals of joints alone.
+        capabilities: of move_group, which it brings along.
+    """
+
+    name: str
+    plugin: str
+    package: str
+    parameters: Mapping[str, ParameterValue]
+    timed: bool
+    joint_goals: bool
+    capabilities: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class PlanningGroup(Entity):
-    """A chain of joints from ``base_link`` to ``tip_frame``; ``controllers`` drive its joints."""
+    """A chain of joints from ``base_link`` to ``tip_frame``; ``controllers`` drive its joints.
+
+    ``planner`` is that of the sampling pipeline, by OMPL's name.
+    """
 
     base_link: str
     tip_frame: str
     joints: tuple[str, ...]
     controllers: tuple[str, ...]
+    solver: Solver
+    planner: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -40,13 +78,14 @@ class CartesianGoal(Entity):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Step(Entity):
-    """One step: ``kind`` is move, detect, grip, wait or acknowledge.
+    """One step: ``kind`` is move, detect, grip, set, sense, wait or acknowledge.
 
     ``name`` is the pose, goal, frame or device, or who acknowledges.
     """
 
     kind: str
     command: str | None = None  # open or close, for grip
+    state: str | None = None  # for set and sense
     duration_s: float | None = None  # for wait
 
 

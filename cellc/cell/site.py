@@ -114,8 +114,19 @@ class Versions:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class CalibrationFile:
+    """What a calibration tool wrote: its path from the spec's folder, and the hash of its bytes."""
+
+    path: str
+    sha256: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Calibration(Entity):
-    """A measurement that transforms rest on: ``measured`` as written, ``measured_on`` where that is a date."""
+    """A measurement that transforms rest on: ``measured`` as written, ``measured_on`` where that is a date.
+
+    ``file`` is what the transforms are taken from; None where the spec states them.
+    """
 
     revision: int
     measured: str = UNKNOWN
@@ -124,6 +135,7 @@ class Calibration(Entity):
     samples: int | None = None
     residual_m: float | None = None
     owner: str = UNKNOWN
+    file: CalibrationFile | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

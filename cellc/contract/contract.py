@@ -217,6 +217,18 @@ class ContractEffect(ContractModel):
     )
 
 
+class ContractSwitched(ContractModel):
+    """A device of a few states that digital outputs switch, or that its sensors tell."""
+
+    states: dict[str, dict[str, bool]] = Field(description="What the sensors that are wired read in each state.")
+    starts: str = Field(description="State at power-up.")
+    time_s: Seconds = Field(0.0, description="Time from its outputs to the end of its way.")
+    within_s: PositiveSeconds = Field(description="How long its client waits for the sensors.")
+    holds: str | None = Field(None, description="State in which it holds a part or a tool.")
+    outputs: dict[str, str] = Field({}, description="Command interface that drives each output.")
+    inputs: dict[str, str] = Field({}, description="State interface that reads each sensor.")
+
+
 class ContractDevice(ContractModel):
     """A device as the mock needs it."""
 
@@ -230,6 +242,7 @@ class ContractDevice(ContractModel):
     speed_scaling_interface: str | None = Field(None, description="State interface of its speed scaling.")
     gripper: ContractGripper | None = Field(None, description="What a gripper adds.")
     camera: ContractCamera | None = Field(None, description="What a camera adds.")
+    switched: ContractSwitched | None = Field(None, description="What a device that outputs switch adds.")
     effects: dict[Moment, ContractEffect] = Field(
         {}, description="What its real hardware does as it is activated and claimed, and as its program starts."
     )

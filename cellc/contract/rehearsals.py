@@ -10,11 +10,14 @@ from cellc.vocabulary import AttemptOutcome, BringUpPhase, FaultKind
 
 
 class StepEntry(ContractModel):
-    """One step; ``target`` is a pose, goal, frame, gripper device or who acknowledges; empty for a wait."""
+    """One step; ``target`` is a pose, goal, frame, device or who acknowledges; empty for a wait."""
 
-    kind: Literal["move", "detect", "grip", "wait", "acknowledge"] = Field(description="What the step does.")
-    target: str = Field(description="Pose, goal, frame, gripper device, or who acknowledges.")
+    kind: Literal["move", "detect", "grip", "set", "sense", "wait", "acknowledge"] = Field(
+        description="What the step does."
+    )
+    target: str = Field(description="Pose, goal, frame, device, or who acknowledges.")
     command: Literal["open", "close"] | None = Field(None, description="What the gripper does.")
+    state: str | None = Field(None, description="State that a switched device is set to, or that its sensors tell.")
     duration_s: Seconds | None = Field(None, description="How long a wait lasts.")
 
 

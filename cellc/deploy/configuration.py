@@ -105,7 +105,8 @@ def version_tuple(cell: Cell) -> dict[str, str]:
         "rollback.configuration": versions.rollback.configuration,
     }
     for device in cell.devices:
-        parts |= {f"{device.name}.{name}": device.versions.part(name) for name in _OF_DEVICE}
+        names = _OF_DEVICE[:2] if device.is_only_switched else _OF_DEVICE
+        parts |= {f"{device.name}.{name}": device.versions.part(name) for name in names}
     return parts
 
 

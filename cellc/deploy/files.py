@@ -25,6 +25,9 @@ NETWORK_CHECKLIST = "gates/network.md"
 SOURCES = "sources.repos"
 """Repositories of what no distribution releases, as vcstool reads them."""
 
+RVIZ = "config/cell.rviz"
+"""What RViz shows of the cell."""
+
 QOS_OVERRIDES = "config/qos_overrides.yaml"
 """QoS of the nodes that the spec names."""
 

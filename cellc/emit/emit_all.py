@@ -18,6 +18,7 @@ from cellc.emit import (
     recording,
     rehearsals,
     responsibility_graph,
+    rviz,
 )
 from cellc.emit.audit import audit
 from cellc.emit.contract import contract
@@ -30,6 +31,7 @@ EMITTERS: tuple[Callable[[CellGraph, Deployment], Iterator[Artifact]], ...] = (
     package.emit,
     description.emit,
     moveit.emit,
+    rviz.emit,
     parameters.emit,
     frames.emit,
     launch.emit,

@@ -41,6 +41,7 @@ def _calibration(cell: Cell, name: str) -> Tree:
         **samples,
         **residual,
         "owner": stated.owner,
+        **({} if stated.file is None else {"file": stated.file.path, "sha256": stated.file.sha256}),
     }
 
 

@@ -16,6 +16,7 @@ from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
 from cellc.cell.device import DeviceJoint
 from cellc.cell.interface import TARGETS, ParameterValue
+from cellc.cell.motion import Pipeline
 from cellc.deploy.deployment import Deployment
 from cellc.deploy.files import JOINT_LIMITS, is_planner, moveit_controllers_file, plans
 from cellc.diagnostics import YamlPath
@@ -35,9 +36,6 @@ _TYPES = ("FollowJointTrajectory", "GripperCommand", "ParallelGripperCommand")
 _SCALING: dict[str, float] = {"default_velocity_scaling_factor": 0.1, "default_acceleration_scaling_factor": 0.1}
 
 _SAMPLING = "ompl"
-_INDUSTRIAL = "pilz_industrial_motion_planner"
-_PLANNER = "RRTConnectkConfigDefault"
-_PLUGINS = {_SAMPLING: "ompl_interface/OMPLPlanner", _INDUSTRIAL: f"{_INDUSTRIAL}/CommandPlanner"}
 _REQUEST = "default_planning_request_adapters"
 _RESPONSE = "default_planning_response_adapters"
 _REQUEST_ADAPTERS = (
@@ -46,24 +44,19 @@ _REQUEST_ADAPTERS = (
     "CheckStartStateBounds",
     "CheckStartStateCollision",
 )
-# The industrial planner parameterizes time itself.
-_RESPONSE_ADAPTERS = {
-    _SAMPLING: ("AddTimeOptimalParameterization", "ValidateSolution", "DisplayMotionPath"),
-    _INDUSTRIAL: ("ValidateSolution", "DisplayMotionPath"),
-}
-# Before there were lists: one text of adapters before and after planning, the outermost first.
+_TIMES = "AddTimeOptimalParameterization"
+_RESPONSE_ADAPTERS = (_TIMES, "ValidateSolution", "DisplayMotionPath")
+# Before there were lists: one text of adapters before and after planning, the outermost first; none for a pipeline that
+# states its own times.
 _TEXT_PREFIX = "default_planner_request_adapters"
-_TEXT_ADAPTERS = {
-    _SAMPLING: (
-        "AddTimeOptimalParameterization",
-        "ResolveConstraintFrames",
-        "FixWorkspaceBounds",
-        "FixStartStateBounds",
-        "FixStartStateCollision",
-        "FixStartStatePathConstraints",
-    ),
-    _INDUSTRIAL: (),
-}
+_TEXT_ADAPTERS = (
+    _TIMES,
+    "ResolveConstraintFrames",
+    "FixWorkspaceBounds",
+    "FixStartStateBounds",
+    "FixStartStateCollision",
+    "FixStartStatePathConstraints",
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,12 +118,13 @@ def _stated(switch: str, values: dict[str, float | None]) -> dict[str, bool | fl
 def _kinematics(cell: Cell) -> Parameters:
     parameters: dict[str, ParameterValue] = {}
     for group in cell.groups:
-        prefix = f"robot_description_kinematics.{group.name}"
+        prefix, solver = f"robot_description_kinematics.{group.name}", group.solver
         parameters |= {
-            f"{prefix}.kinematics_solver": "kdl_kinematics_plugin/KDLKinematicsPlugin",
-            f"{prefix}.kinematics_solver_search_resolution": 0.005,
-            f"{prefix}.kinematics_solver_timeout": 0.05,
+            f"{prefix}.kinematics_solver": solver.plugin,
+            f"{prefix}.kinematics_solver_search_resolution": solver.search_resolution,
+            f"{prefix}.kinematics_solver_timeout": solver.timeout_s,
         }
+        parameters |= {f"{prefix}.{name}": value for name, value in solver.parameters.items()}
     return parameters
 
 
@@ -146,44 +140,55 @@ def _cartesian_limits() -> Parameters:
 
 
 def _planning_pipelines(cell: Cell) -> Parameters:
-    """Return both pipelines with their plugins, adapters and planners."""
-    return {
-        "planning_pipelines": (_SAMPLING, _INDUSTRIAL),
-        "default_planning_pipeline": _SAMPLING,
-        "capabilities": f"{_INDUSTRIAL}/MoveGroupSequenceAction {_INDUSTRIAL}/MoveGroupSequenceService",
-        **_pipeline(cell, _SAMPLING),
-        f"{_SAMPLING}.planner_configs.{_PLANNER}.type": "geometric::RRTConnect",
-        **_groups(cell),
-        **_pipeline(cell, _INDUSTRIAL),
-        f"{_INDUSTRIAL}.default_planner_config": "PTP",
+    """Return the pipelines with their plugins, adapters and planners; the first is the default."""
+    capabilities = " ".join(name for pipeline in cell.pipelines for name in pipeline.capabilities)
+    parameters: dict[str, ParameterValue] = {
+        "planning_pipelines": tuple(pipeline.name for pipeline in cell.pipelines),
+        "default_planning_pipeline": cell.pipelines[0].name,
+        **({"capabilities": capabilities} if capabilities else {}),
     }
+    for pipeline in cell.pipelines:
+        parameters |= _pipeline(cell, pipeline)
+        if pipeline.name == _SAMPLING:
+            parameters |= _planners(cell)
+        parameters |= {f"{pipeline.name}.{name}": value for name, value in pipeline.parameters.items()}
+    return parameters
 
 
-def _pipeline(cell: Cell, name: str) -> Parameters:
+def _pipeline(cell: Cell, pipeline: Pipeline) -> Parameters:
+    name = pipeline.name
     if Feature.PLUGIN_LISTS not in features(cell.distro):
-        adapters = " ".join(f"{_TEXT_PREFIX}/{adapter}" for adapter in _TEXT_ADAPTERS[name])
+        adapters = "" if pipeline.timed else " ".join(f"{_TEXT_PREFIX}/{adapter}" for adapter in _TEXT_ADAPTERS)
         # Zero: a start state outside its bounds is refused, never moved inside them.
-        bounds: Parameters = {f"{name}.request_adapters": adapters, f"{name}.start_state_max_bounds_error": 0.0}
-        return {f"{name}.planning_plugin": _PLUGINS[name], **(bounds if adapters else {f"{name}.request_adapters": ""})}
+        bounds: Parameters = {} if pipeline.timed else {f"{name}.start_state_max_bounds_error": 0.0}
+        return {f"{name}.planning_plugin": pipeline.plugin, f"{name}.request_adapters": adapters, **bounds}
+    response = (adapter for adapter in _RESPONSE_ADAPTERS if not (pipeline.timed and adapter == _TIMES))
     return {
-        f"{name}.planning_plugins": (_PLUGINS[name],),
+        f"{name}.planning_plugins": (pipeline.plugin,),
         f"{name}.request_adapters": tuple(f"{_REQUEST}/{adapter}" for adapter in _REQUEST_ADAPTERS),
-        f"{name}.response_adapters": tuple(f"{_RESPONSE}/{adapter}" for adapter in _RESPONSE_ADAPTERS[name]),
+        f"{name}.response_adapters": tuple(f"{_RESPONSE}/{adapter}" for adapter in response),
     }
 
 
-def _groups(cell: Cell) -> Parameters:
+def _planners(cell: Cell) -> Parameters:
+    """Return the planner of each group in the sampling pipeline, and how it is told which states differ."""
     parameters: dict[str, ParameterValue] = {}
+    for planner in dict.fromkeys(group.planner for group in cell.groups):
+        parameters[f"{_SAMPLING}.planner_configs.{_config(planner)}.type"] = f"geometric::{planner}"
     for group in cell.groups:
-        prefix = f"{_SAMPLING}.{group.name}"
+        prefix, planner = f"{_SAMPLING}.{group.name}", _config(group.planner)
         parameters |= {
-            f"{prefix}.default_planner_config": _PLANNER,
-            f"{prefix}.planner_configs": (_PLANNER,),
+            f"{prefix}.default_planner_config": planner,
+            f"{prefix}.planner_configs": (planner,),
             f"{prefix}.longest_valid_segment_fraction": 0.005,
         }
         if len(group.joints) > 1:
             parameters[f"{prefix}.projection_evaluator"] = f"joints({','.join(group.joints[:2])})"
     return parameters
+
+
+def _config(planner: str) -> str:
+    return f"{planner}kConfigDefault"
 
 
 def _controllers(cell: Cell, target: str) -> Parameters:

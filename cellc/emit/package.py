@@ -28,13 +28,9 @@ _CONTROL = ("controller_manager", "hardware_interface", "ros2controlcli")
 _BRING_UP = ("controller_manager_msgs", "lifecycle_msgs", "rcl_interfaces", "rclpy", "tf2_msgs")
 # What the commands of the gates call; the keys of rosdep.
 _GATES = ("liburdfdom-tools", "ros2bag", "ros2cli_common_extensions", "rosbag2_storage_mcap", "sros2", "tf2_ros")
-_PLANNING = (
-    "moveit_kinematics",
-    "moveit_planners_ompl",
-    "moveit_simple_controller_manager",
-    "pilz_industrial_motion_planner",
-)
+_EXECUTION = "moveit_simple_controller_manager"
 _MOVE_GROUP = "moveit_ros_move_group"
+_OF_MOVEIT = "moveit_"
 _FOLDERS = ("config", "launch", "security", "urdf")
 _ON_HOSTS = "middleware"
 _FILES = ("contract.json", "manifest.json", "rehearsals.json")
@@ -79,12 +75,19 @@ def _at_least(name: str, pinned: Mapping[str, str]) -> dict[str, str]:
 def _pinned(cell: Cell) -> dict[str, str]:
     """Return the pinned number of each package that a part of the version tuple is; a commit is no number."""
     parts: list[tuple[str | None, str]] = [(name, cell.versions.ros2_control) for name in _CONTROL]
-    parts += [(name, cell.versions.moveit) for name in (*_PLANNING, _MOVE_GROUP)]
+    parts += [(name, cell.versions.moveit) for name in _of_moveit(cell)]
     for device in cell.devices:
         packages, versions = device.packages, device.versions
         parts += [(packages.driver, versions.driver), (packages.sdk, versions.sdk)]
         parts += [(packages.description, versions.description)]
     return {name: number for name, text in parts if name and (number := version_number(text))}
+
+
+def _of_moveit(cell: Cell) -> set[str]:
+    """Return the packages of planning that have the version of MoveIt; other solvers have their own."""
+    solvers = {group.solver.package for group in cell.groups}
+    own = {name for name in solvers if name.startswith(_OF_MOVEIT)}
+    return {_EXECUTION, _MOVE_GROUP, *own, *(pipeline.package for pipeline in cell.pipelines)}
 
 
 def _dependencies(cell: Cell) -> tuple[str, ...]:
@@ -95,7 +98,7 @@ def _dependencies(cell: Cell) -> tuple[str, ...]:
     names |= {name for name in (*controllers, *hardware) if name}
     names |= {package for device in cell.devices for package in share_folders(device)}
     if plans(cell):
-        names |= set(_PLANNING)
+        names |= {*_of_moveit(cell), *(group.solver.package for group in cell.groups)}
     if cell.managers:
         names |= set(_CONTROL)
         # Every topic that the bring-up listens to is one whose type it imports.

@@ -17,7 +17,7 @@ from cellc.cell.interface import Interface, InterfaceKind
 from cellc.deploy.bringup import phases
 from cellc.deploy.configuration import OpenQuestion
 from cellc.deploy.deployment import Deployment
-from cellc.deploy.files import NETWORK_CHECKLIST, PROMOTION_CHECKLIST, SOURCES, plans
+from cellc.deploy.files import NETWORK_CHECKLIST, PROMOTION_CHECKLIST, RVIZ, SOURCES, plans
 from cellc.deploy.gates import Gate
 from cellc.deploy.labels import real_driver
 from cellc.deploy.processes import people_enclave
@@ -39,6 +39,7 @@ _NO_PLANNER = (
 _FILES = (
     ("urdf/", "the description for the mock and for real hardware"),
     ("config/", "parameters of controller managers and nodes, the frame tree with its calibrations"),
+    (RVIZ, "what RViz shows, and never commands: `rviz2 -d` with it"),
     ("config/moveit/", "the SRDF, and what move_group is told beyond it, with `config/joint_limits.yaml`"),
     ("middleware/", "environment and profile for each host, sourced before anything is started there"),
     ("security/policy.xml", "who may publish, serve and call; everything else is denied"),

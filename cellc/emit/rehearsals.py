@@ -40,7 +40,13 @@ def _rehearsal(rehearsal: Rehearsal) -> RehearsalEntry:
 
 def _step(step: Step) -> StepEntry:
     return StepEntry.model_validate(
-        {"kind": step.kind, "target": step.name, "command": step.command, "duration_s": step.duration_s}
+        {
+            "kind": step.kind,
+            "target": step.name,
+            "command": step.command,
+            "state": step.state,
+            "duration_s": step.duration_s,
+        }
     )
 
 

@@ -1,7 +1,7 @@
 """YAML text that a YAML 1.1 reader and rcl_yaml_param_parser take alike, and with the same types.
 
-Mappings and lists of texts take one line an item, lists of numbers one line. An empty list has no type in a parameter
-file, so that none is written.
+Mappings and lists of texts or mappings take one line an item, lists of numbers one line. An empty list has no type in a
+parameter file, so that none is written.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from cellc.diagnostics.unsafe_text import HIDDEN
 from cellc.formats.numbers import decimal
 
 _Scalar = Union[bool, int, float, str]
-Tree = Mapping[str, Union[ParameterValue, "Tree"]]
+Tree = Mapping[str, Union[ParameterValue, "Tree", tuple["Tree", ...]]]
 
 _PLAIN = re.compile(r"[A-Za-z_/][A-Za-z0-9_./-]*")
 # Texts that YAML 1.1 reads as a boolean or null, and strtod, which rcl_yaml_param_parser calls, as a number.
@@ -80,12 +80,26 @@ def _mapping(tree: Tree, depth: int) -> Iterator[str]:
                 yield name
                 yield from inner
         elif isinstance(value, tuple):
-            yield from _sequence(name, value, indent)
+            yield from _sequence(name, value, depth)
         else:
             yield f"{name} {scalar(value)}"
 
 
-def _sequence(name: str, values: tuple[_Scalar, ...], indent: str) -> Iterator[str]:
+def _sequence(name: str, values: tuple[_Scalar | Tree, ...], depth: int) -> Iterator[str]:
+    indent = "  " * depth
+    trees = [value for value in values if isinstance(value, Mapping)]
+    if trees:
+        yield name
+        for tree in trees:
+            first, *others = _mapping(tree, depth + 2)
+            yield f"{indent}  - {first.strip()}"
+            yield from others
+        return
+    scalars = [value for value in values if not isinstance(value, Mapping)]
+    yield from _scalars(name, scalars, indent)
+
+
+def _scalars(name: str, values: list[_Scalar], indent: str) -> Iterator[str]:
     if values and all(isinstance(value, str) for value in values):
         yield name
         yield from (f"{indent}  - {scalar(value)}" for value in values)

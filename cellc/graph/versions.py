@@ -53,6 +53,7 @@ def device_pins(cell: Cell) -> Iterator[Pin]:
     for device in cell.devices:
         packages = device.packages
         absent = {"driver": packages.driver, "sdk": packages.sdk, "description": packages.description}
+        absent |= {"firmware": None} if device.is_only_switched else {}
         for part in _DEVICE_PARTS:
             text = device.versions.part(part)
             if text != UNKNOWN or absent.get(part, part) is not None:

@@ -52,6 +52,20 @@ rehearsals:
   late: {use: pick_and_place, inject: {mismatch_qos: /object_pos, at: 1 s},  # expect at mismatch_qos
          expect: stale_state}
 """,
+    "hand-eye-differs": """
+calibrations:
+  hand_eye: {from: measured/hand_eye.json}
+# expect at devices.camera.mount.xyz
+""",
+    "hand-eye-of-other-frames": """
+calibrations:
+  hand_eye: {from: measured/nameless.json}  # expect at hand_eye
+""",
+    "invalid-hand-eye": """
+calibrations:
+  hand_eye: {from: measured/ambiguous.calib}
+# expect
+""",
     "invalid-kinematics": """
 devices:
   gripper:
@@ -76,9 +90,27 @@ devices:
 interfaces:
   /object_pose: {from: perceptoin}  # expect at from
 """,
+    "unknown-planner": """
+motion:
+  groups:
+    manipulator: {ik: kdll}  # expect at ik
+""",
     "unknown-rehearsal": """
 rehearsals:
   cancelled: {use: pick_and_plce}  # expect at use
+""",
+    "unknown-signal": """
+devices:
+  io: {model: ./demo_io}
+  clamp:
+    model: ./demo_clamp
+    switching: {outputs: {valve: io/io/out_9}}  # expect at valve
+""",
+    "unknown-state": """
+devices:
+  lamp:
+    model: ./demo_lamp
+    switching: {starts: blinking}  # expect at starts
 """,
     "controller-without-device": """
 control:
@@ -98,6 +130,11 @@ motion:
     "not-an-executable": """
 nodes:
   task: {run: pick_place}  # expect at run
+""",
+    "planner-not-in-distro": """
+motion:
+  groups:
+    manipulator: {ik: bio_ik}  # expect at ik
 """,
     "rehearsal-cycle": """
 rehearsals:
@@ -209,10 +246,30 @@ CODES: tuple[CodePage, ...] = (
         "ROS itself would say nothing: a subscriber waits for ever for a publisher that nobody is",
     ),
     _unknown(
+        "unknown-planner",
+        "planner",
+        "a planning group names its IK solver and its planner of OMPL, `motion` its planning pipelines",
+        "Otherwise MoveIt would start without a solver, or answer every request with a failure",
+    ),
+    _unknown(
         "unknown-rehearsal",
         "rehearsal",
         "`use` names another entry of `rehearsals`",
         "Otherwise the steps that it shares would be left out",
+    ),
+    _unknown(
+        "unknown-signal",
+        "signal",
+        "an output or sensor of a switched device is one of its `device.yaml`, wired to an interface of a gpio, as "
+        "`device/gpio/interface`",
+        "Otherwise nothing would switch the device, or nothing tell where it is",
+    ),
+    _unknown(
+        "unknown-state",
+        "state",
+        "the states of a switched device stand in its `device.yaml`; a step that senses one needs wired sensors that "
+        "tell it from the others",
+        "Otherwise the step would set nothing, or wait for ever",
     ),
     _page(
         "ambiguous-node",
@@ -234,6 +291,30 @@ CODES: tuple[CodePage, ...] = (
         "Joints and claims follow from the device. Without one the controller would have an empty list of joints, "
         "which the controller manager refuses.",
         "add `device:` to the controller",
+    ),
+    _page(
+        "hand-eye-differs",
+        "a transform of the spec is not the one that its calibration's file has",
+        "A new file and an old number, or a slip in either: two truths about where a camera stands, of which the arm "
+        "follows one. What a spec rounds off, 0.1 mm and 0.05 deg, is no difference.",
+        "write neither `xyz` nor `rpy`, so that the file counts",
+    ),
+    _page(
+        "hand-eye-of-other-frames",
+        "a hand-eye calibration tells of other frames than those that rest on it",
+        "The tool writes the pose of a camera in the hand, or in the base for one that stands beside the robot. Taken "
+        "the other way round, or for a frame that a joint parts from it, every goal is wrong by as much as the arm "
+        "is turned. Names of a tool may be TF's or `device/link`; others are stated as `parent` and `child`.",
+        "name the file of this camera, or state `parent` and `child` of the calibration",
+    ),
+    _page(
+        "invalid-hand-eye",
+        "a hand-eye calibration is not what a tool writes",
+        "Read are the files of easy_handeye2, launch files of MoveIt's calibration, and a mapping in YAML or JSON "
+        "with a 4x4 `matrix`, or `xyz` in metres with a quaternion as `xyzw`, `wxyz` or `rotation: {x, y, z, w}`. A "
+        "list that does not say which of its four is w, millimetres, or a matrix that mirrors would place the camera "
+        "somewhere else.",
+        "export the calibration again, or write what is missing",
     ),
     _page(
         "invalid-kinematics",
@@ -262,6 +343,13 @@ CODES: tuple[CodePage, ...] = (
         "`run` is not a package and an executable",
         "The launch file needs both to start a node.",
         "write `package/executable`",
+    ),
+    _page(
+        "planner-not-in-distro",
+        "the pinned distribution does not release a solver or planning pipeline",
+        "Its plugin is looked up by name when move_group starts. Without the package the group has no solver, or the "
+        "pipeline no planner, and every goal fails.",
+        "choose one that the pinned distribution has",
     ),
     _page(
         "rehearsal-cycle",

@@ -26,6 +26,7 @@ from cellc.cell.device import (
 from cellc.cell.vendor import CommissioningStep, RecordSource, RecoveryProcedure, SafetyState, VendorSafety
 from cellc.link.hardware import offered_interfaces, run_nodes, started_nodes
 from cellc.link.names import Placeholders
+from cellc.link.ports import listened
 from cellc.link.quantities import joint_figure, si, vector
 from cellc.link.site import bind_clock
 from cellc.source.document import SourceDocument
@@ -66,7 +67,7 @@ def with_catalog(
         camera=_camera(facts, written, known, prefix),
         offers=tuple(offered_interfaces(facts, nodes, known, distro)),
         starts=started_nodes(nodes, known, distro),
-        network=_network_needs(facts),
+        network=_network_needs(facts, known),
         safety=_vendor_safety(facts),
         packages=_packages(facts),
         commissioning=tuple(
@@ -210,12 +211,13 @@ def _view(facts: ViewFacts | None) -> FieldOfView | None:
     )
 
 
-def _network_needs(facts: DeviceModel) -> NetworkNeeds | None:
+def _network_needs(facts: DeviceModel, known: Placeholders) -> NetworkNeeds | None:
     """Return what the device asks of its network."""
     network = facts.network
     if network is None:
         return None
-    return NetworkNeeds(dedicated_link=network.dedicated_link, realtime=network.realtime)
+    listens = listened(facts, known.port_shift)
+    return NetworkNeeds(dedicated_link=network.dedicated_link, realtime=network.realtime, listens=listens)
 
 
 def _vendor_safety(facts: DeviceModel) -> VendorSafety:

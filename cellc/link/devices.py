@@ -19,6 +19,7 @@ from cellc.link.device_facts import limit_shares, with_catalog, with_statements
 from cellc.link.hardware import device_driver, hardware_component
 from cellc.link.kinematics import link_kinematics, with_kinematics
 from cellc.link.names import Placeholders, home_host, placeholders, unknown_name
+from cellc.link.ports import port_shifts
 from cellc.link.quantities import pose
 from cellc.source.document import SourceDocument
 from cellc.source.text import lies_under
@@ -59,11 +60,12 @@ def link_devices(spec: CellSpec, document: SourceDocument, distro: Distro | None
     if len(entries) < len(spec.devices):
         return Outcome(None, tuple(problems))
     devices: list[BoundDevice] = []
+    shifts = port_shifts({name: (spec.devices[name], entry.model) for name, entry in entries.items()})
     for name, written in spec.devices.items():
         parent = _parent_frame(name, written, spec, document, entries)
         problems += parent.diagnostics
         if parent.value is not None:
-            bound = _device(name, written, spec, document, entries[name], parent.value, distro)
+            bound = _device(name, written, spec, document, entries[name], parent.value, distro, shifts[name])
             bound = replace(bound, device=with_kinematics(bound.device, kinematics[name], bound.facts))
             problems += _unknown_simulated_joints(bound.device, document)
             devices.append(bound)
@@ -146,12 +148,13 @@ def _device(
     entry: CatalogDevice,
     parent: str,
     distro: Distro | None,
+    port_shift: int,
 ) -> BoundDevice:
     path = ("devices", name)
     prefix = prefix_of(name, written)
     facts = entry.model
     mount = written.mount
-    known = placeholders(name, prefix, written, spec)
+    known = placeholders(name, prefix, written, spec, port_shift)
     device = Device(
         name=name,
         path=path,

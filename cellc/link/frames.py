@@ -13,7 +13,7 @@ from cellc.link.quantities import pose, si, vector
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
 from cellc.spec.frames import FrameSpec
-from cellc.transforms import identity
+from cellc.transforms import Pose, identity
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,13 +45,21 @@ ROBOT_STATE_PUBLISHER = "robot_state_publisher"
 
 
 def link_frames(
-    spec: CellSpec, document: SourceDocument, devices: tuple[Device, ...], names: FrameNames
+    spec: CellSpec,
+    document: SourceDocument,
+    devices: tuple[Device, ...],
+    names: FrameNames,
+    measured: Mapping[str, Pose],
 ) -> Outcome[tuple[Frame, ...]]:
-    """Bind the world, the links and mounts of devices, and the frames of the spec; scene boxes are frames too."""
+    """Bind the world, the links and mounts of devices, and the frames of the spec; scene boxes are frames too.
+
+    Args:
+        measured: the poses of frames that are from files of calibrations.
+    """
     frames = [_world(document), *_device_frames(spec, document, devices)]
     problems: list[Diagnostic] = []
     for name, written in spec.frames.items():
-        bound = _spec_frame(name, written, document, names)
+        bound = _spec_frame(name, written, document, names, measured.get(name))
         problems += [*bound.diagnostics, *_unknown_calibration(spec, document, ("frames", name), written.calibration)]
         problems += _unknown_publisher(spec, document, name, written)
         if bound.value is not None:
@@ -145,7 +153,9 @@ def _device_frames(spec: CellSpec, document: SourceDocument, devices: Iterable[D
             )
 
 
-def _spec_frame(name: str, written: FrameSpec, document: SourceDocument, names: FrameNames) -> Outcome[Frame]:
+def _spec_frame(
+    name: str, written: FrameSpec, document: SourceDocument, names: FrameNames, measured: Pose | None
+) -> Outcome[Frame]:
     path = ("frames", name)
     parent = names.bind(written.parent, (*path, "parent"))
     simulated = _simulated_pose(name, written, names)
@@ -158,7 +168,7 @@ def _spec_frame(name: str, written: FrameSpec, document: SourceDocument, names: 
         span=document.locate(path),
         kind=FrameKind.DYNAMIC if written.dynamic else FrameKind.FIXED,
         parent=parent.value,
-        transform_to_parent=None if written.dynamic else pose(written.xyz, written.rpy),
+        transform_to_parent=None if written.dynamic else measured or pose(written.xyz, written.rpy),
         authority=written.published_by or ROBOT_STATE_PUBLISHER,
         calibration=written.calibration,
         designed=written.designed,

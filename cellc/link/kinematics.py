@@ -2,30 +2,25 @@
 
 from __future__ import annotations
 
-import hashlib
 import math
-import os
 import re
 from collections.abc import Iterator
 from dataclasses import replace
-from pathlib import Path
 
 from cellc.catalog.device_model import DeviceModel, KinematicsFacts
 from cellc.catalog.load import CatalogDevice
 from cellc.cell.device import Device, KinematicCalibration, Kinematics
 from cellc.description.model import Description
-from cellc.diagnostics import Diagnostic, Outcome, Severity, Span, YamlPath
+from cellc.diagnostics import Diagnostic, Outcome, Severity, YamlPath
 from cellc.link.names import Placeholders
-from cellc.source.compose import compose
+from cellc.link.side_file import compose_side_file, number, read_side_file
 from cellc.source.document import SourceDocument
-from cellc.source.text import lies_under, read_text
 from cellc.spec.devices import DeviceSpec, KinematicsSpec
 from cellc.transforms import Pose, from_xyz_rpy
 
 _CODE = "invalid-kinematics"
 _FIELDS = ("x", "y", "z", "roll", "pitch", "yaw")
 _HASH = re.compile(r"[A-Za-z0-9_]{1,100}")
-_NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d{1,3})?")
 _LARGEST = 100.0
 """m or rad: no joint of a robot arm lies farther from the one before it."""
 
@@ -93,24 +88,13 @@ def _read(
     written: KinematicsSpec, document: SourceDocument, path: YamlPath
 ) -> Outcome[tuple[str, str, SourceDocument]]:
     """Return the path of a file from the root spec's folder, the hash of its bytes, and its data."""
-    at = (*path, "file")
-    place = document.locate(at)
-    file = Path(place.file).parent / written.file
-    shown = file.as_posix()
-    if not lies_under(file, Path(document.file).parent):
-        message = f"`{shown}` leads out of the folder of the spec"
-        advice = "copy the file beside the spec"
-        return Outcome(None, (Diagnostic("include-escape", Severity.ERROR, message, place, at, advice),))
-    text = read_text(file, shown, place)
-    if text.value is None or text.diagnostics:
-        return Outcome(None, text.diagnostics)
-    root = compose(shown, text.value)
-    if root.value is None or root.diagnostics:
-        empty = Diagnostic("empty-file", Severity.ERROR, f"`{shown}` holds no data", Span(shown, 1, 1, 1, 1))
-        return Outcome(None, root.diagnostics or (empty,))
-    from_root = os.path.relpath(file, Path(document.file).parent).replace(os.sep, "/")
-    sha256 = hashlib.sha256(file.read_bytes()).hexdigest()
-    return Outcome((from_root, sha256, SourceDocument(shown, {shown: text.value}, root.value)))
+    file = read_side_file(written.file, document, (*path, "file"))
+    if file.value is None:
+        return Outcome(None, file.diagnostics)
+    content = compose_side_file(file.value)
+    if content.value is None:
+        return Outcome(None, content.diagnostics)
+    return Outcome((file.value.path, file.value.sha256, content.value))
 
 
 def _problems(content: SourceDocument, facts: KinematicsFacts) -> Iterator[Diagnostic]:
@@ -142,10 +126,7 @@ def _wrong(content: SourceDocument, at: YamlPath, message: str) -> Diagnostic:
 
 
 def _number(content: SourceDocument, at: YamlPath) -> float:
-    """Return a figure of the file, whose `5e-06` is a text in YAML; NaN for what is none."""
-    text = content.text_at(at)
-    value = float(text) if _NUMBER.fullmatch(text) else math.nan
-    return value if abs(value) <= _LARGEST else math.nan
+    return number(content.text_at(at), _LARGEST)
 
 
 def _pose(content: SourceDocument, at: YamlPath) -> Pose:

@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from cellc.catalog.load import load_distros, load_qos_profiles
 from cellc.catalog.tables import RMWS, Rmw
 from cellc.cell.cell import Cell
+from cellc.cell.frame import Frame, SceneBox
 from cellc.diagnostics import Diagnostic, Outcome, Severity, did_you_mean
 from cellc.link.control import bind_adapters, link_managers
 from cellc.link.controller import ControlContext
 from cellc.link.derived import Derivation, derive_interfaces
 from cellc.link.devices import BoundDevice, link_devices
 from cellc.link.endpoints import QosResolver, name_endpoints
-from cellc.link.frames import link_frames, link_scene, name_frames, scene_frames
+from cellc.link.frames import FrameNames, link_frames, link_scene, name_frames, scene_frames
+from cellc.link.hand_eye import Measured, link_hand_eye, with_mounts
 from cellc.link.interfaces import link_interfaces
 from cellc.link.motion import link_goals, link_groups, link_poses
 from cellc.link.nodes import link_nodes, standard_nodes
+from cellc.link.planners import link_pipelines
 from cellc.link.programs import implied_endpoints, with_programs
 from cellc.link.rehearsals import link_rehearsals
 from cellc.link.site import (
@@ -34,6 +37,7 @@ from cellc.link.site import (
     bind_versions,
     harmless,
 )
+from cellc.link.switched import link_switched
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
 from cellc.vocabulary import Distro
@@ -49,53 +53,78 @@ def link(spec: CellSpec, document: SourceDocument) -> Outcome[Cell]:
     devices = link_devices(spec, document, distro.value)
     if distro.value is None or devices.value is None:
         return Outcome(None, (*distro.diagnostics, *devices.diagnostics))
-    return _link_with_devices(spec, document, distro.value, devices)
+    switched = link_switched(spec, document, devices.value)
+    every = Outcome(switched.value, (*devices.diagnostics, *switched.diagnostics))
+    return _link_with_devices(spec, document, distro.value, every)
+
+
+@dataclass(frozen=True, slots=True)
+class _Placement:
+    """Where everything stands: devices, frames and solid things, and the files that told of some."""
+
+    bound: tuple[BoundDevice, ...]
+    names: FrameNames
+    frames: tuple[Frame, ...]
+    scene: tuple[SceneBox, ...]
+    measured: Measured
+
+
+def _placed(spec: CellSpec, document: SourceDocument, bound: tuple[BoundDevice, ...]) -> Outcome[_Placement]:
+    names = name_frames(spec, document, (one.device for one in bound))
+    hand_eye = link_hand_eye(spec, document, bound, names)
+    measured = hand_eye.value or Measured({}, {}, {})
+    bound = with_mounts(bound, measured)
+    scene = link_scene(spec, document, names)
+    frames = link_frames(spec, document, tuple(one.device for one in bound), names, measured.frames)
+    boxes = scene.value or ()
+    placement = _Placement(bound, names, (*(frames.value or ()), *scene_frames(boxes)), boxes, measured)
+    return Outcome(placement, (*hand_eye.diagnostics, *scene.diagnostics, *frames.diagnostics))
 
 
 def _link_with_devices(
     spec: CellSpec, document: SourceDocument, distro: Distro, linked_devices: Outcome[tuple[BoundDevice, ...]]
 ) -> Outcome[Cell]:
-    bound = linked_devices.value or ()
+    placed = _placed(spec, document, linked_devices.value or ())
+    assert placed.value is not None  # what cannot be placed is reported and left out
+    bound, names, all_frames = placed.value.bound, placed.value.names, placed.value.frames
     devices = tuple(one.device for one in bound)
-    resolver = _qos_resolver(spec)
-    names = name_frames(spec, document, devices)
-    scene = link_scene(spec, document, names)
-    frames = link_frames(spec, document, devices, names)
-    all_frames = (*(frames.value or ()), *scene_frames(scene.value or ()))
     nodes = link_nodes(spec, document, bound)
     context = ControlContext(spec, document, distro, {one.device.name: one for one in bound})
     managers = link_managers(context)
     loops = managers.value or ()
     all_nodes = tuple(with_programs((*(nodes.value or ()), *standard_nodes(spec, document, loops)), distro))
     controllers = tuple(controller for manager in loops for controller in manager.controllers)
+    resolver = _qos_resolver(spec)
     ends = name_endpoints(spec, bound, all_nodes, loops, resolver)
     interfaces = link_interfaces(spec, document, ends, names)
     written = interfaces.value or ()
     derived = derive_interfaces(Derivation(spec, document, distro, loops, devices, all_frames, ends, resolver), written)
-    groups = link_groups(spec, document, devices, all_frames, names, controllers)
+    groups = link_groups(spec, document, devices, all_frames, names, controllers, distro)
+    pipelines = link_pipelines(spec, document, distro)
     poses = link_poses(spec, document, groups.value or ())
     goals = link_goals(spec, document, groups.value or (), names)
     rehearsals = link_rehearsals(spec, document, devices, loops, (*written, *derived), names)
     cell = replace(
-        _surroundings(spec, document, distro),
+        _surroundings(spec, document, distro, placed.value.measured),
         devices=devices,
         frames=all_frames,
-        scene=scene.value or (),
+        scene=placed.value.scene,
         nodes=all_nodes,
         interfaces=(*written, *derived),
         managers=loops,
         adapters=tuple(bind_adapters(devices, controllers, (*written, *derived))),
         groups=groups.value or (),
+        pipelines=pipelines.value or (),
         poses=poses.value or (),
         goals=goals.value or (),
         rehearsals=rehearsals.value or (),
         behaviours={controller.plugin: controller.behaviour for controller in controllers},
     )
-    parts = (linked_devices, scene, frames, nodes, managers, interfaces, groups, poses, goals, rehearsals)
+    parts = (linked_devices, placed, nodes, managers, interfaces, groups, pipelines, poses, goals, rehearsals)
     return Outcome(cell, tuple(problem for part in parts for problem in part.diagnostics))
 
 
-def _surroundings(spec: CellSpec, document: SourceDocument, distro: Distro) -> Cell:
+def _surroundings(spec: CellSpec, document: SourceDocument, distro: Distro, measured: Measured) -> Cell:
     """Return the cell before anything stands in it: its hosts, network, owners, safety, figures, and all places."""
     places = bind_places(document)
     table = load_distros().value
@@ -109,7 +138,7 @@ def _surroundings(spec: CellSpec, document: SourceDocument, distro: Distro) -> C
         versions=bind_versions(spec),
         hosts=bind_hosts(spec, places),
         network=bind_network(spec),
-        calibrations=bind_calibrations(spec, places),
+        calibrations=bind_calibrations(spec, places, measured.files),
         owners=bind_owners(spec),
         safety=bind_safety(spec),
         bringup=bind_bringup(spec),

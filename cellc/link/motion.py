@@ -11,9 +11,11 @@ from cellc.cell.motion import CartesianGoal, NamedPose, PlanningGroup
 from cellc.diagnostics import Diagnostic, Outcome, Severity, YamlPath
 from cellc.link.frames import FrameNames
 from cellc.link.names import unknown_name
+from cellc.link.planners import link_solver
 from cellc.link.quantities import pose, vector
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
+from cellc.vocabulary import Distro
 
 
 def link_groups(
@@ -23,6 +25,7 @@ def link_groups(
     frames: tuple[Frame, ...],
     names: FrameNames,
     controllers: tuple[Controller, ...],
+    distro: Distro,
 ) -> Outcome[tuple[PlanningGroup, ...]]:
     """Bind each group to the movable joints between its base link and its tip, base first."""
     groups: list[PlanningGroup] = []
@@ -32,8 +35,9 @@ def link_groups(
     for name, written in spec.motion.groups.items():
         path = ("motion", "groups", name)
         base, tip = names.bind(written.base, (*path, "base")), names.bind(written.tip, (*path, "tip"))
-        problems += [*base.diagnostics, *tip.diagnostics]
-        if base.value is None or tip.value is None:
+        solver = link_solver(name, written, document, distro)
+        problems += [*base.diagnostics, *tip.diagnostics, *solver.diagnostics]
+        if base.value is None or tip.value is None or solver.value is None:
             continue
         links = _chain(parents, base.value, tip.value)
         if links is None:
@@ -50,6 +54,8 @@ def link_groups(
                 tip_frame=tip.value,
                 joints=joints,
                 controllers=tuple(c.label for c in controllers if c.action and set(c.joints) & set(joints)),
+                solver=solver.value,
+                planner=written.planner,
             )
         )
     return Outcome(tuple(groups), tuple(problems))

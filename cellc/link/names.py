@@ -46,8 +46,6 @@ def home_host(spec: CellSpec) -> str:
 
 
 _PORT = re.compile(r"\{port_(\d{1,5})\}")
-_PORTS_OF_A_DEVICE = 10
-"""More than any driver of the catalog listens on, and easy to read."""
 _PLACEHOLDER = re.compile(r"\{(\w+)\}")  # `{share:PACKAGE}` stays: only an installed workspace knows the folder
 
 
@@ -55,16 +53,15 @@ _PLACEHOLDER = re.compile(r"\{(\w+)\}")  # `{share:PACKAGE}` stays: only an inst
 class Placeholders:
     """The values for one device of the cell.
 
-    ``twins`` is the number of devices of its model before it on its host: ``{port_50001}`` is a port of the host that
-    none of them listens on.
+    ``{port_50001}`` is a port of the host on which its driver listens: the vendor's number, moved by ``port_shift``.
     """
 
     values: Mapping[str, str]
-    twins: int = 0
+    port_shift: int = 0
 
     def fill(self, text: str) -> str:
         """Return the text with every known placeholder replaced; others stay as they are."""
-        ports = _PORT.sub(lambda match: str(int(match[1]) + _PORTS_OF_A_DEVICE * self.twins), text)
+        ports = _PORT.sub(lambda match: str(int(match[1]) + self.port_shift), text)
         return _PLACEHOLDER.sub(lambda match: self.values.get(match[1], match[0]), ports)
 
     def fill_parameters(self, parameters: Mapping[str, ParameterValue]) -> dict[str, ParameterValue]:
@@ -79,7 +76,7 @@ class Placeholders:
         return value
 
 
-def placeholders(name: str, prefix: str, written: DeviceSpec, spec: CellSpec) -> Placeholders:
+def placeholders(name: str, prefix: str, written: DeviceSpec, spec: CellSpec, port_shift: int = 0) -> Placeholders:
     """Collect the values for a device; what the connection does not state is UNKNOWN, never guessed."""
     connection = written.connection
     host_address = UNKNOWN
@@ -99,16 +96,8 @@ def placeholders(name: str, prefix: str, written: DeviceSpec, spec: CellSpec) ->
             "prefix_namespace": "/" + prefix.removesuffix("_") if prefix.removesuffix("_") else "",
             **{f"controller_{kind}": name for kind, name in _controllers(name, spec)},
         },
-        twins=_twins(name, written, spec),
+        port_shift=port_shift,
     )
-
-
-def _twins(name: str, written: DeviceSpec, spec: CellSpec) -> int:
-    """Return how many devices of the same model stand before one in the spec, with their driver on the same host."""
-    before = list(spec.devices.values())[: list(spec.devices).index(name)]
-    host = None if written.connection is None else written.connection.host
-    alike = (one.connection for one in before if one.model == written.model)
-    return sum(one is not None and one.host == host for one in alike)
 
 
 def _controllers(device: str, spec: CellSpec) -> Iterator[tuple[str, str]]:

@@ -14,6 +14,7 @@ from cellc.cell.device import Device
 from cellc.cell.entity import Entity
 from cellc.cell.interface import Interface, InterfaceKind
 from cellc.cell.motion import Fault, Rehearsal, Step, StepEvent
+from cellc.cell.switched import Switched
 from cellc.diagnostics import Diagnostic, Outcome, Severity, YamlPath
 from cellc.link.frames import FrameNames
 from cellc.link.names import unknown_name
@@ -35,7 +36,16 @@ from cellc.spec.faults import (
     SlowFault,
     first_key,
 )
-from cellc.spec.rehearsals import AcknowledgeStep, DetectStep, GripStep, MoveStep, RehearsalSpec, StepSpec
+from cellc.spec.rehearsals import (
+    AcknowledgeStep,
+    DetectStep,
+    GripStep,
+    MoveStep,
+    RehearsalSpec,
+    SenseStep,
+    SetStep,
+    StepSpec,
+)
 from cellc.vocabulary import Moment, Need
 
 _Bound = TypeVar("_Bound", Step, Fault)
@@ -52,6 +62,7 @@ class _Names:
     goals: tuple[str, ...]
     frames: FrameNames
     grippers: tuple[str, ...]
+    switched: Mapping[str, Switched]
     faults: Mapping[str, Target]
 
 
@@ -69,6 +80,7 @@ def link_rehearsals(
         goals=tuple(spec.motion.goals),
         frames=frames,
         grippers=tuple(device.name for device in devices if device.gripper is not None),
+        switched={device.name: device.switched for device in devices if device.switched is not None},
         faults=fault_targets(spec, devices, managers, interfaces, frames),
     )
     rehearsals: list[Rehearsal] = []
@@ -169,9 +181,27 @@ def _step(step: StepSpec, document: SourceDocument, path: YamlPath, names: _Name
             message = f"`grip` names no gripper, and the cell has {len(names.grippers) or 'none'}"
             problem = tuple(replace(one, message=message) for one in problem)
         return Outcome(Step(name=gripper, path=path, span=span, kind="grip", command=step.grip), problem)
+    if isinstance(step, SetStep | SenseStep):
+        return _switched_step(step, document, path, names)
     if isinstance(step, AcknowledgeStep):
         return Outcome(Step(name=step.acknowledge, path=path, span=span, kind="acknowledge"))
     return Outcome(Step(name="", path=path, span=span, kind="wait", duration_s=step.wait.si))
+
+
+def _switched_step(step: SetStep | SenseStep, document: SourceDocument, path: YamlPath, names: _Names) -> Outcome[Step]:
+    """Bind a step to a device that outputs switch, or whose sensors tell the state that is waited for."""
+    if isinstance(step, SetStep):
+        kind, device, noun = "set", step.set, "device with outputs"
+        fits = {name: one for name, one in names.switched.items() if one.signals}
+    else:
+        kind, device, noun = "sense", step.sense, "device with sensors that are wired"
+        fits = {name: one for name, one in names.switched.items() if one.inputs}
+    problem = _missing("unknown-device", device, noun, tuple(fits), document, (*path, kind))
+    if device in fits:
+        known = fits[device].states if kind == "set" else tuple(fits[device].told_states)
+        problem = _missing("unknown-state", step.state, "state", tuple(known), document, (*path, "state"))
+    span = document.locate(path)
+    return Outcome(Step(name=device, path=path, span=span, kind=kind, state=step.state), problem)
 
 
 def _missing(
@@ -307,6 +337,7 @@ def _of_devices(devices: tuple[Device, ...]) -> dict[str, Target]:
     arms = [device for device in jointed if device.kind == "arm"]
     claimed = [device for device in jointed if device.hardware is not None and device.hardware.kept_by_a_claim]
     braked = [device for device in jointed if Need.BRAKES_OPEN in _claim_needs(device)]
+    sensed = [device for device in devices if device.switched is not None and device.switched.inputs]
     code = "unknown-device"
     streams = Target("camera or device with joints", code, _named(seen))
     programmed = Target("device that keeps set points while its program is stopped", code, _named(claimed))
@@ -320,6 +351,7 @@ def _of_devices(devices: tuple[Device, ...]) -> dict[str, Target]:
         "wrong_payload": Target("arm", code, _named(arms)),
         **dict.fromkeys(("program_stop", "program_start", "stale_set_points"), programmed),
         "jog": Target("joint", "unknown-joint", _joints(claimed)),
+        "silent_sensor": Target("device with sensors that are wired", code, _named(sensed)),
         "brakes_closed": Target("device whose claim needs open brakes", code, _named(braked)),
     }
 

@@ -15,6 +15,7 @@ from cellc.cell.site import (
     ApprovalOwners,
     Bringup,
     Calibration,
+    CalibrationFile,
     Clock,
     FirstMotion,
     HardwareStatement,
@@ -110,8 +111,10 @@ def bind_network(spec: CellSpec) -> Network:
     return Network(domain_id=written.domain_id, discovery=written.discovery, peers=written.peers)
 
 
-def bind_calibrations(spec: CellSpec, places: Places) -> Mapping[str, Calibration]:
-    """Return every calibration by its id."""
+def bind_calibrations(
+    spec: CellSpec, places: Places, files: Mapping[str, CalibrationFile]
+) -> Mapping[str, Calibration]:
+    """Return every calibration by its id, with the file that it is from."""
     return {
         name: Calibration(
             name=name,
@@ -124,6 +127,7 @@ def bind_calibrations(spec: CellSpec, places: Places) -> Mapping[str, Calibratio
             samples=written.samples,
             residual_m=si(written.residual),
             owner=written.owner,
+            file=files.get(name),
         )
         for name, written in spec.calibrations.items()
     }

@@ -41,6 +41,7 @@ from cellc.mock.task_status import ActionStatus, Milestones, TaskRequests
 from cellc.mock.tf.buffer import DEFAULT_BUFFER_S, TransformBuffer
 from cellc.mock.tf.sources import SampledSource
 from cellc.mock.world.joint_states import JOINT_STATE_TYPE
+from cellc.mock.world.switches import Switches
 from cellc.mock.world.world import World
 from cellc.transforms import Pose
 
@@ -126,6 +127,7 @@ def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int, bring_up: T
         stops=Stops(control),
         effects=Effects(contract, folder.watches, control, simulation),
         world=World(memory.model.links, control.histories.values()),
+        switches=Switches(contract),
         cameras={},
         perceptions={},
         robot_state_publisher=published,

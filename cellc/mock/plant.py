@@ -21,6 +21,7 @@ from cellc.mock.nodes.robot_state_publisher import JointStateFeed, RobotStatePub
 from cellc.mock.stops import Stops
 from cellc.mock.task_status import ActionStatus, Milestones, TaskRequests
 from cellc.mock.tf.buffer import TransformBuffer
+from cellc.mock.world.switches import Switches
 from cellc.mock.world.world import World
 
 
@@ -56,6 +57,7 @@ class Plant:
         stops: of the hardware, until they are acknowledged.
         effects: what devices do beside following commands.
         world: where links and objects really are.
+        switches: devices that digital outputs switch.
         cameras: by device.
         perceptions: by the dynamic frame that they publish.
     """
@@ -69,6 +71,7 @@ class Plant:
     stops: Stops
     effects: Effects
     world: World
+    switches: Switches
     cameras: dict[str, Camera]
     perceptions: dict[str, Perception]
     robot_state_publisher: RobotStatePublisher

@@ -74,6 +74,13 @@ class GroupSpec(SpecModel):
 
     base: FrameReference = Field(..., description="First link of the chain.", examples=["arm/base_link"])
     tip: FrameReference = Field(..., description="Frame that goals place.", examples=["tcp"])
+    ik: Name = Field("kdl", description="What solves inverse kinematics for MoveIt.", examples=["pick_ik"])
+    ik_timeout: Duration | None = Field(
+        None, description="How long one solution may take; 50 ms if absent.", examples=["20 ms"]
+    )
+    planner: Name = Field(
+        "RRTConnect", description="Planner of the pipeline `ompl`, by OMPL's name.", examples=["RRTstar"]
+    )
 
 
 class GoalSpec(SpecModel):
@@ -100,6 +107,12 @@ class MotionSpec(SpecModel):
         default_factory=dict,
         description="Planning groups by name.",
         examples=[{"manipulator": {"base": "arm/base_link", "tip": "tcp"}}],
+    )
+    pipelines: tuple[Name, ...] = Field(
+        ("ompl", "pilz_industrial_motion_planner"),
+        description="Planning pipelines of MoveIt; the first is the default.",
+        examples=[["ompl", "chomp"]],
+        min_length=1,
     )
     poses: dict[Name, dict[Name, JointPositions]] = Field(
         default_factory=dict,

@@ -44,6 +44,13 @@ class ConnectionSpec(SpecModel):
     port: Text | None = Field(
         None, description="Serial or bus device for one without an address.", examples=["/dev/ttyUSB0"]
     )
+    first_port: int | None = Field(
+        None,
+        description="First of the ports of the host on which its driver listens; free ones if absent.",
+        examples=[50101],
+        ge=1024,
+        le=65500,
+    )
 
 
 class TighterLimitsSpec(SpecModel):
@@ -109,6 +116,34 @@ class AdapterSpec(SpecModel):
     path_tolerance: JointPosition | None = Field(
         None, description="Largest distance of a joint from its command.", examples=["0.05 rad"]
     )
+
+
+class SwitchingSpec(SpecModel):
+    """How a device of a few states is wired, and what it does without power."""
+
+    outputs: dict[Name, Text] = Field(
+        default_factory=dict,
+        description="Its outputs → the command interface that drives each, as `device/gpio/interface`.",
+        examples=[{"valve": "plc/io/out_0"}],
+    )
+    inputs: dict[Name, Text] = Field(
+        default_factory=dict,
+        description="Its sensors → the state interface that reads each, as `device/gpio/interface`.",
+        examples=[{"closed": "plc/io/in_0"}],
+    )
+    starts: Name | None = Field(
+        None, description="State at power-up; the one with every output off if absent.", examples=["open"]
+    )
+    time: Duration | None = Field(
+        None, description="Time from the output to the end of the way; at once if absent.", examples=["150 ms"]
+    )
+    within: Duration | None = Field(
+        None, description="How long its client waits for the sensors; 1 s if absent.", examples=["500 ms"]
+    )
+    power_lost: Literal["holds", "drops", "UNKNOWN"] = Field(
+        "UNKNOWN", description="What becomes of what it holds when air or power is lost.", examples=["holds"]
+    )
+    accepted_by: Text | None = Field(None, description="Who accepts that it drops what it holds.", examples=["safety"])
 
 
 EVERY_JOINT = "*"
@@ -188,4 +223,9 @@ class DeviceSpec(SpecModel):
         None,
         description="Load told to the arm, tool included.",
         examples=[{"mass": "0.93 kg", "center_of_mass": "0 0 58 mm"}],
+    )
+    switching: SwitchingSpec | None = Field(
+        None,
+        description="Wiring of a device that digital outputs switch.",
+        examples=[{"outputs": {"valve": "plc/io/out_0"}, "inputs": {"closed": "plc/io/in_0"}, "power_lost": "holds"}],
     )

@@ -222,6 +222,12 @@ class BrakesClosedFault(FaultFields):
     brakes_closed: Name = Field(..., description="Device whose claim needs open brakes.", examples=["arm"])
 
 
+class SilentSensorFault(FaultFields):
+    """The sensors of a switched device read for ever what they read now."""
+
+    silent_sensor: Name = Field(..., description="Device with sensors.", examples=["gripper"])
+
+
 FAULT_KEYS: tuple[str, ...] = tuple(kind.value for kind in FaultKind)
 
 
@@ -266,6 +272,7 @@ FaultSpec = Annotated[
         Annotated[JogFault, Tag("jog")],
         Annotated[StaleSetPointsFault, Tag("stale_set_points")],
         Annotated[BrakesClosedFault, Tag("brakes_closed")],
+        Annotated[SilentSensorFault, Tag("silent_sensor")],
     ],
     Discriminator(
         _fault_key,

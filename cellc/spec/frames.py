@@ -19,6 +19,18 @@ class CalibrationSpec(SpecModel):
     samples: int | None = Field(None, description="Number of observations.", examples=[40], ge=1, le=MOST)
     residual: Length | None = Field(None, description="Residual of the fit.", examples=["0.8 mm"])
     owner: Text = Field("UNKNOWN", description="Who answers for it.", examples=["perception"])
+    from_: Text | None = Field(
+        None,
+        alias="from",
+        description="What the calibration tool wrote, beside this file or below; then it is the one truth.",
+        examples=["hand_eye.calib"],
+    )
+    parent: FrameReference | None = Field(
+        None, description="Frame in which the file has the pose, where it names another.", examples=["arm/tool0"]
+    )
+    child: FrameReference | None = Field(
+        None, description="Frame whose pose it has, where it names another.", examples=["camera/color_optical"]
+    )
 
     def measured_on(self) -> datetime.date | None:
         """Return the date of the measurement, or None where the text is no date."""

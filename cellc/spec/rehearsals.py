@@ -29,6 +29,20 @@ class GripStep(SpecModel):
     device: Name | None = Field(None, description="Gripper; the only one if absent.", examples=["gripper"])
 
 
+class SetStep(SpecModel):
+    """Set the outputs of a switched device; the step does not wait until it is there."""
+
+    set: Name = Field(..., description="Device that digital outputs switch.", examples=["gripper"])
+    state: Name = Field(..., description="One of its states.", examples=["closed"])
+
+
+class SenseStep(SpecModel):
+    """Wait until the sensors of a switched device tell a state."""
+
+    sense: Name = Field(..., description="Device with sensors.", examples=["door"])
+    state: Name = Field(..., description="One of its states.", examples=["closed"])
+
+
 class WaitStep(SpecModel):
     """Let simulated time pass."""
 
@@ -41,7 +55,7 @@ class AcknowledgeStep(SpecModel):
     acknowledge: Literal["operator"] = Field(..., description="Who acknowledges.", examples=["operator"])
 
 
-_STEP_KEYS = ("move", "detect", "grip", "wait", "acknowledge")
+_STEP_KEYS = ("move", "detect", "grip", "set", "sense", "wait", "acknowledge")
 
 
 def _step_key(value: object) -> str | None:
@@ -53,13 +67,15 @@ StepSpec = Annotated[
         Annotated[MoveStep, Tag("move")],
         Annotated[DetectStep, Tag("detect")],
         Annotated[GripStep, Tag("grip")],
+        Annotated[SetStep, Tag("set")],
+        Annotated[SenseStep, Tag("sense")],
         Annotated[WaitStep, Tag("wait")],
         Annotated[AcknowledgeStep, Tag("acknowledge")],
     ],
     Discriminator(
         _step_key,
         custom_error_type="step-kind-missing",
-        custom_error_message="a step needs one of the keys `move`, `detect`, `grip`, `wait` or `acknowledge`",
+        custom_error_message="a step needs one of the keys " + ", ".join(f"`{key}`" for key in _STEP_KEYS),
     ),
 ]
 

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from itertools import combinations
+from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
 import pytest
 
 from cellc.deploy.files import PARAMETER_FILES
-from tests.cells import DISTROS
-from tests.emit.cells import artifacts_of
+from tests.cells import DISTROS, spec_text
+from tests.emit.cells import artifacts_of, emitted
 from tests.foreign_yaml import safe_load
 
 
@@ -101,3 +102,65 @@ def test_disabled_pairs_have_the_reasons_of_the_setup_assistant() -> None:
     moving = ("arm_upper_arm_link", "arm_wrist_2_link", "table", "arm_base_link_inertia")
     kept = {frozenset(pair) for pair in combinations(moving, 2)} - {frozenset(("table", "arm_base_link_inertia"))}
     assert not kept & set(pairs)
+
+
+def _planning(text: str, distro: str, folder: Path) -> dict[str, Any]:
+    """Return what move_group is told of a cell whose spec says something else of planning, and its dependencies."""
+    spec = spec_text("ur5e_pick").replace("groups: {manipulator: {base: arm/base_link, tip: tcp}}", text)
+    assert text in spec
+    texts = emitted(folder, spec.replace("ros: jazzy", f"ros: {distro}"))
+    (told,) = safe_load(texts["config/moveit/planning_pipelines.yaml"]).values()
+    (solved,) = safe_load(texts["config/moveit/kinematics.yaml"]).values()
+    package = ElementTree.fromstring(texts["package.xml"])
+    needed = {one.text: one.get("version_gte") for one in package.findall("exec_depend")}
+    return {**told["ros__parameters"], **solved["ros__parameters"], "needed": needed}
+
+
+def test_a_group_gets_the_solver_and_the_planner_that_its_spec_names(tmp_path: Path) -> None:
+    group = "groups: {manipulator: {base: arm/base_link, tip: tcp, ik: pick_ik, ik_timeout: 20 ms, planner: RRTstar}}"
+    told = _planning(group, "jazzy", tmp_path)
+    solver = told["robot_description_kinematics"]["manipulator"]
+    # pick_ik 1.1.2: pick_ik_kinematics_description.xml, src/pick_ik_parameters.yaml
+    assert (solver["kinematics_solver"], solver["mode"]) == ("pick_ik/PickIkPlugin", "global")
+    assert solver["kinematics_solver_timeout"] == 0.02
+    (planner,) = told["ompl"]["manipulator"]["planner_configs"]
+    assert told["ompl"]["manipulator"]["default_planner_config"] == planner
+    assert told["ompl"]["planner_configs"][planner]["type"] == "geometric::RRTstar"
+    # It has a version of its own, which is not that of MoveIt.
+    assert told["needed"]["pick_ik"] is None
+    assert "moveit_kinematics" not in told["needed"]
+
+
+@pytest.mark.parametrize("distro", ["humble", "jazzy"])
+def test_the_first_pipeline_is_the_default_and_each_brings_what_it_is_made_of(distro: str, tmp_path: Path) -> None:
+    told = _planning(
+        "groups: {manipulator: {base: arm/base_link, tip: tcp}}\n  pipelines: [ompl, chomp]", distro, tmp_path
+    )
+    assert told["planning_pipelines"] == ["ompl", "chomp"]
+    assert told["default_planning_pipeline"] == "ompl"
+    # Sequences are a capability of the industrial planner.
+    assert "capabilities" not in told
+    # moveit2 2.12.4 and 2.5.9: moveit_configs_utils/default_configs/chomp_planning.yaml
+    plugin = told["chomp"]["planning_plugin" if distro == "humble" else "planning_plugins"]
+    assert plugin in ("chomp_interface/CHOMPPlanner", ["chomp_interface/CHOMPPlanner"])
+    assert told["chomp"]["ridge_factor"] == 0.01
+    timed = told["chomp"]["request_adapters" if distro == "humble" else "response_adapters"]
+    assert "AddTimeOptimalParameterization" in "".join(timed)
+    assert {"moveit_planners_chomp", "moveit_planners_ompl"} <= set(told["needed"])
+    assert "pilz_industrial_motion_planner" not in told["needed"]
+
+
+def test_rviz_shows_the_cell_and_offers_nothing_that_commands() -> None:
+    shown = safe_load(artifacts_of("ur5e_pick")["config/cell.rviz"])["Visualization Manager"]
+    classes = [one["Class"] for one in (*shown["Displays"], *shown["Tools"])]
+    assert {"rviz_default_plugins/RobotModel", "moveit_rviz_plugin/PlanningScene"} <= set(classes)
+    # moveit2, motion_planning_rviz_plugin: it plans and executes; rviz_default_plugins: these tools publish.
+    forbidden = (
+        "moveit_rviz_plugin/MotionPlanning",
+        "rviz_default_plugins/SetGoal",
+        "rviz_default_plugins/SetInitialPose",
+    )
+    assert not set(forbidden) & set(classes)
+    topics = [one["Topic"]["Value"] for one in shown["Displays"] if one["Class"].endswith("/Image")]
+    assert topics == ["/camera/color/image_raw"]
+    assert shown["Global Options"]["Fixed Frame"] == "world"

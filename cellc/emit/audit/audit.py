@@ -16,12 +16,14 @@ from cellc.cell.site import UNKNOWN
 from cellc.deploy.configuration import OpenQuestion
 from cellc.deploy.deployment import Deployment
 from cellc.emit.audit.tables import (
+    calibration_section,
     command_section,
     drivers_section,
     interfaces_section,
     nodes_section,
     owners_section,
     record_section,
+    signals_section,
     table,
     tf_section,
 )
@@ -47,11 +49,13 @@ _READ_ON_THE_DEVICE = ("revision", "serial", "firmware")
 def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     """Yield the audit."""
     cell = graph.cell
+    measured = cell.calibrations.values()
     sections = {
         "Open questions": _questions_section(graph, plan),
         "Version tuple": _version_section(cell),
         "Command owners": owners_section(graph),
         "Command paths": command_section(graph),
+        **({"Digital signals": signals_section(cell)} if any(one.switched for one in cell.devices) else {}),
         "Expected nodes": nodes_section(cell),
         "Expected topics": interfaces_section(cell, InterfaceKind.TOPIC),
         "Expected services": interfaces_section(cell, InterfaceKind.SERVICE),
@@ -59,6 +63,7 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
         "Expected of drivers": drivers_section(cell),
         "Expected TF publishers": tf_section(cell),
         "Attempt record": record_section(cell),
+        **({"Calibration files": calibration_section(cell)} if any(one.file for one in measured) else {}),
         "Approvals": table(("area", "question", "owner"), approvals(cell)),
         "Responsibilities": table(("responsibility", "owner"), responsibilities(cell)),
         "Recovery": "\n".join(recovery(cell)),

@@ -62,6 +62,38 @@ def _owners(cell: Cell) -> Iterator[tuple[str, ...]]:
                 yield code(name), f"{controller.label}{state}{where}", client, people.get(client, _NOT_STATED)
 
 
+def calibration_section(cell: Cell) -> str:
+    """Write the files of calibration tools that transforms are taken from, each with its date and hash."""
+    rows = (
+        (one.name, str(one.revision), one.measured, one.owner, code(one.file.path), code(one.file.sha256))
+        for one in cell.calibrations.values()
+        if one.file is not None
+    )
+    return table(("calibration", "revision", "measured", "owner", "file", "sha256"), rows)
+
+
+def signals_section(cell: Cell) -> str:
+    """Write each output and sensor of devices of few states: what drives it, and what a loss of power does."""
+    head = ("device", "signal", "interface", "controller", "commanded by", "without power")
+    return table(head, _signals(cell))
+
+
+def _signals(cell: Cell) -> Iterator[tuple[str, ...]]:
+    for device in cell.devices:
+        one = device.switched
+        if one is None:
+            continue
+        accepted = "" if one.accepted_by is None else f", accepted by {one.accepted_by}"
+        lost = "holds nothing" if one.holds is None else f"{one.power_lost}{accepted}"
+        for name, interface in one.outputs.items():
+            by = next((each for each in cell.controllers if interface in each.all_claims), None)
+            client = "nobody" if by is None or by.client is None else by.client
+            yield device.name, f"output {name}", code(interface), "none" if by is None else by.label, client, lost
+        for name, interface in one.inputs.items():
+            by = next((each for each in cell.controllers if interface in each.state_interfaces), None)
+            yield device.name, f"sensor {name}", code(interface), "none" if by is None else by.label, "is read", lost
+
+
 def _claims(controller: Controller) -> dict[tuple[str, ...], str]:
     """Return what a controller claims → where, which is empty for every target alike."""
     claims = {controller.claims(target): f" on {ON_TARGET[target]}" for target in controller.targets}

@@ -18,6 +18,7 @@ from cellc.contract.contract import (
     ContractEffect,
     ContractGripper,
     ContractSimulatedJoint,
+    ContractSwitched,
 )
 from cellc.formats.urdf.robot import start_positions
 from cellc.vocabulary import Moment
@@ -41,6 +42,7 @@ def _device(cell: Cell, device: Device) -> ContractDevice:
         speed_scaling_interface=None if _adapted(cell, device) else device.speed_scaling,
         gripper=_gripper(cell, device),
         camera=_camera(cell, device),
+        switched=_switched(device),
         effects=_effects(hardware),
         at_once=hardware is not None and hardware.at_once,
         command_timeout_s=None if hardware is None else hardware.command_timeout_s,
@@ -107,6 +109,21 @@ def _camera(cell: Cell, device: Device) -> ContractCamera | None:
         rate_hz=(None if used is None else used.rate_hz) or stream.rate_hz,
         exposure_s=device.camera.exposure_s,
         clock=UNKNOWN if device.stamp is None else device.stamp.clock.domain,
+    )
+
+
+def _switched(device: Device) -> ContractSwitched | None:
+    one = device.switched
+    if one is None:
+        return None
+    return ContractSwitched(
+        states={name: dict(state.sensors) for name, state in one.states.items()},
+        starts=one.starts,
+        time_s=one.time_s,
+        within_s=one.within_s,
+        holds=one.holds,
+        outputs=dict(one.outputs),
+        inputs=dict(one.inputs),
     )
 
 

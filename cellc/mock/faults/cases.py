@@ -48,6 +48,10 @@ def cell_steps(contract: Contract) -> Iterator[CellStep]:
     for name, device in contract.devices.items():
         if device.gripper is not None:
             yield CellStep("grip", name, () if device.gripper.controller is None else (device.gripper.controller,))
+        if device.switched is not None and device.switched.outputs:
+            yield CellStep("set", name)
+        if device.switched is not None and device.switched.inputs:
+            yield CellStep("sense", name)
     yield CellStep("wait", "")
 
 

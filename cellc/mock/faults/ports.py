@@ -21,6 +21,7 @@ from cellc.mock.task_status import ActionStatus, ForeignGoal, Milestones, TaskRe
 from cellc.mock.tf.buffer import DEFAULT_BUFFER_S, TransformBuffer
 from cellc.mock.tf.sources import SampledSource
 from cellc.mock.world.joint_states import NEVER_NS, JointStateHistory
+from cellc.mock.world.switches import Switches
 from cellc.transforms import Pose
 
 
@@ -244,6 +245,7 @@ class FaultPorts:
     requests: TaskRequests
     milestones: Milestones
     effects: Effects
+    switches: Switches
 
 
 def fault_ports(plant: Plant) -> FaultPorts:
@@ -261,4 +263,5 @@ def fault_ports(plant: Plant) -> FaultPorts:
         plant.task.requests,
         plant.task.milestones,
         plant.effects,
+        plant.switches,
     )

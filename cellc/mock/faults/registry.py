@@ -17,6 +17,7 @@ from cellc.mock.faults.network import CutNetwork, MismatchQos, Unresponsive
 from cellc.mock.faults.ports import FaultPorts
 from cellc.mock.faults.programs import BrakesClosed, Jog, ProgramStart, ProgramStop, StaleSetPoints
 from cellc.mock.faults.samples import Delay, Freeze
+from cellc.mock.faults.sensors import SilentSensor
 from cellc.mock.faults.stops import EmergencyStop, ProtectiveStop, RestartDriver, WrongPayload
 from cellc.vocabulary import FaultKind
 
@@ -131,6 +132,7 @@ FAULTS: tuple[FaultType, ...] = (
     Jog,
     StaleSetPoints,
     BrakesClosed,
+    SilentSensor,
 )
 _BY_KIND = {fault.kind: fault for fault in FAULTS}
 

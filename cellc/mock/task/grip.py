@@ -25,7 +25,7 @@ def grip(context: TaskContext, attempt: Attempt, device: str, command: str) -> W
     facts = None if named is None else named.gripper
     if facts is None or facts.controller is None:
         raise AttemptError(AttemptOutcome.GOAL_REJECTION, f"no controller drives gripper {device}")
-    between = _object_between(context, device) if command == "close" else None
+    between = object_between(context, device) if command == "close" else None
     target = facts.closed if command == "close" else facts.open
     goal = _goal(context, facts, target)
     timeout_s = grip_timeout_s(context.contract, facts.controller)
@@ -34,9 +34,9 @@ def grip(context: TaskContext, attempt: Attempt, device: str, command: str) -> W
     state = yield from state_since(context, ended.decided_ns)
     _require_arrival(state, facts, target)
     if between is not None:
-        _take(context, device, between)
+        take(context, device, between)
     elif command == "open":
-        _release(context, device)
+        release(context, device)
 
 
 def _require_arrival(state: CurrentState, facts: ContractGripper, expected: float) -> None:
@@ -57,7 +57,7 @@ def _goal(context: TaskContext, facts: ContractGripper, position: float) -> Grip
     return GripperGoal(position=(position,), joint_names=(facts.joint,))
 
 
-def _object_between(context: TaskContext, device: str) -> str | None:
+def object_between(context: TaskContext, device: str) -> str | None:
     """Return the object whose frame is nearest to the tip behind the gripper, if it is within the tolerance."""
     plant = context.plant
     tip = _tip_link(context, device)
@@ -87,7 +87,8 @@ def _tip_link(context: TaskContext, device: str) -> str | None:
     return None
 
 
-def _take(context: TaskContext, device: str, name: str) -> None:
+def take(context: TaskContext, device: str, name: str) -> None:
+    """Let a device hold an object from now on."""
     plant = context.plant
     link = plant.contract.devices[device].root_link
     pose_in_link = plant.world.move(name, link, plant.now_ns)
@@ -96,7 +97,8 @@ def _take(context: TaskContext, device: str, name: str) -> None:
     context.acting_on = None
 
 
-def _release(context: TaskContext, device: str) -> None:
+def release(context: TaskContext, device: str) -> None:
+    """Let go of what a device holds; it stays where it is."""
     name = context.held.pop(device, None)
     if name is not None:
         context.plant.world.move(name, context.contract.root_frame, context.plant.now_ns)

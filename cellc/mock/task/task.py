@@ -12,6 +12,7 @@ from cellc.mock.stops import NORMAL
 from cellc.mock.task.context import OUTCOME_OF_STOP, Attempt, AttemptError, Identity, TaskContext, current_state
 from cellc.mock.task.grip import grip
 from cellc.mock.task.move import move
+from cellc.mock.task.switch import sense, switch
 from cellc.vocabulary import AttemptOutcome
 
 PATIENCE_PERIODS = 10
@@ -168,6 +169,10 @@ class Task:
             yield from detect(self._context, attempt, step.target)
         elif step.kind == "grip":
             yield from grip(self._context, attempt, step.target, step.command or "close")
+        elif step.kind == "set":
+            switch(self._context, step.target, step.state or "")
+        elif step.kind == "sense":
+            yield from sense(self._context, step.target, step.state or "")
         else:
             yield from self._context.rest(step.duration_s or 0.0)
 
@@ -189,4 +194,4 @@ class Task:
 
 
 def _title(step: StepEntry) -> str:
-    return " ".join(word for word in (step.kind, step.command or "", step.target) if word)
+    return " ".join(word for word in (step.kind, step.command or "", step.target, step.state or "") if word)

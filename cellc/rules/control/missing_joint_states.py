@@ -34,7 +34,7 @@ def check(graph: CellGraph) -> Findings:
     """Yield managers that drive joints without an active joint state broadcaster."""
     for manager in graph.cell.managers:
         publishing = any(c.behaviour is Behaviour.JOINT_STATE_BROADCASTER and c.active for c in manager.controllers)
-        if not publishing and any(c.command_interfaces for c in manager.controllers):
+        if not publishing and any(c.command_interfaces and c.joints for c in manager.controllers):
             path = (*manager.path, "controllers")
             message = f"no controller of `{manager.name}` publishes joint states"
             yield found(graph, path, message)

@@ -54,6 +54,7 @@ _LAYERS = {
     "jog": ("claim_failure", "uncommanded_motion"),
     "stale_set_points": ("claim_failure", "uncommanded_motion"),
     "brakes_closed": ("claim_failure", "protective_stop"),
+    "silent_sensor": ("timeout",),
 }
 
 

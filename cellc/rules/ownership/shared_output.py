@@ -1,0 +1,55 @@
+"""Two devices are switched by one output.
+
+The lamp lights and the gripper opens. Nothing refuses it: both are told by the one interface, and who sets it for one
+of them sets the other.
+
+Example that is reported:
+
+```yaml
+devices:
+  io: {model: ./demo_io, mount: {parent: world, xyz: 0 2 0 m}, revision: A, firmware: io 1.0.0,
+       driver: demo_io_driver 1.0.0}
+  lamp: {model: ./demo_lamp, mount: {parent: world, xyz: 0 2 1 m}, revision: A,
+         switching: {outputs: {light: io/io/out_0}}}
+  beacon: {model: ./demo_lamp, mount: {parent: world, xyz: 0 2 2 m}, revision: A,
+           switching: {outputs: {light: io/io/out_0}}}  # expect at light
+control:
+  controllers: {outputs: {type: demo_outputs, device: io, client: task}}
+```
+
+Example that is accepted:
+
+```yaml
+devices:
+  io: {model: ./demo_io, mount: {parent: world, xyz: 0 2 0 m}, revision: A, firmware: io 1.0.0,
+       driver: demo_io_driver 1.0.0}
+  lamp: {model: ./demo_lamp, mount: {parent: world, xyz: 0 2 1 m}, revision: A,
+         switching: {outputs: {light: io/io/out_0}}}
+  beacon: {model: ./demo_lamp, mount: {parent: world, xyz: 0 2 2 m}, revision: A,
+           switching: {outputs: {light: io/io/out_1}}}
+control:
+  controllers: {outputs: {type: demo_outputs, device: io, client: task}}
+```
+
+Fix: wire each to an output of its own.
+
+Source: docs/principles.md#digital-signals
+"""
+
+from __future__ import annotations
+
+from cellc.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, found, rule
+
+
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
+    """Yield the second use of an output, by another device or by the same."""
+    first: dict[str, YamlPath] = {}
+    for device in graph.cell.devices:
+        outputs = {} if device.switched is None else device.switched.outputs
+        for name, interface in outputs.items():
+            path = (*device.path, "switching", "outputs", name)
+            owner = first.setdefault(interface, path)
+            if owner != path:
+                message = f"`{device.name}` must have an output of its own, got `{interface}` of `{owner[1]}`"
+                yield found(graph, path, message, related=(Related("first used here", graph.cell.locate(*owner)),))
