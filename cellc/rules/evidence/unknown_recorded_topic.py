@@ -26,7 +26,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, did_you_mean, found, 
 _ALWAYS = ("/diagnostics", "/rosout", "/parameter_events", "/tf", "/tf_static", "/clock", "/joint_states")
 
 
-@rule(Severity.WARNING)
+@rule(Severity.WARNING, assumes=("illegal-ros-name",))
 def check(graph: CellGraph) -> Findings:
     """Yield recorded topics that no interface declares and no device publishes."""
     known = {*_ALWAYS, *(interface.name for interface in graph.cell.interfaces)}

@@ -38,15 +38,16 @@ _LONGEST = {InterfaceKind.TOPIC: 247, InterfaceKind.SERVICE: 240, InterfaceKind.
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
-    """Yield names that are not fully qualified, hold other characters or are too long."""
-    for interface in graph.cell.interfaces:
-        longest = _LONGEST[interface.kind]
-        if _NAME.fullmatch(interface.name) is None:
-            message = f"`{interface.name}` is not a legal ROS name"
-            yield found(graph, interface.path, message, f"write `{_legal(interface.name)}`, as the nodes do")
-        elif len(interface.name) > longest:
-            message = f"`{interface.name[:40]}…` must have at most {longest} characters, got {len(interface.name)}"
-            yield found(graph, interface.path, message, "shorten the name")
+    """Yield interfaces and recorded topics whose names are not fully qualified, hold other characters or are too long."""
+    named = [(interface.path, interface.name, interface.kind) for interface in graph.cell.interfaces]
+    recorded = enumerate(graph.cell.recording.topics)
+    named += [(("recording", "topics", index), name, InterfaceKind.TOPIC) for index, name in recorded]
+    for path, name, kind in named:
+        if _NAME.fullmatch(name) is None:
+            yield found(graph, path, f"`{name}` is not a legal ROS name", f"write `{_legal(name)}`, as the nodes do")
+        elif len(name) > _LONGEST[kind]:
+            message = f"`{name[:40]}…` must have at most {_LONGEST[kind]} characters, got {len(name)}"
+            yield found(graph, path, message, "shorten the name")
 
 
 def _legal(name: str) -> str:
