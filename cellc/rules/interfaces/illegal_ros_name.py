@@ -38,7 +38,7 @@ _LONGEST = {InterfaceKind.TOPIC: 247, InterfaceKind.SERVICE: 240, InterfaceKind.
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
-    """Yield interfaces and recorded topics whose names are not fully qualified, hold other characters or are too long."""
+    """Yield interfaces and recorded topics whose names are not full, hold other characters or are too long."""
     named = [(interface.path, interface.name, interface.kind) for interface in graph.cell.interfaces]
     recorded = enumerate(graph.cell.recording.topics)
     named += [(("recording", "topics", index), name, InterfaceKind.TOPIC) for index, name in recorded]
