@@ -10,6 +10,7 @@ from pathlib import Path
 from cellc.catalog.compiled import CATALOG, SHOWN, compiled_device, compiled_table
 from cellc.catalog.controller_kind import ControllerKind
 from cellc.catalog.device_model import DeviceModel
+from cellc.catalog.homes import homes_outside_limits
 from cellc.catalog.names import CatalogNames, unknown_names
 from cellc.catalog.programs import ProgramTable
 from cellc.catalog.read_model import ModelT, read_model
@@ -107,9 +108,12 @@ def _load(
     profiles = load_qos_profiles().value
     assert profiles is not None  # package data, held valid by the catalog's tests
     known = CatalogNames({*controller_kinds(), *OF_ONE_DEVICE}, set(profiles.profiles))
-    unknown = tuple(unknown_names(model, description.value, document, known))
-    device = None if unknown else CatalogDevice(model, description.value)
-    return Outcome(device, description.diagnostics + unknown)
+    wrong = (
+        *unknown_names(model, description.value, document, known),
+        *homes_outside_limits(model, description.value, document),
+    )
+    device = None if wrong else CatalogDevice(model, description.value)
+    return Outcome(device, description.diagnostics + wrong)
 
 
 def _at_its_name(found: Diagnostic, file: Path, document: SourceDocument) -> Diagnostic:

@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Set
 from dataclasses import dataclass
 
-from cellc.catalog.device_interfaces import QosUse
+from cellc.catalog.device_interfaces import QosUse, counted
 from cellc.catalog.device_model import DeviceModel
 from cellc.description.model import Description
-from cellc.diagnostics import Diagnostic, Severity, YamlPath, did_you_mean
+from cellc.diagnostics import Diagnostic, Severity, YamlPath, did_you_mean, is_slip
 from cellc.source.document import SourceDocument
 
 _EVERY_JOINT = "*"
+_ROS = "standard of ros2_control"
+_STANDARD = frozenset({"position", "velocity", "acceleration", "effort"})
+"""What controllers look for: hardware_interface/types/hardware_interface_type_values.hpp of ros2_control 4.47.0."""
 _DRIVER = "driver"  # an end that the device's controllers are, not one of its nodes
 
 
@@ -38,7 +41,12 @@ def unknown_names(
     model: DeviceModel, description: Description, document: SourceDocument, catalog: CatalogNames
 ) -> Iterator[Diagnostic]:
     """Yield a finding for each name that nothing has, with the nearest names that exist."""
-    for one in (*_of_description(model, description), *_of_catalog(model, catalog), *_of_device(model)):
+    for one in (
+        *_of_description(model, description),
+        *_of_catalog(model, catalog),
+        *_of_device(model),
+        *_of_interfaces(model),
+    ):
         if one.name not in one.known:
             yield Diagnostic(
                 "catalogue-entry-invalid",
@@ -106,6 +114,24 @@ def _profiles_named(model: DeviceModel) -> Iterator[tuple[YamlPath, QosUse]]:
         for name, stream in model.camera.streams.items():
             yield ("camera", "streams", name, "qos"), stream.qos
             yield ("camera", "streams", name, "info_qos"), stream.info_qos
+
+
+def _of_interfaces(model: DeviceModel) -> Iterator[_Reference]:
+    """Yield interfaces of joints that are one slip away from a standard one, and initial values of any."""
+    if model.control is None:
+        return
+    for joint, interfaces in model.control.joints.items():
+        for kind, names in (("command", interfaces.command), ("state", interfaces.state)):
+            for number, name in enumerate(names):
+                if any(is_slip(name, one) for one in _STANDARD):
+                    yield _Reference(("control", "joints", joint, kind, number), name, "interface", _STANDARD, _ROS)
+    for part, groups in (("sensors", model.control.sensors), ("gpios", model.control.gpios)):
+        for name, group in groups.items():
+            known = frozenset(counted((*group.command, *group.state)))
+            for interface in group.initial:
+                yield _Reference(
+                    ("control", part, name, "initial", interface), interface, "interface", known, part[:-1]
+                )
 
 
 def _of_device(model: DeviceModel) -> Iterator[_Reference]:

@@ -1,7 +1,7 @@
 """What the compiler says to its user: spans, diagnostics and outcomes."""
 
 from cellc.diagnostics.diagnostic import Diagnostic, Outcome, Related, Severity, Span, YamlPath, format_path
-from cellc.diagnostics.nearest import did_you_mean, nearest, only_suggestion
+from cellc.diagnostics.nearest import did_you_mean, is_slip, nearest, only_suggestion
 
 __all__ = [
     "Diagnostic",
@@ -12,6 +12,7 @@ __all__ = [
     "YamlPath",
     "did_you_mean",
     "format_path",
+    "is_slip",
     "nearest",
     "only_suggestion",
 ]

@@ -6,11 +6,13 @@ import re
 from collections.abc import Iterable
 from difflib import get_close_matches
 from heapq import nsmallest
+from itertools import takewhile
 
 _COMPARED = 128
 """Most candidates that one name is compared with."""
 _LONGEST = 200
 """Longest text that is compared at all."""
+_SEPARATORS = str.maketrans("", "", "-_ ")
 _ONE_SUGGESTION = re.compile(r"did you mean `([^`]+)`\?")
 
 
@@ -52,3 +54,20 @@ def only_suggestion(help_text: str) -> str | None:
     """Return the name that a help by `did_you_mean` suggests, where it suggests a single one."""
     match = _ONE_SUGGESTION.fullmatch(help_text)
     return match[1] if match else None
+
+
+def is_slip(key: str, meant: str) -> bool:
+    """Whether one slip of the fingers lies between two names; a suggestion may be further, but a person reads that.
+
+    A slip is one character too many, too few, wrong, or swapped with its neighbour; or another way to join words.
+    """
+    if key.lower().translate(_SEPARATORS) == meant.lower().translate(_SEPARATORS):
+        return True
+    start = _common_start(key, meant)
+    end = _common_start(key[start:][::-1], meant[start:][::-1])
+    ours, theirs = key[start : len(key) - end], meant[start : len(meant) - end]
+    return max(len(ours), len(theirs)) == 1 or (len(ours) == len(theirs) == 2 and ours == theirs[::-1])
+
+
+def _common_start(ours: str, theirs: str) -> int:
+    return sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(ours, theirs, strict=False)))

@@ -9,14 +9,11 @@ import os
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from itertools import takewhile
 from pathlib import Path
 
-from cellc.diagnostics import Diagnostic, only_suggestion
+from cellc.diagnostics import Diagnostic, is_slip, only_suggestion
 from cellc.edit.rewrite import Edit
 from cellc.source.document import SourceDocument
-
-_SEPARATORS = str.maketrans("", "", "-_ ")
 
 
 def misspelt_keys(diagnostics: Iterable[Diagnostic], document: SourceDocument) -> Iterator[Edit]:
@@ -44,24 +41,7 @@ def _is_safe(key: str, meant: str, found: Diagnostic, document: SourceDocument) 
     if span.line != span.end_line or span.line > len(lines):
         return False
     written = lines[span.line - 1][span.column - 1 : span.end_column - 1]
-    return written == key and _is_slip(key, meant)
-
-
-def _is_slip(key: str, meant: str) -> bool:
-    """Whether one slip of the fingers lies between two keys; a suggestion may be further, but a person reads that.
-
-    A slip is one character too many, too few, wrong, or swapped with its neighbour; or another way to join words.
-    """
-    if key.lower().translate(_SEPARATORS) == meant.lower().translate(_SEPARATORS):
-        return True
-    start = _common_start(key, meant)
-    end = _common_start(key[start:][::-1], meant[start:][::-1])
-    ours, theirs = key[start : len(key) - end], meant[start : len(meant) - end]
-    return max(len(ours), len(theirs)) == 1 or (len(ours) == len(theirs) == 2 and ours == theirs[::-1])
-
-
-def _common_start(ours: str, theirs: str) -> int:
-    return sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(ours, theirs, strict=False)))
+    return written == key and is_slip(key, meant)
 
 
 # Unit of the spec → other spellings, in lower case. Left out: `mhz`, which may be a millihertz, and `min` for minute of

@@ -44,3 +44,53 @@ def test_name_of_nothing_is_found_at_its_line(device: str, old: str, new: str, m
     (found,) = loaded.diagnostics
     assert (found.code, found.message.endswith(message)) == ("catalogue-entry-invalid", True)
     assert "nobody" in changed.splitlines()[found.span.line - 1]
+
+
+@pytest.mark.parametrize(
+    ("device", "old", "new", "message"),
+    [
+        (
+            "demo_arm",
+            "{command: [position,",
+            "{command: [postion,",
+            "the standard of ros2_control has no interface `postion`",
+        ),
+        ("demo_arm", "state: [position, velocity]}}", "state: [position, velocty]}}", "has no interface `velocty`"),
+        (
+            "demo_arm",
+            "initial: {speed_scaling_factor",
+            "initial: {speed_scaling",
+            "the gpio has no interface `speed_scaling`",
+        ),
+        (
+            "demo_arm",
+            "tool_frame:",
+            "home: {joint_1: 400 deg}\ntool_frame:",
+            "must lie from -6.28319 to 6.28319, got 6.98132",
+        ),
+    ],
+)
+def test_slip_in_an_interface_and_home_past_a_limit_are_found_at_their_line(
+    device: str, old: str, new: str, message: str, tmp_path: Path
+) -> None:
+    folder = tmp_path / device
+    shutil.copytree(PARTS / device, folder)
+    text = (folder / "device.yaml").read_text(encoding="utf-8")
+    assert old in text
+    changed = text.replace(old, new, 1)
+    (folder / "device.yaml").write_text(changed, encoding="utf-8")
+    (found,) = load_device_folder(folder, tmp_path).diagnostics
+    assert found.code == "catalogue-entry-invalid"
+    assert message in found.message
+    assert new.split("\n")[0] in changed.splitlines()[found.span.line - 1]
+
+
+def test_interface_that_is_no_slip_of_a_standard_one_is_a_vendors_own(tmp_path: Path) -> None:
+    folder = tmp_path / "demo_arm"
+    shutil.copytree(PARTS / "demo_arm", folder)
+    file = folder / "device.yaml"
+    own = file.read_text(encoding="utf-8").replace(
+        "{command: [position,", "{command: [torque_offset, position_2nd_encoder,", 1
+    )
+    file.write_text(own, encoding="utf-8")
+    assert load_device_folder(folder, tmp_path).diagnostics == ()

@@ -1,9 +1,9 @@
-"""A reader that wants the newest sample queues old ones reliably.
+"""A reader that wants the newest sample queues old ones.
 
 When the reader is late, a queue hands it the oldest sample that it keeps first. It then works through a backlog of
-images in which the part is still where it was. What makes the backlog is the depth: a best-effort queue of five hands
-out five old samples too. It is left alone because lost samples are not sent again and five is what sensors are usually
-read with (REP 2003); only a depth of 1 has no backlog at all.
+images in which the part is still where it was. What makes the backlog is the depth: a best-effort queue hands out old
+samples too, and is reported where the oldest that it can keep is older than the reader may use. A shorter one is left
+alone, because lost samples are not sent again and five is what sensors are usually read with (REP 2003).
 
 Example that is reported:
 
@@ -47,13 +47,21 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 @rule(Severity.WARNING)
 def check(graph: CellGraph) -> Findings:
-    """Yield subscribers with a deep reliable queue on a topic of which they want the newest sample."""
+    """Yield subscribers whose queue keeps what is old of a topic of which they want the newest sample."""
     for topic in graph.cell.interfaces:
         if topic.derived or topic.wants != "newest":
             continue
         for end in topic.sinks:
-            deep = end.qos.history == "keep_all" or end.qos.depth > 1
-            if deep and end.qos.reliability == "reliable":
-                queue = "every sample" if end.qos.history == "keep_all" else f"{end.qos.depth} samples"
-                message = f"`{end.node}` wants the newest of `{topic.name}` but queues {queue} reliably"
-                yield found(graph, end.path, message)
+            endless = end.qos.history == "keep_all"
+            queue = "every sample" if endless else f"{end.qos.depth} samples"
+            message = f"`{end.node}` wants the newest of `{topic.name}` but queues {queue}"
+            if end.qos.reliability == "reliable":
+                if endless or end.qos.depth > 1:
+                    yield found(graph, end.path, f"{message} reliably")
+            elif topic.rate_hz and topic.max_age_s is not None:
+                oldest_s = (end.qos.depth - 1) / topic.rate_hz
+                if endless:
+                    yield found(graph, end.path, message)
+                elif oldest_s > topic.max_age_s:
+                    older = f"the oldest {oldest_s * 1e3:.4g} ms behind the newest"
+                    yield found(graph, end.path, f"{message}, {older}, and may use {topic.max_age_s * 1e3:.4g} ms")

@@ -1,7 +1,8 @@
 """The ROS distribution had reached its end of life when the cell was measured.
 
 No security fixes and no driver releases come any more. The cell's date is that of its latest calibration: a check
-must not change its answer with the clock of the machine that runs it.
+must not change its answer with the clock of the machine that runs it. A date that does not belong to the others is a
+finding of its own, and says nothing of the distribution.
 
 Example that is reported:
 
@@ -37,7 +38,7 @@ from cellc.graph.versions import distribution
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-@rule(Severity.WARNING)
+@rule(Severity.WARNING, assumes=("calibration-of-another-time",))
 def check(graph: CellGraph) -> Findings:
     """Yield a distribution whose end of life lies before the latest calibration."""
     facts = distribution(graph.cell)
