@@ -39,12 +39,12 @@ def bring_up(edited: Edited, _: str) -> Iterator[str]:
     """Compare what the steps of each target start with what the contract has active, and never on the other one."""
     for target in ("mock", "real"):
         requests = [step.request for step in edited.steps(target) if step.request is not None]
-        asked = {
+        asked = [
             f"{one.manager.rpartition('/')[0]}/{name}"
             for one in requests
             if isinstance(one, Activation)
             for name in one.controllers
-        }
+        ]
         yield from differing(
             {"activates": sorted(asked)}, {"activates": _active(edited.contract, target)}, f"{target} "
         )
