@@ -42,6 +42,7 @@ class Feature(Enum):
     SCALED_STATE = "JointTrajectoryControllerState has the speed scaling factor in place of desired and actual"
     PLUGIN_LISTS = "MoveIt takes planning plugins and their adapters as lists"
     EXIT_ENDS_LAUNCH = 'launch XML knows `on_exit="shutdown"`'
+    SERVICE_INFO = "`ros2 service info` counts the clients and servers of a service"
     RECORD_TOPICS_OPTION = "`ros2 bag record` takes the topics after --topics"
 
 
@@ -60,6 +61,7 @@ _SINCE: Mapping[Feature, Distro] = {
     Feature.TRAJECTORIES_END_AT_REST: Distro.JAZZY,
     Feature.SCALED_STATE: Distro.JAZZY,
     Feature.PLUGIN_LISTS: Distro.JAZZY,
+    Feature.SERVICE_INFO: Distro.JAZZY,  # ros2/ros2cli pull request 771
     Feature.RECORD_TOPICS_OPTION: Distro.JAZZY,
 }
 """The first distribution with each feature; all later ones have it too."""

@@ -173,12 +173,13 @@ class DriverFacts(CatalogModel):
     """What moves the device on the real target where ``hardware`` names no plugin for it.
 
     ``node`` is one of the device's nodes, ``joint_states`` one of its topics, and ``actions`` tell which of its actions
-    takes the goals of a kind of controller that is not spawned there.
+    takes the goals of a kind of controller that is not spawned there; ``goal_unit`` says what their figures are.
     """
 
     node: NodeName
     joint_states: GraphName | None = None
     actions: dict[Token, GraphName] = Field(default_factory=dict)
+    goal_unit: Text | None = None
     source: Text
 
 

@@ -25,6 +25,7 @@ from cellc.catalog.device_interfaces import (
     TopicFacts,
 )
 from cellc.spec.quantity import Force, JointAcceleration, JointJerk, JointPosition, Length, Mass, Velocity
+from cellc.vocabulary import GateCode
 
 
 class PortFacts(CatalogModel):
@@ -47,11 +48,23 @@ class NetworkFacts(CatalogModel):
 
 
 class SafetyStateFacts(CatalogModel):
-    """A state of the device's own safety controller and how its driver reports it."""
+    """A state of the device's own safety controller and how its driver reports it.
+
+    ``gate`` is where people look for it: what only an activation or an action shows is seen in no earlier one.
+    """
 
     name: Token
     stops: bool
     reported: Text | None = None
+    gate: GateName = GateCode.G4
+
+
+class StateTopicFacts(CatalogModel):
+    """A topic, below the node of a controller of this kind, that says in which state the device is."""
+
+    controller: Token
+    topic: Token
+    source: Text
 
 
 class RecoveryFacts(CatalogModel):
@@ -62,12 +75,18 @@ class RecoveryFacts(CatalogModel):
 
 
 class SafetyFacts(CatalogModel):
-    """The vendor's safety boundary; no software of the cell is part of it."""
+    """The vendor's safety boundary; no software of the cell is part of it.
+
+    ``ending`` is what people do at the device once nothing is claimed, before its driver ends, ``ended`` after that.
+    """
 
     stop_authority: Text
     states: tuple[SafetyStateFacts, ...] = ()
+    told: tuple[StateTopicFacts, ...] = ()
     modes: tuple[Text, ...] = ()
     recovery: tuple[RecoveryFacts, ...] = ()
+    ending: tuple[Text, ...] = ()
+    ended: tuple[Text, ...] = ()
     watchdog: Text | None = None
     source: Text
 
@@ -113,12 +132,13 @@ class CommissioningStep(CatalogModel):
 
     ``shows`` where it is what must be seen once the release of that gate has been made, ``powers`` where drives have
     power by it, so that the stop can be tried. ``log`` where it stands in the driver's log: what the lines hold of
-    which the newest counts.
+    which the newest counts. ``run`` are commands that read; ``{address}`` in them is a word of the shell.
     """
 
     gate: GateName
     does: Text
     log: tuple[Text, ...] = ()
+    run: tuple[Text, ...] = ()
     shows: bool = False
     powers: bool = False
     only: tuple[DistroName, ...] = ()
@@ -146,12 +166,20 @@ class RecordFacts(CatalogModel):
         return self
 
 
+class JogFacts(CatalogModel):
+    """How people move one joint where the driver cannot run meanwhile, so that positions are read at the device."""
+
+    does: Text
+    source: Text
+
+
 class KinematicsFacts(CatalogModel):
     """How the vendor's tool writes where the joints of one very robot stand.
 
     In the file, each entry of ``joints`` below ``root`` gives the joint that it names x, y, z in m and roll, pitch, yaw
     in rad in its parent link. ``hash`` is the key of a text that names the robot's own table; the real plugin is told
-    it as ``hash_parameter``, whose value in the catalog is that of the nominal one. ``tool`` is what writes the file.
+    it as ``hash_parameter``, whose value in the catalog is that of the nominal one. ``tool`` is the command that writes
+    the file ``FILE``, ``package`` where it is, and ``state`` what the robot is in meanwhile.
     """
 
     root: Token
@@ -159,6 +187,8 @@ class KinematicsFacts(CatalogModel):
     hash: Token
     hash_parameter: Text
     tool: Text
+    package: Token
+    state: Text
     source: Text
 
 
@@ -259,6 +289,7 @@ class DeviceModel(CatalogModel):
     optical_frames: tuple[Token, ...] = ()
     home: dict[Token, JointPosition] | None = None
     kinematics: KinematicsFacts | None = None
+    jog: JogFacts | None = None
     limits: LimitFacts = Field(default_factory=LimitFacts)
     packages: PackageFacts
     control: ControlFacts | None = None

@@ -18,6 +18,7 @@ class StandIn:
     node: str
     action: str
     action_type: str
+    unit: str | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

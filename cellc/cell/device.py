@@ -52,12 +52,14 @@ class DeviceDriver:
         program: ``package/executable``.
         joint_states: the topic on which the program publishes the joints of the device, or None.
         actions: kind of controller → the action, and its type, that takes such a controller's goals.
+        goal_unit: what the figures of these goals are; None where they are those of the joints.
     """
 
     node: str
     program: str
     joint_states: str | None
     actions: Mapping[str, tuple[str, str]]
+    goal_unit: str | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -135,12 +137,17 @@ class Kinematics:
     """Whether the description has the joints of this very robot, or those of its type.
 
     Args:
-        tool: the command that reads them off the robot.
+        tool: the command that reads them off the robot, into ``FILE``, for people to read; ``package`` has it.
+        command: the same with ``{address}``, which becomes a word of the shell.
+        state: what the robot is in meanwhile.
         nominal_hash: what names the table of the type.
         calibration: the file that they are from; None where they are nominal.
     """
 
     tool: str
+    command: str
+    package: str
+    state: str
     nominal_hash: str
     calibration: KinematicCalibration | None = None
 
@@ -268,6 +275,7 @@ class Device(Entity):
         starts: full name of a node of the driver → what the start of its process does.
         version_rows: the matrix of versions that go together.
         record: where the record of an attempt has fields from that the real one alone can tell.
+        jog: how people move one joint where the driver cannot run meanwhile; None where it can.
         commissioning: what people do at the real one, in the vendor's order.
         mock_cannot_prove: what no mock shows of it.
     """
@@ -311,6 +319,7 @@ class Device(Entity):
     safety: VendorSafety = field(default_factory=VendorSafety)
     packages: Packages = field(default_factory=Packages)
     record: tuple[RecordSource, ...] = ()
+    jog: str | None = None
     commissioning: tuple[CommissioningStep, ...] = ()
     version_rows: tuple[VersionRow, ...] = ()
     mock_cannot_prove: tuple[str, ...] = ()

@@ -9,11 +9,12 @@ from cellc.vocabulary import GateCode
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SafetyState:
-    """A state of the device's safety controller, and how its driver reports it."""
+    """A state of the device's safety controller, how its driver reports it, and the gate that looks for it."""
 
     name: str
     stops: bool
     reported: str | None = None
+    gate: GateCode = GateCode.G4
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -26,9 +27,17 @@ class RecoveryProcedure:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class VendorSafety:
-    """The vendor's safety boundary; no software of the cell is part of it."""
+    """The vendor's safety boundary; no software of the cell is part of it.
+
+    Args:
+        topics: what says in which state the device is, where the cell has the controller that publishes it.
+        ending, ended: what people do at the device once nothing is claimed, before and after its driver ends.
+    """
 
     states: tuple[SafetyState, ...] = ()
+    topics: tuple[str, ...] = ()
+    ending: tuple[str, ...] = ()
+    ended: tuple[str, ...] = ()
     modes: tuple[str, ...] = ()
     recovery: tuple[RecoveryProcedure, ...] = ()
     watchdog: str | None = None
@@ -40,7 +49,7 @@ class CommissioningStep:
 
     ``shows`` where it is what must be seen once the release of that gate has been made, ``powers`` where drives have
     power by it, so that the stop can be tried. ``log`` where it stands in the driver's log: what the lines hold of
-    which the newest counts.
+    which the newest counts. ``run`` are commands that read; ``{address}`` in them is that of the device.
     """
 
     gate: GateCode
@@ -48,6 +57,7 @@ class CommissioningStep:
     shows: bool = False
     powers: bool = False
     log: tuple[str, ...] = ()
+    run: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -14,6 +14,9 @@ Target = Literal["mock", "real"]
 
 TARGETS: tuple[Target, ...] = ("mock", "real")
 
+CLAIM_WATCH = "/claim_watch"
+"""The node that deactivates claims of a robot that no longer listens."""
+
 ManagedState = Literal["inactive", "active"]
 
 HardwareState = Literal["unconfigured", "inactive", "active"]
@@ -137,7 +140,14 @@ class HardwareActivation(ContractModel):
     component: str = Field(description="Name of the hardware component.")
 
 
-Request = Transition | Activation | Restart | HardwareActivation
+class Comparison(ContractModel):
+    """Compare what is installed on this computer with the version tuple of ``manifest.json``; a difference stops."""
+
+    kind: Literal["versions"]
+    parts: tuple[str, ...] = Field(description="Parts of the tuple that this computer must show.")
+
+
+Request = Transition | Activation | Restart | HardwareActivation | Comparison
 
 
 class BringUpStep(ContractModel):

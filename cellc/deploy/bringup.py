@@ -18,11 +18,13 @@ from cellc.cell.device import Device
 from cellc.cell.frame import WORLD, FrameKind
 from cellc.cell.interface import TARGETS, InterfaceKind, Node
 from cellc.contract.bring_up import (
+    CLAIM_WATCH,
     ActionProof,
     Activation,
     AloneProof,
     BringUp,
     BringUpStep,
+    Comparison,
     ControllerProof,
     HardwareActivation,
     HardwareProof,
@@ -41,8 +43,9 @@ from cellc.contract.bring_up import (
     Watch,
 )
 from cellc.deploy.processes import asks_for_motion, bring_up_enclave, description_nodes, motion_clients
+from cellc.deploy.versions import compared_on
 from cellc.link.derived import JOINT_STATE_TYPE
-from cellc.vocabulary import PASSIVE, Behaviour, BringUpPhase
+from cellc.vocabulary import PASSIVE, Behaviour, BringUpPhase, Moment, Need
 
 WATCH = "watch"
 """What the program of the bring-up is told to do where it deactivates claims of a robot that no longer listens."""
@@ -53,12 +56,13 @@ DEADLINE_S = 60.0
 
 def bring_up(cell: Cell) -> BringUp:
     """Return the plan of a cell: steps of both targets in the order of their phases, and what the stopper watches."""
+    real = tuple(_steps(cell, "real"))
     return BringUp(
         format=1,
         cell=cell.name,
         enclave=bring_up_enclave(cell),
         mock=tuple(_steps(cell, "mock")),
-        real=tuple(_steps(cell, "real")),
+        real=(*_comparisons(cell, real), *real),
         watches=tuple(_watches(cell)),
     )
 
@@ -87,6 +91,19 @@ def _steps(cell: Cell, target: Target) -> Iterator[BringUpStep]:
         yield from _claim(cell, manager, target)
     if motion_clients(cell):
         yield _move(cell, target)
+
+
+def _comparisons(cell: Cell, steps: tuple[BringUpStep, ...]) -> Iterator[BringUpStep]:
+    """Yield what compares each computer with the tuple that every gate is passed with, before its other steps.
+
+    One that takes no other step runs no bring-up, and is left to the person at gate G0.
+    """
+    taking = {step.host for step in steps if step.phase is BringUpPhase.START}
+    for host, parts in compared_on(cell):
+        if parts and (host in taking or not host):
+            name = f"compare_versions{host and f'_on_{host}'}"
+            asked = Comparison(kind="versions", parts=parts)
+            yield _step(BringUpPhase.START, name, host, [*_mocked(cell, "real")], asked, [])
 
 
 def _configure(cell: Cell, node: Node, target: Target) -> BringUpStep:
@@ -148,7 +165,7 @@ def _activate_hardware(cell: Cell, manager: ControllerManager, target: Target) -
             BringUpPhase.ACTIVATE,
             f"activate_{device.name}",
             manager.host,
-            [*_mocked(cell, target)],
+            [*_mocked(cell, target), *(_silent(cell, device) if target == "real" else ())],
             HardwareActivation(kind="hardware", manager=manager.node, component=_component(device)),
             [_hardware(manager, device, "active")],
         )
@@ -180,7 +197,7 @@ def _claim(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[B
                 *_joint_states(cell, manager),
                 *(_transform(group.base_link, group.tip_frame) for group in cell.groups),
                 *_managed_nodes(cell),
-                *(proof for _, proof in (_listening(cell, manager) if target == "real" else ())),
+                *(_heard(cell, manager) if target == "real" else ()),
             ],
             Activation(kind="controllers", manager=manager.node, controllers=claiming),
             [_controller(manager, name, "active") for name in claiming],
@@ -278,6 +295,24 @@ def _listening(cell: Cell, manager: ControllerManager) -> Iterator[tuple[Device,
                     topic = f"{one.full_name}/{told.topic}"
                     proof = TopicProof(kind="topic", topic=topic, type=told.type, field=told.field, value=told.value)
                     yield device, proof
+
+
+def _heard(cell: Cell, manager: ControllerManager) -> Iterator[Proof]:
+    """Yield that a robot listens, and that the node is there which takes the claim when it no longer does."""
+    listening = tuple(proof for _, proof in _listening(cell, manager))
+    yield from listening
+    if listening:
+        yield NodeProof(kind="node", node=CLAIM_WATCH)
+
+
+def _silent(cell: Cell, device: Device) -> Iterator[TopicProof]:
+    """Yield that no program plays which would end while a device holds up its controller manager."""
+    effect = None if device.hardware is None else device.hardware.effects.get(Moment.ACTIVATE)
+    if effect is not None and Need.PROGRAM_STOPPED in effect.needs:
+        for manager in cell.managers:
+            for _, proof in _listening(cell, manager) if device.name in manager.devices else ():
+                if isinstance(proof.value, bool):
+                    yield proof.model_copy(update={"value": not proof.value})
 
 
 def _watches(cell: Cell) -> Iterator[Watch]:

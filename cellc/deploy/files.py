@@ -15,6 +15,12 @@ BRING_UP = "config/bring_up.json"
 BRING_UP_PROGRAM = "scripts/bring_up"
 """What takes them; installed as a program of the package."""
 
+VERSIONS_PROGRAM = "scripts/installed_versions"
+"""What compares the version tuple with what is installed."""
+
+REQUIRED_PROGRAM = "scripts/required"
+"""What ends a launch with one of its programs, where launch has no word for that."""
+
 RECORDING = "config/recording_qos.yaml"
 """QoS with which an attempt is recorded."""
 
@@ -43,6 +49,10 @@ PARAMETER_FILES = (
     "config/moveit/planning_scene.yaml",
 )
 """In the order in which move_group is given them."""
+
+
+FIRST_GOAL_PROGRAM = "scripts/first_goal"
+"""What sends the one small goal before an application is started."""
 
 
 def description_file(cell: Cell, target: str) -> str:

@@ -5,32 +5,40 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 
 from cellc.cell.cell import Cell
-from cellc.cell.interface import Endpoint, Interface, InterfaceKind
+from cellc.cell.device import Device
+from cellc.cell.interface import Interface, InterfaceKind
 from cellc.cell.site import UNKNOWN
-from cellc.deploy.bringup import bring_up, phases
 from cellc.deploy.configuration import version_tuple
-from cellc.deploy.processes import asks_for_motion, description_nodes, motion_clients, started_by_a_person
+from cellc.deploy.endpoints import ends_on_real
+from cellc.deploy.gate_motion import (
+    Values,
+    cancels,
+    endpoint_command,
+    first_motion,
+    guided,
+    jogged,
+    missing_first_motion,
+    real_actions,
+    released,
+    small_goal,
+    stop_reasons,
+    unguarded,
+)
+from cellc.deploy.processes import asks_for_motion, description_nodes
 from cellc.deploy.recording import record_command
-from cellc.deploy.releases import ACTIVATE, CLAIM, Release, move_mock, move_real, release_once, start_mock, start_real
+from cellc.deploy.releases import ACTIVATE, CLAIM, move_mock, move_real, start_mock, start_real
+from cellc.deploy.versions import installed_parts
 from cellc.formats.escape import shell_word
 from cellc.formats.header import Header
 from cellc.formats.numbers import shortest
 from cellc.graph.cell_graph import CellGraph
-from cellc.graph.versions import compatibility
 from cellc.link.derived import JOINT_STATE_TYPE
 from cellc.pins import is_commit, last_word
-from cellc.vocabulary import BringUpPhase
+from cellc.vocabulary import BringUpPhase, GateCode
 
 Row = Mapping[str, str]
-Values = tuple[str, ...]
-
 CELL = "cell"
 """The subject of a line that stands once."""
-
-_OF_SYSTEM = {"os": "lsb_release -ds", "kernel": "uname -r", "ros": "printenv ROS_DISTRO"}
-_PACKAGES = {"ros2_control": "controller_manager", "moveit": "moveit_ros_move_group"}
-# Pinned as a package and its version; the rest is read on the device or its panel.
-_INSTALLED = ("rmw", "driver", "sdk", "description")
 
 
 def cell_row(cell: Cell, header: Header, code: str) -> Row:
@@ -52,41 +60,27 @@ def cell_row(cell: Cell, header: Header, code: str) -> Row:
 
 
 def _installed(graph: CellGraph) -> Iterator[Values]:
-    for name, value in version_tuple(graph.cell).items():
-        if (command := _command(name, value)) and not is_commit(last_word(value)):
-            yield name, value, command
+    for part in installed_parts(graph.cell):
+        if not is_commit(last_word(part.text)):
+            yield part.name, part.text, part.command
 
 
 def _built(graph: CellGraph) -> Iterator[Values]:
     """Yield what is pinned to a commit, which the source that was built shows and no version of a package."""
-    for judged in compatibility(graph.cell):
-        pin = judged.pin
-        if pin.part in _INSTALLED and is_commit(last_word(pin.text)):
-            source = next((f"src/{one.name}" for one in judged.built_from[:1]), "")
-            name = pin.part if pin.holder == graph.cell.name else f"{pin.holder}.{pin.part}"
-            yield name, pin.text, f"git -C {shell_word(source)} rev-parse HEAD" if source else ""
+    for part in installed_parts(graph.cell):
+        if is_commit(last_word(part.text)):
+            yield part.name, part.text, part.command
 
 
 def _visible(graph: CellGraph) -> Iterator[Values]:
+    shown = {part.name for part in installed_parts(graph.cell)}
     for name, value in version_tuple(graph.cell).items():
-        if value != UNKNOWN and not _command(name, value):
+        if value != UNKNOWN and name not in shown:
             yield name, value
 
 
 def _unknown(graph: CellGraph) -> Iterator[Values]:
     return ((name,) for name, value in version_tuple(graph.cell).items() if value == UNKNOWN)
-
-
-def _command(name: str, value: str) -> str:
-    """Return what shows an installed version, empty where people read it."""
-    part, words = name.rpartition(".")[2], value.split()
-    if value == UNKNOWN:
-        return ""
-    if part in _OF_SYSTEM:
-        return _OF_SYSTEM[part]
-    if part in _PACKAGES:
-        return f"ros2 pkg xml -t version {_PACKAGES[part]}"
-    return f"ros2 pkg xml -t version {shell_word(words[0])}" if part in _INSTALLED and len(words) == 2 else ""
 
 
 def _calibrated_frames(graph: CellGraph) -> Iterator[Values]:
@@ -109,6 +103,14 @@ def _joint_states(graph: CellGraph) -> Iterator[Values]:
     return ((one.name,) for one in _on_real(graph) if one.type == JOINT_STATE_TYPE and one.sinks)
 
 
+def _components(graph: CellGraph) -> Iterator[Values]:
+    """Yield in which state each component of the real target comes up, by its vendor."""
+    for manager in graph.cell.managers:
+        for device in map(graph.cell.device, manager.devices):
+            if device.hardware is not None and "real" in device.hardware.targets:
+                yield device.hardware.name, device.hardware.comes_up
+
+
 def _managed_nodes(graph: CellGraph) -> Iterator[Values]:
     for node in graph.cell.nodes:
         if node.lifecycle:
@@ -117,8 +119,12 @@ def _managed_nodes(graph: CellGraph) -> Iterator[Values]:
 
 def _stopping_devices(graph: CellGraph) -> Iterator[Values]:
     for device in graph.cell.devices:
-        if stops := [f"{state.name} ({state.reported})" for state in device.safety.states if state.stops]:
-            yield device.name, ", ".join(stops)
+        for gate in GateCode:
+            stops = [one for one in device.safety.states if one.stops and one.gate is gate]
+            if stops:
+                told = (f"timeout 10 ros2 topic echo --once {shell_word(one)}" for one in device.safety.topics)
+                states = ", ".join(f"{state.name} ({state.reported})" for state in stops)
+                yield device.name, states, "\n".join(told), gate
 
 
 def _loaded_devices(graph: CellGraph) -> Iterator[Values]:
@@ -129,22 +135,6 @@ def _loaded_devices(graph: CellGraph) -> Iterator[Values]:
             yield device.name, text(*payload, "mass"), text(*payload, "center_of_mass")
 
 
-def _first_motion(graph: CellGraph) -> Iterator[Values]:
-    first = graph.cell.bringup.first_motion
-    if first is not None:
-        written = (graph.cell.text("bringup", "first_motion", part) for part in ("max_delta", "velocity", "timeout"))
-        yield first.joint, first.direction, *written
-
-
-def _missing_first_motion(graph: CellGraph) -> Iterator[Values]:
-    return iter(((),) if graph.cell.bringup.first_motion is None else ())
-
-
-def _stop_reasons(graph: CellGraph) -> Iterator[Values]:
-    first = graph.cell.bringup.first_motion
-    return ((reason,) for reason in (() if first is None else first.stop_if))
-
-
 def _by_vendors(graph: CellGraph, *, shows: bool = False, powers: bool = False) -> Iterator[Values]:
     """Yield what the vendors have people do in the gates, or what must show there once something was released.
 
@@ -153,21 +143,36 @@ def _by_vendors(graph: CellGraph, *, shows: bool = False, powers: bool = False) 
     for device in graph.cell.devices:
         for step in device.commissioning:
             if (step.shows, step.powers) == (shows, powers):
-                yield device.name, step.does, _newest_of(step.log), step.gate
+                commands = (*(_addressed(device, command) for command in step.run), *_of_this_launch(step.log))
+                yield device.name, step.does, "\n".join(commands), step.gate
 
 
-def _newest_of(lines: tuple[str, ...]) -> str:
-    """Return what prints the newest line of the logs of this host that holds one of these texts; empty for none."""
-    wanted = " ".join(f"-e {shell_word(line)}" for line in lines)
-    newest = "xargs -r -d '\\n' ls -t | head -n 1 | xargs -r -d '\\n'"
-    found = f'grep -rlF {wanted} "$(printenv ROS_LOG_DIR || echo ~/.ros/log)"'
-    return f"{found} | {newest} grep -hF {wanted} | tail -n 1" if lines else ""
+def _addressed(device: Device, command: str) -> str:
+    address = UNKNOWN if device.connection is None else device.connection.address or UNKNOWN
+    return command.replace("{address}", shell_word(address))
+
+
+def _of_this_launch(lines: tuple[str, ...]) -> Iterator[str]:
+    """Yield what prints the last line with one of these texts of the newest launch with a controller manager.
+
+    Each launch has a folder of its own below that of the logs. An earlier run's line would be taken for this one's, so
+    that no line is an answer too, and the name of the file, with its time, is printed above it.
+    """
+    if lines:
+        wanted = " ".join(f"-e {shell_word(line)}" for line in lines)
+        managers = 'grep -lF -e ros2_control_node "$(printenv ROS_LOG_DIR || echo ~/.ros/log)"/*/launch.log'
+        newest = f"{managers} | xargs -r -d '\\n' ls -t | head -n 1 | xargs -r -d '\\n'"
+        yield f"{newest} ls -l"
+        yield f"{newest} grep -hF {wanted} | tail -n 1"
 
 
 def _nominal_devices(graph: CellGraph) -> Iterator[Values]:
     for device in graph.cell.devices:
         if device.kinematics is not None and device.kinematics.calibration is None:
-            yield device.name, device.kinematics.tool
+            file = f"{graph.cell.name}/{device.name}_calibration.yaml"
+            target = f'"$(pwd)"/{shell_word(f"cells/{file}")}'
+            command = _addressed(device, device.kinematics.command).replace("FILE", target)
+            yield device.name, device.kinematics.state, f"cells/{file}", command
 
 
 def _calibrated_devices(graph: CellGraph) -> Iterator[Values]:
@@ -176,22 +181,6 @@ def _calibrated_devices(graph: CellGraph) -> Iterator[Values]:
         if one is not None:
             path = f"cells/{graph.cell.name}/{one.name}"
             yield device.name, one.name, one.hash, one.measured, one.owner, one.sha256, path
-
-
-def _released(graph: CellGraph, release: Release, phase: BringUpPhase) -> Iterator[Values]:
-    """Yield the one command of a release, where the real target has a step in its phase."""
-    if phase in phases(bring_up(graph.cell), "real"):
-        yield (release_once(graph.cell, release),)
-
-
-def _real_actions(graph: CellGraph) -> Iterator[Values]:
-    return ((one.name,) for one in _on_real(graph) if one.kind is InterfaceKind.ACTION)
-
-
-def _cancels(graph: CellGraph) -> Iterator[Values]:
-    for interface in _on_real(graph):
-        if interface.cancel_within_s is not None:
-            yield interface.name, shortest(interface.cancel_within_s)
 
 
 def _cards(graph: CellGraph) -> Iterator[Values]:
@@ -205,25 +194,16 @@ def _reached_devices(graph: CellGraph) -> Iterator[Values]:
 
 
 def _devices(graph: CellGraph) -> Iterator[Values]:
-    return ((one.name, one.versions.serial, one.versions.firmware) for one in graph.cell.devices)
+    for one in graph.cell.devices:
+        safety = " and its safety state" if one.safety.states else ""
+        yield one.name, one.versions.serial, one.versions.firmware, safety
 
 
 def _interfaces(graph: CellGraph) -> Iterator[Values]:
-    late = {node.name for node in motion_clients(graph.cell) if started_by_a_person(graph.cell, node)}
-
-    def names(ends: tuple[Endpoint, ...]) -> str:
-        return ", ".join(end.node + (" (from G7 on)" if end.node in late else "") for end in ends) or "nobody"
-
     for one in _on_real(graph):
-        yield one.name, names(one.sources), names(one.sinks), _info(one)
-
-
-def _info(interface: Interface) -> str:
-    if interface.kind is InterfaceKind.ACTION:
-        return f"ros2 action info {shell_word(interface.name)}"
-    if interface.kind is InterfaceKind.SERVICE:
-        return f"ros2 service type {shell_word(interface.name)}"
-    return f"ros2 topic info -v {shell_word(interface.name)}"
+        starts, ends = ends_on_real(graph.cell, one)
+        command = endpoint_command(graph.cell, one.kind, one.name)
+        yield one.name, ", ".join(starts) or "nobody", ", ".join(ends) or "nobody", command
 
 
 def _streams(graph: CellGraph) -> Iterator[Values]:
@@ -253,38 +233,44 @@ def _each(values: tuple[str, ...]) -> Iterator[Values]:
     return ((value,) for value in values)
 
 
+_FIRST_MOTION = ("joint", "direction", "max_delta", "velocity", "timeout", "name", "si")
 _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] = {
     "installed_part": (("part", "version", "command"), _installed),
     "built_part": (("part", "version", "command"), _built),
     "visible_part": (("part", "version"), _visible),
     "unknown_part": (("part",), _unknown),
-    "nominal_device": (("device", "tool"), _nominal_devices),
+    "nominal_device": (("device", "state", "file", "command"), _nominal_devices),
     "calibrated_device": (("device", "file", "hash", "measured", "owner", "sha256", "path"), _calibrated_devices),
     "calibrated_frame": (("frame", "calibration"), _calibrated_frames),
     "mock_statement": (("device", "loaded", "by", "date"), _mock_statements),
     "mock_motion": (("command",), lambda graph: _each(move_mock(graph.cell))),
     "manager": (("manager",), _managers),
+    "component": (("component", "state"), _components),
     "mock_action": (("action",), _mock_actions),
-    "real_start": (("command",), lambda graph: _each(start_real(graph.cell))),
+    "real_start": (("where", "command"), lambda graph: start_real(graph.cell)),
     "joint_states": (("topic",), _joint_states),
     "managed_node": (("node", "state"), _managed_nodes),
-    "stopping_device": (("device", "states"), _stopping_devices),
+    "stopping_device": (("device", "states", "command", "gate"), _stopping_devices),
     "loaded_device": (("device", "mass", "center_of_mass"), _loaded_devices),
     "stop_evidence": (("evidence",), lambda graph: _each(graph.cell.safety.stop.evidence)),
-    "first_motion": (("joint", "direction", "max_delta", "velocity", "timeout"), _first_motion),
-    "missing_first_motion": ((), _missing_first_motion),
-    "stop_reason": (("reason",), _stop_reasons),
+    "first_motion": (_FIRST_MOTION, first_motion),
+    "small_goal": ((*_FIRST_MOTION, "command", "cancel"), small_goal),
+    "jogged": (_FIRST_MOTION, jogged),
+    "guided": ((*_FIRST_MOTION, "does"), guided),
+    "missing_first_motion": ((), missing_first_motion),
+    "stop_reason": (("reason",), stop_reasons),
     "vendor_step": (("device", "does", "command", "gate"), _by_vendors),
     "vendor_power": (("device", "does", "command", "gate"), lambda graph: _by_vendors(graph, powers=True)),
     "vendor_sign": (("device", "does", "command", "gate"), lambda graph: _by_vendors(graph, shows=True)),
-    "real_activation": (("command",), lambda graph: _released(graph, ACTIVATE, BringUpPhase.ACTIVATE)),
-    "real_claim": (("command",), lambda graph: _released(graph, CLAIM, BringUpPhase.CLAIM)),
-    "real_motion": (("command",), lambda graph: _each(move_real(graph.cell))),
-    "real_action": (("action",), _real_actions),
-    "cancel": (("action", "seconds"), _cancels),
+    "real_activation": (("command",), lambda graph: released(graph, ACTIVATE, BringUpPhase.ACTIVATE)),
+    "real_claim": (("command",), lambda graph: released(graph, CLAIM, BringUpPhase.CLAIM)),
+    "real_motion": (("where", "command"), lambda graph: move_real(graph.cell)),
+    "real_action": (("action",), real_actions),
+    "cancel": (("action", "seconds", "service"), cancels),
+    "unguarded": (("device", "name", "type", "does", "command"), unguarded),
     "card": (("card", "address", "carries"), _cards),
     "reached_device": (("host", "device", "card", "address"), _reached_devices),
-    "device": (("device", "serial", "firmware"), _devices),
+    "device": (("device", "serial", "firmware", "safety"), _devices),
     "interface": (("interface", "starts", "ends", "command"), _interfaces),
     "stream": (("topic", "rate", "age"), _streams),
     "bounded_clock": (("host", "offset"), _bounded_clocks),

@@ -21,7 +21,7 @@ from cellc.graph.cell_graph import CellGraph
 from cellc.vocabulary import GateCode
 
 _FIELD = re.compile(r"`\{(\w+)\}`|\{(\w+)\}")
-_COMMANDS = ("build", "command", "record", "start_mock")
+_COMMANDS = ("build", "cancel", "command", "record", "start_mock")
 """Fields that are commands; every other is one word of a command."""
 
 FILE = Path(__file__).with_name("gates.yaml")
@@ -51,6 +51,7 @@ class Gate:
         evidence: name of the file that the gate must leave.
         owner: who signs, from the spec.
         stop: conditions under which nobody goes on.
+        measured: what is measured or read back, and written down by who signs.
     """
 
     code: GateCode
@@ -61,6 +62,7 @@ class Gate:
     evidence: str
     owner: str
     stop: tuple[str, ...]
+    measured: tuple[str, ...] = ()
 
     @property
     def key_command(self) -> str:
@@ -106,6 +108,7 @@ class GateText(CatalogModel):
     signed_by: Text
     checks: tuple[Line, ...] = Field(min_length=1)
     stop: tuple[Line, ...] = Field(min_length=1)
+    measured: tuple[Text, ...] = ()
 
 
 class GateTexts(CatalogModel):
@@ -149,6 +152,7 @@ def _gate(text: GateText, graph: CellGraph, header: Header) -> Gate:
         evidence=text.evidence,
         owner=_owners(graph)[text.signed_by],
         stop=tuple(check.text for line in text.stop for check in _checks(line, graph, base)),
+        measured=text.measured,
     )
 
 

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from cellc.cell.cell import Cell
 from cellc.cell.control import ControllerManager
+from cellc.cell.device import Device, OfferedInterface
 from cellc.cell.interface import InterfaceKind, Node, NodeSource
-from cellc.contract.bring_up import TARGETS, BringUp
+from cellc.contract.bring_up import CLAIM_WATCH, TARGETS, BringUp
 from cellc.deploy.files import is_planner
 from cellc.link.frames import ROBOT_STATE_PUBLISHER
 from cellc.link.nodes import DESCRIPTION_PUBLISHER, description_home
-from cellc.vocabulary import BringUpPhase, Feature, features
+from cellc.vocabulary import BringUpPhase, Feature, Motion, features
 
 
 def launch_hosts(cell: Cell) -> tuple[str, ...]:
@@ -59,6 +62,18 @@ def motion_clients(cell: Cell) -> tuple[Node, ...]:
     return tuple(node for node in cell.nodes if asks_for_motion(cell, node))
 
 
+def past_controllers(cell: Cell) -> Iterator[tuple[Device, OfferedInterface, str]]:
+    """Yield what a driver offers that moves its device past every controller, with what a call does.
+
+    What the cell names has its clients in the spec; of the rest nobody in the cell is one.
+    """
+    named = {interface.name for interface in cell.interfaces}
+    for device in cell.devices:
+        for one in device.offers:
+            if one.effect is not None and one.effect.motion is Motion.MOVES and one.name not in named:
+                yield device, one, one.effect.does
+
+
 def enclave_of(cell: Cell, node: Node) -> str:
     """Return the enclave of a node's process."""
     return f"/{cell.name}{node.full_name}"
@@ -78,7 +93,7 @@ def bring_up_nodes(plan: BringUp) -> tuple[str, ...]:
     """Return the names that the program of the bring-up gives its node: after the last phase that it takes."""
     taken = {step.phase for target in TARGETS for step in plan.steps(target)}
     named = (f"bring_up_{phase}" for phase in BringUpPhase if phase in taken)
-    return (*named, *(("claim_watch",) if plan.watches else ()))
+    return (*named, *((CLAIM_WATCH.removeprefix("/"),) if plan.watches else ()))
 
 
 def people_enclave(cell: Cell) -> str:

@@ -26,10 +26,10 @@ def record_command(cell: Cell, bag: str) -> tuple[str, ...]:
 
 
 def recorded_topics(cell: Cell) -> dict[str, Qos]:
-    """Return every recorded topic with a profile that each of its publishers satisfies."""
+    """Return every recorded topic with a profile that each of its publishers satisfies; none of the mock alone."""
     found = {interface.name: _offered(interface) for interface in cell.interfaces if _on_the_path(interface)}
     # Goals and results of actions are hidden services; feedback and status tell what became of them.
-    for action in (i for i in cell.interfaces if i.kind is InterfaceKind.ACTION):
+    for action in (i for i in cell.interfaces if i.kind is InterfaceKind.ACTION and "real" in i.targets):
         found[f"{action.name}/_action/feedback"] = Qos()
         found[f"{action.name}/_action/status"] = Qos(durability="transient_local", depth=1)
     for name in ("/diagnostics", *cell.recording.topics):
@@ -38,7 +38,8 @@ def recorded_topics(cell: Cell) -> dict[str, Qos]:
 
 
 def _on_the_path(interface: Interface) -> bool:
-    return interface.kind is InterfaceKind.TOPIC and not interface.type.endswith(("/Image", "/PointCloud2"))
+    on_real = "real" in interface.targets
+    return on_real and interface.kind is InterfaceKind.TOPIC and not interface.type.endswith(("/Image", "/PointCloud2"))
 
 
 def _offered(interface: Interface) -> Qos:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from cellc.cell.cell import Cell
@@ -54,15 +55,31 @@ MOVE = Release(
 )
 
 
+GOAL = Release(
+    "goal",
+    "confirm_goal",
+    "I_HAVE_PASSED_GATES_G0_TO_G6",
+    "Stated by the person who sends the first goal to the real target: gates G0 to G6 have their evidence, claims are "
+    "released, the speed is low, the observer stands at the stop.",
+)
+
+
 def start_mock(cell: Cell) -> str:
     """Return what starts the whole cell on the mock."""
     return f"ros2 launch {cell.name} cell.launch.xml"
 
 
-def start_real(cell: Cell) -> tuple[str, ...]:
-    """Return what a person starts on each host: it connects and reads; it claims and enables nothing."""
+def start_real(cell: Cell) -> Iterator[tuple[str, str]]:
+    """Yield who starts what on each host: it connects and reads; it claims and enables nothing."""
     command = f"{start_mock(cell)} target:=real {START.argument}:={START.word}"
-    return tuple(f"{command} host:={host}" for host in launch_hosts(cell)) or (command,)
+    return _on_hosts(command, launch_hosts(cell))
+
+
+def _on_hosts(command: str, hosts: tuple[str, ...]) -> Iterator[tuple[str, str]]:
+    """Yield a command for each computer; the one of a cell that runs in one place is not named."""
+    yield from ((f"On {host}: a person", f"{command} host:={host}") for host in hosts)
+    if not hosts:
+        yield "A person", command
 
 
 def release_once(cell: Cell, release: Release) -> str:
@@ -75,12 +92,14 @@ def move_mock(cell: Cell) -> tuple[str, ...]:
     return (f"ros2 launch {cell.name} move.launch.xml",) if _launched(cell) else ()
 
 
-def move_real(cell: Cell) -> tuple[str, ...]:
-    """Return what a person starts or activates before motion, on each host."""
+def move_real(cell: Cell) -> Iterator[tuple[str, str]]:
+    """Yield who starts or activates what before motion, on each host that has something of it."""
     command = f"ros2 launch {cell.name} move.launch.xml target:=real {MOVE.argument}:={MOVE.word}"
-    launched = tuple(f"{command} host:={host}" for host in launch_hosts(cell)) or (command,)
-    managed = tuple(activation(node) for node in motion_clients(cell) if node.lifecycle)
-    return (*(launched if _launched(cell) else ()), *managed)
+    movers = {node.host for node in motion_clients(cell) if started_by_a_person(cell, node)}
+    if _launched(cell):
+        hosts = launch_hosts(cell)
+        yield from _on_hosts(command, tuple(host for host in hosts if host in movers) or hosts)
+    yield from (("A person", activation(node)) for node in motion_clients(cell) if node.lifecycle)
 
 
 def _launched(cell: Cell) -> bool:

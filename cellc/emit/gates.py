@@ -14,7 +14,6 @@ from cellc.deploy.deployment import Deployment
 from cellc.deploy.files import NETWORK_CHECKLIST, PROMOTION_CHECKLIST
 from cellc.deploy.gates import Check, Gate
 from cellc.formats.escape import markdown, markdown_comment
-from cellc.formats.header import Header
 from cellc.graph.cell_graph import CellGraph
 
 _PROMOTION = (
@@ -27,7 +26,9 @@ _NETWORK = (
 )
 _WHERE = (
     "Commands run in the folder that holds `cells/` and `generated/`, in a shell that is set up as `README.md` says, "
-    "with `E` set to the folder of the attempt. What starts something needs a shell that stays open."
+    "with `E` set to the folder of the attempt. What starts something needs a shell that stays open. A command that "
+    "ends at its timeout, or finds no node, is run once more before its answer counts. An evidence file that no "
+    "command writes is written by hand."
 )
 
 
@@ -37,14 +38,14 @@ _RESULT = "Result (passed or stopped): ________ Name: ________________ Date, tim
 def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     """Yield both checklists."""
     name = graph.cell.name
-    promotion = _page(plan.header, f"{name}: From the manifest to a trajectory", _PROMOTION, plan.promotion)
-    network = _page(plan.header, f"{name}: From the cable to the command path", _NETWORK, plan.network)
+    promotion = _page(plan, f"{name}: From the manifest to a trajectory", _PROMOTION, plan.promotion)
+    network = _page(plan, f"{name}: From the cable to the command path", _NETWORK, plan.network)
     yield Artifact(PROMOTION_CHECKLIST, promotion)
     yield Artifact(NETWORK_CHECKLIST, network)
 
 
-def _page(header: Header, title: str, text: str, gates: tuple[Gate, ...]) -> str:
-    blocks = [markdown_comment(header.text), f"# {title}", f"{text} {_WHERE}", *(_gate(gate) for gate in gates)]
+def _page(plan: Deployment, title: str, text: str, gates: tuple[Gate, ...]) -> str:
+    blocks = [markdown_comment(plan.header.text), f"# {title}", f"{text} {_WHERE}", *(_gate(gate) for gate in gates)]
     return "\n\n".join(blocks) + "\n"
 
 
@@ -54,7 +55,9 @@ def _gate(gate: Gate) -> str:
         f"Evidence `{gate.evidence}`, signed by {markdown(gate.owner)}. **Stop on:** {markdown('; '.join(gate.stop))}."
     )
     checks = "\n".join(line for check in gate.checks for line in _check(check, gate.evidence)).rstrip("\n")
-    return "\n\n".join((f"## {gate.code} {gate.title}", passed, checks, signed, _RESULT))
+    measured = ". ".join(f"{markdown(one[0].upper() + one[1:])}: ________" for one in gate.measured)
+    blocks = (f"## {gate.code} {gate.title}", passed, checks, signed, measured, _RESULT)
+    return "\n\n".join(block for block in blocks if block)
 
 
 def _check(check: Check, evidence: str) -> Iterator[str]:

@@ -14,7 +14,8 @@ from xml.etree.ElementTree import Element
 from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
 from cellc.deploy.deployment import Deployment
-from cellc.deploy.files import BRING_UP_PROGRAM, SOURCES, plans
+from cellc.deploy.files import SOURCES, plans
+from cellc.deploy.first_goal import first_goal, programs
 from cellc.formats.urdf.hardware import share_folders
 from cellc.formats.xml_text import comment, element, render
 from cellc.formats.yaml_text import render as yaml
@@ -29,6 +30,8 @@ _BRING_UP = ("controller_manager_msgs", "lifecycle_msgs", "rcl_interfaces", "rcl
 # What the commands of the gates call; the keys of rosdep.
 _GATES = ("liburdfdom-tools", "ros2bag", "ros2cli_common_extensions", "rosbag2_storage_mcap", "sros2", "tf2_ros")
 _EXECUTION = "moveit_simple_controller_manager"
+# What the program of the first goal imports.
+_FIRST_GOAL = ("builtin_interfaces", "control_msgs", "sensor_msgs", "trajectory_msgs")
 _MOVE_GROUP = "moveit_ros_move_group"
 _OF_MOVEIT = "moveit_"
 _FOLDERS = ("config", "launch", "security", "urdf")
@@ -97,8 +100,11 @@ def _dependencies(cell: Cell) -> tuple[str, ...]:
     names = {*_ALWAYS, *_BRING_UP, *_GATES, *(node.package for node in cell.nodes)}
     names |= {name for name in (*controllers, *hardware) if name}
     names |= {package for device in cell.devices for package in share_folders(device)}
+    names |= {device.kinematics.package for device in cell.devices if device.kinematics is not None}
     if plans(cell):
         names |= {*_of_moveit(cell), *(group.solver.package for group in cell.groups)}
+    if first_goal(cell) is not None:
+        names |= set(_FIRST_GOAL)
     if cell.managers:
         names |= set(_CONTROL)
         # Every topic that the bring-up listens to is one whose type it imports.
@@ -113,7 +119,7 @@ def _build_file(cell: Cell) -> Iterator[str]:
     yield ""
     yield from _install("DIRECTORY", (*_FOLDERS, *((_ON_HOSTS,) if cell.hosts else ())))
     yield from _install("FILES", _FILES)
-    yield from _install("PROGRAMS", (BRING_UP_PROGRAM,), "lib")
+    yield from _install("PROGRAMS", programs(cell), "lib")
     yield ""
     yield "ament_package()"
 

@@ -17,7 +17,17 @@ from cellc.cell.interface import Interface, InterfaceKind
 from cellc.deploy.bringup import phases
 from cellc.deploy.configuration import OpenQuestion
 from cellc.deploy.deployment import Deployment
-from cellc.deploy.files import NETWORK_CHECKLIST, PROMOTION_CHECKLIST, RVIZ, SOURCES, plans
+from cellc.deploy.files import (
+    FIRST_GOAL_PROGRAM,
+    NETWORK_CHECKLIST,
+    PROMOTION_CHECKLIST,
+    REQUIRED_PROGRAM,
+    RVIZ,
+    SOURCES,
+    VERSIONS_PROGRAM,
+    plans,
+)
+from cellc.deploy.first_goal import programs
 from cellc.deploy.gates import Gate
 from cellc.deploy.labels import real_driver
 from cellc.deploy.processes import people_enclave
@@ -36,6 +46,7 @@ _NO_PLANNER = (
     "No node of this cell plans, so that no configuration of MoveIt but the SRDF is here; a `move_group` among the "
     "nodes of the spec brings it."
 )
+_GOAL = "launch/goal.launch.xml"
 _FILES = (
     ("urdf/", "the description for the mock and for real hardware"),
     ("config/", "parameters of controller managers and nodes, the frame tree with its calibrations"),
@@ -47,9 +58,13 @@ _FILES = (
     ("launch/move.launch.xml", "starts what asks for motion; on real hardware only after a person releases it"),
     ("launch/activate.launch.xml", "activates hardware that moves by it; a person releases it"),
     ("launch/claim.launch.xml", "gives command interfaces their owners on real hardware; a person releases it"),
+    (_GOAL, "sends one small goal to the controller on real hardware; a person releases it"),
     ("config/bring_up.json", "each step of the bring-up: its proof, what it asks for, and the effect that must show"),
     ("scripts/bring_up", "the program that takes these steps"),
-    (SOURCES, "repositories at commits of what the distribution does not release: `vcs import src < sources.repos`"),
+    (VERSIONS_PROGRAM, "compares the version tuple with what is installed, as the first of these steps"),
+    (FIRST_GOAL_PROGRAM, "sends that goal from where the robot stands, and cancels one"),
+    (REQUIRED_PROGRAM, "ends the launch with the program without which the cell is none"),
+    (SOURCES, "repositories, at commits, of what the distribution does not release"),
     ("contract.json", "what the interfaces promise: type, QoS, rate, age, owner, failure behavior"),
     ("rehearsals.json", "what the mock executes, and the outcome that each run must end in"),
     ("graph/responsibility.svg", "who tells what to whom, and who answers for it; `.mmd` says the same"),
@@ -102,15 +117,15 @@ def _gates(plan: Deployment) -> Iterator[str]:
     yield "## From power-off to a trajectory"
     yield (
         "Gates are passed from top to bottom, each with its evidence and a signature; one that stops is begun again. "
-        "Enabling drives (G5) and moving (G6, G7) are steps of people at the cell: no file here takes them. After a "
-        "stop, the section Recovery of `audit.md` has the way back."
+        "Enabling drives (G5) and moving (G6, G7) are steps of people at the cell: no file here takes them. The "
+        "sections Ending and Recovery of `audit.md` have the way to power-off, and the way back after a stop."
     )
     yield _table(PROMOTION_CHECKLIST, plan.promotion)
     yield "G3 is passed layer by layer, from the cable to the command path:"
     yield _table(NETWORK_CHECKLIST, plan.network)
     number = len(plan.questions)
     if number:
-        yield f"**{number} answers are missing in the spec**, and each blocks the real target: [{_OPEN}](#{_ANCHOR})."
+        yield f"**{number} answers are missing in the spec**, and each stops gate G0: [{_OPEN}](#{_ANCHOR})."
 
 
 def _table(file: str, gates: tuple[Gate, ...]) -> str:
@@ -130,12 +145,22 @@ def _shell_of(cell: Cell) -> str:
     environments = [f"source generated/{cell.name}/middleware/{host}.sh  # on {host}" for host in cell.hosts]
     return _fenced(
         (
+            *_sources(cell),
+            "rosdep install --from-paths generated --ignore-src  # once",
             f"colcon build --base-paths generated --packages-select {cell.name}  # once",
             "source install/setup.bash",
             *environments,
             'export E=evidence/attempt-001 && mkdir -p "$E"  # a new folder for each attempt',
         )
     )
+
+
+def _sources(cell: Cell) -> Iterator[str]:
+    """Yield what fetches and builds what no distribution releases: pins are of these commits."""
+    if unreleased(cell):
+        yield f"mkdir -p src && vcs import src < generated/{cell.name}/{SOURCES}  # once"
+        yield "rosdep install --from-paths src --ignore-src  # once"
+        yield "colcon build --base-paths src && source install/setup.bash  # once"
 
 
 def _enforced(cell: Cell) -> Iterator[str]:
@@ -177,6 +202,8 @@ def _present(cell: Cell, plan: Deployment, name: str) -> bool:
         return bool(cell.groups)
     if name == "middleware/":
         return bool(cell.hosts)
+    if name in (REQUIRED_PROGRAM, FIRST_GOAL_PROGRAM, _GOAL):
+        return (FIRST_GOAL_PROGRAM if name == _GOAL else name) in programs(cell)
     if name == SOURCES:
         return bool(unreleased(cell))
     phase = _RELEASED.get(name)

@@ -251,7 +251,7 @@ def _stand_in(kind: ControllerKind, device: Device) -> StandIn | None:
     if driver is None or kind.kind not in driver.actions:
         return None
     action, action_type = driver.actions[kind.kind]
-    return StandIn(node=driver.node, action=action, action_type=action_type)
+    return StandIn(node=driver.node, action=action, action_type=action_type, unit=driver.goal_unit)
 
 
 def _interfaces(joints: tuple[str, ...], written: ControllerSpec, chosen: _Chosen) -> _Interfaces:

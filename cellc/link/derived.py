@@ -21,7 +21,7 @@ from cellc.link.hardware import JOINT_STATES
 from cellc.link.nodes import DESCRIPTION_PUBLISHER, description_home
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
-from cellc.vocabulary import OF_ONE_DEVICE, Distro
+from cellc.vocabulary import OF_ONE_DEVICE, TRAJECTORIES, Distro
 
 
 @dataclass(frozen=True, slots=True)
@@ -197,14 +197,16 @@ def control_interfaces(source: Derivation) -> Iterator[Interface]:
 def _actions(source: Derivation, controller: Controller) -> Iterator[Interface]:
     if controller.action is not None and controller.action_type is not None:
         server = source.end(controller.label, controller.action, controller.path)
-        yield _action(source, controller, controller.action, controller.action_type, server)
+        yield _action(source, controller, controller.action, controller.action_type, server, None)
     other = controller.stand_in
     if other is not None and controller.device is not None:
         server = source.driver_end(controller.device, other.node, other.action, controller.path)
-        yield _action(source, controller, other.action, other.action_type, server)
+        yield _action(source, controller, other.action, other.action_type, server, other.unit)
 
 
-def _action(source: Derivation, controller: Controller, name: str, type_: str, server: Endpoint) -> Interface:
+def _action(
+    source: Derivation, controller: Controller, name: str, type_: str, server: Endpoint, unit: str | None
+) -> Interface:
     return Interface(
         name=name,
         path=controller.path,
@@ -215,13 +217,22 @@ def _action(source: Derivation, controller: Controller, name: str, type_: str, s
         sinks=_clients(source, controller, name),
         derived=True,
         frame=None,
-        unit="rad, s",
+        unit=unit or _goal_unit(source, controller),
         time_source="ros",
         owner=source.spec.owners.responsibilities.command,
         goal_time_s=controller.goal_time_s,
         on_error=controller.on_violation,
         cancel_within_s=None if source.spec.kpis.cancel is None else source.spec.kpis.cancel.si,
     )
+
+
+def _goal_unit(source: Derivation, controller: Controller) -> str:
+    """Return the units of a goal's figures: those of the joints, and time or force."""
+    types = {joint.name: joint.type for device in source.devices for joint in device.joints}
+    lengths = {types.get(joint) == "prismatic" for joint in controller.joints}
+    if controller.behaviour in TRAJECTORIES:
+        return ", ".join([*(["rad"] if False in lengths else []), *(["m"] if True in lengths else []), "s"])
+    return "m, N" if lengths == {True} else "rad, N m"
 
 
 def _clients(source: Derivation, controller: Controller, interface: str) -> tuple[Endpoint, ...]:

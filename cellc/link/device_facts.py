@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from cellc.catalog.device_interfaces import ViewFacts
+from cellc.catalog.device_model import CommissioningStep as CommissioningFacts
 from cellc.catalog.device_model import DeviceModel
 from cellc.cell.device import (
     Adapter,
@@ -68,13 +69,10 @@ def with_catalog(
         offers=tuple(offered_interfaces(facts, nodes, known, distro)),
         starts=started_nodes(nodes, known, distro),
         network=_network_needs(facts, known),
-        safety=_vendor_safety(facts),
+        safety=_vendor_safety(facts, known),
         packages=_packages(facts),
-        commissioning=tuple(
-            CommissioningStep(gate=one.gate, does=known.fill(one.does), shows=one.shows, powers=one.powers, log=one.log)
-            for one in facts.commissioning
-            if not one.only or distro in one.only
-        ),
+        jog=None if facts.jog is None else facts.jog.does,
+        commissioning=tuple(_step(one, known) for one in facts.commissioning if not one.only or distro in one.only),
         record=tuple(_record(facts)),
         version_rows=facts.versions,
         mock_cannot_prove=facts.mock_cannot_prove,
@@ -220,13 +218,34 @@ def _network_needs(facts: DeviceModel, known: Placeholders) -> NetworkNeeds | No
     return NetworkNeeds(dedicated_link=network.dedicated_link, realtime=network.realtime, listens=listens)
 
 
-def _vendor_safety(facts: DeviceModel) -> VendorSafety:
+def _step(facts: CommissioningFacts, known: Placeholders) -> CommissioningStep:
+    """Return what a person does; what stands in its commands is quoted where they are written."""
+    return CommissioningStep(
+        gate=facts.gate,
+        does=known.fill(facts.does),
+        shows=facts.shows,
+        powers=facts.powers,
+        log=facts.log,
+        run=facts.run,
+    )
+
+
+def _vendor_safety(facts: DeviceModel, known: Placeholders) -> VendorSafety:
     """Return the vendor's safety boundary; empty where the catalog has none."""
     safety = facts.safety
     if safety is None:
         return VendorSafety()
     return VendorSafety(
-        states=tuple(SafetyState(name=one.name, stops=one.stops, reported=one.reported) for one in safety.states),
+        states=tuple(
+            SafetyState(name=one.name, stops=one.stops, reported=one.reported, gate=one.gate) for one in safety.states
+        ),
+        topics=tuple(
+            f"{known.values[kind]}/{one.topic}"
+            for one in safety.told
+            if (kind := f"controller_{one.controller}") in known.values
+        ),
+        ending=safety.ending,
+        ended=safety.ended,
         modes=safety.modes,
         recovery=tuple(RecoveryProcedure(state=one.state, steps=one.steps) for one in safety.recovery),
         watchdog=safety.watchdog,

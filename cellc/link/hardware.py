@@ -198,6 +198,7 @@ def device_driver(facts: DeviceModel, known: Placeholders) -> DeviceDriver | Non
         program=program,
         joint_states=None if driver.joint_states is None else known.fill(driver.joint_states),
         actions={kind: (known.fill(action), types[action]) for kind, action in driver.actions.items()},
+        goal_unit=driver.goal_unit,
     )
 
 

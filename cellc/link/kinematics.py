@@ -40,7 +40,13 @@ def link_kinematics(
     control = entry.model.control
     real = None if control is None else control.hardware.real
     nominal = "" if real is None else real.parameters.get(facts.hash_parameter, "")
-    kinematics = Kinematics(tool=known.fill(facts.tool), nominal_hash=nominal)
+    kinematics = Kinematics(
+        tool=known.fill(facts.tool),
+        command=facts.tool,
+        package=facts.package,
+        state=facts.state,
+        nominal_hash=nominal,
+    )
     if written.calibration is None:
         return Outcome((entry, kinematics))
     read = _read(written.calibration, document, path)

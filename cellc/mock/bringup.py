@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 
-from cellc.contract.bring_up import BringUpStep, HardwareActivation, Proof, Restart, Transition
+from cellc.contract.bring_up import BringUpStep, Comparison, HardwareActivation, Proof, Restart, Transition
 from cellc.contract.contract import ContractManager
 from cellc.mock.bus.qos import hears, unmatched_pairs
 from cellc.mock.control import ControllerManager
@@ -107,6 +107,8 @@ class PlanTaker:
                 yield Wait(until_ns)
             told = (f"hardware component `{asked.component}` is {answer.state or 'unknown'}",)
             facts, problems = (told, ()) if answer.ok else ((), told)
+        elif isinstance(asked, Comparison):
+            facts = (f"step `{step.name}` believes that {len(asked.parts)} parts of the tuple are installed as pinned",)
         elif asked is not None:
             keys = self._proofs.controllers(asked.manager)
             wanted = tuple(keys.get(name, name) for name in asked.controllers)

@@ -4,7 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from cellc.contract.bring_up import Activation, BringUpStep, ControllerProof, Proof, Restart, TopicProof
+from cellc.contract.bring_up import (
+    CLAIM_WATCH,
+    Activation,
+    BringUpStep,
+    ControllerProof,
+    NodeProof,
+    Proof,
+    Restart,
+    TopicProof,
+)
 from cellc.contract.contract import Contract
 from cellc.vocabulary import BringUpPhase
 
@@ -12,8 +21,9 @@ from cellc.vocabulary import BringUpPhase
 def played(real: Sequence[BringUpStep], mock: Sequence[BringUpStep], contract: Contract) -> tuple[BringUpStep, ...]:
     """Return the steps of the real target, without what only the real target has.
 
-    People stand for what the robot tells in a topic: ``Effects.come_up`` plays them. Claims that the mock alone has, of
-    a device that its own driver moves on the real target, come last; so does what must show before a motion.
+    People stand for what the robot tells in a topic: ``Effects.come_up`` plays them. The stopper is no node there.
+    Claims that the mock alone has, of a device that its own driver moves on the real target, come last; so does what
+    must show before a motion.
     """
     keys = {
         (f"{manager.namespace}/controller_manager", one.full_name.rpartition("/")[2])
@@ -51,6 +61,7 @@ def _proofs(proofs: Sequence[Proof], keys: set[_Key]) -> tuple[Proof, ...]:
         for proof in proofs
         if not (isinstance(proof, ControllerProof) and (proof.manager, proof.controller) not in keys)
         and not (isinstance(proof, TopicProof) and proof.field is not None)
+        and not (isinstance(proof, NodeProof) and proof.node == CLAIM_WATCH)
     )
 
 

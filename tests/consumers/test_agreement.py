@@ -36,6 +36,7 @@ _OF_DRIVERS = {
         *("camera_name", "base_frame_id", "tf_prefix", "publish_tf"),
         *(f"enable_{stream}" for stream in ("color", "depth", "infra1", "infra2", "gyro", "accel")),
         *("rgb_camera.color_profile", "depth_module.depth_profile", "pointcloud.enable", "align_depth.enable"),
+        "wait_for_device_timeout",
         *(
             f"{sensor}.{name}"
             for sensor in ("rgb_camera", "depth_module")

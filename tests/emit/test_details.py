@@ -87,8 +87,10 @@ def test_parameters_of_a_node_stand_under_its_name(node: str) -> None:
 def test_package_depends_on_what_it_starts_and_loads() -> None:
     package = ElementTree.fromstring(artifacts_of("ur5e_pick")["package.xml"])
     assert [entry.text for entry in package.findall("exec_depend")] == [
+        "builtin_interfaces",
         "cell_perception",
         "cell_tasks",
+        "control_msgs",
         "controller_manager",
         "controller_manager_msgs",
         "hardware_interface",
@@ -111,9 +113,12 @@ def test_package_depends_on_what_it_starts_and_loads() -> None:
         "ros2controlcli",
         "ros2launch",
         "rosbag2_storage_mcap",
+        "sensor_msgs",
         "sros2",
         "tf2_msgs",
         "tf2_ros",
+        "trajectory_msgs",
+        "ur_calibration",
         "ur_client_library",
         "ur_controllers",
         "ur_robot_driver",

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import re
+from os import environ, utime
+from pathlib import Path
+from subprocess import run
 
 import pytest
 
@@ -17,11 +20,13 @@ _ALLOWED = (
     "chronyc tracking",
     "git -C src/ros2_robotiq_gripper rev-parse HEAD",
     "grep ",
+    "id -nG",
     "ip ",
     "lsb_release -ds",
     "ping -c ",
     "printenv ",
     "ros2 action info ",
+    "ros2 bag info ",
     "ros2 bag record ",
     "ros2 control list_",
     "ros2 launch ",
@@ -31,13 +36,17 @@ _ALLOWED = (
     "ros2 pkg xml -t version ",
     "ros2 run tf2_ros tf2_",
     "ros2 security list_enclaves ",
+    "ros2 service info ",
     "ros2 service type ",
     "ros2 topic delay ",
     "ros2 topic echo ",
     "ros2 topic hz ",
     "ros2 topic info ",
     "sha256sum ",
+    "sudo ping ",
+    "ulimit -r -l",
     "uname -r",
+    "uname -v",
     "xacro ",
 )
 # What may take their output: it is looked at, and appended to the evidence.
@@ -48,8 +57,11 @@ _AFTER_A_PIPE = (
     "tail -n ",
     'tee -a "$E/',
     "xargs -r -d '\\n' grep ",
+    "xargs -r -d '\\n' ls -l",
     "xargs -r -d '\\n' ls -t",
 )
+# What ends motion and starts none: action_msgs/srv/CancelGoal with no goal and no time cancels every goal of an action.
+_CANCEL = re.compile(r"ros2 service call (/\S+)/_action/cancel_goal action_msgs/srv/CancelGoal(?= 2>&1|$)")
 
 
 @pytest.mark.parametrize("cell", CELLS)
@@ -81,8 +93,139 @@ def test_commands_only_read(page: str, cell: str) -> None:
     assert len(commands) > 10
     for command in commands:
         first, *others = re.sub(r"^timeout \d+ ", "", command).split(" | ")
-        assert first.startswith(_ALLOWED), command
+        assert first.startswith(_ALLOWED) or _CANCEL.match(first), command
         assert all(other.startswith(_AFTER_A_PIPE) for other in others), command
+
+
+@pytest.mark.parametrize("cell", CELLS)
+@pytest.mark.parametrize("page", ["gates/promotion.md", "gates/network.md"])
+def test_no_tool_of_ros_is_waited_for_without_end(page: str, cell: str) -> None:
+    # ../shared/facts/bring_up.md: `ros2 control list_controllers` can wait for ever beside a live manager.
+    text = artifacts_of(cell)[page]
+    blocks = "\n".join(re.findall(r"```sh\n(.*?)```", text, flags=re.DOTALL)).replace("\\\n", " ")
+    lines = [line.strip().removeprefix("{ ") for line in blocks.splitlines()]
+    asked = [line for line in lines if re.match(r"(timeout \d+ )?ros2 ", line)]
+    ends_itself = ("ros2 launch ", "ros2 bag record ", "ros2 pkg xml ", "ros2 security ")
+    assert asked
+    assert not [line for line in asked if not line.startswith(("timeout ", *ends_itself))]
+
+
+def test_each_action_that_promises_how_soon_a_cancel_holds_has_the_command_that_cancels_it() -> None:
+    gate = artifacts_of("ur5e_pick")["gates/promotion.md"].split("\n## G7")[1]
+    actions = ["/move_action", "/arm_trajectory/follow_joint_trajectory", "/gripper_action/gripper_cmd"]
+    assert [found[1] for found in _CANCEL.finditer(gate)] == actions
+    assert not _CANCEL.search(artifacts_of("ur5e_pick")["gates/promotion.md"].split("\n## G7")[0])
+
+
+def test_ends_on_the_page_are_those_that_the_driver_and_the_stopper_add() -> None:
+    # Universal_Robots_ROS2_Driver 3.8.0, robot_state_helper.cpp: it hears the three modes and asks for a resend.
+    page = artifacts_of("ur5e_pick")["gates/network.md"]
+    assert "`/arm_io/robot_mode` has its declared ends: /arm_io → /arm_state_helper\n" in page
+    heard = "`/arm_io/robot_program_running` has its declared ends: /arm_io → /arm_state_helper, /claim_watch\n"
+    assert heard in page
+    assert re.search(r"`/arm_io/resend_robot_program` has .* → .*/arm_state_helper\n", page)
+    assert "timeout 30 ros2 service info /arm_io/resend_robot_program" in page
+    assert "ros2 service info" not in artifacts_of("ur5e_pick", "humble")["gates/network.md"]
+
+
+def test_motion_past_every_controller_is_looked_for_twice_and_stands_in_the_audit() -> None:
+    # franka_ros2 v3.4.0 franka_action_server.cpp:46: every goal of ptp_motion is accepted, whoever sends it.
+    artifacts = artifacts_of("fr3_hand")
+    layer = artifacts["gates/network.md"].split("\n## L3")[1]
+    gate = artifacts["gates/promotion.md"].split("\n## G5")[1].split("\n## ")[0]
+    for name in ("/action_server/ptp_motion", "/hand_gripper/grasp", "/hand_gripper/move", "/hand_gripper/homing"):
+        assert f"timeout 30 ros2 action info {name}" in layer
+        assert f"nobody is a client of `{name}`" in gate
+    paths = artifacts["audit.md"].split("\n## Command paths\n")[1].split("\n## ")[0]
+    assert "nobody of the cell → `/action_server/ptp_motion` → arm" in paths
+
+
+def test_line_of_the_log_is_that_of_the_newest_launch_with_a_controller_manager(tmp_path: Path) -> None:
+    started = "process started: ros2_control_node-1\n"
+    logs = {"old": started + "Calibration checked successfully\n", "new": started, "claim": "a release\n"}
+    for age, (name, text) in enumerate(logs.items()):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "launch.log").write_text(text, encoding="utf-8")
+        utime(tmp_path / name / "launch.log", (1000.0 + age, 1000.0 + age))
+    page = artifacts_of("ur5e_pick")["gates/promotion.md"]
+    (block,) = (one for one in re.findall(r"```sh\n(.*?)```", page, flags=re.DOTALL) if "Calibration checked" in one)
+    command = block.replace("E/G4-transitions.md", "E/evidence")
+    env = {"ROS_LOG_DIR": str(tmp_path), "E": str(tmp_path), "PATH": environ["PATH"]}
+    said = run(["sh", "-c", command], env=env, capture_output=True, text=True, check=True).stdout
+    assert "new/launch.log" in said  # its time stands beside it
+    assert "successfully" not in said
+
+
+def test_first_motion_is_read_at_both_ends_and_by_the_name_of_its_joint() -> None:
+    gate = artifacts_of("ur5e_pick")["gates/promotion.md"].split("\n## G6")[1].split("\n## ")[0]
+    assert gate.count("ros2 topic echo --once /joint_states") == 3
+    assert "arm_wrist_3_joint changed by + 0.0873 rad" in re.sub(r"\\", "", gate)  # 5 deg
+
+
+def test_first_motion_of_a_robot_whose_driver_holds_it_is_read_at_its_panel() -> None:
+    # libfranka, overview.rst:58: Desk cannot jog while FCI is active, and without FCI there are no states.
+    gate = artifacts_of("fr3_hand")["gates/promotion.md"].split("\n## G6")[1].split("\n## ")[0]
+    released, guided, again = (gate.index(one) for one in ("FCI released in Desk", "guides the joint", "/joint_states"))
+    assert released < guided < again
+    assert "ros2 bag record" not in gate
+
+
+def test_recovery_tells_of_a_manager_a_network_and_a_controller_that_are_gone() -> None:
+    for cell, distro in (("ur5e_pick", "jazzy"), ("fr3_hand", "humble")):
+        audit = artifacts_of(cell, distro)["audit.md"].split("\n## Recovery\n")[1].replace("\\", "")
+        for title in ("a controller manager died:", "arm, network_lost:", "arm, controller_rebooted:"):
+            steps = audit.split(f"\n{title}\n\n")[1].split("\n\n")[0]
+            assert "begin again at gate G3" in steps, title
+
+
+def test_ending_gives_claims_back_before_the_driver_ends_and_tools_come_before_what_carries_them() -> None:
+    def steps(cell: str, distro: str) -> str:
+        return artifacts_of(cell, distro)["audit.md"].split("\n## Ending\n")[1].split("\n## ")[0]
+
+    for cell, distro, words in (
+        ("ur5e_pick", "jazzy", ("--deactivate arm", "gripper: nothing is held", "stop the program", "Ctrl-C")),
+        ("fr3_hand", "humble", ("--deactivate arm", "by Ctrl-C", "release FCI", "close the brakes")),
+    ):
+        places = [steps(cell, distro).replace("\\", "").index(word) for word in words]
+        assert places == sorted(places)
+    assert "arm_io" not in steps("ur5e_pick", "jazzy")  # it claims no joint
+
+
+def test_calibration_is_read_off_a_robot_that_is_powered_into_a_file_whose_folder_exists() -> None:
+    # Universal_Robots_ROS2_Driver, robot_setup.rst:20-41; calibration_correction.cpp:85-130: the folder must be there.
+    artifacts = artifacts_of("ur5e_pick")
+    layer = artifacts["gates/network.md"].split("\n## L2")[1].split("\n## ")[0]
+    assert 'target_filename:="$(pwd)"/cells/ur5e_pick/arm_calibration.yaml' in layer
+    assert "powered on with its brakes closed" in layer
+    assert "ros2 launch ur_calibration" not in artifacts["gates/promotion.md"]
+    assert "<exec_depend>ur_calibration</exec_depend>" in artifacts["package.xml"]
+
+
+def test_what_no_distribution_releases_is_built_before_the_package_that_needs_it() -> None:
+    for cell, distro in (("ur5e_pick", "jazzy"), ("fr3_hand", "humble")):
+        page = artifacts_of(cell, distro)["README.md"]
+        words = (f"vcs import src < generated/{cell}/sources.repos", "rosdep install --from-paths src")
+        places = [page.index(word) for word in (*words, "--base-paths src", f"--packages-select {cell}")]
+        assert places == sorted(places)
+
+
+def test_what_the_mock_alone_has_is_told_and_not_recorded_on_the_real_target() -> None:
+    artifacts = artifacts_of("fr3_hand")
+    assert "position_controllers/GripperActionController | control_pc (mock) |" in artifacts["audit.md"].replace(
+        "\\", ""
+    )
+    gate = artifacts["gates/promotion.md"].split("\n## G7")[1]
+    record = gate.split("ros2 bag record")[1].split("```")[0]
+    assert "/hand_action/" not in record
+    assert "/hand_gripper/gripper_action/_action/status" in record
+
+
+def test_goals_of_a_gripper_have_the_units_of_its_joint() -> None:
+    # franka_gripper 2.5.0, gripper_action_server.cpp:167,173: a goal is half of the width that the result has.
+    actions = artifacts_of("fr3_hand")["audit.md"].split("\n## Expected actions\n")[1].split("\n## ")[0]
+    (row,) = (line for line in actions.splitlines() if "gripper" in line and "(real target)" in line)
+    assert "half the width" in row
+    assert "rad" not in row
 
 
 @pytest.mark.parametrize("cell", CELLS)

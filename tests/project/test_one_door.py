@@ -13,6 +13,9 @@ _PAST_IT = {
     "cellc/description/mesh_child.py": "the child process answers its parent there, in numbers",
     "cellc/description/xacro_expansion.py": "the child process answers its parent there, and nobody reads it",
     "cellc/emit/launch/bring_up_program.py": "it runs on the robot's host, without cellc",
+    "cellc/emit/launch/first_goal_program.py": "it runs on the robot's host, without cellc",
+    "cellc/emit/launch/installed_versions_program.py": "it runs on the robot's host, without cellc",
+    "cellc/emit/launch/required_program.py": "it runs on the robot's host, without cellc",
     "cellc/signals.py": "one line of its own, past the buffers of a program that was stopped anywhere",
 }
 _PRINTING = {

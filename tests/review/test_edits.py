@@ -19,9 +19,33 @@ LOOKED_AT = "in its tool0; what it shows then stands in the evidence"
 # The bring-up asks a node of a lifecycle, and what is asked must be there once.
 ALONE = "alone nodes /robot_state_publisher, /controller_manager"
 STATES = "controller /controller_manager joint_states active"
+STOPPED = "topic /arm_io/robot_program_running std_msgs/msg/Bool data value False"
 LESS_ALONE = f"lost {ALONE}, /perception; new {ALONE}"
 STALE = "stale_camera: {use: pick_and_place, inject: {freeze: camera, at: 2 s}, expect: stale_state}"
 CANCELLED = "cancelled: {use: pick_and_place, inject: {cancel: move, at: 3 s}, expect: cancelled, within: 200 ms}"
+
+
+def _first_goal(by: float, seconds: float) -> str:
+    """Return the node of the first goal: 1.5 times 10 deg at 5 deg/s, and for 5 deg half of the timeout."""
+    joints = ("shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3")
+    told = f"--joint arm_wrist_3_joint --by={by} --seconds={seconds} --timeout=5.0 --absent=/task"
+    prove = (
+        "$(find-pkg-prefix ur5e_pick)/lib/ur5e_pick/bring_up --plan $(find-pkg-share ur5e_pick)/config/bring_up.json"
+    )
+    return (
+        '<node pkg="ur5e_pick" exec="first_goal" name="first_goal" output="both" args="--then $(var then) '
+        f"--action /arm_trajectory/follow_joint_trajectory --states /joint_states {told} "
+        f'{" ".join(f"arm_{joint}_joint" for joint in joints)}" '
+        f'launch-prefix="{prove} --target real move --" ros_args="--enclave /ur5e_pick/first_goal"/>'
+    )
+
+
+def _far_end(by: str) -> str:
+    return (
+        "- [ ] A person moves it by that much, in reduced mode and by the vendor's procedure, and lets it stand at the "
+        f"far end; arm_wrist_3_joint changed by + {by} rad, and no other joint"
+    )
+
 
 GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
     "what was measured": (
@@ -91,6 +115,10 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "review interfaces | /camera/color/image_raw | rate | 30 Hz -> 15 Hz | -50 %",
             "review QoS | /object_pose subscribers task | quality of service reliability | reliable -> best_effort",
             "review devices | camera | device camera.rate_hz | 30 Hz -> 15 Hz | -50 %",
+            "review start order | launch/goal.launch.xml | 1 line that no other change explains | "
+            f"{_first_goal(0.08726646259971647, 2.5)} -> {_first_goal(0.17453292519943295, 3.0)}",
+            "review gates | gates/promotion.md | 1 line that no other change explains | "
+            f"{_far_end('0.0873')} -> {_far_end('0.1745')}",
         ],
     ),
     "limits and where it goes": (
@@ -174,9 +202,11 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "dangerous motion | pick | frame | object -> fixture_A",
             "dangerous start order | activate_perception, configure_perception | step on the real target went | "
             "start -> None",
-            f"dangerous start order | activate_gripper | what must show before it | {ALONE}, /perception -> {ALONE}",
-            "dangerous start order | claim_control | what must show before it | 9 entries -> 8 entries | "
+            f"dangerous start order | activate_gripper | what must show before it | {ALONE}, /perception, {STOPPED} -> "
+            f"{ALONE}, {STOPPED} | {LESS_ALONE}",
+            "dangerous start order | claim_control | what must show before it | 10 entries -> 9 entries | "
             f"lost {ALONE}, /perception, lifecycle /perception active; new {ALONE}",
+            f"dangerous start order | compare_versions | what must show before it | {ALONE}, /perception -> {ALONE}",
             "dangerous start order | move | what must show before it | "
             f"{ALONE}, /perception, "
             "controller /controller_manager arm_trajectory active, controller /controller_manager gripper_action "

@@ -6,7 +6,7 @@ out: findings of ``cellc check``, which change with its version; the audit holds
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
@@ -15,6 +15,7 @@ from cellc.cell.interface import InterfaceKind
 from cellc.cell.site import UNKNOWN
 from cellc.deploy.configuration import OpenQuestion
 from cellc.deploy.deployment import Deployment
+from cellc.deploy.processes import motion_clients
 from cellc.emit.audit.tables import (
     calibration_section,
     command_section,
@@ -66,7 +67,9 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
         **({"Calibration files": calibration_section(cell)} if any(one.file for one in measured) else {}),
         "Approvals": table(("area", "question", "owner"), approvals(cell)),
         "Responsibilities": table(("responsibility", "owner"), responsibilities(cell)),
+        "Ending": _numbered(ending(cell)),
         "Recovery": "\n".join(recovery(cell)),
+        "After a loss": "\n".join(_after_a_loss(cell)) or "None.",
         "What the mock cannot prove": "\n".join(_not_provable(cell)),
     }
     blocks = [markdown_comment(plan.header.text), f"# {cell.name}: audit"]
@@ -84,6 +87,56 @@ def responsibilities(cell: Cell) -> Iterator[tuple[str, ...]]:
     return cell.owners.responsibilities.items()
 
 
+def ending(cell: Cell) -> Iterator[str]:
+    """Yield the way from motion to power-off; what carries is ended after what it carries."""
+    yield "nothing is held, and nobody and nothing is below a tool or a part that may fall"
+    if motion_clients(cell):
+        yield "end move.launch.xml on each computer, so that nothing asks for motion"
+    joints = {joint.name for device in cell.devices for joint in device.joints}
+    for manager in cell.managers:
+        claiming = " ".join(
+            one.name
+            for one in manager.controllers
+            if any(name.rpartition("/")[0] in joints for name in one.claims("real") if "real" in one.targets)
+        )
+        command = f"ros2 control switch_controllers --deactivate {claiming} -c {manager.node}"
+        if claiming:
+            yield f"give the claims back: {code(command)}"
+    for device in _outermost_first(cell):
+        yield from (f"{device.name}: {step}" for step in device.safety.ending)
+    yield "end cell.launch.xml by Ctrl-C on each computer, and see by ros2 node list that no node of this cell is left"
+    for device in _outermost_first(cell):
+        yield from (f"{device.name}: {step}" for step in device.safety.ended)
+    yield "the record is ended, and the evidence is signed"
+
+
+def _outermost_first(cell: Cell) -> list[Device]:
+    """Return the devices, each before the one that carries it, in whatever order the spec names them."""
+    carrier = {name: device.name for device in cell.devices for name in device.carries}
+
+    def depth(name: str) -> int:
+        return 0 if name not in carrier else 1 + depth(carrier[name])
+
+    return sorted(cell.devices, key=lambda device: (-depth(device.name), device.name))
+
+
+def _losses(cell: Cell) -> Iterator[tuple[str, tuple[str, ...]]]:
+    """Yield the ways out of what no device reports: a manager or a computer that is gone."""
+    seen = "see what each robot and each tool did without its controller manager: what is held may have fallen"
+    ended = "end every launch file of the cell by Ctrl-C on each computer: what is left waits for ever for its services"
+    alone = "see by ros2 node list that no node of this cell is left: a second launch would double it"
+    begin = "begin again at gate G3, and release activation and claims anew"
+    if cell.managers:
+        yield "a controller manager died", (seen, ended, alone, begin)
+    if len(cell.hosts) > 1:
+        yield "a computer or the network between two was lost", (seen, ended, "pass L1 to L5 again", begin)
+
+
+def _after_a_loss(cell: Cell) -> Iterator[str]:
+    for number, (title, steps) in enumerate(_losses(cell)):
+        yield from (*([""] if number else []), markdown(f"{title}:"), "", _numbered(steps))
+
+
 def recovery(cell: Cell) -> Iterator[str]:
     """Yield who acknowledges a stop, and the steps of every device."""
     recovery = cell.safety.recovery
@@ -91,10 +144,11 @@ def recovery(cell: Cell) -> Iterator[str]:
     yield markdown(f"After a reconnect: {recovery.on_reconnect}.")
     for device in cell.devices:
         for way in device.safety.recovery:
-            yield ""
-            yield markdown(f"{device.name}, {way.state}:")
-            yield ""
-            yield from (f"{number}. {markdown(step)}" for number, step in enumerate(way.steps, 1))
+            yield from ("", markdown(f"{device.name}, {way.state}:"), "", _numbered(way.steps))
+
+
+def _numbered(steps: Iterable[str]) -> str:
+    return "\n".join(f"{number}. {markdown(step)}" for number, step in enumerate(steps, 1))
 
 
 def _not_provable(cell: Cell) -> Iterator[str]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from cellc.cell.cell import Cell
 from cellc.cell.control import Controller, ControllerManager
@@ -20,6 +20,7 @@ from cellc.deploy.labels import (
     units,
     watchdog,
 )
+from cellc.deploy.processes import past_controllers
 from cellc.formats.escape import code, markdown
 from cellc.formats.numbers import shortest
 from cellc.formats.parameter_file import qos_parameters
@@ -27,6 +28,8 @@ from cellc.graph.cell_graph import CellGraph
 from cellc.link.nodes import DESCRIPTION_PUBLISHER
 
 _NOT_STATED = "not stated"
+_ALONE: Mapping[tuple[str, ...], str] = {("real",): " (real target)", ("mock",): " (mock)"}
+"""How what one target alone has is told."""
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
@@ -49,7 +52,7 @@ def owners_section(graph: CellGraph) -> str:
 def command_section(graph: CellGraph) -> str:
     """Write the command paths: through controllers down to joints, and the actions above them."""
     head = ("path", "frame", "unit", "rate", "time source", "QoS", "watchdog", "on failure")
-    return table(head, [*_requests(graph.cell), *_controllers(graph.cell)])
+    return table(head, [*_requests(graph.cell), *_controllers(graph.cell), *_past_controllers(graph.cell)])
 
 
 def _owners(cell: Cell) -> Iterator[tuple[str, ...]]:
@@ -119,6 +122,14 @@ def _requests(cell: Cell) -> Iterator[tuple[str, ...]]:
             )
 
 
+def _past_controllers(cell: Cell) -> Iterator[tuple[str, ...]]:
+    """Yield what moves a device past every controller: it is nobody's, and open to whoever the policy lets through."""
+    for device, one, does in past_controllers(cell):
+        path = f"nobody of the cell → {code(one.name)} → {device.name} (real target)"
+        qos, watched = "as the type", device.safety.watchdog or _NOT_STATED
+        yield path, "as the type", "as the type", "on request", _NOT_STATED, qos, watched, f"{does}; it asks no claim"
+
+
 def _controllers(cell: Cell) -> Iterator[tuple[str, ...]]:
     actions = {one.name: one for one in cell.interfaces}
     for manager in cell.managers:
@@ -136,7 +147,7 @@ def _controller(
     behaviour = "" if action is None else f"; {failure_label(action)}"
     name = controller.action or controller.full_name
     return (
-        f"{controller.client or 'nobody'} → {code(name)} → {controller.label} → {hardware}",
+        f"{controller.client or 'nobody'} → {code(name)} → {controller.label} → {hardware}{_alone(controller.targets)}",
         (action.frame if action is not None else None) or "joints",
         units(cell, controller),
         f"{shortest(rate)} Hz",
@@ -209,8 +220,8 @@ def _nodes(cell: Cell) -> Iterator[tuple[str, ...]]:
     for manager in cell.managers:
         for one in manager.controllers:
             owner = cell.owners.approvals.controller
-            name = f"`{manager.namespace}/{one.name}`"
-            yield name, one.plugin, manager.host or "not stated", owner, _code(one.told("real"))
+            name, host = f"`{manager.namespace}/{one.name}`", f"{manager.host or 'not stated'}{_alone(one.targets)}"
+            yield name, one.plugin, host, owner, _code(one.told("real"))
 
 
 def _parameters(cell: Cell, node: Node) -> tuple[str, ...]:
@@ -240,8 +251,12 @@ def _of_drivers(cell: Cell) -> Iterator[tuple[str, ...]]:
 
 def _interface(interface: Interface) -> tuple[str, ...]:
     _, *facts = interface_facts(interface)
-    contract = "; ".join((rate_label(interface), *facts))
+    contract = "; ".join((rate_label(interface), *facts)) + _alone(interface.targets)
     return code(interface.name), interface.type, _ends(interface.sources), _ends(interface.sinks), contract
+
+
+def _alone(targets: Sequence[str]) -> str:
+    return _ALONE.get(tuple(targets), "")
 
 
 def _ends(ends: tuple[Endpoint, ...]) -> str:

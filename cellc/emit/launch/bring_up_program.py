@@ -34,6 +34,7 @@ UNSEEN_S = 10.0  # a participant that has not seen a service for this long is ma
 LOOK_S = 0.2  # how often what is missing is looked for
 LOST = 3  # looks in a row that must miss a claim before the program behind it is stopped; one may be a late answer
 PATIENCE_S = 0.0  # in place of the deadlines of the plan, where it is not 0
+MANIFEST = Path("manifest.json")  # that of the package: beside the folder of the plan
 BEST_EFFORT, STRICT = 1, 2  # controller_manager_msgs/srv/SwitchController: what can be done; all of it or nothing
 TRANSITIONS, ACTIVE = {"configure": 1, "activate": 3}, 3  # lifecycle_msgs/msg/Transition; lifecycle_msgs/msg/State
 FROM = {"inactive": ("inactive", "active"), "active": ("active",)}  # what is active was inactive before
@@ -101,8 +102,7 @@ class Graph:
         return future.result()
 
     def _miss(self, name: str) -> None:
-        since = self._unseen_since.setdefault(name, time.monotonic())
-        if time.monotonic() - since > UNSEEN_S:
+        if time.monotonic() - self._unseen_since.setdefault(name, time.monotonic()) > UNSEEN_S:
             self._unseen_since.clear()
             self.leave()
             self._join()
@@ -117,7 +117,6 @@ class Graph:
         return self._heard.get(topic) if self._node.count_publishers(topic) else None
 
     def connects(self, parent: str, child: str) -> bool:
-        """Tell whether the transforms heard so far connect two frames."""
         for topic, latched in (("/tf", False), ("/tf_static", True)):
             if topic not in self._listened:
                 self._listen(topic, "tf2_msgs/msg/TFMessage", latched, self._place)
@@ -153,12 +152,10 @@ def _loaded(kind: str) -> Any:
 
 
 def listed_controllers(graph: Graph, manager: str) -> Any:
-    """Return what a controller manager lists, each with its name and state."""
     return graph.ask("controller_manager_msgs/srv/ListControllers", f"{manager}/list_controllers").controller
 
 
 def active_of(graph: Graph, one: SimpleNamespace) -> list[str]:
-    """Return which of the controllers that a request or a watch names are active."""
     listed = listed_controllers(graph, one.manager)
     return [entry.name for entry in listed if entry.name in one.controllers and entry.state == "active"]
 
@@ -170,7 +167,6 @@ class Missing:
         self._graph = graph
 
     def of(self, proof: SimpleNamespace) -> str:
-        """Return what is missing for one proof."""
         return str(getattr(self, f"_{proof.kind}")(proof))
 
     def _node(self, proof: SimpleNamespace) -> str:
@@ -186,8 +182,8 @@ class Missing:
         return "" if state in FROM[proof.state] else f"controller {proof.controller} must be {proof.state}, is {state}"
 
     def _hardware(self, proof: SimpleNamespace) -> str:
-        service = f"{proof.manager}/list_hardware_components"
-        listed = self._graph.ask("controller_manager_msgs/srv/ListHardwareComponents", service).component
+        kind, name = "controller_manager_msgs/srv/ListHardwareComponents", "list_hardware_components"
+        listed = self._graph.ask(kind, f"{proof.manager}/{name}").component
         state = next((one.state.label for one in listed if one.name == proof.component), "not there")
         return "" if state == proof.state else f"hardware {proof.component} must be {proof.state}, is {state}"
 
@@ -233,11 +229,16 @@ def request(graph: Graph, wanted: SimpleNamespace, answer_s: float) -> str:
         service, name = "lifecycle_msgs/srv/ChangeState", f"{wanted.node}/change_state"
         answer = graph.ask(service, name, answer_s, transition=transition)
         return "" if answer.success else f"{wanted.node} refused to {wanted.transition}"
+    if wanted.kind == "versions":
+        told = [sys.executable, Path(__file__).with_name("installed_versions"), "--manifest", MANIFEST, *wanted.parts]
+        ended = subprocess.run(told, stdout=subprocess.PIPE, text=True)
+        print(said := " ".join(ended.stdout.split()), flush=True)
+        return (said or f"{told[1]} fails") if ended.returncode else ""
     if wanted.kind == "hardware":
         state = _loaded("lifecycle_msgs/msg/State")(id=ACTIVE, label="active")
         service, name = "controller_manager_msgs/srv/SetHardwareComponentState", "set_hardware_component_state"
-        answer = graph.ask(service, f"{wanted.manager}/{name}", answer_s, name=wanted.component, target_state=state)
-        return "" if answer.ok else f"{wanted.manager} could not activate hardware {wanted.component}"
+        done = graph.ask(service, f"{wanted.manager}/{name}", answer_s, name=wanted.component, target_state=state).ok
+        return "" if done else f"{wanted.manager} could not activate hardware {wanted.component}"
     stopped = wanted.controllers if wanted.kind == "restart" else []
     active = active_of(graph, wanted)
     started = [name for name in wanted.controllers if name in stopped or name not in active]
@@ -358,15 +359,14 @@ def _deactivated(graph: Graph, manager: str, controllers: Sequence[str]) -> str:
 
 
 def seconds(text: str) -> float:
-    """Read seconds from 0."""
-    if not 0.0 <= (read := float(text)) < math.inf:
-        raise ValueError
-    return read
+    if 0.0 <= (read := float(text)) < math.inf:
+        return read
+    raise ValueError
 
 
 def main(arguments: Sequence[str]) -> int:
     """Take phases, run a program behind its proof, or watch; return the exit status."""
-    global PATIENCE_S
+    global MANIFEST, PATIENCE_S
     own = [*takewhile(lambda word: word not in ("--", "--ros-args"), arguments)]
     command = [*arguments[arguments.index("--") + 1 :]] if "--" in arguments else []
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -377,10 +377,10 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--wait", type=seconds, default=stated, help="in place of all deadlines (CELL_WAIT_S)")
     parser.add_argument("phases", nargs="+", choices=("start", "activate", "claim", "move", "watch"))
     read = parser.parse_args(own)
-    PATIENCE_S = read.wait or PATIENCE_S
+    PATIENCE_S, MANIFEST = read.wait or PATIENCE_S, read.plan.parent.parent / "manifest.json"
     plan = json.loads(read.plan.read_text(encoding="utf-8"), object_hook=lambda entry: SimpleNamespace(**entry))
-    taken = (step for step in getattr(plan, read.target) if step.phase in read.phases)
-    steps = [step for step in taken if not read.host or step.host in ("", read.host)]
+    hosts = (read.host, "") if read.host else {step.host for step in getattr(plan, read.target)}
+    steps = [step for step in getattr(plan, read.target) if step.phase in read.phases and step.host in hosts]
     graph = Graph("claim_watch" if "watch" in read.phases else f"bring_up_{read.phases[-1]}", plan.enclave)
     try:
         if "watch" in read.phases:

@@ -17,12 +17,14 @@ from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
 from cellc.deploy.bringup import phases
 from cellc.deploy.deployment import Deployment
+from cellc.deploy.first_goal import NODE, FirstGoal, first_goal, first_goal_enclave
 from cellc.deploy.processes import started_by_a_person
-from cellc.deploy.releases import ACTIVATE, CLAIM, MOVE, START, Release
-from cellc.emit.launch.processes import HOST, ON_REAL, moving_node, on_host, share
-from cellc.emit.launch.stages import before_motion, bring_up, program_and_plan, stages
-from cellc.formats.escape import launch_text
+from cellc.deploy.releases import ACTIVATE, CLAIM, GOAL, MOVE, START, Release
+from cellc.emit.launch.processes import HOST, ON_REAL, enclave, moving_node, on_host, share
+from cellc.emit.launch.stages import before_motion, bring_up, programs_and_plan, stages
+from cellc.formats.escape import launch_text, launch_words
 from cellc.formats.header import Header
+from cellc.formats.numbers import decimal
 from cellc.formats.parameter_file import spec_path
 from cellc.formats.xml_text import comment, element, render
 from cellc.graph.cell_graph import CellGraph
@@ -47,11 +49,13 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
         yield _file(plan.header, _host_file(host), actions)
     demanded = [_stated_host_argument(plan.hosts)] if plan.hosts else []
     yield _file(plan.header, _gate_file(START), [_gate_argument(START), *demanded])
-    yield from program_and_plan(plan)
+    yield from programs_and_plan(cell, plan)
     released = phases(plan.bring_up, "real")
     for release, phase in ((ACTIVATE, BringUpPhase.ACTIVATE), (CLAIM, BringUpPhase.CLAIM)):
         if phase in released:
             yield _file(plan.header, f"launch/{release.file}.launch.xml", _released(cell, release, phase))
+    if (goal := first_goal(cell)) is not None:
+        yield _file(plan.header, f"launch/{GOAL.file}.launch.xml", _sending(cell, goal))
     if plan.motion_clients:
         yield _file(plan.header, _MOVE, _moving(cell, plan))
         yield _file(plan.header, _gate_file(MOVE), [_gate_argument(MOVE)])
@@ -120,6 +124,33 @@ def _moving(cell: Cell, plan: Deployment) -> Iterator[Element]:
         if started_by_a_person(cell, node):
             yield comment(spec_path(node.path))
             yield moving_node(cell, node, plan.hosts, before_motion(cell))
+
+
+def _sending(cell: Cell, goal: FirstGoal) -> Iterator[Element]:
+    """Yield the first goal of the real target, behind the proof of everything that may ask for motion."""
+    yield _gate_argument(GOAL)
+    yield _argument("then", "end", "The goal is seen to its end, or canceled half way.", "end", "cancel")
+    told = (
+        f"--by={decimal(goal.delta)}",
+        f"--seconds={decimal(goal.duration_s)}",
+        f"--timeout={decimal(goal.timeout_s)}",
+    )
+    named = ("--action", goal.action, "--states", goal.topic, "--joint", goal.joint)
+    absent = (f"--absent={node}" for node in goal.absent)
+    words = launch_words(*named, *told, *absent, *goal.controller.joints)
+    yield comment("one joint, a little, from where it stands; nothing that asks for motion may be there")
+    yield element(
+        "node",
+        {
+            "pkg": cell.name,
+            "exec": NODE,
+            "name": NODE,
+            "output": "both",
+            "args": f"--then $(var then) {words}",
+            "launch-prefix": before_motion(cell, "real"),
+            **enclave(first_goal_enclave(cell)),
+        },
+    )
 
 
 def _target_argument() -> Element:

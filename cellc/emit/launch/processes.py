@@ -15,6 +15,7 @@ from cellc.cell.interface import Node, NodeSource
 from cellc.deploy.bringup import spawnings
 from cellc.deploy.files import (
     QOS_OVERRIDES,
+    REQUIRED_PROGRAM,
     controllers_file,
     description_file,
     is_planner,
@@ -69,6 +70,14 @@ def enclave(path: str) -> dict[str, str]:
     Without security it has no effect; with it, a process outside of its enclave is denied everything.
     """
     return {"ros_args": launch_words("--enclave", path)}
+
+
+def ends_launch(cell: Cell) -> dict[str, str]:
+    """Return the attribute of a process without which the cell is none: the launch ends with it."""
+    if Feature.EXIT_ENDS_LAUNCH in features(cell.distro):
+        return {"on_exit": "shutdown"}
+    program = REQUIRED_PROGRAM.rpartition("/")[2]
+    return {"launch-prefix": f"$(find-pkg-prefix {cell.name})/lib/{cell.name}/{program} --"}
 
 
 def _description_parameter(file: str) -> Element:
@@ -164,8 +173,6 @@ def _manager(cell: Cell, manager: ControllerManager) -> Element:
         parameters.append(_description_parameter(share(cell, manager_description_file(cell, manager, TARGET))))
     topic = f"{description_home(manager) if len(cell.managers) > 1 else ''}/{_TOPIC}"
     (node,) = (node for node in cell.nodes if node.full_name == manager.node)
-    # Without its update loop a cell only looks alive.
-    required = {"on_exit": "shutdown"} if Feature.EXIT_ENDS_LAUNCH in features(cell.distro) else {}
     return element(
         "node",
         {
@@ -173,7 +180,7 @@ def _manager(cell: Cell, manager: ControllerManager) -> Element:
             "exec": "ros2_control_node",
             **place,
             "output": "both",
-            **required,
+            **ends_launch(cell),  # without its update loop a cell only looks alive
             **enclave(manager_enclave(cell, manager)),
         },
         [

@@ -18,7 +18,8 @@ from cellc.cell.interface import Node, NodeSource
 from cellc.contract.bring_up import Target
 from cellc.deploy.bringup import WATCH, phases
 from cellc.deploy.deployment import Deployment
-from cellc.deploy.files import BRING_UP, BRING_UP_PROGRAM
+from cellc.deploy.files import BRING_UP
+from cellc.deploy.first_goal import programs
 from cellc.deploy.processes import bring_up_enclave, started_by_a_person
 from cellc.emit.launch.processes import (
     TARGET,
@@ -26,6 +27,7 @@ from cellc.emit.launch.processes import (
     control,
     driver_node,
     enclave,
+    ends_launch,
     only_on,
     robot_state_publisher,
     share,
@@ -38,7 +40,6 @@ from cellc.link.frames import ROBOT_STATE_PUBLISHER
 from cellc.vocabulary import BringUpPhase
 
 PROGRAM = "bring_up"
-_SOURCE = Path(__file__).with_name("bring_up_program.py")
 
 
 def stages(cell: Cell, plan: Deployment, host: str | None) -> Iterator[Element]:
@@ -55,14 +56,23 @@ def stages(cell: Cell, plan: Deployment, host: str | None) -> Iterator[Element]:
         yield bring_up(cell, "real", [BringUpPhase.START], host)
     if plan.bring_up.watches and host in (None, *(manager.host for manager in cell.managers)):
         yield comment("claims go when the robot no longer listens, and come back by a person alone")
-        yield bring_up(cell, "real", [WATCH], host)
+        yield bring_up(cell, "real", [WATCH], host, required=True)
     yield comment("what a person releases: gates/promotion.md, G5 to G7")
 
 
 def bring_up(
-    cell: Cell, target: Target, taken: Sequence[str], host: str | None = None, *, conditional: bool = True
+    cell: Cell,
+    target: Target,
+    taken: Sequence[str],
+    host: str | None = None,
+    *,
+    conditional: bool = True,
+    required: bool = False,
 ) -> Element:
-    """Return the process that takes phases on a target, started on that target alone unless the file is for one."""
+    """Return the process that takes phases on a target, started on that target alone unless the file is for one.
+
+    Where it is required, the launch ends with it: nothing else takes claims from a robot that no longer listens.
+    """
     words = [*_words(cell, target), *([] if host is None else ["--host", host]), *taken]
     return element(
         "node",
@@ -71,16 +81,17 @@ def bring_up(
             "exec": PROGRAM,
             "args": " ".join(words),
             "output": "both",
+            **(ends_launch(cell) if required else {}),
             **enclave(bring_up_enclave(cell)),
             **(only_on(target) if conditional else {}),
         },
     )
 
 
-def before_motion(cell: Cell) -> str:
+def before_motion(cell: Cell, target: str = TARGET) -> str:
     """Return the prefix of a node that asks for motion: it is started when all shows, and ended when a claim goes."""
     program = f"$(find-pkg-prefix {cell.name})/lib/{cell.name}/{PROGRAM}"
-    return " ".join([program, *_words(cell, TARGET), BringUpPhase.MOVE, "--"])
+    return " ".join([program, *_words(cell, target), BringUpPhase.MOVE, "--"])
 
 
 def _words(cell: Cell, target: str) -> tuple[str, ...]:
@@ -119,8 +130,10 @@ def _here(host: str | None, of: str) -> bool:
     return host is None or host == of
 
 
-def program_and_plan(plan: Deployment) -> Iterator[Artifact]:
-    """Yield the program and the steps that it takes."""
+def programs_and_plan(cell: Cell, plan: Deployment) -> Iterator[Artifact]:
+    """Yield the programs of the package, and the steps that the bring-up takes."""
     yield Artifact(BRING_UP, render(plan.bring_up))
-    first, _, rest = _SOURCE.read_text(encoding="utf-8").partition("\n")
-    yield Artifact(BRING_UP_PROGRAM, f"{first}\n{plan.header.commented('#')}{rest}", executable=True)
+    for path in programs(cell):
+        source = Path(__file__).with_name(f"{path.rpartition('/')[2]}_program.py").read_text(encoding="utf-8")
+        first, _, rest = source.partition("\n")
+        yield Artifact(path, f"{first}\n{plan.header.commented('#')}{rest}", executable=True)

@@ -17,6 +17,7 @@ from cellc.cell.control import ControllerManager
 from cellc.cell.interface import NodeSource
 from cellc.deploy.bringup import spawnings
 from cellc.deploy.deployment import Deployment
+from cellc.deploy.first_goal import NODE, first_goal, first_goal_enclave
 from cellc.deploy.processes import bring_up_enclave, enclave_of, manager_enclave, people_enclave, spawner_enclave
 from cellc.emit.security.rights import (
     Profile,
@@ -26,6 +27,7 @@ from cellc.emit.security.rights import (
     node_profiles,
     people,
     profile_element,
+    sender,
 )
 from cellc.formats.xml_text import element, render
 from cellc.graph.cell_graph import CellGraph
@@ -47,6 +49,8 @@ def _enclaves(cell: Cell, plan: Deployment) -> Iterator[Element]:
         yield _enclave(manager_enclave(cell, manager), manager_process(cell, manager))
         yield _enclave(spawner_enclave(cell, manager), _spawners(cell, manager))
     yield _enclave(bring_up_enclave(cell), bring_up_process(cell, plan.bring_up))
+    if (goal := first_goal(cell)) is not None:
+        yield _enclave(first_goal_enclave(cell), [sender(cell, f"/{NODE}", goal.action, goal.topic)])
     yield _enclave(people_enclave(cell), people(cell))
 
 

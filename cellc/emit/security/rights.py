@@ -219,6 +219,11 @@ def bring_up_process(cell: Cell, plan: BringUp) -> Iterator[Profile]:
         yield _with(_granted(cell, f"/{node}"), asks)
 
 
+def sender(cell: Cell, node: str, action: str, states: str) -> Profile:
+    """Return the rights of what sends one goal that a person releases."""
+    return replace(_with(_granted(cell, node), NodeEndpoints(subscribes=(states,))), call=(action,))
+
+
 def people(cell: Cell) -> Iterator[Profile]:
     """Yield the rights of what people type: to look at everything, and to activate the managed nodes that move.
 

@@ -220,6 +220,9 @@ _READERS: dict[str, tuple[Callable[[str], Reading], ...]] = {
     ".mmd": (mermaid,),
     "CMakeLists.txt": (plain,),
     "scripts/bring_up": (python,),
+    "scripts/first_goal": (python,),
+    "scripts/installed_versions": (python,),
+    "scripts/required": (python,),
 }
 
 

@@ -1,0 +1,87 @@
+"""The one small goal that a person sends before an application is started: one joint, from where the robot stands."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from cellc.cell.cell import Cell
+from cellc.cell.control import Controller
+from cellc.deploy.files import BRING_UP_PROGRAM, FIRST_GOAL_PROGRAM, REQUIRED_PROGRAM, VERSIONS_PROGRAM
+from cellc.deploy.processes import motion_clients
+from cellc.link.hardware import JOINT_STATES
+from cellc.vocabulary import TRAJECTORIES, Feature, features
+
+_PEAK = 1.5
+"""Peak over mean velocity of a joint that goes by a cubic spline from rest to rest, as the controller interpolates."""
+
+NODE = "first_goal"
+
+
+@dataclass(frozen=True, slots=True)
+class FirstGoal:
+    """What the program of the first goal is told.
+
+    Args:
+        controller: that of the joint, on the real target.
+        action: its action.
+        topic: where states of its joints arrive.
+        joint: the one that moves, by its name in the description.
+        delta: by how much, rad or m, with its sign.
+        duration_s: of the motion; no joint is faster than the first motion of the spec.
+        timeout_s: within which it ends.
+        absent: full names of nodes that ask for motion, none of which may be there.
+    """
+
+    controller: Controller
+    action: str
+    topic: str
+    joint: str
+    delta: float
+    duration_s: float
+    timeout_s: float
+    absent: tuple[str, ...]
+
+
+def first_goal(cell: Cell) -> FirstGoal | None:
+    """Return the goal, for a first motion whose joint a trajectory controller of the real target moves.
+
+    It is sent behind the proof that everything waits for that asks for motion, so that a cell without that has none.
+    """
+    first = cell.bringup.first_motion
+    if first is None or not motion_clients(cell):
+        return None
+    device, _, local = first.joint.partition("/")
+    joint = next((one.name for one in cell.device(device).joints if one.local_name == local), local)
+    sign = -1.0 if first.direction == "-" else 1.0
+    for one in cell.controllers:
+        if (
+            one.behaviour in TRAJECTORIES
+            and one.active
+            and "real" in one.targets
+            and joint in one.joints
+            and one.action
+        ):
+            fastest_s = _PEAK * first.max_delta.value / first.velocity.value
+            return FirstGoal(
+                controller=one,
+                action=one.action,
+                topic=JOINT_STATES,
+                joint=joint,
+                delta=sign * first.max_delta.value,
+                duration_s=max(fastest_s, first.timeout_s / 2.0),
+                timeout_s=first.timeout_s,
+                absent=tuple(node.full_name for node in motion_clients(cell)),
+            )
+    return None
+
+
+def programs(cell: Cell) -> tuple[str, ...]:
+    """Return the programs that the package installs."""
+    ends = () if Feature.EXIT_ENDS_LAUNCH in features(cell.distro) else (REQUIRED_PROGRAM,)
+    goal = () if first_goal(cell) is None else (FIRST_GOAL_PROGRAM,)
+    return (BRING_UP_PROGRAM, VERSIONS_PROGRAM, *ends, *goal)
+
+
+def first_goal_enclave(cell: Cell) -> str:
+    """Return the enclave of the program that sends it."""
+    return f"/{cell.name}/{NODE}"

@@ -1,0 +1,45 @@
+#!/usr/bin/env python3
+"""Runs a program without which the cell is none, and ends the launch that started it when the program ends.
+
+    required -- PROGRAM ARGUMENT...
+
+Put before a node of a launch file as its prefix, where launch itself has no word for this: a launch whose controller
+manager is gone goes on with everything else, and all that asks the manager then waits for ever. The launch gets SIGINT,
+as by Ctrl-C. A program that was asked to end ends nothing but itself.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Sequence
+from functools import partial
+
+# Of the child: it gets SIGINT when this program is gone, killed too (prctl(2), PR_SET_PDEATHSIG).
+END_WITH_PARENT = partial(ctypes.CDLL(None).prctl, 1, signal.SIGINT) if sys.platform == "linux" else None
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Run the program; return its exit status."""
+    command, asked = [*arguments[arguments.index("--") + 1 :]], []
+    launch = os.getppid()
+    child = subprocess.Popen(command, preexec_fn=END_WITH_PARENT)
+
+    def pass_on(number: int, _: object) -> None:
+        asked.append(number)
+        child.send_signal(number)
+
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, pass_on)
+    status = child.wait()
+    if not asked and os.getppid() == launch:
+        print(f"{command[0]} ended with {status}: the launch that needs it is ended", file=sys.stderr, flush=True)
+        os.kill(launch, signal.SIGINT)
+    return status if status >= 0 else 128 - status
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
