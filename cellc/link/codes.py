@@ -55,7 +55,9 @@ rehearsals:
     "hand-eye-differs": """
 calibrations:
   hand_eye: {from: measured/hand_eye.json}
-# expect at devices.camera.mount.xyz
+devices:
+  camera:
+    mount: {xyz: 0 -70 30 mm}  # expect at xyz
 """,
     "hand-eye-of-other-frames": """
 calibrations:
@@ -63,8 +65,7 @@ calibrations:
 """,
     "invalid-hand-eye": """
 calibrations:
-  hand_eye: {from: measured/ambiguous.calib}
-# expect
+  hand_eye: {parent: arm/tool0}  # expect at parent
 """,
     "invalid-kinematics": """
 devices:

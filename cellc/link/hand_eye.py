@@ -16,7 +16,7 @@ from cellc.cell.site import CalibrationFile
 from cellc.diagnostics import Diagnostic, Outcome, Severity, Span, YamlPath, did_you_mean
 from cellc.link.devices import BoundDevice
 from cellc.link.frames import FrameNames
-from cellc.link.hand_eye_file import HandEyeFile, read_hand_eye
+from cellc.link.hand_eye_file import CODE, HandEyeFile, read_hand_eye
 from cellc.link.quantities import pose
 from cellc.link.side_file import read_side_file
 from cellc.source.document import SourceDocument
@@ -77,6 +77,7 @@ def link_hand_eye(
     edges = _edges(spec, [one.device for one in bound], names)
     for name, entry in spec.calibrations.items():
         if entry.from_ is None:
+            problems += _without_file(name, entry, document)
             continue
         file = read_side_file(entry.from_, document, ("calibrations", name, "from"))
         said = Outcome[HandEyeFile](None) if file.value is None else read_hand_eye(file.value)
@@ -100,6 +101,14 @@ def with_mounts(bound: tuple[BoundDevice, ...], measured: Measured) -> tuple[Bou
         else one
         for one in bound
     )
+
+
+def _without_file(name: str, entry: CalibrationSpec, document: SourceDocument) -> Iterator[Diagnostic]:
+    for key, stated in (("parent", entry.parent), ("child", entry.child)):
+        if stated is not None:
+            path: YamlPath = ("calibrations", name, key)
+            message = f"`{key}` tells a frame of a file, and `{name}` names none"
+            yield Diagnostic(CODE, Severity.ERROR, message, document.locate(path), path, "add `from:`, or remove it")
 
 
 def _resting_on(name: str, spec: CellSpec, bound: tuple[BoundDevice, ...], names: FrameNames) -> Iterator[_Placed]:
