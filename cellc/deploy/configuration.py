@@ -36,7 +36,7 @@ _NOT_OF_AN_ENTITY = frozenset(
     }
 )
 """Fields of any part of it that do."""
-_IN_ORDER = frozenset({"joints", "positions", "steps"})
+_IN_ORDER = frozenset({"joints", "pipelines", "positions", "steps"})
 """Fields in which the order says something; elsewhere the user may write things in any order."""
 
 _OF_CELL = ("os", "kernel", "ros", "rmw", "ros2_control", "moveit")
@@ -69,7 +69,7 @@ def _settled(value: object, left_out: frozenset[str] = _NOT_OF_AN_ENTITY) -> obj
     if isinstance(value, Mapping):
         return {str(name): _settled(one) for name, one in value.items()}
     if isinstance(value, frozenset):
-        return sorted(map(str, value))
+        return _unordered([_settled(one) for one in value])
     if isinstance(value, tuple):
         return [_settled(one) for one in value]
     if isinstance(value, float):

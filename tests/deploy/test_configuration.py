@@ -50,6 +50,14 @@ def test_id_changes_with_who_publishes_a_frame_and_with_a_bound(as_it_is: str, t
         assert _id(tmp_path, spec_text("ur5e_pick").replace(*edit)) != as_it_is
 
 
+def test_the_first_planning_pipeline_is_the_default_so_that_another_order_is_another_configuration(
+    as_it_is: str, tmp_path: Path
+) -> None:
+    group = "  groups: {manipulator"
+    turned = f"  pipelines: [pilz_industrial_motion_planner, ompl]\n{group}"
+    assert _id(tmp_path, spec_text("ur5e_pick").replace(group, turned)) != as_it_is
+
+
 def test_manifest_from_before_the_cell_was_hashed_is_read() -> None:
     told = {"calibrations": {"hand_eye": 4}, "tf_publishers": {"tcp": "robot_state_publisher"}, "urdf_sha256": "0" * 64}
     assert ConfigurationInputs.model_validate(told).cell_sha256 == ""
