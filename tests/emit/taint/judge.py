@@ -48,7 +48,7 @@ class Change:
             part: other
             for twin, text in texts.items()
             for part, other in zip(twin.split("."), text.split("."), strict=True)
-            if "." in twin
+            if "." in twin and part != other
         }
 
     def expected(self, wanted: str) -> tuple[str, ...]:
@@ -57,14 +57,16 @@ class Change:
         Exactly so, with a space for each line end as in XML's attributes, on one line, without backticks, without
         spaces, or as a part between dots.
         """
-        exact = attribute = lined = joined = wanted
+        exact = attribute = lined = joined = split = wanted
+        for part, other in self._parts.items():
+            split = split.replace(part, other) if part in wanted else split
         for mark in dict.fromkeys(_MARK.findall(wanted)):
             for twin, text in self._pairs(mark, wanted):
                 exact = exact.replace(twin, text)
                 attribute = attribute.replace(_END.sub(" ", twin), _END.sub(" ", text))
                 lined = _SPACE.sub(" ", lined).replace(_line(twin), _line(text))
                 joined = _SPACE.sub("", joined).replace(_SPACE.sub("", twin), _SPACE.sub("", text))
-        return exact, attribute, lined, lined.replace("`", ""), joined, self._parts.get(wanted, wanted)
+        return exact, attribute, lined, lined.replace("`", ""), joined, split
 
     def _pairs(self, mark: str, wanted: str) -> Iterator[tuple[str, str]]:
         """Yield the whole text, and what is from its mark on: what stood there before may be split off."""
