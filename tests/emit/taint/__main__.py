@@ -29,7 +29,7 @@ def main() -> int:
     count: Counter[str] = Counter()
     for name, files in variants().items():
         if given.only in name:
-            suspects: set[Place] = set()
+            suspects: dict[Place, str] = {}
             for turn in turns:
                 for kind in KINDS[:1] if given.alone else KINDS:
                     count += _round(name, files, kind, turn, suspects)
@@ -47,14 +47,14 @@ def _round(
     files: Mapping[str, str],
     kind: str,
     turn: int,
-    suspects: set[Place],
+    suspects: dict[Place, str],
     endings: tuple[str, ...] = (".yaml", ".urdf"),
 ) -> Counter[str]:
     """Run one round, print what it found, and add the culprits of errors on another line to the suspects."""
     with tempfile.TemporaryDirectory() as folder:
         done = run(Path(folder), files, kind, turn, endings, suspects)
     trial = done.trial
-    suspects |= set(trial.elsewhere)
+    suspects |= {place: error.code for place, error in trial.elsewhere.items()}
     for place, error in trial.elsewhere.items():
         at = f"{error.span.file.removeprefix(folder)}:{error.span.line}"
         print(f"{name} {turn}: {place} is refused at {at} {error.code}")

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 from unittest.mock import patch
 
 from cellc.pipeline import Checked, compile_cell
@@ -44,7 +45,7 @@ def run(
     kind: str,
     turn: int,
     endings: tuple[str, ...] = (".yaml", ".urdf"),
-    suspects: Collection[Place] = (),
+    suspects: Mapping[Place, str] = MappingProxyType({}),
 ) -> Round:
     """Give every place the payload whose turn it is, let what refuses refuse, and read what is made of the rest.
 
@@ -52,7 +53,7 @@ def run(
         kind: one of ``KINDS``.
         turn: as many turns as there are payloads give each of them to each place.
         endings: of the files whose places are tried.
-        suspects: places whose texts are refused on the line of another, as far as they are known.
+        suspects: the code of places whose texts are refused on the line of another, as far as they are known.
     """
     texts = _texts(files, kind, turn, endings)
     with forking():

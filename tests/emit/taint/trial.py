@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from types import MappingProxyType
 
 from cellc.diagnostics import Diagnostic, Severity
 from cellc.pipeline import Checked, check
@@ -40,21 +41,27 @@ def checked_with(folder: Path, files: Files, texts: Mapping[Place, str]) -> Chec
     return check(folder / "cell.yaml")
 
 
-def tried(folder: Path, files: Files, texts: Mapping[Place, str], suspects: Collection[Place] = ()) -> Trial:
+def tried(
+    folder: Path, files: Files, texts: Mapping[Place, str], suspects: Mapping[Place, str] = MappingProxyType({})
+) -> Trial:
     """Take out places with an error until none is left; an error on another line has one culprit, which is looked for.
 
     Places with one text are one: a name and what refers to it. Errors of one stage hide those of the next: it takes
     some rounds.
 
     Args:
-        suspects: where a culprit is looked for first, such as the culprits of other texts.
+        suspects: the code that places were culprits of with other texts; all of one code are taken out at once.
     """
     trial = Trial(checked_with(folder, files, texts), dict(texts))
     while errors := errors_of(trial.checked):
         trial.seen.append(trial.checked)
         hit = _hit(folder, files, trial.taken, errors)
-        if not hit:
-            text, error = _culprit(folder, files, trial.taken, errors[0], suspects)
+        again = {place: errors[0] for place in trial.taken if suspects.get(place) == errors[0].code}
+        if not hit and again:
+            trial.elsewhere |= again
+            hit = again
+        elif not hit:
+            text, error = _culprit(folder, files, trial.taken, errors[0])
             own = {place: error for place, one in trial.taken.items() if one == text}
             on_line = _hit(folder, files, dict.fromkeys(own, text), [error])
             (trial.refused if on_line else trial.elsewhere).update(own)
@@ -74,18 +81,13 @@ def errors_of(checked: Checked) -> list[Diagnostic]:
     return [one for one in checked.diagnostics if one.severity is Severity.ERROR]
 
 
-def _culprit(
-    folder: Path, files: Files, texts: Mapping[Place, str], error: Diagnostic, suspects: Collection[Place]
-) -> tuple[str, Diagnostic]:
+def _culprit(folder: Path, files: Files, texts: Mapping[Place, str], error: Diagnostic) -> tuple[str, Diagnostic]:
     """Return the text that an error comes from, and the error: the last of the shortest beginning that shows it."""
-    first = dict.fromkeys(text for place, text in texts.items() if place in suspects)
-    several = list(first | dict.fromkeys(texts.values()))
+    several = list(dict.fromkeys(texts.values()))
     assert several, f"with its own texts: {error}"
     low, high = 0, len(several)  # the first `low` do not show it, the first `high` do
-    middle = len(first)
     while high - low > 1:
-        if not low < middle < high:
-            middle = (low + high) // 2
+        middle = (low + high) // 2
         some = set(several[:middle])
         given = {place: text for place, text in texts.items() if text in some}
         found = errors_of(checked_with(folder, files, given))
