@@ -42,8 +42,9 @@ from cellc.contract.bring_up import (
     Transition,
     Watch,
 )
-from cellc.deploy.processes import asks_for_motion, bring_up_enclave, description_nodes, motion_clients
+from cellc.deploy.processes import asks_for_motion, description_nodes, motion_clients
 from cellc.deploy.versions import compared_on
+from cellc.graph.enclaves import bring_up_enclave
 from cellc.link.derived import JOINT_STATE_TYPE
 from cellc.vocabulary import PASSIVE, Behaviour, BringUpPhase, Moment, Need
 

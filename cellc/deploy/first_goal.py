@@ -80,8 +80,3 @@ def programs(cell: Cell) -> tuple[str, ...]:
     ends = () if Feature.EXIT_ENDS_LAUNCH in features(cell.distro) else (REQUIRED_PROGRAM,)
     goal = () if first_goal(cell) is None else (FIRST_GOAL_PROGRAM,)
     return (BRING_UP_PROGRAM, VERSIONS_PROGRAM, *ends, *goal)
-
-
-def first_goal_enclave(cell: Cell) -> str:
-    """Return the enclave of the program that sends it."""
-    return f"/{cell.name}/{NODE}"

@@ -74,33 +74,8 @@ def past_controllers(cell: Cell) -> Iterator[tuple[Device, OfferedInterface, str
                 yield device, one, one.effect.does
 
 
-def enclave_of(cell: Cell, node: Node) -> str:
-    """Return the enclave of a node's process."""
-    return f"/{cell.name}{node.full_name}"
-
-
-def manager_enclave(cell: Cell, manager: ControllerManager) -> str:
-    """Return the enclave of the process with a controller manager, its controllers and hardware."""
-    return f"/{cell.name}{manager.namespace}/controller_manager"
-
-
-def spawner_enclave(cell: Cell, manager: ControllerManager) -> str:
-    """Return the enclave of the processes that load and activate a manager's controllers."""
-    return f"/{cell.name}{manager.namespace}/spawner"
-
-
 def bring_up_nodes(plan: BringUp) -> tuple[str, ...]:
     """Return the names that the program of the bring-up gives its node: after the last phase that it takes."""
     taken = {step.phase for target in TARGETS for step in plan.steps(target)}
     named = (f"bring_up_{phase}" for phase in BringUpPhase if phase in taken)
     return (*named, *((CLAIM_WATCH.removeprefix("/"),) if plan.watches else ()))
-
-
-def people_enclave(cell: Cell) -> str:
-    """Return the enclave of what people type at a shell while they pass the gates."""
-    return f"/{cell.name}/people"
-
-
-def bring_up_enclave(cell: Cell) -> str:
-    """Return the enclave of the command-line tools with which the bring-up waits, configures and activates."""
-    return f"/{cell.name}/bring_up"

@@ -30,11 +30,11 @@ from cellc.deploy.files import (
 from cellc.deploy.first_goal import programs
 from cellc.deploy.gates import Gate
 from cellc.deploy.labels import real_driver
-from cellc.deploy.processes import people_enclave
 from cellc.deploy.releases import start_mock
 from cellc.formats.escape import code, markdown, markdown_comment
 from cellc.formats.parameter_file import spec_path
 from cellc.graph.cell_graph import CellGraph
+from cellc.graph.enclaves import people_enclave
 from cellc.graph.versions import unreleased
 from cellc.vocabulary import BringUpPhase
 

@@ -103,6 +103,7 @@ def test_package_depends_on_what_it_starts_and_loads() -> None:
         "moveit_simple_controller_manager",
         "parallel_gripper_controller",
         "pilz_industrial_motion_planner",
+        "pose_broadcaster",
         "rcl_interfaces",
         "rclpy",
         "realsense2_camera",

@@ -17,7 +17,7 @@ from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
 from cellc.deploy.bringup import phases
 from cellc.deploy.deployment import Deployment
-from cellc.deploy.first_goal import NODE, FirstGoal, first_goal, first_goal_enclave
+from cellc.deploy.first_goal import NODE, FirstGoal, first_goal
 from cellc.deploy.processes import started_by_a_person
 from cellc.deploy.releases import ACTIVATE, CLAIM, GOAL, MOVE, START, Release
 from cellc.emit.launch.processes import HOST, ON_REAL, enclave, moving_node, on_host, share
@@ -28,6 +28,7 @@ from cellc.formats.numbers import decimal
 from cellc.formats.parameter_file import spec_path
 from cellc.formats.xml_text import comment, element, render
 from cellc.graph.cell_graph import CellGraph
+from cellc.graph.enclaves import first_goal_enclave
 from cellc.vocabulary import BringUpPhase
 
 _VERSION = {"version": "0.1.1"}

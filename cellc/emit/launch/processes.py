@@ -26,11 +26,11 @@ from cellc.deploy.files import (
     semantic_file,
 )
 from cellc.deploy.labels import TF_RATE_HZ
-from cellc.deploy.processes import enclave_of, manager_enclave, spawner_enclave
 from cellc.formats.escape import launch_text, launch_words
 from cellc.formats.numbers import decimal
 from cellc.formats.parameter_file import qos_parameters
 from cellc.formats.xml_text import element
+from cellc.graph.enclaves import enclave_of, manager_enclave, spawner_enclave
 from cellc.link.nodes import DESCRIPTION_PUBLISHER, description_home
 from cellc.vocabulary import Feature, features
 

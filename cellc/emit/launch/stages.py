@@ -20,7 +20,7 @@ from cellc.deploy.bringup import WATCH, phases
 from cellc.deploy.deployment import Deployment
 from cellc.deploy.files import BRING_UP
 from cellc.deploy.first_goal import programs
-from cellc.deploy.processes import bring_up_enclave, started_by_a_person
+from cellc.deploy.processes import started_by_a_person
 from cellc.emit.launch.processes import (
     TARGET,
     cell_node,
@@ -36,6 +36,7 @@ from cellc.emit.launch.processes import (
 from cellc.formats.json_text import render
 from cellc.formats.parameter_file import spec_path
 from cellc.formats.xml_text import comment, element
+from cellc.graph.enclaves import bring_up_enclave
 from cellc.link.frames import ROBOT_STATE_PUBLISHER
 from cellc.vocabulary import BringUpPhase
 

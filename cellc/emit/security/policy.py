@@ -17,8 +17,7 @@ from cellc.cell.control import ControllerManager
 from cellc.cell.interface import NodeSource
 from cellc.deploy.bringup import spawnings
 from cellc.deploy.deployment import Deployment
-from cellc.deploy.first_goal import NODE, first_goal, first_goal_enclave
-from cellc.deploy.processes import bring_up_enclave, enclave_of, manager_enclave, people_enclave, spawner_enclave
+from cellc.deploy.first_goal import NODE, first_goal
 from cellc.emit.security.rights import (
     Profile,
     bring_up_process,
@@ -31,6 +30,14 @@ from cellc.emit.security.rights import (
 )
 from cellc.formats.xml_text import element, render
 from cellc.graph.cell_graph import CellGraph
+from cellc.graph.enclaves import (
+    bring_up_enclave,
+    enclave_of,
+    first_goal_enclave,
+    manager_enclave,
+    people_enclave,
+    spawner_enclave,
+)
 
 _VERSION = {"version": "0.2.0"}
 

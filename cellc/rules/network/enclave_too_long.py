@@ -1,0 +1,44 @@
+"""An enclave has a longer name than a certificate takes.
+
+SROS2 writes the path of an enclave into the common name of its certificate, and X.509 allows 64 characters there. The
+cell builds and starts without security; on the day that access is to be enforced, no keys are made for this process,
+and with `Enforce` it does not start.
+
+Example that is reported:
+
+```yaml
+nodes:
+  inspection_of_each_part_on_the_tray_before_it_is_picked_again:  # expect at inspection_of_each_part_on_the_tray_before_it_is_picked_again
+    {run: cell_tasks/inspector, host: control_pc, owner: integration, lifecycle: true}
+```
+
+Example that is accepted:
+
+```yaml
+nodes:
+  inspection: {run: cell_tasks/inspector, host: control_pc, owner: integration, lifecycle: true}
+```
+
+Fix: shorten the name of the cell, of the namespace or of the node.
+
+Source: https://www.rfc-editor.org/rfc/rfc5280#appendix-A.1 (RFC 5280, ub-common-name): 64 characters
+"""
+
+from __future__ import annotations
+
+from cellc.graph.enclaves import enclaves
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
+
+_LONGEST = 64
+"""Characters of a common name: RFC 5280, ub-common-name."""
+
+
+@rule(Severity.WARNING)
+def check(graph: CellGraph) -> Findings:
+    """Yield enclaves that no certificate can name; with a middleware that has no SROS2 there is none."""
+    if graph.cell.versions.rmw.startswith("rmw_zenoh"):
+        return
+    for name, path in enclaves(graph.cell):
+        if len(name) > _LONGEST:
+            message = f"enclave `{name}` must have at most {_LONGEST} characters, got {len(name)}"
+            yield found(graph, path, message)
