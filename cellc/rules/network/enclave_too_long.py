@@ -8,8 +8,9 @@ Example that is reported:
 
 ```yaml
 nodes:
-  inspection_of_each_part_on_the_tray_before_it_is_picked_again:  # expect at inspection_of_each_part_on_the_tray_before_it_is_picked_again
+  inspection_of_each_part_on_a_tray_before_it_is_picked_again:
     {run: cell_tasks/inspector, host: control_pc, owner: integration, lifecycle: true}
+# expect at nodes.inspection_of_each_part_on_a_tray_before_it_is_picked_again
 ```
 
 Example that is accepted:
