@@ -8,16 +8,16 @@ Example that is reported:
 
 ```yaml
 nodes:
-  inspection_of_each_part_on_a_tray_before_it_is_picked_again:
-    {run: cell_tasks/inspector, host: control_pc, owner: integration, lifecycle: true}
-# expect at nodes.inspection_of_each_part_on_a_tray_before_it_is_picked_again
+  inspector: {run: cell_tasks/inspector, host: control_pc, owner: integration, lifecycle: true,  # expect at inspector
+              namespace: /line_four/station_twelve/inspection_of_parts/second_shift}
 ```
 
 Example that is accepted:
 
 ```yaml
 nodes:
-  inspection: {run: cell_tasks/inspector, host: control_pc, owner: integration, lifecycle: true}
+  inspector: {run: cell_tasks/inspector, host: control_pc, owner: integration, lifecycle: true,
+              namespace: /station_twelve}
 ```
 
 Fix: shorten the name of the cell, of the namespace or of the node.
