@@ -2,13 +2,66 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from cellc.diagnostics import Severity
 from cellc.diagnostics.diagnostic import CodePage
 from cellc.limits import DEFAULTS, MIB
 
+# Each is the whole text of a description, in which a test finds it reported at its mark and nowhere else.
+_EXAMPLES: Mapping[str, str] = {
+    "urdf-bad-geometry": """
+<robot name="arm">
+  <link name="base">
+    <collision><geometry><cone radius="1"/></geometry></collision>  <!-- expect -->
+  </link>
+</robot>
+""",
+    "urdf-bad-number": """
+<robot name="arm">
+  <link name="base">
+    <inertial>
+      <mass value="4 kg"/>  <!-- expect -->
+      <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>
+    </inertial>
+  </link>
+</robot>
+""",
+    "urdf-missing-attribute": """
+<robot name="arm">
+  <link/>  <!-- expect -->
+</robot>
+""",
+    "urdf-missing-element": """
+<robot name="arm">
+  <link name="base"/>
+  <joint name="turn" type="revolute"><parent link="base"/></joint>  <!-- expect -->
+</robot>
+""",
+    "urdf-not-a-robot": """
+<sdf version="1.7"/>  <!-- expect -->
+""",
+    "urdf-unknown-joint-type": """
+<robot name="arm">
+  <link name="base"/>
+  <link name="tip"/>
+  <joint name="turn" type="rotary"><parent link="base"/> <child link="tip"/></joint>  <!-- expect -->
+</robot>
+""",
+    "xml-entities": """
+<!DOCTYPE robot [<!ENTITY arm "arm">]>  <!-- expect -->
+<robot name="arm"/>
+""",
+    "xml-not-well-formed": """
+<robot name="arm">
+  <link name="base">
+</robot>  <!-- expect -->
+""",
+}
+
 
 def _page(code: str, title: str, why: str, fix: str, severity: Severity = Severity.ERROR) -> CodePage:
-    return CodePage(code, severity, title, why, fix)
+    return CodePage(code, severity, title, why, fix, _EXAMPLES.get(code, ""))
 
 
 _XML = (

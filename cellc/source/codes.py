@@ -2,13 +2,94 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from cellc.diagnostics import Diagnostic, Related, Severity, Span, YamlPath
 from cellc.diagnostics.diagnostic import CodePage
 from cellc.limits import DEFAULTS, MIB, option
 
+# Each is the whole text of a file, in which a test finds it reported at its mark and nowhere else.
+_EXAMPLES: Mapping[str, str] = {
+    "alias-bomb": """
+a: &a [1, 2, 3, 4, 5, 6, 7, 8, 9, 10]
+b: &b [*a, *a, *a, *a, *a, *a, *a, *a, *a, *a]
+c: &c [*b, *b, *b, *b, *b, *b, *b, *b, *b, *b]
+d: &d [*c, *c, *c, *c, *c, *c, *c, *c, *c, *c]
+e: &e [*d, *d, *d, *d, *d, *d, *d, *d, *d, *d]
+f: [*e, *e, *e, *e, *e, *e, *e, *e, *e, *e]  # expect
+""",
+    "control-character": """
+summary: "the arm\\e[2J of cell 4"  # expect
+""",
+    "duplicate-key": """
+hosts:
+  control_pc: {scheduling: preempt_rt}
+  control_pc: {scheduling: standard}  # expect
+""",
+    "empty-file": """
+# the arm of cell 4  # expect
+""",
+    "file-not-found": """
+include: hosts.yml  # expect
+""",
+    "include-cycle": """
+include: cell.yaml  # expect
+""",
+    "include-escape": """
+include: ../hosts.yaml  # expect
+""",
+    "include-shape": """
+include: {hosts: hosts.yaml}  # expect
+""",
+    "merge-key": """
+slow: &slow {velocity: 50 %}
+limits:
+  <<: *slow  # expect
+""",
+    "non-string-key": """
+poses:
+  1: {manipulator: 0 -90 90 -90 -90 0 deg}  # expect
+""",
+    "not-a-file": """
+include: .  # expect
+""",
+    "not-yaml": """
+hosts:
+  control_pc: {scheduling: preempt_rt
+network: {domain_id: 42}  # expect
+""",
+    "number-out-of-range": """
+rate: 18446744073709551616  # expect
+""",
+    "recursive-alias": """
+steps: &steps [*steps]  # expect
+""",
+    "root-not-mapping": """
+- cell: demo  # expect
+""",
+    "several-documents": """
+cell: demo
+---  # expect
+cell: other
+""",
+    "substitution-in-text": """
+summary: $(command rm)  # expect
+""",
+    "tab-indentation": """
+hosts:
+\tcontrol_pc: {}  # expect
+""",
+    "unknown-alias": """
+steps: *home  # expect
+""",
+    "yaml-tag": """
+cell: !!python/object demo  # expect
+""",
+}
+
 
 def _page(code: str, title: str, why: str, fix: str) -> CodePage:
-    return CodePage(code, Severity.ERROR, title, why, fix)
+    return CodePage(code, Severity.ERROR, title, why, fix, _EXAMPLES.get(code, ""))
 
 
 CODES: tuple[CodePage, ...] = (

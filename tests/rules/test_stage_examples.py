@@ -7,10 +7,13 @@ from pathlib import Path
 
 import pytest
 
+from cellc.description.urdf_reader import read_urdf
 from cellc.diagnostics.diagnostic import CodePage
 from cellc.report.pages import STAGES, render_page
+from cellc.source.read import read
 from tests.rules.examples import Example, Place, matches, places
 
+_SHOWN_MARK = re.compile(r"(?:#|<!--) expect(?: at| -->|$)", re.MULTILINE)
 PAGES = [*STAGES["spec"], *STAGES["link"]]
 # The first takes two controller managers, of the second the catalog has no kind that a distribution lacks, and an empty
 # value is lost where an example is merged into the complete cell.
@@ -33,4 +36,34 @@ def test_example_of_a_stage_is_reported_at_its_mark_and_nowhere_else(page: CodeP
 
 
 def test_marks_of_an_example_are_not_shown() -> None:
-    assert [page.code for page in PAGES if "expect at" in render_page(page)] == []
+    pages = [page for stage in STAGES.values() for page in stage]
+    assert [page.code for page in pages if _SHOWN_MARK.search(render_page(page))] == []
+
+
+# What no short text shows: states of the disk and the machine, bounds that take thousands of lines, other files; and
+# what takes a process of its own to expand.
+_UNSHOWN = re.compile(
+    r"file-(too-large|unreadable)|not-utf8|key-collision|too-(deep|many-values|many-includes)"
+    r"|catalogue-entry-invalid|xml-too-.*|urdf-not-expanded|xacro-.*"
+)
+
+
+def test_every_code_of_reading_has_an_example_where_a_text_can_show_it() -> None:
+    without = {page.code for page in (*STAGES["source"], *STAGES["catalog"]) if not page.example}
+    assert [code for code in sorted(without) if not _UNSHOWN.fullmatch(code)] == []
+
+
+@pytest.mark.parametrize("page", [one for one in STAGES["source"] if one.example], ids=lambda page: page.code)
+def test_example_of_a_file_is_reported_at_its_mark_and_nowhere_else(page: CodePage, tmp_path: Path) -> None:
+    text = page.example.lstrip("\n")
+    file = tmp_path / "cell.yaml"
+    file.write_text(text, encoding="utf-8")
+    found = [(one.code, one.span.line) for one in read(file).diagnostics]
+    assert found == [(page.code, number) for number, line in enumerate(text.splitlines(), 1) if "# expect" in line]
+
+
+@pytest.mark.parametrize("page", [one for one in STAGES["catalog"] if one.example], ids=lambda page: page.code)
+def test_example_of_a_description_is_reported_at_its_mark_and_nowhere_else(page: CodePage) -> None:
+    text = page.example.lstrip("\n")
+    found = [(one.code, one.span.line) for one in read_urdf(text, "arm.urdf").diagnostics]
+    assert found == [(page.code, number) for number, line in enumerate(text.splitlines(), 1) if "expect -->" in line]
