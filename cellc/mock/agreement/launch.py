@@ -14,7 +14,7 @@ from cellc.vocabulary import BringUpPhase
 _FOLDER = "launch/"
 _RELEASED = {"launch/activate.launch.xml": BringUpPhase.ACTIVATE, "launch/claim.launch.xml": BringUpPhase.CLAIM}
 _MOVE = "launch/move.launch.xml"
-_GATES = ("launch/real_gate.launch.xml", "launch/move_gate.launch.xml", *_RELEASED)
+_GATES = ("launch/real_gate.launch.xml", "launch/move_gate.launch.xml", "launch/goal.launch.xml", *_RELEASED)
 """Files that a person opens: they demand the word, without a default."""
 _SUBSTITUTED = re.compile(r"\$\([^()]*\)[^\s]*")
 _WATCH = "watch"
