@@ -467,3 +467,23 @@ def test_claim_that_cannot_be_taken_away_is_told_and_tried_again(graph: StandIn)
     assert "not deactivated, tried again" in next(watched)
     graph.refuses.clear()
     assert "deactivated, a person releases the claim again" in next(watched)
+
+
+def test_fingers_run_while_no_program_plays_and_a_claim_waits_for_what_takes_it_back() -> None:
+    # ros2_control 4.46.0, resource_manager.cpp:2376: a component that is activated holds up all others for seconds.
+    steps = {step["name"]: step["proof"] for step in plan("ur5e_pick", "jazzy")["real"]}
+    told = {"kind": "topic", "topic": _RUNNING, "type": "std_msgs/msg/Bool", "field": "data"}
+    assert {**told, "value": False} in steps["activate_gripper"]
+    assert {**told, "value": True} in steps["claim_control"]
+    assert {"kind": "node", "node": "/claim_watch"} in steps["claim_control"]
+
+
+def test_launch_ends_with_the_manager_and_with_the_stopper_of_claims_on_every_distribution() -> None:
+    # Universal_Robots_ROS2_Driver issue 1084: with a dead stopper a claim outlives the program, and the arm jumps.
+    for distro in ("humble", "jazzy"):
+        found = [one for one in processes("ur5e_pick", distro, "real") if "watch" in one.arguments]
+        found += [one for one in processes("ur5e_pick", distro, "real") if one.executable == "ros2_control_node"]
+        assert len(found) == 2
+        for one in found:
+            by_prefix = bool(one.prefix) and one.prefix[0].endswith("/lib/ur5e_pick/required")
+            assert one.on_exit == "shutdown" if distro == "jazzy" else by_prefix
