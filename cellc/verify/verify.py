@@ -28,7 +28,7 @@ from cellc.verify.codes import Disagreement
 from cellc.verify.description import cell_poses, check_description
 
 _XML = (".xml", ".urdf", ".srdf", ".xacro", ".svg")
-_YAML = (".yaml", ".yml", ".repos")
+_YAML = (".yaml", ".yml", ".repos", ".rviz")
 
 _MODELS: Mapping[str, type[BaseModel]] = {
     "contract.json": Contract,

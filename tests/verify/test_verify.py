@@ -58,6 +58,7 @@ FAULTS = [
     ({".mock.urdf": ("</robot>", "")}, "verify-text", MOCK),
     ({"config/controllers.yaml": ("update_rate: ", "update_rate: [")}, "verify-text", "config/controllers.yaml"),
     ({"package.xml": ("<name>", "<nam>")}, "verify-text", "package.xml"),
+    ({"config/cell.rviz": ("Tools:", "Tools: [")}, "verify-text", "config/cell.rviz"),
     ({"contract.json": ('"root_frame": "world"', '"root_frame": 5')}, "verify-json", "contract.json"),
     ({"contract.json": ('"root_frame": "world",', '"root_frame": "world", "x": 1,')}, "verify-json", "contract.json"),
     ({"contract.json": (r'"update_rate_hz": [\d.]+', '"update_rate_hz": NaN')}, "verify-json", "contract.json"),

@@ -212,6 +212,7 @@ _READERS: dict[str, tuple[Callable[[str], Reading], ...]] = {
     ".srdf": (xml,),
     ".yaml": (yaml_1_1,),
     ".repos": (yaml_1_1,),
+    ".rviz": (yaml_1_1,),
     ".json": (json_file,),
     ".json5": (json5,),
     ".md": (commonmark, github_pages, fences),
