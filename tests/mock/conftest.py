@@ -105,8 +105,12 @@ def two_managers(folder: Path) -> MockCell:
 def _plan_for_two(file: Path) -> None:
     """Have the plan of the bring-up ask the manager of the gripper for what is the gripper's."""
     plan = json.loads(file.read_text())
+    file.write_text(json.dumps(plan | {target: _steps_for_two(plan[target]) for target in ("mock", "real")}))
+
+
+def _steps_for_two(told: list[Any]) -> list[Any]:
     steps = []
-    for step in plan["mock"]:
+    for step in told:
         for part in ("proof", "effect"):
             step[part] = [one for one in step.get(part, []) if one.get("controller") != "gripper_action"]
             for one in step[part]:
@@ -122,7 +126,7 @@ def _plan_for_two(file: Path) -> None:
                 steps.append(step | {"request": asked, "effect": []})
         if request.get("kind") != "restart":
             steps.append(step)
-    file.write_text(json.dumps(plan | {"mock": sorted(steps, key=lambda one: one["phase"] != "activate")}))
+    return sorted(steps, key=lambda one: one["phase"] != "activate")
 
 
 @dataclass(frozen=True)

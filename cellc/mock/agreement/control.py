@@ -60,9 +60,9 @@ def bring_up(edited: Edited, _: str) -> Iterator[str]:
 
 def _active(contract: Contract, target: Target) -> list[str]:
     return sorted(
-        one.full_name
+        f"{manager.namespace}/{name.rpartition('/')[2]}"
         for manager in contract.managers.values()
-        for one in manager.controllers.values()
+        for name, one in manager.controllers.items()
         if one.active and target in one.targets
     )
 
