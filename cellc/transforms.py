@@ -33,6 +33,16 @@ class Pose:
         px, py, pz = _rotate(conjugate, self.position)
         return Pose((-px, -py, -pz), conjugate)
 
+    def rotation_vector(self) -> Vector3:
+        """Return the axis of the turn times its angle, at most pi, in radians."""
+        x, y, z, w = self.quaternion
+        length = math.sqrt(x * x + y * y + z * z)
+        if length < 1e-12:
+            return (0.0, 0.0, 0.0)
+        angle = 2.0 * math.atan2(length, abs(w))
+        scale = math.copysign(angle / length, w)
+        return (scale * x, scale * y, scale * z)
+
     def rpy(self) -> Vector3:
         """Return fixed-axis roll, pitch, yaw in radians (URDF); at gimbal lock roll carries the whole turn."""
         x, y, z, w = self.quaternion

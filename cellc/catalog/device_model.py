@@ -4,8 +4,9 @@ Texts may carry placeholders that link fills in: ``{device}`` the name in the sp
 ``{bare_prefix}`` the prefix without its last underscore, ``{prefix_namespace}`` the same as a namespace, ``{stem}`` the
 same or, where there is none, the name, ``{address}`` and ``{port}`` of the connection, ``{host_address}`` of the host's
 card, ``{carrier_address}`` that of the device on which this one is mounted, ``{controller_KIND}`` the full name of the
-cell's controller of that kind on this device, ``{share:PACKAGE}`` the share folder of an installed package. Links,
-joints, sensors and gpios are named without prefix.
+cell's controller of that kind on this device, ``{share:PACKAGE}`` the share folder of an installed package,
+``{played_by}`` who starts its program, ``{thresholds}`` those of collisions as a request. Links, joints, sensors and
+gpios are named without prefix.
 """
 
 from typing import Literal
@@ -24,6 +25,7 @@ from cellc.catalog.device_interfaces import (
     SpeedScalingFacts,
     TopicFacts,
 )
+from cellc.catalog.robot_facts import RobotControllerFacts, StepCondition
 from cellc.spec.quantity import Force, JointAcceleration, JointJerk, JointPosition, Length, Mass, Velocity
 from cellc.vocabulary import GateCode
 
@@ -132,7 +134,8 @@ class CommissioningStep(CatalogModel):
 
     ``shows`` where it is what must be seen once the release of that gate has been made, ``powers`` where drives have
     power by it, so that the stop can be tried. ``log`` where it stands in the driver's log: what the lines hold of
-    which the newest counts. ``run`` are commands that read; ``{address}`` in them is a word of the shell.
+    which the newest counts. ``run`` are commands that read; ``{address}`` in them is a word of the shell. ``when``
+    where it is only done if one of these is so.
     """
 
     gate: GateName
@@ -142,6 +145,7 @@ class CommissioningStep(CatalogModel):
     shows: bool = False
     powers: bool = False
     only: tuple[DistroName, ...] = ()
+    when: tuple[StepCondition, ...] = ()
     source: Text
 
 
@@ -305,6 +309,7 @@ class DeviceModel(CatalogModel):
     actions: tuple[ActionFacts, ...] = ()
     network: NetworkFacts | None = None
     safety: SafetyFacts | None = None
+    robot: RobotControllerFacts = Field(default_factory=RobotControllerFacts)
     record: dict[Literal["speed_scaling", "safety_state", "fault_code"], RecordFacts] = Field(default_factory=dict)
     commissioning: tuple[CommissioningStep, ...] = ()
     versions: tuple[VersionRow, ...] = ()

@@ -10,11 +10,12 @@ from cellc.cell.entity import Entity
 from cellc.cell.frame import WORLD
 from cellc.cell.hardware import Effect, HardwareComponent
 from cellc.cell.interface import InterfaceKind
+from cellc.cell.robot import CollisionThresholds, Payload, RobotFacts, RobotProgram
 from cellc.cell.site import UNKNOWN, Clock, JointFigure
 from cellc.cell.switched import Switched
 from cellc.cell.vendor import CommissioningStep, RecordSource, VendorSafety
 from cellc.description.model import Description
-from cellc.transforms import Pose, Vector3, identity
+from cellc.transforms import Pose, identity
 
 EVERY_JOINT = "*"
 """Name of what the mock adds to every joint that is commanded."""
@@ -103,14 +104,6 @@ class Stamp:
     source: str = UNKNOWN
     clock: Clock = field(default_factory=lambda: Clock(domain=UNKNOWN))
     exposure_s: float | None = None
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Payload:
-    """Load that the robot controller is told of: at the flange, center of mass in the arm's tool0 in m."""
-
-    mass_kg: float
-    center_of_mass: Vector3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -263,7 +256,9 @@ class Device(Entity):
         tool_frame: prefixed link where tools mount, for an arm.
         carries: devices mounted on this one, directly or on a frame of it.
         host: the computer that runs its driver; empty where the cell names none.
-        versions, connection, limit_shares, stamp, payload, adapter, simulated_joints: what the spec states of it.
+        versions, connection, limit_shares, stamp, adapter, simulated_joints: what the spec states of it.
+        payload, tcp, program, collision: what its own controller is told, and who starts the program there.
+        robot: what its own controller can be told.
         home: prefixed joint → position where the catalog says a mock begins.
         optical_frames: short names of frames that look along z.
         kinematics: whose joints the description has; None where robots of the type do not differ.
@@ -301,6 +296,10 @@ class Device(Entity):
     limit_shares: LimitShares = field(default_factory=LimitShares)
     stamp: Stamp | None = None
     payload: Payload | None = None
+    tcp: str | None = None
+    program: RobotProgram | None = None
+    collision: CollisionThresholds | None = None
+    robot: RobotFacts = field(default_factory=RobotFacts)
     kinematics: Kinematics | None = None
     adapter: Adapter | None = None
     simulated_joints: tuple[SimulatedJoint, ...] = ()

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping
 
 from cellc.cell.cell import Cell
 from cellc.cell.device import Device
@@ -30,7 +31,7 @@ from cellc.deploy.releases import ACTIVATE, CLAIM, move_mock, move_real, start_m
 from cellc.deploy.versions import installed_parts
 from cellc.formats.escape import shell_word
 from cellc.formats.header import Header
-from cellc.formats.numbers import shortest
+from cellc.formats.numbers import positive_zero, shortest
 from cellc.graph.cell_graph import CellGraph
 from cellc.link.derived import JOINT_STATE_TYPE
 from cellc.pins import is_commit, last_word
@@ -132,7 +133,35 @@ def _loaded_devices(graph: CellGraph) -> Iterator[Values]:
     for device in graph.cell.devices:
         if device.payload is not None:
             payload = (*device.path, "payload")
-            yield device.name, text(*payload, "mass"), text(*payload, "center_of_mass")
+            moments = text(*payload, "inertia")
+            inertia = f", inertia {moments} (ixx iyy izz ixy ixz iyz about it)" if moments else ""
+            stated = device.name, text(*payload, "mass"), text(*payload, "center_of_mass"), inertia
+            yield *stated, device.tool_frame or device.root_link, device.payload.told_by
+
+
+def _tool_centers(graph: CellGraph) -> Iterator[Values]:
+    """Yield where the robot's own controller is to hold its TCP, and what shows where it does."""
+    for device in graph.cell.devices:
+        if device.tcp is None or device.tool_frame is None:
+            continue
+        pose = graph.frames.pose_in(device.tcp, device.tool_frame)
+        if pose is not None:
+            xyz = _figures((1000.0 * one for one in pose.position), 2)
+            turn = _figures(pose.rotation_vector(), 4)
+            rpy = _figures(map(math.degrees, pose.rpy()), 2)
+            yield device.name, device.tcp, device.tool_frame, xyz, turn, rpy, _shows_center(graph.cell, device)
+
+
+def _figures(values: Iterable[float], digits: int) -> str:
+    return " ".join(f"{positive_zero(round(value, digits)):.{digits}f}" for value in values)
+
+
+def _shows_center(cell: Cell, device: Device) -> str:
+    """Return what prints where the robot says that its TCP is, empty where no controller of the cell publishes it."""
+    kind = device.robot.tcp_kind
+    telling = (one for one in cell.controllers if (one.kind, one.device) == (kind, device.name) and one.active)
+    one = next(telling, None)
+    return "" if one is None else f"timeout 10 ros2 topic echo --once {one.full_name}/{device.robot.tcp_topic}"
 
 
 def _by_vendors(graph: CellGraph, *, shows: bool = False, powers: bool = False) -> Iterator[Values]:
@@ -251,7 +280,8 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "joint_states": (("topic",), _joint_states),
     "managed_node": (("node", "state"), _managed_nodes),
     "stopping_device": (("device", "states", "command", "gate"), _stopping_devices),
-    "loaded_device": (("device", "mass", "center_of_mass"), _loaded_devices),
+    "loaded_device": (("device", "mass", "center_of_mass", "inertia", "frame", "told_by"), _loaded_devices),
+    "tool_center": (("device", "tcp", "frame", "xyz", "turn", "rpy", "command"), _tool_centers),
     "stop_evidence": (("evidence",), lambda graph: _each(graph.cell.safety.stop.evidence)),
     "first_motion": (_FIRST_MOTION, first_motion),
     "small_goal": ((*_FIRST_MOTION, "command", "cancel"), small_goal),

@@ -20,7 +20,6 @@ from cellc.cell.device import (
     LimitShares,
     NetworkNeeds,
     Packages,
-    Payload,
     SimulatedJoint,
     Stamp,
 )
@@ -28,7 +27,8 @@ from cellc.cell.vendor import CommissioningStep, RecordSource, RecoveryProcedure
 from cellc.link.hardware import offered_interfaces, run_nodes, started_nodes
 from cellc.link.names import Placeholders
 from cellc.link.ports import listened
-from cellc.link.quantities import joint_figure, si, vector
+from cellc.link.quantities import joint_figure, si
+from cellc.link.robot import conditions
 from cellc.link.site import bind_clock
 from cellc.source.document import SourceDocument
 from cellc.spec.devices import EVERY_JOINT, DeviceSpec
@@ -36,7 +36,7 @@ from cellc.vocabulary import Distro
 
 
 def with_statements(device: Device, written: DeviceSpec, document: SourceDocument) -> Device:
-    """Return a device with what the spec states of it: versions, connection, shares of limits, stamp, payload."""
+    """Return a device with what the spec states of it: versions, connection, shares of limits, stamp."""
     return replace(
         device,
         architecture=written.architecture,
@@ -44,7 +44,6 @@ def with_statements(device: Device, written: DeviceSpec, document: SourceDocumen
         connection=_connection(written),
         limit_shares=limit_shares(written),
         stamp=_stamp(written),
-        payload=_payload(written),
         adapter=_adapter(written),
         simulated_joints=_simulated_joints(written, device, document),
     )
@@ -56,6 +55,7 @@ def with_catalog(
     """Return a device with what the catalog knows of it: what it offers, asks of its cell, and cannot prove."""
     prefix, limits, control = device.prefix, facts.limits, facts.control
     nodes = run_nodes(facts, known, written.firmware)
+    holding = conditions(facts, written)
     return replace(
         device,
         home={prefix + joint: position.si for joint, position in (facts.home or {}).items()},
@@ -72,7 +72,11 @@ def with_catalog(
         safety=_vendor_safety(facts, known),
         packages=_packages(facts),
         jog=None if facts.jog is None else facts.jog.does,
-        commissioning=tuple(_step(one, known) for one in facts.commissioning if not one.only or distro in one.only),
+        commissioning=tuple(
+            _step(one, known)
+            for one in facts.commissioning
+            if (not one.only or distro in one.only) and (not one.when or holding.intersection(one.when))
+        ),
         record=tuple(_record(facts)),
         version_rows=facts.versions,
         mock_cannot_prove=facts.mock_cannot_prove,
@@ -121,14 +125,6 @@ def _stamp(written: DeviceSpec) -> Stamp | None:
     if stamp is None:
         return None
     return Stamp(source=stamp.source, clock=bind_clock(stamp, stamp.clock), exposure_s=si(stamp.exposure))
-
-
-def _payload(written: DeviceSpec) -> Payload | None:
-    """Return the load that the arm is told of."""
-    payload = written.payload
-    if payload is None:
-        return None
-    return Payload(mass_kg=payload.mass.si, center_of_mass=vector(payload.center_of_mass))
 
 
 def _adapter(written: DeviceSpec) -> Adapter | None:

@@ -21,6 +21,7 @@ from cellc.link.kinematics import link_kinematics, with_kinematics
 from cellc.link.names import Placeholders, home_host, placeholders, unknown_name
 from cellc.link.ports import port_shifts
 from cellc.link.quantities import pose
+from cellc.link.robot import robot_words, with_robot
 from cellc.source.document import SourceDocument
 from cellc.source.text import lies_under
 from cellc.spec.cell_spec import CellSpec
@@ -154,7 +155,8 @@ def _device(
     prefix = prefix_of(name, written)
     facts = entry.model
     mount = written.mount
-    known = placeholders(name, prefix, written, spec, port_shift)
+    named = placeholders(name, prefix, written, spec, port_shift)
+    known = replace(named, values={**named.values, **dict(robot_words(written))})
     device = Device(
         name=name,
         path=path,
@@ -176,6 +178,7 @@ def _device(
         carries=_carried(name, spec),
     )
     device = with_catalog(with_statements(device, written, document), facts, written, known, distro)
+    device = with_robot(device, facts, written)
     return BoundDevice(device, facts, known)
 
 

@@ -22,6 +22,7 @@ from cellc.link.nodes import link_nodes, standard_nodes
 from cellc.link.planners import link_pipelines
 from cellc.link.programs import implied_endpoints, with_programs
 from cellc.link.rehearsals import link_rehearsals
+from cellc.link.robot import link_centers
 from cellc.link.site import (
     bind_bringup,
     bind_calibrations,
@@ -88,6 +89,8 @@ def _link_with_devices(
     assert placed.value is not None  # what cannot be placed is reported and left out
     bound, names, all_frames = placed.value.bound, placed.value.names, placed.value.frames
     devices = tuple(one.device for one in bound)
+    centers = link_centers(spec, devices, names)
+    devices = centers.value or devices
     nodes = link_nodes(spec, document, bound)
     context = ControlContext(spec, document, distro, {one.device.name: one for one in bound})
     managers = link_managers(context)
@@ -120,7 +123,7 @@ def _link_with_devices(
         rehearsals=rehearsals.value or (),
         behaviours={controller.plugin: controller.behaviour for controller in controllers},
     )
-    parts = (linked_devices, placed, nodes, managers, interfaces, groups, pipelines, poses, goals, rehearsals)
+    parts = (linked_devices, placed, centers, nodes, managers, interfaces, groups, pipelines, poses, goals, rehearsals)
     return Outcome(cell, tuple(problem for part in parts for problem in part.diagnostics))
 
 

@@ -14,6 +14,7 @@ from cellc.link.frames import ROBOT_STATE_PUBLISHER
 from cellc.link.hardware import JOINT_STATES, camera_parameters, driver_remaps, run_nodes
 from cellc.link.names import home_host, unknown_name
 from cellc.link.programs import endpoints
+from cellc.link.robot import node_parameters
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
 
@@ -139,7 +140,11 @@ def _driver_nodes(spec: CellSpec, devices: tuple[BoundDevice, ...]) -> Iterator[
                 language="cpp",
                 real_only=entry.provides == "real",
                 device=device.name,
-                parameters=known.fill_parameters(entry.parameters) | camera_parameters(bound.facts, device),
+                parameters={
+                    **known.fill_parameters(entry.parameters),
+                    **camera_parameters(bound.facts, device),
+                    **node_parameters(bound.facts, spec.devices[device.name], entry.name),
+                },
                 remaps=driver_remaps(bound.facts, entry, known),
                 endpoints=endpoints(entry.endpoints, known.fill),
             )

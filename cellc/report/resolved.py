@@ -28,7 +28,7 @@ _HIDDEN = {
     Device: {
         *("vendor", "kind", "description", "home", "optical_frames", "payload_limit_kg", "update_rates_hz"),
         *("controller_kinds", "speed_scaling", "gripper", "camera", "offers", "network", "safety", "packages"),
-        *("version_rows", "commissioning", "record", "mock_cannot_prove", "starts"),
+        *("version_rows", "commissioning", "record", "robot", "mock_cannot_prove", "starts"),
     },
     Node: {"endpoints", "inside"},
     HardwareComponent: {
@@ -38,7 +38,19 @@ _HIDDEN = {
 }
 _DERIVED = {"measured_on", "joints"}
 # What is shown of a device as the user states it.
-_STATED = {"model", "architecture", "connection", "stamp", "payload", "adapter", "simulated_joints", "limit_shares"}
+_STATED = {
+    "model",
+    "architecture",
+    "connection",
+    "stamp",
+    "payload",
+    "tcp",
+    "program",
+    "collision",
+    "adapter",
+    "simulated_joints",
+    "limit_shares",
+}
 # Resolved field → key that the user writes, where dropping the unit's suffix does not give it.
 _KEYS = {
     "transform_to_parent": "xyz",
@@ -124,7 +136,7 @@ def _stated(cell: Cell, device: Device) -> dict[str, Tree]:
         field.name: _section(cell, getattr(device.versions, field.name), (*path, field.name))
         for field in fields(device.versions)
     }
-    for key in ("connection", "payload", "adapter"):
+    for key in ("connection", "payload", "tcp", "program", "collision", "adapter"):
         tree[key] = _section(cell, getattr(device, key), (*path, key))
     tree["limits"] = _section(cell, device.limit_shares, (*path, "limits"))
     tree["simulated_joints"] = {one.name: _section(cell, one, one.path) for one in device.simulated_joints}

@@ -32,6 +32,8 @@ _MATRIX = re.compile(r"\| ([^|]+) \| ([^|]+) \| ([^|]+) \| ([A-Z]+) \| (.*) \|")
 # What stands in a checklist alone, and must not pass as one line of many.
 _CHECKS = (
     ("payload", re.compile(r"- \[ \] (.+) is told payload (.+)")),
+    ("tcp", re.compile(r"- \[ \] (.+) holds its TCP (.+); what it shows then .*")),
+    ("thresholds", re.compile(r"- \[ \] (.+): collision thresholds are set (.+)")),
     ("first_motion", re.compile(r"- \[ \] (Said aloud before it moves): (.+)")),
 )
 _VERSIONS = "\n## Version tuple\n"

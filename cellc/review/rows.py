@@ -29,6 +29,8 @@ ROWS: Sequence[Row] = (
     Row("spec safety recovery {what}", _A.SAFETY, "recovery", Rule.DANGEROUS, ordered=False),
     Row("watch {watch} ...", _A.SAFETY, "watch that deactivates controllers", Rule.DANGEROUS),
     Row("check payload {device}", _A.PAYLOAD, "payload that the robot is told", Rule.DANGEROUS, why="the arm may sag"),
+    Row("check tcp {device}", _A.PAYLOAD, "TCP that the robot is told", Rule.DANGEROUS, why="it is another point"),
+    Row("check thresholds {device}", _A.SAFETY, "collision thresholds that the robot is told", Rule.DANGEROUS),
     Row("spec payload {device} ...", _A.PAYLOAD, "payload", Rule.DANGEROUS, why="the arm may sag"),
     # Frames and what measured them.
     Row("placement {frame}", _A.FRAMES, "pose in its parent", Rule.PLACED),

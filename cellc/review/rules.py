@@ -122,6 +122,8 @@ THINGS: Sequence[Thing] = (
     Thing("step mock {step}", _A.START_ORDER, "step on the mock", _R, _R, shown="phase", follows=True),
     Thing("watch {watch}", _A.SAFETY, "watch that deactivates controllers", _S, _D),
     Thing("check payload {device}", _A.PAYLOAD, "payload that a person tells the robot", _R, _D),
+    Thing("check tcp {device}", _A.PAYLOAD, "TCP that a person tells the robot", _R, _D),
+    Thing("check thresholds {device}", _A.SAFETY, "collision thresholds of the robot", _R, _D),
     Thing("real shapes {link}", _A.MODEL, "collision shapes", _R, _D, follows=True),
     Thing("real inertia {link}", _A.MODEL, "mass and inertia", _R, _R, follows=True),
     Thing("real joint {joint}", _A.MODEL, "joint", _R, _R, shown="type"),

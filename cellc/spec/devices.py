@@ -10,12 +10,12 @@ from cellc.spec.quantity import (
     Duration,
     JointPosition,
     JointVelocity,
-    Mass,
     Position,
     Ratio,
     RollPitchYaw,
     TimeShift,
 )
+from cellc.spec.robot import CollisionSpec, PayloadSpec, ProgramSpec
 
 
 class PlacementSpec(SpecModel):
@@ -82,13 +82,6 @@ class StampSpec(SpecModel):
     simulated_drift: Drift | None = Field(
         None, description="Drift that the mock gives this clock, up to `max_offset`.", examples=["20 ppm"]
     )
-
-
-class PayloadSpec(SpecModel):
-    """Load that the robot controller is told it carries."""
-
-    mass: Mass = Field(..., description="Mass at the flange, tool included.", examples=["0.93 kg"])
-    center_of_mass: Position = Field(..., description="Centre of mass in the arm's tool0.", examples=["0 0 58 mm"])
 
 
 class KinematicsSpec(SpecModel):
@@ -228,4 +221,23 @@ class DeviceSpec(SpecModel):
         None,
         description="Wiring of a device that digital outputs switch.",
         examples=[{"outputs": {"valve": "plc/io/out_0"}, "inputs": {"closed": "plc/io/in_0"}, "power_lost": "holds"}],
+    )
+    tcp: FrameReference | None = Field(
+        None, description="Frame at which the robot's own controller holds its TCP.", examples=["tcp"]
+    )
+    program: ProgramSpec | None = Field(
+        None,
+        description="Who starts the program on the robot's own controller; a person at the device if absent.",
+        examples=[{"played_by": "operator", "mode": "local"}],
+    )
+    collision: CollisionSpec | None = Field(
+        None,
+        description="Thresholds at which the robot's own controller sees a collision.",
+        examples=[
+            {
+                "torque": {"lower": "25 25 22 20 19 17 14 N m", "upper": "35 35 32 30 29 27 24 N m"},
+                "force": {"lower": "30 30 30 N", "upper": "40 40 40 N"},
+                "moment": {"lower": "25 25 25 N m", "upper": "35 35 35 N m"},
+            }
+        ],
     )

@@ -54,6 +54,9 @@ MASS = _dimension("mass", {"kg": "1", "g": "0.001"}, 1e5)
 RATIO = _dimension("ratio", {"%": "0.01"}, 100.0)
 DRIFT = _dimension("clock drift", {"ppm": "0.000001"}, 1.0)
 FORCE = _dimension("force", {"N": "1", "kN": "1000"}, 1e6)
+TORQUE = _dimension("torque", {"N m": "1"}, 1e5)
+INERTIA = _dimension("inertia", {"kg m^2": "1", "g m^2": "0.001"}, 1e5)
+VOLTAGE = _dimension("voltage", {"V": "1"}, 1e4)
 VELOCITY = _dimension("velocity", {"m/s": "1", "mm/s": "0.001"}, 1e4)
 ACCELERATION = _dimension("acceleration", {"m/s^2": "1", "mm/s^2": "0.001"}, 1e6)
 JERK = _dimension("jerk", {"m/s^3": "1", "mm/s^3": "0.001"}, 1e8)
@@ -186,6 +189,11 @@ Ratio = Annotated[Quantity, QuantityType((RATIO,), "50 %")]
 Drift = Annotated[Quantity, QuantityType((DRIFT,), "20 ppm")]
 Force = Annotated[Quantity, QuantityType((FORCE,), "60 N", least=0.0)]
 Velocity = Annotated[Quantity, QuantityType((VELOCITY,), "0.25 m/s", least=0.0)]
+Voltage = Annotated[Quantity, QuantityType((VOLTAGE,), "24 V", least=0.0)]
+Forces = Annotated[QuantityVector, QuantityType((FORCE,), "30 30 30 N", size=3, least=0.0)]
+Moments = Annotated[QuantityVector, QuantityType((TORQUE,), "25 25 25 N m", size=3, least=0.0)]
+JointTorques = Annotated[QuantityVector, QuantityType((TORQUE,), "25 25 22 20 19 17 14 N m", size=0, least=0.0)]
+Inertia = Annotated[QuantityVector, QuantityType((INERTIA,), "0.0011 0.0011 0.0009 0 0 0 kg m^2", size=6)]
 JointPosition = Annotated[Quantity, QuantityType((ANGLE, LENGTH), "0.2 rad")]
 JointVelocity = Annotated[Quantity, QuantityType((ANGULAR_VELOCITY, VELOCITY), "30 deg/s")]
 JointAcceleration = Annotated[Quantity, QuantityType((ANGULAR_ACCELERATION, ACCELERATION), "2 rad/s^2", least=1e-6)]

@@ -31,6 +31,7 @@ PARAMETERS = UPSTREAM / "parameters"
 PLACEHOLDERS = {
     *("device", "prefix", "bare_prefix", "prefix_namespace", "stem"),
     *("address", "port", "host_address", "carrier_address"),
+    *("played_by", "thresholds"),
 }
 ARMS = ("franka_fr3", "ur5e")
 # Upstream files behind each kind; on humble the gripper comes from another package.

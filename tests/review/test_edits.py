@@ -15,7 +15,7 @@ from tests.review.revisions import Edit, Repository, changes_of, edited, package
 ARM = "arm_elbow_joint, arm_shoulder_lift_joint, arm_shoulder_pan_joint, arm_wrist_1_joint, arm_wrist_2_joint, "
 ARM += "arm_wrist_3_joint"
 OF_TRAJECTORY = ", ".join(f"arm_trajectory {joint}" for joint in ARM.split(", "))
-LOOKED_AT = "in its tool0; what it shows then stands in the evidence"
+LOOKED_AT = "in arm_tool0, by its installation; what it shows then stands in the evidence"
 # The bring-up asks a node of a lifecycle, and what is asked must be there once.
 ALONE = "alone nodes /robot_state_publisher, /controller_manager"
 STATES = "controller /controller_manager joint_states active"
@@ -47,6 +47,12 @@ def _far_end(by: str) -> str:
     )
 
 
+def _tcp(beyond: str, turn: str, yaw: str) -> str:
+    """Return what the gate says of a TCP beyond tool0 along its z, turned about it: mm, rad and deg."""
+    turned = f"turned by the rotation vector 0.0000 0.0000 {turn} rad, which is 0.00 0.00 {yaw} deg"
+    return f"at 0.00 0.00 {beyond} mm of arm_tool0, {turned} as roll, pitch and yaw: that of frame tcp"
+
+
 GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
     "what was measured": (
         (
@@ -68,6 +74,8 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "dangerous calibration | tcp | pose in its parent | xyz 0 0 162 mm, rpy 0 0 0 deg -> "
             "xyz 0 0 163 mm, rpy 0 0 0 deg | moves 1 mm",
             "dangerous calibration | hand_eye | residual | 0.8 mm -> 1.2 mm | +50 %",
+            f"dangerous payload | arm | TCP that the robot is told | {_tcp('173.00', '1.5708', '90.00')} -> "
+            f"{_tcp('174.00', '1.5708', '90.00')}",
             "dangerous payload | arm | payload that the robot is told | 1.0 kg with the tool included, "
             f"center of mass 0 0 58 mm {LOOKED_AT} -> 1.5 kg with the tool included, "
             f"center of mass 0 0 58 mm {LOOKED_AT}",
@@ -96,6 +104,8 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
         ),
         [
             "dangerous calibration | hand_eye | revision | 4 -> 3",
+            f"dangerous payload | arm | TCP that the robot is told | {_tcp('173.00', '1.5708', '90.00')} -> "
+            f"{_tcp('173.00', '1.5882', '91.00')}",
             "dangerous interfaces | /move_action | frame of the payload | world -> arm_base_link | breaks",
             "dangerous time | /object_pose | oldest sample that may be used | 200 ms -> 300 ms | +50 %",
             "dangerous gates | Said aloud before it moves | first motion | joint arm/wrist_3_joint, direction +, "

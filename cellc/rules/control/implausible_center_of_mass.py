@@ -24,7 +24,8 @@ from __future__ import annotations
 
 import math
 
-from cellc.cell.device import Device, Payload
+from cellc.cell.device import Device
+from cellc.cell.robot import Payload
 from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 
 _IN_THE_FLANGE_M = 0.005

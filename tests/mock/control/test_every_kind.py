@@ -100,7 +100,9 @@ def _offers() -> Iterator[Offer]:
         for own, facts in device.model.controllers.items():
             moves = not facts.command_interfaces or facts.command_interfaces in SIMULATED
             moves = moves and facts.behaviour is not Behaviour.OWN_MOTION
-            yield Offer(own, name, facts.behaviour, tuple(facts.plugins), "" if moves else ", active: false")
+            framed = facts.behaviour is Behaviour.FORCE_TORQUE_SENSOR_BROADCASTER
+            said = ", parameters: {frame_id: world}" if framed else "" if moves else ", active: false"
+            yield Offer(own, name, facts.behaviour, tuple(facts.plugins), said)
 
 
 OFFERS = tuple(_offers())

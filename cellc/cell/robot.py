@@ -1,0 +1,70 @@
+"""What the robot's own controller is told, and who starts its program."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from cellc.transforms import Vector3
+
+Moments6 = tuple[float, float, float, float, float, float]
+"""ixx, iyy, izz, ixy, ixz, iyz in kg m^2."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Payload:
+    """Load that the robot controller is told of, as all that hangs on its tool frame.
+
+    Args:
+        center_of_mass: in the tool frame, m.
+        inertia: about the center of mass, in axes parallel to the tool frame; None where nobody states it.
+        told_by: installation or service.
+    """
+
+    mass_kg: float
+    center_of_mass: Vector3
+    inertia: Moments6 | None = None
+    told_by: str = "installation"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RobotProgram:
+    """Who starts the program on the robot's own controller, and in which mode; as written."""
+
+    played_by: str
+    mode: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Thresholds:
+    """Values at which a contact is seen, and those at which the robot stops; SI."""
+
+    lower: tuple[float, ...]
+    upper: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CollisionThresholds:
+    """Thresholds of collisions: torques of joints, forces and moments at the tool."""
+
+    torque: Thresholds
+    force: Thresholds
+    moment: Thresholds
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RobotFacts:
+    """What the controller of a robot of this kind can be told.
+
+    Args:
+        ways: who can start its program in which mode, ``driver`` or ``person`` each with local or remote; empty where
+            set points pass through no program.
+        thresholds: whether it takes thresholds of collisions.
+        payload_service: whether a service tells it the payload; in local mode only while its program runs.
+        tcp_kind, tcp_topic: kind of controller that publishes where the TCP is, and the topic below its node.
+    """
+
+    ways: tuple[tuple[str, str], ...] = ()
+    thresholds: bool = False
+    payload_service: bool = False
+    tcp_kind: str | None = None
+    tcp_topic: str | None = None

@@ -1,0 +1,135 @@
+"""What the spec tells the robot's own controller, who starts its program, and what that changes of its driver."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+
+from cellc.catalog.device_model import DeviceModel
+from cellc.catalog.robot_facts import ProgramWay
+from cellc.cell.device import Device
+from cellc.cell.interface import ParameterValue
+from cellc.cell.robot import CollisionThresholds, Payload, RobotFacts, RobotProgram, Thresholds
+from cellc.diagnostics import Diagnostic, Outcome
+from cellc.link.frames import FrameNames
+from cellc.link.quantities import vector
+from cellc.spec.cell_spec import CellSpec
+from cellc.spec.devices import DeviceSpec
+from cellc.spec.quantity import QuantityVector
+from cellc.spec.robot import CollisionSpec, ProgramSpec
+
+DRIVER = "driver"
+"""The word of a spec for a program that the driver of the robot sends and starts."""
+
+
+def with_robot(device: Device, facts: DeviceModel, written: DeviceSpec) -> Device:
+    """Return a device with what its own controller is told, and its driver with the parameters of the way chosen."""
+    program, hardware = written.program, device.hardware
+    way = chosen_way(facts, written)
+    if hardware is not None and way is not None and "real" in hardware.parameters:
+        real = {**hardware.parameters["real"], **way.parameters}
+        hardware = replace(hardware, parameters={**hardware.parameters, "real": real})
+    return replace(
+        device,
+        hardware=hardware,
+        payload=_payload(written),
+        program=None if program is None else RobotProgram(played_by=program.played_by, mode=program.mode),
+        collision=None if written.collision is None else _collision(written.collision),
+        robot=_robot(facts),
+    )
+
+
+def link_centers(spec: CellSpec, devices: tuple[Device, ...], names: FrameNames) -> Outcome[tuple[Device, ...]]:
+    """Bind the frame at which each robot holds its TCP; a frame that there is not is reported."""
+    bound: list[Device] = []
+    problems: list[Diagnostic] = []
+    for device in devices:
+        reference = spec.devices[device.name].tcp
+        frame: Outcome[str] = Outcome(None) if reference is None else names.bind(reference, (*device.path, "tcp"))
+        problems += frame.diagnostics
+        bound.append(replace(device, tcp=frame.value))
+    return Outcome(tuple(bound), tuple(problems))
+
+
+def chosen_way(facts: DeviceModel, written: DeviceSpec) -> ProgramWay | None:
+    """Return how the program comes to run: as the spec says, else the first way; None where there is none."""
+    told = facts.robot.program
+    if told is None:
+        return None
+    return told.ways[0] if written.program is None else told.way(_starter(written.program), written.program.mode)
+
+
+def conditions(facts: DeviceModel, written: DeviceSpec) -> frozenset[str]:
+    """Return what is so of a device, of all that a step of its vendor's procedure may be bound to."""
+    way = chosen_way(facts, written)
+    told_by = "installation" if written.payload is None else written.payload.told_by
+    thresholds = "open" if written.collision is None else "stated"
+    return frozenset((*(() if way is None else (way.name,)), f"payload_by_{told_by}", f"thresholds_{thresholds}"))
+
+
+def node_parameters(facts: DeviceModel, written: DeviceSpec, node: str) -> Mapping[str, ParameterValue]:
+    """Return what the way of starting the program gives to a node of the driver, by its name in the catalog."""
+    way = chosen_way(facts, written)
+    return {} if way is None else way.node_parameters.get(node, {})
+
+
+def robot_words(written: DeviceSpec) -> Iterator[tuple[str, str]]:
+    """Yield placeholders for what the spec says of the robot's own controller."""
+    yield "played_by", "a person" if written.program is None else written.program.played_by
+    if written.collision is not None:
+        yield "thresholds", _request(_collision(written.collision))
+
+
+def _starter(program: ProgramSpec) -> str:
+    return DRIVER if program.played_by == DRIVER else "person"
+
+
+def _request(collision: CollisionThresholds) -> str:
+    """Return the fields of a request: each threshold for phases of acceleration and for those without."""
+    values = {
+        ("lower", "torque"): collision.torque.lower,
+        ("upper", "torque"): collision.torque.upper,
+        ("lower", "force"): (*collision.force.lower, *collision.moment.lower),
+        ("upper", "force"): (*collision.force.upper, *collision.moment.upper),
+    }
+    parts = (
+        f"{side}_{kind}_thresholds_{phase}: [{', '.join(map(repr, numbers))}]"
+        for (side, kind), numbers in values.items()
+        for phase in ("acceleration", "nominal")
+    )
+    return "{" + ", ".join(parts) + "}"
+
+
+def _payload(written: DeviceSpec) -> Payload | None:
+    payload = written.payload
+    if payload is None:
+        return None
+    inertia = None
+    if payload.inertia is not None:
+        xx, yy, zz, xy, xz, yz = payload.inertia.si
+        inertia = (xx, yy, zz, xy, xz, yz)
+    center = vector(payload.center_of_mass)
+    return Payload(mass_kg=payload.mass.si, center_of_mass=center, inertia=inertia, told_by=payload.told_by)
+
+
+def _collision(written: CollisionSpec) -> CollisionThresholds:
+    def thresholds(lower: QuantityVector, upper: QuantityVector) -> Thresholds:
+        return Thresholds(lower=lower.si, upper=upper.si)
+
+    return CollisionThresholds(
+        torque=thresholds(written.torque.lower, written.torque.upper),
+        force=thresholds(written.force.lower, written.force.upper),
+        moment=thresholds(written.moment.lower, written.moment.upper),
+    )
+
+
+def _robot(facts: DeviceModel) -> RobotFacts:
+    told = facts.robot
+    ways = () if told.program is None else told.program.ways
+    return RobotFacts(
+        ways=tuple((way.by, way.mode) for way in ways),
+        thresholds=told.thresholds is not None,
+        payload_service=told.payload_service is not None,
+        tcp_kind=None if told.tcp is None else told.tcp.controller,
+        tcp_topic=None if told.tcp is None else told.tcp.topic,
+    )

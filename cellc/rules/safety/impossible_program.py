@@ -1,0 +1,50 @@
+"""A robot's program is to be started in a way that its controller does not have.
+
+A driver that sends and starts the program by itself needs remote control on most robots; in local mode it is refused
+without a word, and a person who is told to press start in remote mode finds a button that does nothing. A device
+without a program of its own has nobody to start one.
+
+Example that is reported:
+
+```yaml
+devices:
+  side_arm: {model: ./programmed_arm, mount: {parent: world, xyz: 0 2 0 m}, revision: A, firmware: bare 1.0.0,
+             program: {played_by: driver, mode: local}}  # expect at mode
+```
+
+Example that is accepted:
+
+```yaml
+devices:
+  side_arm: {model: ./programmed_arm, mount: {parent: world, xyz: 0 2 0 m}, revision: A, firmware: bare 1.0.0,
+             program: {played_by: driver, mode: remote}}
+```
+
+Fix: choose a mode in which the robot lets its program be started that way.
+
+Source: https://github.com/UniversalRobots/Universal_Robots_ROS2_Driver/tree/6.0.0/ur_robot_driver/doc (6.0.0): modes
+"""
+
+from __future__ import annotations
+
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
+
+
+@rule(Severity.ERROR)
+def check(graph: CellGraph) -> Findings:
+    """Yield devices whose controller has no such way of starting a program."""
+    for device in graph.cell.devices:
+        program, ways = device.program, device.robot.ways
+        if program is None:
+            continue
+        path = (*device.path, "program")
+        starter = "driver" if program.played_by == "driver" else "person"
+        if not ways:
+            advice = "delete `program:`, or say under `robot.program` of its `device.yaml` who can start it"
+            yield found(
+                graph, path, f"set points of `{device.name}` pass through no program that it is told of", advice
+            )
+        elif (starter, program.mode) not in ways:
+            modes = " or ".join(f"`{mode}`" for by, mode in ways if by == starter) or "no mode"
+            message = f"a {starter} starts the program of `{device.name}` in {modes}, got `{program.mode}`"
+            yield found(graph, (*path, "mode"), message)

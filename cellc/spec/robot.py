@@ -1,0 +1,77 @@
+"""What the robot's own controller is told, and who starts its program."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from cellc.spec.base import SpecModel, Text
+from cellc.spec.quantity import Forces, Inertia, JointTorques, Mass, Moments, Position
+
+
+class PayloadSpec(SpecModel):
+    """Load that the robot controller is told it carries."""
+
+    mass: Mass = Field(..., description="Mass at the flange, tool included.", examples=["0.93 kg"])
+    center_of_mass: Position = Field(
+        ..., description="Centre of mass in the frame where tools mount.", examples=["0 0 58 mm"]
+    )
+    inertia: Inertia | None = Field(
+        None,
+        description="Inertia about the center of mass, in axes parallel to that frame: ixx iyy izz ixy ixz iyz.",
+        examples=["0.0011 0.0011 0.0009 0 0 0 kg m^2"],
+    )
+    told_by: Literal["installation", "service"] = Field(
+        "installation",
+        description="How the robot gets it: by what is saved on it, or by a service of its driver.",
+        examples=["installation"],
+    )
+
+
+class ProgramSpec(SpecModel):
+    """The program on the robot's own controller through which set points pass."""
+
+    played_by: Text = Field(
+        ..., description="Role of the person who starts it, or `driver` where it does.", examples=["operator"]
+    )
+    mode: Literal["local", "remote"] = Field(
+        "local", description="Whether it is started at the device, or from elsewhere.", examples=["local"]
+    )
+
+
+class TorqueThresholdsSpec(SpecModel):
+    """Torques of all joints, in the order of the description."""
+
+    lower: JointTorques = Field(..., description="A contact is seen.", examples=["25 25 22 20 19 17 14 N m"])
+    upper: JointTorques = Field(..., description="The robot stops.", examples=["35 35 32 30 29 27 24 N m"])
+
+
+class ForceThresholdsSpec(SpecModel):
+    """Forces along the axes of the robot's own frame for contacts."""
+
+    lower: Forces = Field(..., description="A contact is seen.", examples=["30 30 30 N"])
+    upper: Forces = Field(..., description="The robot stops.", examples=["40 40 40 N"])
+
+
+class MomentThresholdsSpec(SpecModel):
+    """Moments about the axes of the robot's own frame for contacts."""
+
+    lower: Moments = Field(..., description="A contact is seen.", examples=["25 25 25 N m"])
+    upper: Moments = Field(..., description="The robot stops.", examples=["35 35 35 N m"])
+
+
+class CollisionSpec(SpecModel):
+    """Thresholds of collisions, each from the risk assessment of the cell."""
+
+    torque: TorqueThresholdsSpec = Field(
+        ...,
+        description="Thresholds of joint torques.",
+        examples=[{"lower": "25 25 22 20 19 17 14 N m", "upper": "35 35 32 30 29 27 24 N m"}],
+    )
+    force: ForceThresholdsSpec = Field(
+        ..., description="Thresholds of forces at the tool.", examples=[{"lower": "30 30 30 N", "upper": "40 40 40 N"}]
+    )
+    moment: MomentThresholdsSpec = Field(
+        ...,
+        description="Thresholds of moments at the tool.",
+        examples=[{"lower": "25 25 25 N m", "upper": "35 35 35 N m"}],
+    )

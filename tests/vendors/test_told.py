@@ -1,0 +1,102 @@
+"""What people tell a robot, with the figures of the cell, and who starts its program."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+from tests.cells import spec_text
+from tests.emit.cells import artifacts_of, emitted
+from tests.foreign_yaml import safe_load
+
+_PERSON = "program: {played_by: operator, mode: local}"
+_THRESHOLDS = """\
+    collision:
+      torque: {lower: 25 25 22 20 19 17 14 N m, upper: 35 35 32 30 29 27 24 N m}
+      force: {lower: 30 30 30 N, upper: 40 40 40 N}
+      moment: {lower: 25 25 25 N m, upper: 35 35 35 N m}
+"""
+
+
+def _gate(text: str, code: str) -> str:
+    """Return the checklist of a gate."""
+    return text.split(f"\n## {code} ")[1].split("\n## ")[0]
+
+
+def _ways(folder: Path, program: str) -> dict[str, str]:
+    return emitted(folder, spec_text("ur5e_pick").replace(_PERSON, program))
+
+
+def test_a_program_of_the_driver_is_told_to_plugin_and_helper_and_needs_remote_control(tmp_path: Path) -> None:
+    # operation_modes.rst of ur_robot_driver 6.0.0: it needs remote control; ur_driver.cpp:148-160: it stops what runs.
+    texts = _ways(tmp_path, "program: {played_by: driver, mode: remote}")
+    robot = ElementTree.fromstring(texts["urdf/ur5e_pick.real.urdf"])
+    assert [one.text for one in robot.iter("param") if one.get("name") == "headless_mode"] == ["true"]
+    helper = safe_load(texts["config/arm_state_helper.yaml"])["arm_state_helper"]["ros__parameters"]
+    assert helper["headless_mode"] is True
+    gates = texts["gates/promotion.md"]
+    assert "shows REMOTE; the driver, as it is started, ends whatever program runs" in _gate(gates, "G3")
+    assert "LOCAL" not in gates
+    assert "resend_robot_program" in _gate(gates, "G7")
+    assert "External Control URCap" not in _gate(gates, "G0")
+
+
+def test_a_person_plays_at_the_pendant_or_over_the_dashboard(tmp_path: Path) -> None:
+    pendant = artifacts_of("ur5e_pick")
+    robot = ElementTree.fromstring(pendant["urdf/ur5e_pick.real.urdf"])
+    assert [one.text for one in robot.iter("param") if one.get("name") == "headless_mode"] == ["false"]
+    assert "operator loads the program with External Control and presses Play" in _gate(
+        pendant["gates/promotion.md"], "G7"
+    )
+    remote = _ways(tmp_path, "program: {played_by: operator, mode: remote}")["gates/promotion.md"]
+    assert "operator calls load_program and then play of arm_dashboard_client" in _gate(remote, "G7")
+    assert "shows REMOTE, so that Play on it does nothing" in _gate(remote, "G3")
+
+
+def test_the_tcp_stands_in_the_gate_as_the_pendant_shows_it() -> None:
+    # By hand: the gripper is 11 mm beyond tool0 and turned by 90 deg about z, the TCP 162 mm beyond the gripper.
+    gate = _gate(artifacts_of("ur5e_pick")["gates/promotion.md"], "G5")
+    assert "arm holds its TCP at 0.00 0.00 173.00 mm of arm_tool0" in gate.replace("\\", "")
+    assert "rotation vector 0.0000 0.0000 1.5708 rad, which is 0.00 0.00 90.00 deg" in gate
+    assert "timeout 10 ros2 topic echo --once /arm_tcp/pose" in gate
+
+
+def test_a_turn_past_the_half_is_told_as_the_shorter_one(tmp_path: Path) -> None:
+    # 270 deg about z is -90 deg: a rotation vector is at most pi long.
+    text = spec_text("ur5e_pick").replace(
+        "tcp: {parent: gripper/base, xyz: 0 0 162 mm,", "tcp: {parent: gripper/base, xyz: 0 0 162 mm, rpy: 0 0 180 deg,"
+    )
+    gate = _gate(emitted(tmp_path, text)["gates/promotion.md"], "G5")
+    assert "rotation vector 0.0000 0.0000 -1.5708 rad, which is 0.00 0.00 -90.00 deg" in gate
+
+
+def test_payload_has_its_inertia_its_frame_and_who_tells_it(tmp_path: Path) -> None:
+    stated = "center_of_mass: -5 5 46 mm"
+    text = spec_text("fr3_hand").replace(stated, f"{stated}, inertia: 0.0011 0.0024 0.0017 0 0 0 kg m^2")
+    gate = _gate(emitted(tmp_path, text)["gates/promotion.md"], "G5").replace("\\", "")
+    assert (
+        "payload 0.92 kg with the tool included, center of mass -5 5 46 mm, inertia 0.0011 0.0024 0.0017 0 0 0 kg m^2"
+        in gate
+    )
+    assert "in fr3_link8, by its installation" in gate
+
+
+@pytest.mark.parametrize(("distro", "service"), [("humble", "/service_server"), ("jazzy", "/service_server")])
+def test_collision_thresholds_stand_in_the_gate_as_a_whole_request(distro: str, service: str, tmp_path: Path) -> None:
+    # franka_msgs/srv/SetFullCollisionBehavior: four torques of 7 joints, four wrenches of 6; figures of the vendor's
+    # examples, default_robot_behavior_utils.hpp:25.
+    text = spec_text("fr3_hand").replace("ros: humble", f"ros: {distro}")
+    gate = _gate(emitted(tmp_path, text.replace("    tcp: hand/hand_tcp\n", _THRESHOLDS))["gates/promotion.md"], "G5")
+    (call,) = re.findall(r"`ros2 service call (\S+) franka_msgs/srv/SetFullCollisionBehavior \"(\{.*?\})\"`", gate)
+    assert call[0] == f"{service}/set_full_collision_behavior"
+    torque, wrench = [25.0, 25.0, 22.0, 20.0, 19.0, 17.0, 14.0], [30.0, 30.0, 30.0, 25.0, 25.0, 25.0]
+    for phase in ("acceleration", "nominal"):
+        request = safe_load(call[1])
+        assert len(request) == 8
+        assert request[f"lower_torque_thresholds_{phase}"] == torque
+        assert request[f"upper_torque_thresholds_{phase}"] == [one + 10.0 for one in torque]
+        assert request[f"lower_force_thresholds_{phase}"] == wrench
+        assert request[f"upper_force_thresholds_{phase}"] == [one + 10.0 for one in wrench]
