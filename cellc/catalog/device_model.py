@@ -191,8 +191,8 @@ class KinematicsFacts(CatalogModel):
     hash: Token
     hash_parameter: Text
     tool: Text
-    package: Token
-    state: Text
+    package: Token | None = None
+    state: Text = "the robot is powered on"
     source: Text
 
 

@@ -139,7 +139,7 @@ class Kinematics:
 
     tool: str
     command: str
-    package: str
+    package: str | None
     state: str
     nominal_hash: str
     calibration: KinematicCalibration | None = None

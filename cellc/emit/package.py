@@ -100,7 +100,8 @@ def _dependencies(cell: Cell) -> tuple[str, ...]:
     names = {*_ALWAYS, *_BRING_UP, *_GATES, *(node.package for node in cell.nodes)}
     names |= {name for name in (*controllers, *hardware) if name}
     names |= {package for device in cell.devices for package in share_folders(device)}
-    names |= {device.kinematics.package for device in cell.devices if device.kinematics is not None}
+    tools = (None if device.kinematics is None else device.kinematics.package for device in cell.devices)
+    names |= {package for package in tools if package is not None}
     if plans(cell):
         names |= {*_of_moveit(cell), *(group.solver.package for group in cell.groups)}
     if first_goal(cell) is not None:

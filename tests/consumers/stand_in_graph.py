@@ -7,6 +7,7 @@ known. What is asked for is noted in order.
 from __future__ import annotations
 
 import itertools
+import subprocess
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from types import ModuleType, SimpleNamespace
@@ -18,8 +19,15 @@ from tests.consumers.matrix import build
 def program(cell: str = "ur5e_pick", distro: str = "jazzy") -> Any:
     """Return the generated program as a module; nothing of ROS is imported by it before it joins a graph."""
     module = ModuleType("bring_up_of_a_test")
+    module.__file__ = "scripts/bring_up"
     exec(compile(build(cell, distro).texts["scripts/bring_up"], "scripts/bring_up", "exec"), module.__dict__)
-    return module
+    told: Any = module
+    # What is installed has a program of its own: here it is as pinned.
+    told.subprocess = SimpleNamespace(**(vars(subprocess) | {"run": lambda *_, **__: _AS_PINNED}))
+    return told
+
+
+_AS_PINNED = SimpleNamespace(returncode=0, stdout="what is installed is what is pinned")
 
 
 @dataclass

@@ -211,7 +211,7 @@ def started() -> StandIn:
     messages_of(module)
     return StandIn(
         module,
-        nodes_={"/perception": "unconfigured", "/robot_state_publisher": ""},
+        nodes_={"/perception": "unconfigured", "/robot_state_publisher": "", "/claim_watch": ""},
         controllers=dict.fromkeys(("joint_states", "arm_trajectory", "gripper_action", *_REPORTING), "inactive"),
         hardware={"arm_hardware": "active", "gripper_hardware": "unconfigured"},
         messages={"/joint_states": SimpleNamespace(), _RUNNING: SimpleNamespace(data=True)},
@@ -271,11 +271,19 @@ def test_starting_the_real_target_claims_nothing(graph: StandIn, tmp_path: Path)
     assert active == {"joint_states", *_REPORTING}
 
 
+def activated_by_people(graph: StandIn, tmp_path: Path) -> None:
+    """Take the steps up to the activation while no program plays, and play it: as the gates have people do."""
+    graph.messages[_RUNNING] = SimpleNamespace(data=False)
+    assert run(graph, tmp_path, "--target", "real", "start", "activate") == 0
+    graph.messages[_RUNNING] = SimpleNamespace(data=True)
+
+
 def test_hardware_that_moves_as_it_is_activated_waits_for_a_person(graph: StandIn, tmp_path: Path) -> None:
     run(graph, tmp_path, "--target", "real", "start")
     assert graph.hardware["gripper_hardware"] == "unconfigured"
     assert run(graph, tmp_path, "--target", "real", "claim", wait_s=0.05) == 1
-    assert run(graph, tmp_path, "--target", "real", "activate") == 0
+    assert run(graph, tmp_path, "--target", "real", "activate", wait_s=0.05) == 1  # a program plays
+    activated_by_people(graph, tmp_path)
     assert run(graph, tmp_path, "--target", "real", "claim") == 0
 
 
@@ -285,7 +293,7 @@ def test_ur_is_claimed_while_its_program_runs_and_loses_the_claim_when_it_stops(
     # Universal_Robots_ROS2_Driver issue 1084: claimed, jogged, played, and the arm jumps to where it was claimed.
     (watched,) = plan("ur5e_pick", "jazzy")["watches"]
     assert watched["controllers"] == ["arm_trajectory"]
-    run(graph, tmp_path, "--target", "real", "start", "activate")
+    activated_by_people(graph, tmp_path)
     graph.messages[_RUNNING] = SimpleNamespace(data=False)
     assert run(graph, tmp_path, "--target", "real", "claim", wait_s=0.05) == 1
     assert "/arm_io/robot_program_running must say True, says False" in capsys.readouterr().err
@@ -329,7 +337,8 @@ def test_real_target_asks_nothing_where_a_mock_was_not_ended(
 @pytest.mark.parametrize("left", ["arm_trajectory", "gripper_action"])
 def test_claim_after_a_stop_asks_for_what_was_lost_alone(graph: StandIn, tmp_path: Path, left: str) -> None:
     # A strict request that names an active controller is refused as a whole: ros2_control 4.47.0, controller_manager.
-    run(graph, tmp_path, "--target", "real", "start", "activate", "claim")
+    activated_by_people(graph, tmp_path)
+    run(graph, tmp_path, "--target", "real", "claim")
     graph.controllers[left] = "inactive"
     graph.log.clear()
     assert run(graph, tmp_path, "--target", "real", "claim", wait_s=0.05) == 0
@@ -339,7 +348,8 @@ def test_claim_after_a_stop_asks_for_what_was_lost_alone(graph: StandIn, tmp_pat
 def test_claims_that_hold_are_not_called_done_while_the_robot_is_deaf(
     graph: StandIn, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    run(graph, tmp_path, "--target", "real", "start", "activate", "claim")
+    activated_by_people(graph, tmp_path)
+    run(graph, tmp_path, "--target", "real", "claim")
     graph.messages[_RUNNING] = SimpleNamespace(data=False)
     assert run(graph, tmp_path, "--target", "real", "claim", wait_s=0.05) == 1
     assert "robot_program_running must say True, says False" in capsys.readouterr().err
