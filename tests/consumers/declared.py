@@ -33,6 +33,28 @@ _IN_CODE = {
         "speed_scaling_interface_name": {"type": "string", "default_value": "speed_scaling/speed_scaling_factor"}
     }
 }
+_TEXT: Mapping[str, Any] = {"type": "string", "default_value": ""}
+_NAME: Mapping[str, Any] = {"type": "string", "default_value": "", "validation": {"not_empty<>": None}}
+# State alone, with few parameters: Universal_Robots_ROS2_Driver 3.8.0 ur_controllers/src/*_parameters.yaml,
+# ros2_controllers 4.36.0 pose_broadcaster_parameters.yaml, franka_ros2 2.5.0
+# franka_robot_state_broadcaster_parameters.yaml.
+_BROADCASTERS: Mapping[str, Mapping[str, Any]] = {
+    "ur_controllers/SpeedScalingStateBroadcaster": {
+        "tf_prefix": _TEXT,
+        "state_publish_rate": {"type": "double", "default_value": 100.0},
+    },
+    "ur_controllers/URConfigurationController": {"tf_prefix": _TEXT},
+    "pose_broadcaster/PoseBroadcaster": {
+        "frame_id": _NAME,
+        "pose_name": _NAME,
+        "tf": {"enable": {"type": "bool", "default_value": True}, "child_frame_id": _TEXT},
+    },
+    "franka_robot_state_broadcaster/FrankaRobotStateBroadcaster": {
+        "robot_type": _TEXT,
+        "arm_prefix": _TEXT,
+        "convenience_publish_rate": {"type": "int", "default_value": 1000},
+    },
+}
 # Of older declarations the default is empty, and the code that reads it refuses that.
 _TRAJECTORY = ("joints", "command_interfaces", "state_interfaces")
 _NEEDED_IN_CODE = {
@@ -81,6 +103,8 @@ def declared(distro: str, plugin: str) -> dict[str, Parameter]:
         read = safe_load(facts.read_text(encoding="utf-8"))["controller_manager_parameters"]
         every = {name: Parameter(one["type"], False, {}) for name, one in read.items()}
         return {**every, "update_rate": Parameter("int", True, {"gt": 0})}
+    if plugin in _BROADCASTERS:
+        return dict(_walk(_BROADCASTERS[plugin], ""))
     file = UPSTREAM / "parameters" / distro / f"{_FILES[plugin]}_parameters.yaml"
     (tree,) = safe_load(file.read_text(encoding="utf-8")).values()
     return dict(_walk({**tree, **_IN_CODE.get(plugin, {})}, ""))
@@ -165,4 +189,5 @@ def _accepted(name: str, value: Any, said: Any) -> bool:
 def known_plugins(distro: str) -> set[str]:
     """Return the controller types of a distribution whose declarations are known here."""
     folder = UPSTREAM / "parameters" / distro
-    return {plugin for plugin, file in _FILES.items() if (folder / f"{file}_parameters.yaml").is_file()}
+    files = {plugin for plugin, file in _FILES.items() if (folder / f"{file}_parameters.yaml").is_file()}
+    return files | set(_BROADCASTERS)

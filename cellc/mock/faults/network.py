@@ -57,12 +57,14 @@ class MismatchQos:
 
     @classmethod
     def cases(cls, contract: Contract) -> Iterator[FaultCase]:
-        """Yield every interface whose samples or answers the task rests on."""
+        """Yield every interface of the mock whose samples or answers the task rests on."""
         used = {served_actions(contract)[name] for step in cell_steps(contract) for name in step.controllers}
         asked = {*used, *planning_actions(contract)}
         bounds = Bounds(contract)
         for name, interface in contract.interfaces.items():
             entry = FaultEntry(kind=cls.kind, target=name)
+            if interface.sources and not any("mock" in source.targets for source in interface.sources):
+                continue
             if interface.kind != "topic" and name in asked:
                 yield fault_case(entry, contract, partial(_unanswered, bounds, name))
             elif interface.type == JOINT_STATE_TYPE:
