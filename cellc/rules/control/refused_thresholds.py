@@ -21,7 +21,7 @@ devices:
 
 Fix: give each joint a lower and an upper torque, the lower one first, and none to a robot that takes none.
 
-Source: https://github.com/frankarobotics/libfranka/blob/0.20.4/include/franka/robot.h (0.20.4): setCollisionBehavior
+Source: docs/principles.md#facts-of-the-catalog
 """
 
 from __future__ import annotations

@@ -27,7 +27,7 @@ control:
 
 Fix: deactivate one in the switch that activates the other.
 
-Source: https://github.com/UniversalRobots/Universal_Robots_ROS2_Driver/tree/3.8.0/ur_robot_driver/src (3.8.0)
+Source: https://github.com/UniversalRobots/Universal_Robots_ROS2_Driver/releases/tag/3.8.0 (3.8.0)
 """
 
 from __future__ import annotations

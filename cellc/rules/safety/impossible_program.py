@@ -22,7 +22,7 @@ devices:
 
 Fix: choose a mode in which the robot lets its program be started that way.
 
-Source: https://github.com/UniversalRobots/Universal_Robots_ROS2_Driver/tree/6.0.0/ur_robot_driver/doc (6.0.0): modes
+Source: https://github.com/UniversalRobots/Universal_Robots_ROS2_Driver/releases/tag/6.0.0 (6.0.0): modes
 """
 
 from __future__ import annotations

@@ -47,5 +47,6 @@ def _run(script: str, step: str) -> list[list[str]]:
         tried = subprocess.run(command, env=place, cwd=folder, stdin=subprocess.DEVNULL, timeout=60, check=False)
         said = log.read_bytes().decode("utf-8", "backslashreplace")
         made = sorted(set(os.listdir(folder)) - {"log"})
-    lines = [line.split("\0") for line in said.split("\n\0")]
+    # Where it runs is another folder each time.
+    lines = [line.split("\0") for line in said.replace(folder, "/here").split("\n\0")]
     return [[f"ends with {tried.returncode}", *made], *([word for word in line if word] for line in lines)]
