@@ -106,7 +106,7 @@ def test_a_mount_that_moves_by_a_millimetre_changes_few_files_and_lines(tmp_path
     differing = [path for path in after.files if after.files[path] != main.files[path]]
     lines = sum(len(set(after.files[path].split("\n")) - set(main.files[path].split("\n"))) for path in differing)
     assert len(differing) <= 8
-    assert lines < 15
+    assert lines <= 15  # one of them is the TCP that the robot must be told
     assert changes_of(main, after) == [
         "review frames | gripper_base_link | pose in its parent | xyz 0 0 11 mm, rpy 0 0 90 deg -> "
         "xyz 0 0 12 mm, rpy 0 0 90 deg | moves 1 mm",
