@@ -114,13 +114,13 @@ def test_launch_ends_with_a_required_program_but_not_when_it_was_asked_to_end(tm
     # Humble's launch XML has no on_exit: a dead controller manager would leave all else waiting for ever.
     required = _program(tmp_path, "required", "humble")
     started = "import subprocess, sys; sys.exit(subprocess.Popen(sys.argv[1:]).wait())"
-    for script, expected in (("", -signal.SIGINT), ("import time; time.sleep(60)", 128 + signal.SIGINT)):
+    for needed, expected in (("true", -signal.SIGINT), ("sleep 60", 128 + signal.SIGINT)):
         launch = subprocess.Popen(
-            [sys.executable, "-c", started, sys.executable, required, "--", sys.executable, "-c", script],
+            [sys.executable, "-c", started, sys.executable, required, "--", *needed.split()],
             stderr=subprocess.DEVNULL,
             start_new_session=True,
         )
-        if script:
+        if expected > 0:
             subprocess.run(["kill", "-INT", str(_child_of(launch.pid))], check=True)
         assert launch.wait(20) == expected
 

@@ -24,16 +24,22 @@ END_WITH_PARENT = partial(ctypes.CDLL(None).prctl, 1, signal.SIGINT) if sys.plat
 
 def main(arguments: Sequence[str]) -> int:
     """Run the program; return its exit status."""
-    command, asked = [*arguments[arguments.index("--") + 1 :]], []
+    command = arguments[arguments.index("--") + 1 :]
     launch = os.getppid()
-    child = subprocess.Popen(command, preexec_fn=END_WITH_PARENT)
+    asked: list[int] = []
+    started: list[subprocess.Popen[bytes]] = []
 
     def pass_on(number: int, _: object) -> None:
         asked.append(number)
-        child.send_signal(number)
+        for one in started:
+            one.send_signal(number)
 
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, pass_on)
+    child = subprocess.Popen(command, preexec_fn=END_WITH_PARENT)
+    started.append(child)
+    for early in asked:  # while it was being started
+        child.send_signal(early)
     status = child.wait()
     if not asked and os.getppid() == launch:
         print(f"{command[0]} ended with {status}: the launch that needs it is ended", file=sys.stderr, flush=True)
