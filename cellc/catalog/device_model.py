@@ -5,7 +5,10 @@ Texts may carry placeholders that link fills in: ``{device}`` the name in the sp
 same or, where there is none, the name, ``{address}`` and ``{port}`` of the connection, ``{host_address}`` of the host's
 card, ``{carrier_address}`` that of the device on which this one is mounted, ``{controller_KIND}`` the full name of the
 cell's controller of that kind on this device, ``{share:PACKAGE}`` the share folder of an installed package,
-``{played_by}`` who starts its program, ``{thresholds}`` those of collisions as a request. Links, joints, sensors and
+``{played_by}`` who starts its program, ``{thresholds}`` those of collisions as a request, ``{tool_voltage}``,
+``{tool_baud_rate}``, ``{tool_parity}``, ``{tool_stop_bits}``, ``{tool_rx_idle_chars}``, ``{tool_tx_idle_chars}``,
+``{tool_port}`` and ``{tool_tcp_port}`` what the spec says of its tool connector, ``{carrier}`` the robot through whose
+tool connector it has its power. Links, joints, sensors and
 gpios are named without prefix.
 """
 
@@ -25,7 +28,7 @@ from cellc.catalog.device_interfaces import (
     SpeedScalingFacts,
     TopicFacts,
 )
-from cellc.catalog.robot_facts import RobotControllerFacts, StepCondition
+from cellc.catalog.robot_facts import PlugFacts, RobotControllerFacts, StepCondition
 from cellc.spec.quantity import Force, JointAcceleration, JointJerk, JointPosition, Length, Mass, Velocity
 from cellc.vocabulary import GateCode
 
@@ -310,6 +313,7 @@ class DeviceModel(CatalogModel):
     network: NetworkFacts | None = None
     safety: SafetyFacts | None = None
     robot: RobotControllerFacts = Field(default_factory=RobotControllerFacts)
+    plug: PlugFacts | None = None
     record: dict[Literal["speed_scaling", "safety_state", "fault_code"], RecordFacts] = Field(default_factory=dict)
     commissioning: tuple[CommissioningStep, ...] = ()
     versions: tuple[VersionRow, ...] = ()

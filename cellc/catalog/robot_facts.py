@@ -4,7 +4,9 @@ from typing import Literal
 
 from pydantic import Field
 
-from cellc.catalog.catalog_model import CatalogModel, NodeName, ParameterFact, Text, Token
+from cellc.catalog.catalog_model import CatalogModel, FileName, NodeName, ParameterFact, Text, Token
+from cellc.spec.quantity import Voltage
+from cellc.spec.tool import BaudRate, Parity, StopBits
 
 
 class ProgramWay(CatalogModel):
@@ -39,6 +41,67 @@ class CenterFacts(CatalogModel):
     source: Text
 
 
+class IdleFacts(CatalogModel):
+    """Times of silence that mark the end of a serial message, in characters; ``usual`` where a spec says nothing."""
+
+    least: float
+    most: float
+    usual: float
+
+
+class ForwardFacts(CatalogModel):
+    """The program that gives a computer the serial line of a tool connector, as a device node; no node of ROS.
+
+    ``system`` are what it calls, by their keys of rosdep.
+    """
+
+    package: Token
+    program: FileName
+    arguments: tuple[Text, ...] = ()
+    system: tuple[Token, ...] = ()
+
+
+class ToolSerialFacts(CatalogModel):
+    """The serial line of a tool connector, and the parameters of the plugin that set it up.
+
+    ``parities`` are what the plugin calls them, ``tcp_port`` is that of the robot where a spec says nothing.
+    """
+
+    baud_rates: tuple[BaudRate, ...] = Field(min_length=1)
+    parities: dict[Parity, Text] = Field(min_length=1)
+    stop_bits: tuple[StopBits, ...] = Field(min_length=1)
+    rx_idle_chars: IdleFacts
+    tx_idle_chars: IdleFacts
+    tcp_port: int = Field(ge=1, le=65535)
+    parameters: dict[Text, Text]
+    forward: ForwardFacts
+    source: Text
+
+
+class ToolConnectorFacts(CatalogModel):
+    """The connector at the tool frame of a robot: voltages that it gives, and its serial line if it has one."""
+
+    voltages: tuple[Voltage, ...] = Field(min_length=1)
+    serial: ToolSerialFacts | None = None
+    source: Text
+
+
+class SerialFacts(CatalogModel):
+    """Settings of the serial line of a device."""
+
+    baud_rate: BaudRate
+    parity: Parity
+    stop_bits: StopBits
+
+
+class PlugFacts(CatalogModel):
+    """What a device takes from the tool connector of a robot: its voltage, and the serial line that it speaks."""
+
+    voltage: Voltage
+    serial: SerialFacts | None = None
+    source: Text
+
+
 class RobotControllerFacts(CatalogModel):
     """What the robot's own controller can be told.
 
@@ -50,6 +113,7 @@ class RobotControllerFacts(CatalogModel):
     tcp: CenterFacts | None = None
     payload_service: Text | None = None
     thresholds: Text | None = None
+    tool_connector: ToolConnectorFacts | None = None
 
 
 StepCondition = Literal[
@@ -60,5 +124,10 @@ StepCondition = Literal[
     "payload_by_service",
     "thresholds_stated",
     "thresholds_open",
+    "tool_power",
+    "tool_serial_pendant",
+    "tool_serial_dashboard",
+    "tool_serial_headless",
+    "through_tool",
 ]
 """What a spec may say of a device, so that people do one thing or the other."""

@@ -6,11 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from cellc.catalog.device_model import VersionRow
+from cellc.catalog.robot_facts import PlugFacts
 from cellc.cell.entity import Entity
 from cellc.cell.frame import WORLD
 from cellc.cell.hardware import Effect, HardwareComponent
 from cellc.cell.interface import InterfaceKind
-from cellc.cell.robot import CollisionThresholds, Payload, RobotFacts, RobotProgram
+from cellc.cell.robot import CollisionThresholds, HostProgram, Payload, RobotFacts, RobotProgram, ToolConnector
 from cellc.cell.site import UNKNOWN, Clock, JointFigure
 from cellc.cell.switched import Switched
 from cellc.cell.vendor import CommissioningStep, RecordSource, VendorSafety
@@ -81,12 +82,13 @@ class DeviceVersions:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Connection:
-    """How the real device is reached; texts as written."""
+    """How the real device is reached; texts as written, or the port of the tool connector that it goes ``through``."""
 
     host: str
     nic: str | None = None
     address: str | None = None
     port: str | None = None
+    through: str | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -259,6 +261,9 @@ class Device(Entity):
         versions, connection, limit_shares, stamp, adapter, simulated_joints: what the spec states of it.
         payload, tcp, program, collision: what its own controller is told, and who starts the program there.
         robot: what its own controller can be told.
+        tool_connector: what the connector at its tool frame gives; None where the spec says nothing.
+        plug: what it takes from the tool connector of a robot, where the catalog tells.
+        programs: what runs on its host for it on the real target, and is no node.
         home: prefixed joint → position where the catalog says a mock begins.
         optical_frames: short names of frames that look along z.
         kinematics: whose joints the description has; None where robots of the type do not differ.
@@ -300,6 +305,9 @@ class Device(Entity):
     program: RobotProgram | None = None
     collision: CollisionThresholds | None = None
     robot: RobotFacts = field(default_factory=RobotFacts)
+    tool_connector: ToolConnector | None = None
+    plug: PlugFacts | None = None
+    programs: tuple[HostProgram, ...] = ()
     kinematics: Kinematics | None = None
     adapter: Adapter | None = None
     simulated_joints: tuple[SimulatedJoint, ...] = ()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from cellc.catalog.robot_facts import ToolConnectorFacts
 from cellc.transforms import Vector3
 
 Moments6 = tuple[float, float, float, float, float, float]
@@ -52,6 +53,41 @@ class CollisionThresholds:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class ToolSerial:
+    """The serial line of a tool connector; ``port`` is the device node that it becomes on the driver's host.
+
+    ``tcp_port`` is the robot's; times of silence are in characters.
+    """
+
+    port: str
+    baud_rate: int
+    parity: str
+    stop_bits: int
+    rx_idle_chars: float | None = None
+    tx_idle_chars: float | None = None
+    tcp_port: int | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ToolConnector:
+    """What the connector at the tool frame gives."""
+
+    voltage_v: float
+    serial: ToolSerial | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HostProgram:
+    """A program on the host of a driver that is no node of ROS; ``system`` are packages by their keys of rosdep."""
+
+    name: str
+    package: str
+    program: str
+    arguments: tuple[str, ...] = ()
+    system: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class RobotFacts:
     """What the controller of a robot of this kind can be told.
 
@@ -61,6 +97,7 @@ class RobotFacts:
         thresholds: whether it takes thresholds of collisions.
         payload_service: whether a service tells it the payload; in local mode only while its program runs.
         tcp_kind, tcp_topic: kind of controller that publishes where the TCP is, and the topic below its node.
+        tool_facts: what the connector at its tool frame can give; None where it has none.
     """
 
     ways: tuple[tuple[str, str], ...] = ()
@@ -68,3 +105,4 @@ class RobotFacts:
     payload_service: bool = False
     tcp_kind: str | None = None
     tcp_topic: str | None = None
+    tool_facts: ToolConnectorFacts | None = None

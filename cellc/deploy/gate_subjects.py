@@ -152,6 +152,15 @@ def _tool_centers(graph: CellGraph) -> Iterator[Values]:
             yield device.name, device.tcp, device.tool_frame, xyz, turn, rpy, _shows_center(graph.cell, device)
 
 
+def _tool_connectors(graph: CellGraph) -> Iterator[Values]:
+    for device in graph.cell.devices:
+        if device.tool_connector is not None:
+            voltage = graph.cell.text(*device.path, "tool_connector", "voltage")
+            links = ((one.name, one.connection) for one in graph.cell.devices)
+            tools = (name for name, link in links if link is not None and link.through == device.name)
+            yield device.name, voltage, ", ".join(tools) or "whatever hangs on it"
+
+
 def _figures(values: Iterable[float], digits: int) -> str:
     return " ".join(f"{positive_zero(round(value, digits)):.{digits}f}" for value in values)
 
@@ -282,6 +291,7 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "stopping_device": (("device", "states", "command", "gate"), _stopping_devices),
     "loaded_device": (("device", "mass", "center_of_mass", "inertia", "frame", "told_by"), _loaded_devices),
     "tool_center": (("device", "tcp", "frame", "xyz", "turn", "rpy", "command"), _tool_centers),
+    "tool_connector": (("device", "voltage", "tools"), _tool_connectors),
     "stop_evidence": (("evidence",), lambda graph: _each(graph.cell.safety.stop.evidence)),
     "first_motion": (_FIRST_MOTION, first_motion),
     "small_goal": ((*_FIRST_MOTION, "command", "cancel"), small_goal),

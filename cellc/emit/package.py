@@ -100,6 +100,8 @@ def _dependencies(cell: Cell) -> tuple[str, ...]:
     names = {*_ALWAYS, *_BRING_UP, *_GATES, *(node.package for node in cell.nodes)}
     names |= {name for name in (*controllers, *hardware) if name}
     names |= {package for device in cell.devices for package in share_folders(device)}
+    programs_of = (program for device in cell.devices for program in device.programs)
+    names |= {name for program in programs_of for name in (program.package, *program.system)}
     tools = (None if device.kinematics is None else device.kinematics.package for device in cell.devices)
     names |= {package for package in tools if package is not None}
     if plans(cell):

@@ -35,13 +35,17 @@ from cellc.spec.devices import EVERY_JOINT, DeviceSpec
 from cellc.vocabulary import Distro
 
 
-def with_statements(device: Device, written: DeviceSpec, document: SourceDocument) -> Device:
-    """Return a device with what the spec states of it: versions, connection, shares of limits, stamp."""
+def with_statements(device: Device, written: DeviceSpec, port: str | None, document: SourceDocument) -> Device:
+    """Return a device with what the spec states of it: versions, connection, shares of limits, stamp.
+
+    Args:
+        port: its serial port, where it has one.
+    """
     return replace(
         device,
         architecture=written.architecture,
         versions=_versions(written),
-        connection=_connection(written),
+        connection=_connection(written, port),
         limit_shares=limit_shares(written),
         stamp=_stamp(written),
         adapter=_adapter(written),
@@ -102,10 +106,12 @@ def _versions(written: DeviceSpec) -> DeviceVersions:
     )
 
 
-def _connection(written: DeviceSpec) -> Connection | None:
+def _connection(written: DeviceSpec, port: str | None) -> Connection | None:
     """Return how the real device is reached."""
     one = written.connection
-    return None if one is None else Connection(host=one.host, nic=one.nic, address=one.address, port=one.port)
+    if one is None:
+        return None
+    return Connection(host=one.host, nic=one.nic, address=one.address, port=port, through=one.through)
 
 
 def limit_shares(written: DeviceSpec) -> LimitShares:

@@ -18,10 +18,11 @@ from cellc.limits import Purse, children_seconds, limits
 from cellc.link.device_facts import limit_shares, with_catalog, with_statements
 from cellc.link.hardware import device_driver, hardware_component
 from cellc.link.kinematics import link_kinematics, with_kinematics
-from cellc.link.names import Placeholders, home_host, placeholders, unknown_name
+from cellc.link.names import Placeholders, home_host, placeholders, port_of, unknown_name
 from cellc.link.ports import port_shifts
 from cellc.link.quantities import pose
 from cellc.link.robot import robot_words, with_robot
+from cellc.link.tool import tool_words, with_tools
 from cellc.source.document import SourceDocument
 from cellc.source.text import lies_under
 from cellc.spec.cell_spec import CellSpec
@@ -113,6 +114,9 @@ def _connection_problems(
     path = ("devices", name, "connection")
     if connection.host not in spec.hosts:
         return (unknown_name("unknown-host", connection.host, "host", spec.hosts, document, (*path, "host")),)
+    if connection.through is not None and connection.through not in spec.devices:
+        place = (*path, "through")
+        return (unknown_name("unknown-device", connection.through, "device", spec.devices, document, place),)
     nics = spec.hosts[connection.host].nics
     if connection.nic is None or connection.nic in nics:
         return ()
@@ -156,7 +160,7 @@ def _device(
     facts = entry.model
     mount = written.mount
     named = placeholders(name, prefix, written, spec, port_shift)
-    known = replace(named, values={**named.values, **dict(robot_words(written))})
+    known = replace(named, values={**named.values, **dict(robot_words(written)), **dict(tool_words(facts, written))})
     device = Device(
         name=name,
         path=path,
@@ -177,8 +181,10 @@ def _device(
         tool_frame=None if facts.tool_frame is None else prefix + facts.frames.get(facts.tool_frame, facts.tool_frame),
         carries=_carried(name, spec),
     )
-    device = with_catalog(with_statements(device, written, document), facts, written, known, distro)
-    device = with_robot(device, facts, written)
+    device = with_catalog(
+        with_statements(device, written, port_of(written, spec), document), facts, written, known, distro
+    )
+    device = with_tools(with_robot(device, facts, written), facts, written, known)
     return BoundDevice(device, facts, known)
 
 

@@ -90,7 +90,7 @@ def placeholders(name: str, prefix: str, written: DeviceSpec, spec: CellSpec, po
             "stem": prefix.removesuffix("_") or name,
             "bare_prefix": prefix.removesuffix("_"),
             "address": (connection.address if connection is not None else None) or UNKNOWN,
-            "port": (connection.port if connection is not None else None) or UNKNOWN,
+            "port": port_of(written, spec) or UNKNOWN,
             "host_address": host_address,
             "carrier_address": _carrier_address(written, spec),
             "prefix_namespace": "/" + prefix.removesuffix("_") if prefix.removesuffix("_") else "",
@@ -114,3 +114,13 @@ def _carrier_address(written: DeviceSpec, spec: CellSpec) -> str:
     carrier = None if written.mount is None else spec.devices.get(written.mount.parent.partition("/")[0])
     connection = None if carrier is None else carrier.connection
     return UNKNOWN if connection is None else connection.address or UNKNOWN
+
+
+def port_of(written: DeviceSpec, spec: CellSpec) -> str | None:
+    """Return the serial port of a device: its own, else the one that the robot forwards through which it is reached."""
+    connection = written.connection
+    if connection is None or connection.port is not None or connection.through is None:
+        return None if connection is None else connection.port
+    carrier = spec.devices.get(connection.through)
+    connector = None if carrier is None else carrier.tool_connector
+    return None if connector is None or connector.serial is None else connector.serial.port

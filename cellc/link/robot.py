@@ -13,6 +13,7 @@ from cellc.cell.robot import CollisionThresholds, Payload, RobotFacts, RobotProg
 from cellc.diagnostics import Diagnostic, Outcome
 from cellc.link.frames import FrameNames
 from cellc.link.quantities import vector
+from cellc.link.tool import tool_conditions
 from cellc.spec.cell_spec import CellSpec
 from cellc.spec.devices import DeviceSpec
 from cellc.spec.quantity import QuantityVector
@@ -64,7 +65,9 @@ def conditions(facts: DeviceModel, written: DeviceSpec) -> frozenset[str]:
     way = chosen_way(facts, written)
     told_by = "installation" if written.payload is None else written.payload.told_by
     thresholds = "open" if written.collision is None else "stated"
-    return frozenset((*(() if way is None else (way.name,)), f"payload_by_{told_by}", f"thresholds_{thresholds}"))
+    name = "" if way is None else way.name
+    told = (name, f"payload_by_{told_by}", f"thresholds_{thresholds}", *tool_conditions(written, name))
+    return frozenset(told)
 
 
 def node_parameters(facts: DeviceModel, written: DeviceSpec, node: str) -> Mapping[str, ParameterValue]:
@@ -132,4 +135,5 @@ def _robot(facts: DeviceModel) -> RobotFacts:
         payload_service=told.payload_service is not None,
         tcp_kind=None if told.tcp is None else told.tcp.controller,
         tcp_topic=None if told.tcp is None else told.tcp.topic,
+        tool_facts=told.tool_connector,
     )

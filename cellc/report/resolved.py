@@ -28,7 +28,7 @@ _HIDDEN = {
     Device: {
         *("vendor", "kind", "description", "home", "optical_frames", "payload_limit_kg", "update_rates_hz"),
         *("controller_kinds", "speed_scaling", "gripper", "camera", "offers", "network", "safety", "packages"),
-        *("version_rows", "commissioning", "record", "robot", "mock_cannot_prove", "starts"),
+        *("version_rows", "commissioning", "record", "robot", "plug", "programs", "mock_cannot_prove", "starts"),
     },
     Node: {"endpoints", "inside"},
     HardwareComponent: {
@@ -47,6 +47,7 @@ _STATED = {
     "tcp",
     "program",
     "collision",
+    "tool_connector",
     "adapter",
     "simulated_joints",
     "limit_shares",
@@ -136,7 +137,7 @@ def _stated(cell: Cell, device: Device) -> dict[str, Tree]:
         field.name: _section(cell, getattr(device.versions, field.name), (*path, field.name))
         for field in fields(device.versions)
     }
-    for key in ("connection", "payload", "tcp", "program", "collision", "adapter"):
+    for key in ("connection", "payload", "tcp", "program", "collision", "tool_connector", "adapter"):
         tree[key] = _section(cell, getattr(device, key), (*path, key))
     tree["limits"] = _section(cell, device.limit_shares, (*path, "limits"))
     tree["simulated_joints"] = {one.name: _section(cell, one, one.path) for one in device.simulated_joints}

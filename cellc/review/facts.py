@@ -33,6 +33,7 @@ _MATRIX = re.compile(r"\| ([^|]+) \| ([^|]+) \| ([^|]+) \| ([A-Z]+) \| (.*) \|")
 _CHECKS = (
     ("payload", re.compile(r"- \[ \] (.+) is told payload (.+)")),
     ("tcp", re.compile(r"- \[ \] (.+) holds its TCP (.+); what it shows then .*")),
+    ("tool_voltage", re.compile(r"- \[ \] The tool connector of (.+) gives (.+): each was told .*")),
     ("thresholds", re.compile(r"- \[ \] (.+): collision thresholds are set (.+)")),
     ("first_motion", re.compile(r"- \[ \] (Said aloud before it moves): (.+)")),
 )

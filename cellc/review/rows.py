@@ -16,6 +16,7 @@ _A = ReviewArea
 _LIMIT = "the joint may go further or faster than people at the cell know it"
 _STALE = "older data may be used, or a failure goes unseen for longer"
 _PLANNED = "planned motion is another one"
+_BURNS = "a tool that takes less is destroyed"
 _SECOND = "something else commands the joints"
 
 ROWS: Sequence[Row] = (
@@ -31,6 +32,7 @@ ROWS: Sequence[Row] = (
     Row("check payload {device}", _A.PAYLOAD, "payload that the robot is told", Rule.DANGEROUS, why="the arm may sag"),
     Row("check tcp {device}", _A.PAYLOAD, "TCP that the robot is told", Rule.DANGEROUS, why="it is another point"),
     Row("check thresholds {device}", _A.SAFETY, "collision thresholds that the robot is told", Rule.DANGEROUS),
+    Row("check tool_voltage {device}", _A.SAFETY, "voltage of the tool connector", Rule.DANGEROUS, why=_BURNS),
     Row("spec payload {device} ...", _A.PAYLOAD, "payload", Rule.DANGEROUS, why="the arm may sag"),
     # Frames and what measured them.
     Row("placement {frame}", _A.FRAMES, "pose in its parent", Rule.PLACED),

@@ -123,6 +123,7 @@ THINGS: Sequence[Thing] = (
     Thing("watch {watch}", _A.SAFETY, "watch that deactivates controllers", _S, _D),
     Thing("check payload {device}", _A.PAYLOAD, "payload that a person tells the robot", _R, _D),
     Thing("check tcp {device}", _A.PAYLOAD, "TCP that a person tells the robot", _R, _D),
+    Thing("check tool_voltage {device}", _A.SAFETY, "voltage of the tool connector", _D, _R),
     Thing("check thresholds {device}", _A.SAFETY, "collision thresholds of the robot", _R, _D),
     Thing("real shapes {link}", _A.MODEL, "collision shapes", _R, _D, follows=True),
     Thing("real inertia {link}", _A.MODEL, "mass and inertia", _R, _R, follows=True),

@@ -16,6 +16,7 @@ from cellc.spec.quantity import (
     TimeShift,
 )
 from cellc.spec.robot import CollisionSpec, PayloadSpec, ProgramSpec
+from cellc.spec.tool import ToolConnectorSpec
 
 
 class PlacementSpec(SpecModel):
@@ -43,6 +44,11 @@ class ConnectionSpec(SpecModel):
     address: Text | None = Field(None, description="IPv4 address of the device.", examples=["192.168.56.101"])
     port: Text | None = Field(
         None, description="Serial or bus device for one without an address.", examples=["/dev/ttyUSB0"]
+    )
+    through: Name | None = Field(
+        None,
+        description=("Robot from whose tool connector it has its power; its serial port too, where `port` is absent."),
+        examples=["arm"],
     )
     first_port: int | None = Field(
         None,
@@ -229,6 +235,11 @@ class DeviceSpec(SpecModel):
         None,
         description="Who starts the program on the robot's own controller; a person at the device if absent.",
         examples=[{"played_by": "operator", "mode": "local"}],
+    )
+    tool_connector: ToolConnectorSpec | None = Field(
+        None,
+        description="What the connector at the robot's tool frame gives.",
+        examples=[{"voltage": "24 V", "serial": {"port": "/run/user/1000/arm_tool", "baud_rate": 115200}}],
     )
     collision: CollisionSpec | None = Field(
         None,

@@ -31,7 +31,9 @@ PARAMETERS = UPSTREAM / "parameters"
 PLACEHOLDERS = {
     *("device", "prefix", "bare_prefix", "prefix_namespace", "stem"),
     *("address", "port", "host_address", "carrier_address"),
-    *("played_by", "thresholds"),
+    *("played_by", "thresholds", "carrier"),
+    *("tool_voltage", "tool_baud_rate", "tool_parity", "tool_stop_bits", "tool_port"),
+    *("tool_rx_idle_chars", "tool_tx_idle_chars", "tool_tcp_port"),
 }
 ARMS = ("franka_fr3", "ur5e")
 # Upstream files behind each kind; on humble the gripper comes from another package.

@@ -59,6 +59,7 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             ("xyz: 0 0 162 mm", "xyz: 0 0 163 mm"),
             ("path: hardwired", "path: safety_bus"),
             ("observer: operator}", "observer: guard}"),
+            ("    program: {played", "    tool_connector: {voltage: 24 V}\n    program: {played"),
             ("payload: {mass: 1.0 kg", "payload: {mass: 1.5 kg"),
             ("summary: UR5e with", "summary: An UR5e with"),
             ("residual: 0.8 mm", "residual: 1.2 mm"),
@@ -71,6 +72,7 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
         [
             "dangerous safety | cell | path of the stop | hardwired -> safety_bus",
             "dangerous safety | cell | recovery observer | operator -> guard",
+            "dangerous safety | arm | voltage of the tool connector came | None -> there",
             "dangerous calibration | tcp | pose in its parent | xyz 0 0 162 mm, rpy 0 0 0 deg -> "
             "xyz 0 0 163 mm, rpy 0 0 0 deg | moves 1 mm",
             "dangerous calibration | hand_eye | residual | 0.8 mm -> 1.2 mm | +50 %",

@@ -217,6 +217,11 @@ def _nodes(cell: Cell) -> Iterator[tuple[str, ...]]:
         real = " (real target)" if node.real_only else ""
         program = f"{node.package}/{node.executable}{real}"
         yield code(node.full_name), program, node.host or "not stated", node.owner, _code(_parameters(cell, node))
+    for device in cell.devices:
+        for host_program in device.programs:
+            program = f"{host_program.package}/{host_program.program} (real target, no node)"
+            owner = cell.owners.responsibilities.vendor_safety
+            yield code(host_program.name), program, device.host or "not stated", owner, _code(host_program.arguments)
     for manager in cell.managers:
         for one in manager.controllers:
             owner = cell.owners.approvals.controller

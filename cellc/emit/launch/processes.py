@@ -12,6 +12,7 @@ from xml.etree.ElementTree import Element
 from cellc.cell.cell import Cell
 from cellc.cell.control import ControllerManager
 from cellc.cell.interface import Node, NodeSource
+from cellc.cell.robot import HostProgram
 from cellc.deploy.bringup import spawnings
 from cellc.deploy.files import (
     QOS_OVERRIDES,
@@ -126,6 +127,13 @@ def driver_node(cell: Cell, node: Node) -> Element:
     """Return a node of a device's driver; one for real hardware alone stays away from the mock."""
     condition = {"if": ON_REAL} if node.real_only else {}
     return element("node", identity(cell, node) | condition, _parameters(cell, node))
+
+
+def host_program(program: HostProgram) -> Element:
+    """Return a program of a device on its host that is no node: it knows no arguments of ROS."""
+    path = f"$(find-pkg-prefix {program.package})/lib/{program.package}/{program.program}"
+    command = f"{path} {launch_words(*program.arguments)}"
+    return element("executable", {"name": program.name, "cmd": command, "output": "both", "if": ON_REAL})
 
 
 def moving_node(cell: Cell, node: Node, hosts: tuple[str, ...], prefix: str) -> Element:

@@ -28,6 +28,7 @@ from cellc.emit.launch.processes import (
     driver_node,
     enclave,
     ends_launch,
+    host_program,
     only_on,
     robot_state_publisher,
     share,
@@ -110,6 +111,10 @@ def _discover(cell: Cell, host: str | None) -> Iterator[Element]:
     for node in cell.nodes:
         if _here(host, node.host):
             yield from _node(cell, node)
+    for device in cell.devices:
+        if device.programs and _here(host, device.host):
+            yield comment(f"no nodes: programs of {spec_path(device.path)}")
+            yield from map(host_program, device.programs)
 
 
 def _node(cell: Cell, node: Node) -> Iterator[Element]:

@@ -33,9 +33,17 @@ from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
-    """Yield the second device of a port on one host."""
+    """Yield the second device of a port on one host, and the second tool connector that becomes one."""
     first: dict[tuple[str, str], Device] = {}
+    forwarded: dict[tuple[str, str], Device] = {}
     for device in graph.cell.devices:
+        serial = None if device.tool_connector is None else device.tool_connector.serial
+        robot = device if serial is None else forwarded.setdefault((device.host, serial.port), device)
+        if robot is not device:
+            path = (*device.path, "tool_connector", "serial", "port")
+            message = f"`{device.name}` must forward its tool to a port of its own, got that of `{robot.name}`"
+            related = (Related("first used here", graph.cell.locate(*robot.path, *path[2:])),)
+            yield found(graph, path, message, related=related)
         link = device.connection
         if link is None or link.port is None or link.address is not None:
             continue

@@ -1,0 +1,98 @@
+"""What the tool connector of a robot gives, what forwards its serial line, and what hangs on it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+
+from cellc.catalog.device_model import DeviceModel
+from cellc.catalog.robot_facts import ToolSerialFacts
+from cellc.cell.device import Device
+from cellc.cell.robot import HostProgram, ToolConnector, ToolSerial
+from cellc.link.names import Placeholders
+from cellc.spec.devices import DeviceSpec
+from cellc.spec.tool import ToolSerialSpec
+
+
+def with_tools(device: Device, facts: DeviceModel, written: DeviceSpec, known: Placeholders) -> Device:
+    """Return a device with what its tool connector gives, its driver told, and with what it takes from another's."""
+    connector, line = written.tool_connector, _line(facts, written)
+    device = replace(device, plug=facts.plug)
+    if connector is None:
+        return device
+    serial = None if connector.serial is None else _serial(connector.serial, line)
+    device = replace(device, tool_connector=ToolConnector(voltage_v=connector.voltage.si, serial=serial))
+    if line is None:
+        return device
+    program = line.forward
+    forward = HostProgram(
+        name=f"{device.name}_tool_serial",
+        package=program.package,
+        program=program.program,
+        arguments=tuple(map(known.fill, program.arguments)),
+        system=program.system,
+    )
+    told = {name: known.fill(value) for name, value in line.parameters.items()}
+    return replace(_with_parameters(device, told), programs=(forward,))
+
+
+def _with_parameters(device: Device, told: Mapping[str, str]) -> Device:
+    hardware = device.hardware
+    if hardware is None or "real" not in hardware.parameters:
+        return device
+    real = {**hardware.parameters["real"], **told}
+    return replace(device, hardware=replace(hardware, parameters={**hardware.parameters, "real": real}))
+
+
+def tool_words(facts: DeviceModel, written: DeviceSpec) -> Iterator[tuple[str, str]]:
+    """Yield placeholders for what the spec says of a tool connector, and of the robot whose connector is used."""
+    connector, line = written.tool_connector, _line(facts, written)
+    if written.connection is not None and written.connection.through is not None:
+        yield "carrier", written.connection.through
+    if connector is None:
+        return
+    yield "tool_voltage", f"{connector.voltage.si:g}"
+    if connector.serial is None or line is None:
+        return
+    serial = _serial(connector.serial, line)
+    yield "tool_baud_rate", str(serial.baud_rate)
+    yield "tool_parity", line.parities.get(connector.serial.parity, connector.serial.parity)
+    yield "tool_stop_bits", str(serial.stop_bits)
+    yield "tool_port", serial.port
+    for name in ("rx_idle_chars", "tx_idle_chars", "tcp_port"):
+        yield f"tool_{name}", f"{getattr(serial, name):g}"
+
+
+def tool_conditions(written: DeviceSpec, way: str) -> Iterator[str]:
+    """Yield what is so of a device by its tool connector, or by that of another."""
+    if written.connection is not None and written.connection.through is not None:
+        yield "through_tool"
+    if written.tool_connector is not None:
+        yield "tool_power" if written.tool_connector.serial is None else f"tool_serial_{way}"
+
+
+def _line(facts: DeviceModel, written: DeviceSpec) -> ToolSerialFacts | None:
+    """Return the facts of a serial line that is used."""
+    connector, known = written.tool_connector, facts.robot.tool_connector
+    return None if connector is None or connector.serial is None or known is None else known.serial
+
+
+def _serial(written: ToolSerialSpec, facts: ToolSerialFacts | None) -> ToolSerial:
+    """Return a serial line as the spec has it, else as the robot usually has it."""
+    stated = ToolSerial(
+        port=written.port,
+        baud_rate=written.baud_rate,
+        parity=written.parity,
+        stop_bits=written.stop_bits,
+        rx_idle_chars=written.rx_idle_chars,
+        tx_idle_chars=written.tx_idle_chars,
+        tcp_port=written.tcp_port,
+    )
+    if facts is None:
+        return stated
+    return replace(
+        stated,
+        rx_idle_chars=facts.rx_idle_chars.usual if stated.rx_idle_chars is None else stated.rx_idle_chars,
+        tx_idle_chars=facts.tx_idle_chars.usual if stated.tx_idle_chars is None else stated.tx_idle_chars,
+        tcp_port=facts.tcp_port if stated.tcp_port is None else stated.tcp_port,
+    )

@@ -1,0 +1,63 @@
+"""A gripper on the tool connector of the arm, as the driver of each release of that arm takes it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+from tests.cells import graph_of, spec_text, written
+from tests.emit.cells import emitted
+from tests.vendors.oracle import RELEASES, Release, facts
+
+_LINE = "tool_connector: {voltage: 24 V, serial: {port: /run/user/1000/arm_tool, baud_rate: 115200}}"
+_GRIPPER_BY_USB = "connection: {host: control_pc, port: /dev/ttyUSB0}"
+
+
+def _spec(connector: str = _LINE) -> str:
+    text = spec_text("ur5e_pick").replace("    program: {", f"    {connector}\n    program: {{", 1)
+    return text.replace(_GRIPPER_BY_USB, "connection: {host: control_pc, through: arm}")
+
+
+@pytest.mark.parametrize("release", [one for one in RELEASES if one.device == "ur5e"], ids=str)
+def test_the_plugin_gets_every_parameter_that_it_reads_with_tool_communication(
+    release: Release, tmp_path: Path
+) -> None:
+    text = _spec().replace("ros: jazzy", f"ros: {release.distro}").replace("ur_robot_driver 3.8.0", release.driver)
+    hardware = graph_of(written(tmp_path, text)).cell.device("arm").hardware
+    assert hardware is not None
+    given = hardware.parameters["real"]
+    read = facts(release, "hardware_parameters")["parameters"]
+    asked = {name for name, told in read.items() if told["required"] == "when use_tool_communication"}
+    assert asked
+    assert asked <= set(given) <= set(read)
+    # launch_arguments.yaml of the release: its own defaults but for the voltage, which is 0 there.
+    usual = next(iter(facts(release, "launch_arguments").values()))
+    settings = {name: given[name] for name in asked - {"tool_voltage"}}
+    assert settings == {name: usual[name]["default"] for name in settings}
+    assert (given["use_tool_communication"], given["tool_voltage"]) == ("true", "24")
+
+
+def test_the_line_is_forwarded_to_the_port_that_the_gripper_opens(tmp_path: Path) -> None:
+    texts = emitted(tmp_path, _spec())
+    launch = ElementTree.fromstring(texts["launch/cell.launch.xml"])
+    (program,) = launch.findall("executable")
+    # ur_control.launch.py of 3.8.0, line 119: the address, the port of the robot, the device node.
+    assert program.get("cmd", "").split("/lib/ur_client_library/")[1] == (
+        "tool_communication.py 192.168.56.101 --tcp-port 54321 --device-name /run/user/1000/arm_tool"
+    )
+    assert "'real'" in program.get("if", "")
+    robot = ElementTree.fromstring(texts["urdf/ur5e_pick.real.urdf"])
+    assert [one.text for one in robot.iter("param") if one.get("name") == "COM_port"] == ["/run/user/1000/arm_tool"]
+    needed = {one.text for one in ElementTree.fromstring(texts["package.xml"]).findall("exec_depend")}
+    assert {"socat", "ur_client_library"} <= needed
+
+
+def test_the_voltage_is_named_before_anything_has_power(tmp_path: Path) -> None:
+    gates = emitted(tmp_path, _spec())["gates/promotion.md"].replace("\\", "").split("\n## ")
+    inventory, enabling = (next(one for one in gates if one.startswith(code)) for code in ("G0 ", "G5 "))
+    assert "The tool connector of arm gives 24 V, to gripper: each was told by its nameplate" in inventory
+    # The settings reach the connector as the program starts, and the gripper is activated with no program.
+    played, activated = enabling.index("plays the program once and stops it"), enabling.index("hardware that moves")
+    assert played < activated
