@@ -181,9 +181,8 @@ def _device(
         tool_frame=None if facts.tool_frame is None else prefix + facts.frames.get(facts.tool_frame, facts.tool_frame),
         carries=_carried(name, spec),
     )
-    device = with_catalog(
-        with_statements(device, written, port_of(written, spec), document), facts, written, known, distro
-    )
+    device = with_statements(device, written, port_of(written, spec), document)
+    device = with_catalog(device, facts, written, known, distro)
     device = with_tools(with_robot(device, facts, written), facts, written, known)
     return BoundDevice(device, facts, known)
 

@@ -1,7 +1,7 @@
 """A tool takes another voltage than the tool connector of its robot gives.
 
-24 V on a tool for 12 V destroys it at the moment in which the program of the robot first starts, with smoke or without a
-sign; 12 V, or none, leaves a gripper that answers nothing, or that lets go under load. Nothing in ROS knows of it.
+24 V on a tool for 12 V destroys it at the moment in which the program of the robot first starts, with smoke or without
+a sign; 12 V, or none, leaves a gripper that answers nothing, or that lets go under load. Nothing in ROS knows of it.
 
 Example that is reported:
 
