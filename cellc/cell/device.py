@@ -6,12 +6,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from cellc.catalog.device_model import VersionRow
-from cellc.catalog.robot_facts import PlugFacts
 from cellc.cell.entity import Entity
 from cellc.cell.frame import WORLD
 from cellc.cell.hardware import Effect, HardwareComponent
 from cellc.cell.interface import InterfaceKind
-from cellc.cell.robot import CollisionThresholds, HostProgram, Payload, RobotFacts, RobotProgram, ToolConnector
+from cellc.cell.robot import CollisionThresholds, HostProgram, Payload, Plug, RobotFacts, RobotProgram, ToolConnector
 from cellc.cell.site import UNKNOWN, Clock, JointFigure
 from cellc.cell.switched import Switched
 from cellc.cell.vendor import CommissioningStep, RecordSource, VendorSafety
@@ -306,7 +305,7 @@ class Device(Entity):
     collision: CollisionThresholds | None = None
     robot: RobotFacts = field(default_factory=RobotFacts)
     tool_connector: ToolConnector | None = None
-    plug: PlugFacts | None = None
+    plug: Plug | None = None
     programs: tuple[HostProgram, ...] = ()
     kinematics: Kinematics | None = None
     adapter: Adapter | None = None

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
-from cellc.catalog.robot_facts import ToolConnectorFacts
 from cellc.transforms import Vector3
 
 Moments6 = tuple[float, float, float, float, float, float]
@@ -77,6 +77,28 @@ class ToolConnector:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class ToolFacts:
+    """What the tool connector of a kind of robot can give; without a serial line there are no settings of one.
+
+    Args:
+        settings: values that a setting may have; ``spans`` are the least and the most of those that are numbers.
+    """
+
+    voltages_v: tuple[float, ...]
+    has_serial: bool = False
+    settings: Mapping[str, tuple[str | int, ...]] = field(default_factory=dict)
+    spans: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Plug:
+    """What a device takes from the tool connector of a robot; ``serial`` are settings, None where it speaks none."""
+
+    voltage_v: float
+    serial: Mapping[str, str | int] | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class HostProgram:
     """A program on the host of a driver that is no node of ROS; ``system`` are packages by their keys of rosdep."""
 
@@ -105,4 +127,4 @@ class RobotFacts:
     payload_service: bool = False
     tcp_kind: str | None = None
     tcp_topic: str | None = None
-    tool_facts: ToolConnectorFacts | None = None
+    tool_facts: ToolFacts | None = None

@@ -13,7 +13,7 @@ from cellc.cell.robot import CollisionThresholds, Payload, RobotFacts, RobotProg
 from cellc.diagnostics import Diagnostic, Outcome
 from cellc.link.frames import FrameNames
 from cellc.link.quantities import vector
-from cellc.link.tool import tool_conditions
+from cellc.link.tool import tool_conditions, tool_facts
 from cellc.spec.cell_spec import CellSpec
 from cellc.spec.devices import DeviceSpec
 from cellc.spec.quantity import QuantityVector
@@ -135,5 +135,5 @@ def _robot(facts: DeviceModel) -> RobotFacts:
         payload_service=told.payload_service is not None,
         tcp_kind=None if told.tcp is None else told.tcp.controller,
         tcp_topic=None if told.tcp is None else told.tcp.topic,
-        tool_facts=told.tool_connector,
+        tool_facts=tool_facts(told.tool_connector),
     )

@@ -6,9 +6,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from cellc.catalog.device_model import DeviceModel
-from cellc.catalog.robot_facts import ToolSerialFacts
+from cellc.catalog.robot_facts import PlugFacts, ToolConnectorFacts, ToolSerialFacts
 from cellc.cell.device import Device
-from cellc.cell.robot import HostProgram, ToolConnector, ToolSerial
+from cellc.cell.robot import HostProgram, Plug, ToolConnector, ToolFacts, ToolSerial
 from cellc.link.names import Placeholders
 from cellc.spec.devices import DeviceSpec
 from cellc.spec.tool import ToolSerialSpec
@@ -17,7 +17,7 @@ from cellc.spec.tool import ToolSerialSpec
 def with_tools(device: Device, facts: DeviceModel, written: DeviceSpec, known: Placeholders) -> Device:
     """Return a device with what its tool connector gives, its driver told, and with what it takes from another's."""
     connector, line = written.tool_connector, _line(facts, written)
-    device = replace(device, plug=facts.plug)
+    device = replace(device, plug=_plug(facts.plug))
     if connector is None:
         return device
     serial = None if connector.serial is None else _serial(connector.serial, line)
@@ -69,6 +69,28 @@ def tool_conditions(written: DeviceSpec, way: str) -> Iterator[str]:
         yield "through_tool"
     if written.tool_connector is not None:
         yield "tool_power" if written.tool_connector.serial is None else f"tool_serial_{way}"
+
+
+def tool_facts(facts: ToolConnectorFacts | None) -> ToolFacts | None:
+    """Return what the tool connector of a robot can give."""
+    if facts is None:
+        return None
+    voltages, line = tuple(one.si for one in facts.voltages), facts.serial
+    if line is None:
+        return ToolFacts(voltages_v=voltages)
+    idle = {"rx_idle_chars": line.rx_idle_chars, "tx_idle_chars": line.tx_idle_chars}
+    return ToolFacts(
+        voltages_v=voltages,
+        has_serial=True,
+        settings={"baud_rate": line.baud_rates, "parity": tuple(line.parities), "stop_bits": line.stop_bits},
+        spans={name: (one.least, one.most) for name, one in idle.items()},
+    )
+
+
+def _plug(facts: PlugFacts | None) -> Plug | None:
+    if facts is None:
+        return None
+    return Plug(voltage_v=facts.voltage.si, serial=None if facts.serial is None else facts.serial.model_dump())
 
 
 def _line(facts: DeviceModel, written: DeviceSpec) -> ToolSerialFacts | None:

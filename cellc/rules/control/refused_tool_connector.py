@@ -26,8 +26,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from cellc.catalog.robot_facts import IdleFacts, ToolSerialFacts
-from cellc.cell.robot import ToolSerial
+from cellc.cell.robot import ToolFacts, ToolSerial
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
@@ -42,33 +41,27 @@ def check(graph: CellGraph) -> Findings:
         if has is None:
             yield found(graph, path, f"`{device.name}` has no tool connector that its driver sets")
             continue
-        voltages = [one.si for one in has.voltages]
-        if stated.voltage_v not in voltages:
-            given = _listed(one.text for one in has.voltages)
+        if stated.voltage_v not in has.voltages_v:
+            given = _listed(f"{one:g} V" for one in has.voltages_v)
             message = f"the tool connector of `{device.name}` must give {given}, got {stated.voltage_v:g} V"
             yield found(graph, (*path, "voltage"), message)
-        if stated.serial is not None and has.serial is None:
+        if stated.serial is not None and not has.has_serial:
             yield found(graph, (*path, "serial"), f"the tool connector of `{device.name}` has no serial line")
-        elif stated.serial is not None and has.serial is not None:
-            for key, wanted, got in _refused(stated.serial, has.serial):
+        elif stated.serial is not None:
+            for key, wanted, got in _refused(stated.serial, has):
                 message = f"`{key}` of the tool connector of `{device.name}` must be {wanted}, got {got}"
                 yield found(graph, (*path, "serial", key), message)
 
 
-def _refused(stated: ToolSerial, has: ToolSerialFacts) -> Iterator[tuple[str, str, str]]:
+def _refused(stated: ToolSerial, has: ToolFacts) -> Iterator[tuple[str, str, str]]:
     """Yield each setting that the robot does not have, what it has, and what is written."""
-    sets = (("baud_rate", has.baud_rates), ("parity", tuple(has.parities)), ("stop_bits", has.stop_bits))
-    for key, allowed in sets:
+    for key, allowed in has.settings.items():
         if getattr(stated, key) not in allowed:
             yield key, _listed(map(str, allowed)), str(getattr(stated, key))
-    spans: tuple[tuple[str, IdleFacts], ...] = (
-        ("rx_idle_chars", has.rx_idle_chars),
-        ("tx_idle_chars", has.tx_idle_chars),
-    )
-    for key, span in spans:
+    for key, (least, most) in has.spans.items():
         value = getattr(stated, key)
-        if value is not None and not span.least <= value <= span.most:
-            yield key, f"from {span.least:g} to {span.most:g}", f"{value:g}"
+        if value is not None and not least <= value <= most:
+            yield key, f"from {least:g} to {most:g}", f"{value:g}"
 
 
 def _listed(names: Iterable[str]) -> str:

@@ -26,9 +26,8 @@ Source: https://github.com/PickNikRobotics/ros2_robotiq_gripper/issues/88 (2024)
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
-from cellc.catalog.robot_facts import SerialFacts
 from cellc.cell.device import Connection, Device
 from cellc.cell.robot import ToolSerial
 from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
@@ -58,8 +57,7 @@ def _elsewhere(device: Device, link: Connection, robot: Device) -> Iterator[str]
         yield f"`{device.name}` must be reached from `{robot.host}`, where its port is forwarded, got `{link.host}`"
 
 
-def _differences(device: Device, speaks: SerialFacts | None, serial: ToolSerial) -> Iterator[str]:
-    for key in ("baud_rate", "parity", "stop_bits"):
-        wanted, got = getattr(speaks, key, None), getattr(serial, key)
-        if speaks is not None and wanted != got:
+def _differences(device: Device, speaks: Mapping[str, str | int] | None, serial: ToolSerial) -> Iterator[str]:
+    for key, wanted in (speaks or {}).items():
+        if (got := getattr(serial, key)) != wanted:
             yield f"`{key}` of the tool connector must be {wanted} for `{device.name}`, got {got}"

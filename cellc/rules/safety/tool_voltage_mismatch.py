@@ -42,8 +42,8 @@ def check(graph: CellGraph) -> Findings:
         if robot.tool_connector is None:
             message = f"`{device.name}` has its power from `{robot.name}`, whose tool connector gives nothing stated"
             yield found(graph, path, message, f"write `tool_connector` of `{robot.name}` with the voltage of its tool")
-        elif device.plug is not None and device.plug.voltage.si != robot.tool_connector.voltage_v:
+        elif device.plug is not None and device.plug.voltage_v != robot.tool_connector.voltage_v:
             given = f"{robot.tool_connector.voltage_v:g} V of `{robot.name}`"
-            message = f"the tool connector must give `{device.name}` {device.plug.voltage.text}, got {given}"
+            message = f"the tool connector must give `{device.name}` {device.plug.voltage_v:g} V, got {given}"
             related = (Related("stated here", graph.cell.locate(*place, "voltage")),)
             yield found(graph, path, message, related=related)
