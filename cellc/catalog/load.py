@@ -10,7 +10,7 @@ from pathlib import Path
 from cellc.catalog.compiled import CATALOG, SHOWN, compiled_device, compiled_table
 from cellc.catalog.controller_kind import ControllerKind
 from cellc.catalog.device_model import DeviceModel
-from cellc.catalog.homes import homes_outside_limits
+from cellc.catalog.joint_figures import wrong_joint_figures
 from cellc.catalog.names import CatalogNames, unknown_names
 from cellc.catalog.programs import ProgramTable
 from cellc.catalog.read_model import ModelT, read_model
@@ -110,7 +110,7 @@ def _load(
     known = CatalogNames({*controller_kinds(), *OF_ONE_DEVICE}, set(profiles.profiles))
     wrong = (
         *unknown_names(model, description.value, document, known),
-        *homes_outside_limits(model, description.value, document),
+        *wrong_joint_figures(model, description.value, document),
     )
     device = None if wrong else CatalogDevice(model, description.value)
     return Outcome(device, description.diagnostics + wrong)

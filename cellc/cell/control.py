@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from cellc.catalog.controller_kind import ControllerKind
 from cellc.cell.entity import Entity
 from cellc.cell.interface import TARGETS, ParameterValue
+from cellc.cell.site import JointFigure
 from cellc.vocabulary import Behaviour
 
 
@@ -64,7 +65,7 @@ class Controller(Entity):
         parameters: everything that goes to its node, dots for nesting, in the types that it declares.
         written_parameters: those of them that stand under ``parameters:`` in the spec.
         action: fully qualified action name and its type, or None.
-        path_tolerance, goal_tolerance: per joint, rad or m; None where not stated.
+        path_tolerance, goal_tolerance: by joint, those without one left out; None where not stated.
     """
 
     manager: str
@@ -91,8 +92,8 @@ class Controller(Entity):
     action: str | None = None
     action_type: str | None = None
     goal_time_s: float | None = None
-    path_tolerance: float | None = None
-    goal_tolerance: float | None = None
+    path_tolerance: Mapping[str, JointFigure] | None = None
+    goal_tolerance: Mapping[str, JointFigure] | None = None
     on_violation: str = "abort_and_hold"
     update_rate_hz: float | None = None
 

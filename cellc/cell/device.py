@@ -43,6 +43,11 @@ class DeviceJoint(Entity):
     command_interfaces: tuple[str, ...]
     state_interfaces: tuple[str, ...]
 
+    @property
+    def slides(self) -> bool:
+        """Whether its positions are lengths."""
+        return self.type == "prismatic"
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DeviceDriver:
@@ -153,7 +158,7 @@ class Adapter:
     command_timeout_s: float | None = None
     stop_time_s: float | None = None
     goal_time_s: float | None = None
-    path_tolerance: float | None = None
+    path_tolerance: JointFigure | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -58,11 +58,12 @@ class PlanningGroup(Entity):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NamedPose(Entity):
-    """Joint positions of one group, rad or m, in the order of ``joints``."""
+    """Joint positions of one group, rad or m, in the order of ``joints``; ``linear`` where written as a length."""
 
     group: str
     joints: tuple[str, ...]
     positions: tuple[float, ...]
+    linear: tuple[bool, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -115,6 +116,7 @@ class Fault(Entity):
     jump_s: float | None = None  # for jump_clock
     displacement: float | None = None  # for displace and jog, rad or m
     velocity: float | None = None  # for slow, rad/s or m/s
+    linear: bool = False  # whether either was written as a length
     factor: float | None = None  # for scale_speed, 0 to 1
 
 

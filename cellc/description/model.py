@@ -153,6 +153,11 @@ class Joint:
         """Whether the joint has a position of its own or of the joint that it follows."""
         return self.type in ("revolute", "continuous", "prismatic")
 
+    @property
+    def slides(self) -> bool:
+        """Whether its positions are lengths."""
+        return self.type == "prismatic"
+
 
 @dataclass(frozen=True, slots=True)
 class HardwareInterface:

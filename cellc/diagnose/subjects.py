@@ -92,7 +92,7 @@ def _trajectories(cell: Cell) -> Rows:
 
 
 def _controller(controller: Controller, manager: ControllerManager) -> tuple[str, ...]:
-    tolerance = controller.path_tolerance
+    stated = sorted({figure.value for figure in (controller.path_tolerance or {}).values()})
     return (
         controller.name,
         f"{manager.namespace}/{controller.name}",
@@ -100,7 +100,7 @@ def _controller(controller: Controller, manager: ControllerManager) -> tuple[str
         controller.plugin,
         _list(controller.joints),
         _list(controller.command_interfaces),
-        _NOT_STATED if tolerance is None else shortest(tolerance),
+        _list(shortest(tolerance) for tolerance in stated) or _NOT_STATED,
     )
 
 

@@ -142,7 +142,7 @@ def _adapted(device: Device, joints: tuple[str, ...], action: Interface, state: 
         command_timeout_s=_or(stated.command_timeout_s, DEFAULT_TIMEOUT_PERIODS * period_s),
         stop_time_s=_or(stated.stop_time_s, DEFAULT_STOP_S),
         goal_time_s=_or(stated.goal_time_s, DEFAULT_GOAL_TIME_S),
-        path_tolerance=_or(stated.path_tolerance, DEFAULT_PATH_TOLERANCE),
+        path_tolerance=DEFAULT_PATH_TOLERANCE if stated.path_tolerance is None else stated.path_tolerance.value,
     )
 
 

@@ -10,13 +10,14 @@ from cellc.catalog.device_controller import DeviceController
 from cellc.catalog.device_interfaces import CommandFacts, PluginUse
 from cellc.catalog.load import controller_kinds, kind_behind
 from cellc.cell.control import Controller, OnReal, StandIn, VendorCommand
-from cellc.cell.device import Device
+from cellc.cell.device import Device, DeviceJoint
 from cellc.cell.interface import TARGETS, ParameterValue
 from cellc.diagnostics import Diagnostic, Outcome, Severity, YamlPath, did_you_mean
 from cellc.link.controller_parameters import bind_parameters
 from cellc.link.devices import BoundDevice
 from cellc.link.names import unknown_name
 from cellc.link.quantities import si
+from cellc.link.tolerances import UNSTATED, Tolerances, bind_tolerances, unknown_joints
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
 from cellc.spec.control import ControllerSpec
@@ -70,13 +71,14 @@ class _Chosen:
 
 @dataclass(frozen=True, slots=True)
 class _Interfaces:
-    """What a controller takes: its joints, what it wants of each, and the full names of all."""
+    """What a controller takes: its joints, what it wants and allows of each, and the full names of all."""
 
     joints: tuple[str, ...]
     claims: tuple[str, ...]
     reads: tuple[str, ...]
     command: tuple[str, ...]
     state: tuple[str, ...]
+    tolerances: Tolerances
 
 
 def link_controller(place: ControllerPlace, written: ControllerSpec, context: ControlContext) -> Outcome[Controller]:
@@ -94,8 +96,11 @@ def link_controller(place: ControllerPlace, written: ControllerSpec, context: Co
         return Outcome(None, (_no_device(place, written, context),))
     joints = _joints(written, place.path, chosen, context)
     interfaces = _interfaces(joints.value or (), written, chosen)
-    controller = _controller(place, written, chosen, interfaces, context)
-    return Outcome(controller, (*joints.diagnostics, *_unknown_client(place.path, written, context)))
+    driven = {label: joint for label, joint in _all_joints(context).items() if joint.name in interfaces.joints}
+    tolerances = bind_tolerances(written, driven)
+    controller = _controller(place, written, chosen, replace(interfaces, tolerances=tolerances), context)
+    unknown = unknown_joints(written, driven, context.document, place.path)
+    return Outcome(controller, (*joints.diagnostics, *unknown, *_unknown_client(place.path, written, context)))
 
 
 def _choose(type_: str, at: YamlPath, bound: BoundDevice | None, context: ControlContext) -> Outcome[_Chosen]:
@@ -167,8 +172,8 @@ def _controller(
         action=None if kind.action is None else f"{place.namespace}/{place.name}/{kind.action.suffix}",
         action_type=None if kind.action is None else kind.action.types.get(context.distro),
         goal_time_s=si(written.goal_time),
-        path_tolerance=si(written.path_tolerance),
-        goal_tolerance=si(written.goal_tolerance),
+        path_tolerance=interfaces.tolerances.path,
+        goal_tolerance=interfaces.tolerances.goal,
         on_violation=written.on_violation,
         update_rate_hz=si(written.update_rate),
     )
@@ -200,7 +205,9 @@ def _parameters(
     written: ControllerSpec, chosen: _Chosen, interfaces: _Interfaces, context: ControlContext
 ) -> Mapping[str, ParameterValue]:
     joints, claims, reads = interfaces.joints, interfaces.claims, interfaces.reads
-    values = bind_parameters(chosen.kind, chosen.plugin, written, joints, claims, reads, chosen.device, context.distro)
+    values = bind_parameters(
+        chosen.kind, chosen.plugin, written, joints, claims, reads, chosen.device, interfaces.tolerances, context.distro
+    )
     return values if chosen.bound is None else chosen.bound.names.fill_parameters(values)
 
 
@@ -259,17 +266,17 @@ def _interfaces(joints: tuple[str, ...], written: ControllerSpec, chosen: _Chose
     if bound is not None and own is not None and own.behaviour in OF_ONE_DEVICE:
         # It drives no joint, and names what it takes in full.
         command, state = (tuple(map(bound.names.fill, names)) for names in own.taken(chosen.plugin))
-        return _Interfaces((), (), (), command, state)
+        return _Interfaces((), (), (), command, state, UNSTATED)
     if kind.kind is Behaviour.GPIO_COMMAND:
         command, state = (_of_gpios(written, which, bound) for which in ("command", "state"))
-        return _Interfaces((), (), (), command, state)
+        return _Interfaces((), (), (), command, state, UNSTATED)
     claims = (
         written.command_interfaces or (own.command_interfaces if own is not None else ()) or kind.command_interfaces
     )
     reads = _read(kind, joints, chosen.device)
     command = tuple(f"{joint}/{claim}" for joint in joints for claim in claims)
     state = tuple(f"{joint}/{read}" for joint in joints for read in reads)
-    return _Interfaces(joints, claims, reads, command, state)
+    return _Interfaces(joints, claims, reads, command, state, UNSTATED)
 
 
 def _of_gpios(written: ControllerSpec, which: str, bound: BoundDevice | None) -> tuple[str, ...]:
@@ -300,15 +307,18 @@ def _joints(
 ) -> Outcome[tuple[str, ...]]:
     if not written.joints:
         return Outcome(() if chosen.device is None else _default_joints(chosen.kind, chosen.device))
-    known = {
-        f"{name}/{joint.local_name}": joint.name for name, one in context.devices.items() for joint in one.device.joints
-    }
+    known = _all_joints(context)
     problems = tuple(
         unknown_name("unknown-joint", joint, "joint", known, context.document, (*path, "joints", index))
         for index, joint in enumerate(written.joints)
         if joint not in known
     )
-    return Outcome(tuple(known[joint] for joint in written.joints if joint in known), problems)
+    return Outcome(tuple(known[joint].name for joint in written.joints if joint in known), problems)
+
+
+def _all_joints(context: ControlContext) -> dict[str, DeviceJoint]:
+    """Return the joints of all devices by `device/joint`."""
+    return {f"{name}/{joint.local_name}": joint for name, one in context.devices.items() for joint in one.device.joints}
 
 
 def _default_joints(kind: ControllerKind, device: Device) -> tuple[str, ...]:

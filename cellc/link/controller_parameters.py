@@ -8,6 +8,7 @@ from cellc.catalog.controller_kind import ControllerKind
 from cellc.catalog.device_interfaces import PluginUse
 from cellc.cell.device import Device
 from cellc.cell.interface import ParameterValue
+from cellc.link.tolerances import Tolerances
 from cellc.spec.control import ControllerSpec
 from cellc.vocabulary import Distro
 
@@ -29,6 +30,7 @@ def bind_parameters(
     claims: tuple[str, ...],
     states: tuple[str, ...],
     device: Device | None,
+    tolerances: Tolerances,
     distro: Distro,
 ) -> dict[str, ParameterValue]:
     """Return the parameters, dots for nesting; what the user wrote by hand comes last and wins."""
@@ -42,8 +44,8 @@ def bind_parameters(
     if _declares(kind, "state_interfaces", distro) and states:
         values["state_interfaces"] = states
     values |= {name: value for name, value in _EXPLICIT.items() if _declares(kind, name, distro)}
-    values |= dict(_tolerances(kind, written, joints, distro))
-    values |= dict(_gripper(kind, written, device, distro))
+    values |= dict(_tolerances(kind, written, joints, tolerances, distro))
+    values |= dict(_gripper(kind, device, tolerances, distro))
     if written.update_rate is not None:
         values["update_rate"] = round(written.update_rate.si)
     return values | plugin.parameters | written.parameters
@@ -54,27 +56,28 @@ def _declares(kind: ControllerKind, name: str, distro: Distro) -> bool:
 
 
 def _tolerances(
-    kind: ControllerKind, written: ControllerSpec, joints: tuple[str, ...], distro: Distro
+    kind: ControllerKind, written: ControllerSpec, joints: tuple[str, ...], tolerances: Tolerances, distro: Distro
 ) -> Iterator[tuple[str, ParameterValue]]:
     if not _declares(kind, "constraints.goal_time", distro):
         return
     if written.goal_time is not None:
         yield "constraints.goal_time", float(written.goal_time.si)
+    path, goal = tolerances.path or {}, tolerances.goal or {}
     for joint in joints:
-        if written.path_tolerance is not None:
-            yield f"constraints.{joint}.trajectory", float(written.path_tolerance.si)
-        if written.goal_tolerance is not None:
-            yield f"constraints.{joint}.goal", float(written.goal_tolerance.si)
+        if joint in path:
+            yield f"constraints.{joint}.trajectory", path[joint].value
+        if joint in goal:
+            yield f"constraints.{joint}.goal", goal[joint].value
 
 
 def _gripper(
-    kind: ControllerKind, written: ControllerSpec, device: Device | None, distro: Distro
+    kind: ControllerKind, device: Device | None, tolerances: Tolerances, distro: Distro
 ) -> Iterator[tuple[str, ParameterValue]]:
     if device is None or device.gripper is None:
         return
     if _declares(kind, "goal_tolerance", distro):
-        stated = written.goal_tolerance
-        yield "goal_tolerance", device.gripper.goal_tolerance if stated is None else float(stated.si)
+        stated = (tolerances.goal or {}).get(device.gripper.joint)
+        yield "goal_tolerance", device.gripper.goal_tolerance if stated is None else stated.value
     if _declares(kind, "allow_stalling", distro):
         # Fingers that meet a part stand still before their goal: that is a grasp, not a failure.
         yield "allow_stalling", True

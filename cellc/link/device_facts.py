@@ -142,7 +142,7 @@ def _adapter(written: DeviceSpec) -> Adapter | None:
         command_timeout_s=si(adapter.command_timeout),
         stop_time_s=si(adapter.stop_time),
         goal_time_s=si(adapter.goal_time),
-        path_tolerance=si(adapter.path_tolerance),
+        path_tolerance=None if adapter.path_tolerance is None else joint_figure(adapter.path_tolerance),
     )
 
 

@@ -82,6 +82,7 @@ def link_poses(
                         group=group,
                         joints=joints[group],
                         positions=positions.si,
+                        linear=positions.linear,
                     )
                 )
     return Outcome(tuple(poses), tuple(problems))

@@ -6,8 +6,6 @@ from cellc.cell.site import JointFigure
 from cellc.spec.quantity import Quantity, QuantityVector
 from cellc.transforms import Pose, Vector3, from_xyz_rpy
 
-_LENGTHS = ("m", "mm", "cm", "um", "m/s", "mm/s")
-
 
 def si(quantity: Quantity | None) -> float | None:
     """Return a quantity in SI, None where nothing is written."""
@@ -16,7 +14,7 @@ def si(quantity: Quantity | None) -> float | None:
 
 def joint_figure(quantity: Quantity) -> JointFigure:
     """Return a position or speed of a joint, and whether the user wrote it as a length."""
-    return JointFigure(quantity.si, quantity.unit in _LENGTHS)
+    return JointFigure(quantity.si, quantity.linear)
 
 
 def vector(quantity: QuantityVector | None) -> Vector3:

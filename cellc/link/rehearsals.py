@@ -215,11 +215,7 @@ SENDS_GOALS = ("move", "grip")
 
 
 def link_fault(
-    fault: FaultSpec,
-    document: SourceDocument,
-    path: YamlPath,
-    targets: Mapping[str, Target],
-    steps: tuple[Step, ...],
+    fault: FaultSpec, document: SourceDocument, path: YamlPath, targets: Mapping[str, Target], steps: tuple[Step, ...]
 ) -> Outcome[Fault]:
     """Bind one fault.
 
@@ -246,6 +242,8 @@ def link_fault(
         jump_s=fault.by.si if isinstance(fault, JumpClockFault) else None,
         displacement=fault.by.si if isinstance(fault, DisplaceFault | JogFault) else None,
         velocity=fault.to.si if isinstance(fault, SlowFault) else None,
+        linear=isinstance(fault, DisplaceFault | JogFault | SlowFault)
+        and (fault.to if isinstance(fault, SlowFault) else fault.by).linear,
         factor=fault.to.si if isinstance(fault, ScaleSpeedFault) else None,
     )
     return Outcome(bound, (*problems, *_misplaced(event, steps, document, (*path, "at"))))

@@ -1,11 +1,30 @@
 """Controller managers, controllers, planning groups, named poses and Cartesian goals."""
 
-from typing import Literal
+from typing import Annotated, Literal, Union
 
-from pydantic import Field
+from pydantic import Discriminator, Field, Tag
 
 from cellc.spec.base import FrameReference, Name, Namespace, ParameterValue, SpecModel, Text
-from cellc.spec.quantity import Duration, JointPosition, JointPositions, Position, RollPitchYaw, UpdateRate
+from cellc.spec.quantity import (
+    Duration,
+    JointPosition,
+    JointPositions,
+    JointTolerances,
+    Position,
+    RollPitchYaw,
+    UpdateRate,
+)
+
+
+def _by_joint(value: object) -> str:
+    return "mapping" if isinstance(value, dict) else "text"
+
+
+Tolerance = Annotated[
+    Union[Annotated[JointTolerances, Tag("text")], Annotated[dict[Text, JointPosition], Tag("mapping")]],
+    Discriminator(_by_joint),
+]
+"""One figure, one for each kind of joint as in ``0.2 rad 5 mm``, or one for each joint by ``device/joint``."""
 
 
 class ControllerSpec(SpecModel):
@@ -24,11 +43,15 @@ class ControllerSpec(SpecModel):
     active: bool = Field(True, description="Active after start-up; false for an alternate.", examples=[True])
     client: Name | None = Field(None, description="The one node that may command it.", examples=["move_group"])
     goal_time: Duration | None = Field(None, description="Time allowed past the end of a trajectory.", examples=["1 s"])
-    path_tolerance: JointPosition | None = Field(
-        None, description="Largest following error on the way, each joint.", examples=["0.2 rad"]
+    path_tolerance: Tolerance | None = Field(
+        None,
+        description="Largest following error on the way, of all joints, of each kind of joint, or by joint.",
+        examples=["0.2 rad"],
     )
-    goal_tolerance: JointPosition | None = Field(
-        None, description="Largest error at the end, each joint.", examples=["0.01 rad"]
+    goal_tolerance: Tolerance | None = Field(
+        None,
+        description="Largest error at the end, of all joints, of each kind of joint, or by joint.",
+        examples=["0.01 rad"],
     )
     on_violation: Literal["abort_and_hold", "abort_and_decelerate"] = Field(
         "abort_and_hold", description="What happens on a tolerance violation.", examples=["abort_and_hold"]
@@ -116,7 +139,7 @@ class MotionSpec(SpecModel):
     )
     poses: dict[Name, dict[Name, JointPositions]] = Field(
         default_factory=dict,
-        description="Named poses: joint positions by group, in chain order.",
+        description="Named poses: joint positions by group, in chain order; a unit is that of all numbers before it.",
         examples=[{"home": {"manipulator": "0 -90 90 -90 -90 0 deg"}}],
     )
     goals: dict[Name, GoalSpec] = Field(

@@ -21,8 +21,10 @@ from pydantic_core import PydanticCustomError, core_schema
 # Two digits of exponent: nothing in a cell is 1e100, and no factor then takes a value past the range of a double.
 _NUMBER = r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]{1,2})?"
 _SPACE = r" \t\r\n"
-_NUMBERS_THEN_UNIT = re.compile(
-    rf"[{_SPACE}]*({_NUMBER}(?:[{_SPACE},]+{_NUMBER})*)[{_SPACE}]*([^{_SPACE}0-9].*?)?[{_SPACE}]*", re.ASCII
+_NUMBERS = rf"{_NUMBER}(?:[{_SPACE},]+{_NUMBER})*"
+_NUMBERS_THEN_UNIT = re.compile(rf"[{_SPACE}]*({_NUMBERS})[{_SPACE}]*([^{_SPACE}0-9].*?)?[{_SPACE}]*", re.ASCII)
+_ONE_OF_SEVERAL = re.compile(
+    rf"[{_SPACE}]*({_NUMBERS}[{_SPACE}]*[^{_SPACE}0-9,.+-][^{_SPACE},]*)(?:[{_SPACE},]+|$)", re.ASCII
 )
 _MAX_TEXT = 400  # a pose of 20 joints is under 200 characters; more is no quantity
 
@@ -63,6 +65,7 @@ JERK = _dimension("jerk", {"m/s^3": "1", "mm/s^3": "0.001"}, 1e8)
 ANGULAR_VELOCITY = _dimension("angular velocity", {"deg/s": None, "rad/s": "1"}, 1e5)
 ANGULAR_ACCELERATION = _dimension("angular acceleration", {"deg/s^2": None, "rad/s^2": "1"}, 1e7)
 ANGULAR_JERK = _dimension("angular jerk", {"deg/s^3": None, "rad/s^3": "1"}, 1e9)
+_LINEAR = frozenset(unit for one in (LENGTH, VELOCITY, ACCELERATION, JERK) for unit, _ in one.units)
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,21 +76,32 @@ class Quantity:
     unit: str
     text: str
 
+    @property
+    def linear(self) -> bool:
+        """Whether it is a length, or what a length does in time."""
+        return self.unit in _LINEAR
+
 
 @dataclass(frozen=True, slots=True)
 class QuantityVector:
-    """Several values of one unit: ``si`` in SI units and radians, ``unit`` and ``text`` as written."""
+    """Several values: ``si`` in SI units and radians, ``units`` of each and ``text`` as written."""
 
     si: tuple[float, ...]
-    unit: str
+    units: tuple[str, ...]
     text: str
+
+    @property
+    def linear(self) -> tuple[bool, ...]:
+        """Whether each value is a length."""
+        return tuple(unit in _LINEAR for unit in self.units)
 
 
 @dataclass(frozen=True, slots=True)
 class QuantityType:
     """Tells pydantic how a field reads its text; ``size`` is 1, a fixed count, or 0 for any count.
 
-    ``least`` and ``most`` are bounds in SI, those of the dimension where they are None.
+    ``least`` and ``most`` are bounds in SI, those of the dimension where they are None. ``mixed`` where values of
+    another unit may follow, as in ``400 mm 0 -90 deg``: a unit is that of all numbers before it that have none.
     """
 
     dimensions: tuple[Dimension, ...]
@@ -95,6 +109,7 @@ class QuantityType:
     size: int = 1
     least: float | None = None
     most: float | None = None
+    mixed: bool = False
 
     def __get_pydantic_core_schema__(self, source: object, handler: GetCoreSchemaHandler) -> core_schema.CoreSchema:
         return core_schema.no_info_plain_validator_function(
@@ -104,11 +119,20 @@ class QuantityType:
     def __get_pydantic_json_schema__(
         self, schema: core_schema.CoreSchema, handler: GetJsonSchemaHandler
     ) -> dict[str, Any]:
-        more = {0: "*", 1: "{0}"}.get(self.size, f"{{{self.size - 1}}}")
-        numbers = rf"{_NUMBER}(?:[{_SPACE},]+{_NUMBER}){more}"
-        units = "|".join(re.escape(unit).replace("\\ ", " ") for unit in self.units())
-        pattern = rf"^[{_SPACE}]*{numbers}[{_SPACE}]*(?:{units})[{_SPACE}]*$"
+        written = self._written(self.dimensions)
+        if self.mixed and self.size == 1:
+            first, second = (self._written((dimension,)) for dimension in self.dimensions)
+            written = rf"(?:{first}(?:[{_SPACE},]+{second})?|{second}(?:[{_SPACE},]+{first})?)"
+        elif self.mixed:
+            written += rf"(?:[{_SPACE},]+{written})*"
+        pattern = rf"^[{_SPACE}]*{written}[{_SPACE}]*$"
         return {"type": "string", "pattern": pattern, "maxLength": _MAX_TEXT, "x-units": list(self.units())}
+
+    def _written(self, dimensions: tuple[Dimension, ...]) -> str:
+        """Return the pattern of numbers with one unit of some dimensions."""
+        more = {0: "*", 1: "{0}"}.get(self.size, f"{{{self.size - 1}}}")
+        units = "|".join(re.escape(unit).replace("\\ ", " ") for one in dimensions for unit, _ in one.units)
+        return rf"{_NUMBER}(?:[{_SPACE},]+{_NUMBER}){more}[{_SPACE}]*(?:{units})"
 
     def units(self) -> tuple[str, ...]:
         """List the units that fit, in the order of the dimensions."""
@@ -121,13 +145,28 @@ class QuantityType:
             raise PydanticCustomError("not-a-quantity", "expected {what}, such as `{example}`", self._context())
         if not isinstance(value, str):
             raise self._missing_unit(str(value))
-        match = _NUMBERS_THEN_UNIT.fullmatch(value) if len(value) <= _MAX_TEXT else None
-        if match is None:
-            context = self._context() | {"text": value[:60]}
-            raise PydanticCustomError("not-a-quantity", "`{text}` is not {what}, such as `{example}`", context)
-        return self._convert(value, re.split(r"[\s,]+", match[1]), match[2])
+        if self.mixed:
+            return self._joined(value, _parts(value))
+        read = self._convert(value, *self._split(value))
+        return Quantity(read.si[0], read.units[0], value) if self.size == 1 else read
 
-    def _convert(self, text: str, numbers: list[str], unit: str | None) -> Quantity | QuantityVector:
+    def _split(self, text: str) -> tuple[list[str], str | None]:
+        match = _NUMBERS_THEN_UNIT.fullmatch(text) if len(text) <= _MAX_TEXT else None
+        if match is None:
+            context = self._context() | {"text": text[:60]}
+            raise PydanticCustomError("not-a-quantity", "`{text}` is not {what}, such as `{example}`", context)
+        return re.split(r"[\s,]+", match[1]), match[2]
+
+    def _joined(self, text: str, parts: list[str]) -> QuantityVector:
+        read = [self._convert(text, *self._split(part)) for part in parts]
+        kinds = [linear for one in read for linear in one.linear]
+        if self.size == 1 and len(set(kinds)) < len(kinds):
+            context = self._context() | {"what": "an angle, a length, or one of each"}
+            raise PydanticCustomError("not-a-quantity", "expected {what}, such as `{example}`", context)
+        si = tuple(value for one in read for value in one.si)
+        return QuantityVector(si, tuple(unit for one in read for unit in one.units), text)
+
+    def _convert(self, text: str, numbers: list[str], unit: str | None) -> QuantityVector:
         if unit is None:
             raise self._missing_unit(text)
         factors = {name: factor for dimension in self.dimensions for name, factor in dimension.units}
@@ -143,7 +182,7 @@ class QuantityType:
             bounds = f"between {_shown(least, factors[unit])} and {_shown(most, factors[unit])} {unit}"
             context = {"bounds": bounds, "text": text[:60]}
             raise PydanticCustomError("quantity-out-of-range", "must be {bounds}, got `{text}`", context)
-        return Quantity(values[0], unit, text) if self.size == 1 else QuantityVector(values, unit, text)
+        return QuantityVector(values, (unit,) * len(values), text)
 
     def _bounds(self, unit: str) -> tuple[float, float]:
         largest = next(one.largest for one in self.dimensions if unit in dict(one.units))
@@ -157,6 +196,16 @@ class QuantityType:
         names = " or ".join(dimension.name for dimension in self.dimensions)
         article = "an" if names[0] in "aeiou" else "a"
         return {"what": f"{article} {names}", "units": ", ".join(self.units()), "example": self.example}
+
+
+def _parts(text: str) -> list[str]:
+    """Split a text of several units into numbers with their unit; it stays whole where it cannot be split."""
+    parts: list[str] = []
+    at, end = 0, len(text.rstrip(" \t\r\n"))
+    while len(text) <= _MAX_TEXT and (match := _ONE_OF_SEVERAL.match(text, at)):
+        parts.append(match[1])
+        at = match.end()
+    return parts if at >= end and parts else [text]
 
 
 def _scaled(number: str, factor: Decimal | None) -> float:
@@ -198,7 +247,9 @@ JointPosition = Annotated[Quantity, QuantityType((ANGLE, LENGTH), "0.2 rad")]
 JointVelocity = Annotated[Quantity, QuantityType((ANGULAR_VELOCITY, VELOCITY), "30 deg/s")]
 JointAcceleration = Annotated[Quantity, QuantityType((ANGULAR_ACCELERATION, ACCELERATION), "2 rad/s^2", least=1e-6)]
 JointJerk = Annotated[Quantity, QuantityType((ANGULAR_JERK, JERK), "20 rad/s^3", least=1e-6)]
-JointPositions = Annotated[QuantityVector, QuantityType((ANGLE, LENGTH), "0 -90 90 -90 -90 0 deg", size=0)]
+JointPositions = Annotated[QuantityVector, QuantityType((ANGLE, LENGTH), "0 -90 90 -90 -90 0 deg", size=0, mixed=True)]
+# One figure for joints that turn, one for joints that slide, or both.
+JointTolerances = Annotated[QuantityVector, QuantityType((ANGLE, LENGTH), "0.2 rad", mixed=True)]
 Position = Annotated[QuantityVector, QuantityType((LENGTH,), "0 0 162 mm", size=3)]
 FieldAngle = Annotated[Quantity, QuantityType((ANGLE,), "69 deg", least=0.0)]
 RollPitchYaw = Annotated[QuantityVector, QuantityType((ANGLE,), "0 90 0 deg", size=3)]

@@ -94,3 +94,25 @@ def test_interface_that_is_no_slip_of_a_standard_one_is_a_vendors_own(tmp_path: 
     )
     file.write_text(own, encoding="utf-8")
     assert load_device_folder(folder, tmp_path).diagnostics == ()
+
+
+@pytest.mark.parametrize(
+    ("device", "old", "new", "message"),
+    [
+        ("stage", "slide: {value: 5 m/s^2", "slide: {value: 5 rad/s^2", "in `m` or `mm`, got 5 rad/s^2"),
+        ("stage", "turn: {value: 50 rad/s^3", "turn: {value: 50 m/s^3", "in `rad` or `deg`, got 50 m/s^3"),
+        ("lift", "slide: {value: 20 m/s^3, source: made up}, ", "", "`jerk` of `slide`, which is prismatic, must be"),
+        ("demo_gripper", "closed: 40 mm", "closed: 2 deg", "`closed` of `finger_joint`, which is prismatic, must be"),
+    ],
+)
+def test_figure_of_another_unit_than_its_joint_is_found_at_its_line(
+    device: str, old: str, new: str, message: str, tmp_path: Path
+) -> None:
+    shutil.copytree(PARTS / device, tmp_path / device)
+    file = tmp_path / device / "device.yaml"
+    text = file.read_text(encoding="utf-8")
+    assert old in text
+    file.write_text(text.replace(old, new), encoding="utf-8")
+    (found,) = load_device_folder(tmp_path / device, tmp_path).diagnostics
+    assert message in found.message
+    assert found.span.line == text[: text.index(old)].count("\n") + 1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import pytest
@@ -157,3 +158,36 @@ def test_parameters_keep_the_type_that_was_written(tmp_path: Path) -> None:
     assert [(type(value), value) for value in values.values()] == [
         (int, 1), (float, 1.0), (bool, True), (str, "1"), (tuple, ("a",))
     ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("written", "si", "units"),
+    [
+        ("400 mm 0 -90 deg", (0.4, 0.0, -math.pi / 2), ("mm", "deg", "deg")),
+        ("0.5 rad, 20 30 mm, 1 rad", (0.5, 0.02, 0.03, 1.0), ("rad", "mm", "mm", "rad")),
+        ("400mm 90deg", (0.4, math.pi / 2), ("mm", "deg")),
+        ("1 2 m", (1.0, 2.0), ("m", "m")),
+    ],
+)
+def test_each_value_of_a_pose_has_the_unit_behind_it(
+    written: str, si: tuple[float, ...], units: tuple[str, ...], tmp_path: Path
+) -> None:
+    spec = parsed(HEAD + ARM + f'motion: {{poses: {{home: {{all: "{written}"}}}}}}\n', tmp_path).value
+    assert spec is not None
+    pose = spec.motion.poses["home"]["all"]
+    assert pose.si == pytest.approx(si)
+    assert pose.units == units
+
+
+@pytest.mark.parametrize("written", ["400 mm 0 -90", "400 mm 0 -90 kg", "deg 400 mm", "1 2 mm 3", "0 mm,, x deg"])
+def test_pose_with_a_value_without_its_unit_is_refused(written: str, tmp_path: Path) -> None:
+    found = parsed(HEAD + ARM + f'motion: {{poses: {{home: {{all: "{written}"}}}}}}\n', tmp_path).diagnostics
+    assert [one.code for one in found] in (["wrong-unit"], ["not-a-quantity"])
+
+
+def test_tolerance_has_at_most_one_figure_of_a_kind(tmp_path: Path) -> None:
+    controller = "type: joint_trajectory, device: arm, path_tolerance: 0.1 rad 5 deg"
+    control = f"control: {{update_rate: 100 Hz, controllers: {{moves: {{{controller}}}}}}}\n"
+    (found,) = parsed(HEAD + ARM + control, tmp_path).diagnostics
+    message = "expected an angle, a length, or one of each for `control.controllers.moves.path_tolerance`"
+    assert (found.code, found.message) == ("not-a-quantity", f"{message}, got the text `0.1 rad 5 deg`")

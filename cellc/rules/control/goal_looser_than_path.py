@@ -30,14 +30,16 @@ from __future__ import annotations
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-@rule(Severity.WARNING)
+@rule(Severity.WARNING, assumes=("unit-of-another-joint",))
 def check(graph: CellGraph) -> Findings:
     """Yield controllers whose goal tolerance exceeds the path tolerance."""
     for controller in graph.cell.controllers:
-        goal, way = controller.goal_tolerance, controller.path_tolerance
-        if goal and way and goal > way:
-            message = (
-                f"`goal_tolerance` of `{controller.name}` must be at most its `path_tolerance` of {way:g}, got {goal:g}"
-            )
-            path = (*controller.path, "goal_tolerance")
-            yield found(graph, path, message)
+        ways = controller.path_tolerance or {}
+        looser = (
+            (goal.value, ways[joint].value)
+            for joint, goal in (controller.goal_tolerance or {}).items()
+            if joint in ways and goal.value > ways[joint].value > 0.0
+        )
+        for goal, way in dict.fromkeys(looser):
+            message = f"`goal_tolerance` of `{controller.name}` must be at most its `path_tolerance`"
+            yield found(graph, (*controller.path, "goal_tolerance"), f"{message} of {way:g}, got {goal:g}")

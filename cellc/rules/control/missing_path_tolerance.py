@@ -26,20 +26,11 @@ Source: https://control.ros.org/jazzy/doc/ros2_controllers/joint_trajectory_cont
 
 from __future__ import annotations
 
-from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
-from cellc.vocabulary import TRAJECTORIES
+from cellc.rules.kit import CellGraph, Findings, Severity, rule
+from cellc.rules.tolerances import unwatched_joints
 
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield trajectory controllers without the value, and with zero, which switches the check off."""
-    for controller in graph.cell.controllers:
-        if controller.behaviour not in TRAJECTORIES:
-            continue
-        if not controller.path_tolerance:
-            unstated = controller.path_tolerance is None
-            path = controller.path if unstated else (*controller.path, "path_tolerance")
-            message = f"`{controller.name}` does not state `path_tolerance`"
-            if not unstated:
-                message = f"`path_tolerance` of `{controller.name}` must be above zero, which switches the check off"
-            yield found(graph, path, message)
+    yield from unwatched_joints(graph, "path_tolerance")

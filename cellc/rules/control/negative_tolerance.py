@@ -29,18 +29,23 @@ Source: https://github.com/ros-controls/ros2_controllers/blob/4.25.0/joint_traje
 
 from __future__ import annotations
 
-from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
+from cellc.rules.kit import CellGraph, Findings, Severity, YamlPath, found, rule
+from cellc.rules.tolerances import stated
 
 
 @rule(Severity.ERROR, assumes=("parameter-out-of-range",))
 def check(graph: CellGraph) -> Findings:
     """Yield tolerances and constraints of controllers that are negative."""
     for controller in graph.cell.controllers:
-        stated = {"path_tolerance": controller.path_tolerance, "goal_tolerance": controller.goal_tolerance}
-        for key, value in (*stated.items(), *controller.written_parameters.items()):
-            watched = "tolerance" in key or key.startswith("constraints.")
-            if watched and isinstance(value, int | float) and value < 0:
-                path = (*controller.path, *(() if key in stated else ("parameters",)), key)
-                written = graph.cell.text(*path) or f"{value:g}"
-                message = f"`{key}` of `{controller.name}` must be above zero, got {written}"
-                yield found(graph, path, message)
+        least: dict[YamlPath, float] = {
+            (key,): min(figure.value for figure in figures.values()) for key, figures in stated(controller) if figures
+        }
+        for name, written in controller.written_parameters.items():
+            watched = "tolerance" in name or name.startswith("constraints.")
+            if watched and isinstance(written, int | float):
+                least["parameters", name] = written
+        for at, value in least.items():
+            if value < 0:
+                path = (*controller.path, *at)
+                text = graph.cell.text(*path) or f"{value:g}"
+                yield found(graph, path, f"`{at[-1]}` of `{controller.name}` must be above zero, got {text}")

@@ -30,6 +30,8 @@ Source:
 
 from __future__ import annotations
 
+import math
+
 from cellc.cell.control import Controller
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 from cellc.vocabulary import TRAJECTORIES
@@ -38,28 +40,28 @@ _SHARE_OF_RANGE = 0.5
 _WIDEST_RAD = 1.0
 
 
-@rule(Severity.ERROR)
+@rule(Severity.ERROR, assumes=("unit-of-another-joint",))
 def check(graph: CellGraph) -> Findings:
     """Yield trajectory controllers whose tolerance exceeds half of a joint's range, or 1 rad."""
     for controller in graph.cell.controllers:
         if controller.behaviour not in TRAJECTORIES or controller.path_tolerance is None:
             continue
-        joint, widest = _widest(graph, controller)
-        if joint and controller.path_tolerance > widest:
+        bounds = _bounds(graph, controller)
+        wide = [(bounds[name], name) for name, one in controller.path_tolerance.items() if one.value > bounds[name]]
+        if wide:
+            widest, joint = min(wide)
             path = (*controller.path, "path_tolerance")
-            written = graph.cell.text(*path)
+            written = graph.cell.text(*path) or f"{controller.path_tolerance[joint].value:g}"
             message = f"`path_tolerance` of `{controller.name}` must be at most {widest:.3g} rad or m, half of"
             message += f" what `{joint}` moves or 1 rad, got {written}"
             yield found(graph, path, message)
 
 
-def _widest(graph: CellGraph, controller: Controller) -> tuple[str, float]:
-    """Return the joint of a controller with the smallest bound, and the bound in rad or m."""
-    bounds = []
-    for device in graph.cell.devices:
-        for joint in device.joints:
-            if joint.name in controller.joints and joint.lower is not None and joint.upper is not None:
-                bound = _SHARE_OF_RANGE * (joint.upper - joint.lower)
-                bounds.append((bound if joint.type == "prismatic" else min(bound, _WIDEST_RAD), joint.name))
-    least = min(bounds, default=(0.0, ""))
-    return least[1], least[0]
+def _bounds(graph: CellGraph, controller: Controller) -> dict[str, float]:
+    """Return the widest tolerance of each joint in rad or m; no bound where a joint has no limits."""
+    bounds = dict.fromkeys(controller.joints, math.inf)
+    for joint in (joint for device in graph.cell.devices for joint in device.joints if joint.name in bounds):
+        if joint.lower is not None and joint.upper is not None:
+            bound = _SHARE_OF_RANGE * (joint.upper - joint.lower)
+            bounds[joint.name] = bound if joint.slides else min(bound, _WIDEST_RAD)
+    return bounds

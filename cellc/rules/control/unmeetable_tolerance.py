@@ -27,33 +27,36 @@ Source: https://control.ros.org/jazzy/doc/ros2_controllers/joint_trajectory_cont
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
+
 from cellc.cell.control import Controller
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
+from cellc.rules.tolerances import stated
 from cellc.vocabulary import TRAJECTORIES
 
 _HELD = 1e-4
 """Rad or m: a tenth of a millimeter at a meter, about what industrial arms repeat."""
 
 
-@rule(Severity.WARNING)
+@rule(Severity.WARNING, assumes=("unit-of-another-joint",))
 def check(graph: CellGraph) -> Findings:
     """Yield path tolerances below one update at full speed, and goal tolerances below what arms repeat."""
+    speeds = {joint.name: joint.velocity or 0.0 for device in graph.cell.devices for joint in device.joints}
     for manager in graph.cell.managers:
         for controller in manager.controllers:
             if controller.behaviour not in TRAJECTORIES:
                 continue
-            behind = _fastest(graph, controller) / manager.update_rate_hz if manager.update_rate_hz else 0.0
-            least = (
-                ("path_tolerance", controller.path_tolerance, behind, "one update at full speed"),
-                ("goal_tolerance", controller.goal_tolerance, _HELD, "what arms repeat"),
-            )
-            for key, value, bound, why in least:
-                if value is not None and 0.0 < value < bound:
-                    path = (*controller.path, key)
-                    message = f"`{key}` of `{controller.name}` must be at least {bound:.2g} rad or m, {why},"
-                    yield found(graph, path, f"{message} got {graph.cell.text(*path)}")
+            for key, bound, why in _unmet(speeds, controller, manager.update_rate_hz):
+                path = (*controller.path, key)
+                message = f"`{key}` of `{controller.name}` must be at least {bound:.2g} rad or m, {why},"
+                yield found(graph, path, f"{message} got {graph.cell.text(*path) or 'less'}")
 
 
-def _fastest(graph: CellGraph, controller: Controller) -> float:
-    joints = [joint for device in graph.cell.devices for joint in device.joints if joint.name in controller.joints]
-    return max((joint.velocity for joint in joints if joint.velocity is not None), default=0.0)
+def _unmet(speeds: Mapping[str, float], controller: Controller, rate_hz: float) -> Iterator[tuple[str, float, str]]:
+    """Yield each key whose figure is too small for some joint, with the largest bound of those joints, and why."""
+    for key, figures in stated(controller):
+        bounds = {joint: speeds.get(joint, 0.0) / rate_hz if rate_hz else 0.0 for joint in figures or {}}
+        bounds = bounds if key == "path_tolerance" else dict.fromkeys(bounds, _HELD)
+        missed = [bounds[joint] for joint, one in (figures or {}).items() if 0.0 < one.value < bounds[joint]]
+        if missed:
+            yield key, max(missed), "one update at full speed" if key == "path_tolerance" else "what arms repeat"

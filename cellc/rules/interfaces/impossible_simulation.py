@@ -82,7 +82,8 @@ def _adapters(cell: Cell) -> Iterator[Bounded]:
             yield (*at, "command_timeout"), device.adapter.command_timeout_s, shortest_s, inf
             yield (*at, "stop_time"), device.adapter.stop_time_s, shortest_s, inf
             yield (*at, "goal_time"), device.adapter.goal_time_s, shortest_s, inf
-            yield (*at, "path_tolerance"), device.adapter.path_tolerance, 1e-9, inf
+            allowed = device.adapter.path_tolerance
+            yield (*at, "path_tolerance"), None if allowed is None else allowed.value, 1e-9, inf
 
 
 def _joints(cell: Cell) -> Iterator[Bounded]:

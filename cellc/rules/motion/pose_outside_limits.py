@@ -27,7 +27,7 @@ from __future__ import annotations
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-@rule(Severity.ERROR)
+@rule(Severity.ERROR, assumes=("unit-of-another-joint",))
 def check(graph: CellGraph) -> Findings:
     """Yield each joint of a pose that is below its lower or above its upper limit."""
     joints = {joint.name: joint for device in graph.cell.devices for joint in device.joints}

@@ -19,7 +19,7 @@ Example that is accepted:
 ```yaml
 devices:
   side_arm: {model: ./stage, mount: {parent: world, xyz: 0 2 0 m}, revision: A, firmware: stage 1.0.0}
-control: {controllers: {side: {type: joint_trajectory, device: side_arm, client: task,
+control: {controllers: {side: {type: joint_trajectory, joints: [side_arm/turn], device: side_arm, client: task,
                                goal_time: 1 s, path_tolerance: 0.1 rad, goal_tolerance: 0.1 rad}}}
 motion: {groups: {side: {base: side_arm/base, tip: side_arm/arm}}}
 ```
