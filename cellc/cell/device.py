@@ -262,7 +262,7 @@ class Device(Entity):
         tool_frame: prefixed link where tools mount, for an arm.
         carries: devices mounted on this one, directly or on a frame of it.
         host: the computer that runs its driver; empty where the cell names none.
-        versions, connection, limit_shares, stamp, adapter, simulated_joints: what the spec states of it.
+        versions, connection, initial_state, limit_shares, stamp, adapter, simulated_joints: what the spec states of it.
         payload, tcp, program, collision: what its own controller is told, and who starts the program there.
         robot: what its own controller can be told.
         tool_connector: what the connector at its tool frame gives; None where the spec says nothing.
@@ -301,6 +301,7 @@ class Device(Entity):
     carries: tuple[str, ...] = ()
     versions: DeviceVersions = field(default_factory=DeviceVersions)
     connection: Connection | None = None
+    initial_state: str | None = None
     host: str = ""
     limit_shares: LimitShares = field(default_factory=LimitShares)
     stamp: Stamp | None = None
@@ -345,6 +346,13 @@ class Device(Entity):
             if joint.name == name:
                 return joint
         raise KeyError(name)
+
+    @property
+    def comes_up(self) -> str:
+        """The state in which the controller manager is to bring up its component, on every target."""
+        if self.initial_state is not None or self.hardware is None:
+            return self.initial_state or "active"
+        return "unconfigured" if self.hardware.moves_as_it_is_activated else self.hardware.initial_state
 
     @property
     def unknown_effects(self) -> tuple[str, ...]:

@@ -138,8 +138,3 @@ class HardwareComponent:
         if effect is None:
             return not self.is_activation_known
         return effect.drops_part or effect.motion not in (Motion.NONE, Motion.HOLDS)
-
-    @property
-    def comes_up(self) -> str:
-        """The state in which the controller manager is to bring it up, on every target."""
-        return "unconfigured" if self.moves_as_it_is_activated else self.initial_state

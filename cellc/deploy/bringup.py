@@ -281,10 +281,8 @@ def _on(device: Device, target: str) -> bool:
 
 
 def _activated_later(cell: Cell, manager: ControllerManager, target: Target) -> tuple[Device, ...]:
-    """Return what does not come up active: its activation moves something, or must be one call."""
-    return tuple(
-        one for one in _components(cell, manager, target) if one.hardware and one.hardware.comes_up != "active"
-    )
+    """Return what does not come up active: its activation moves something, or must be one call, or the spec says so."""
+    return tuple(one for one in _components(cell, manager, target) if one.comes_up != "active")
 
 
 def _listening(cell: Cell, manager: ControllerManager) -> Iterator[tuple[Device, TopicProof]]:

@@ -105,11 +105,12 @@ def _joint_states(graph: CellGraph) -> Iterator[Values]:
 
 
 def _components(graph: CellGraph) -> Iterator[Values]:
-    """Yield in which state each component of the real target comes up, by its vendor."""
+    """Yield in which state each component of the real target comes up, and who says so."""
     for manager in graph.cell.managers:
         for device in map(graph.cell.device, manager.devices):
             if device.hardware is not None and "real" in device.hardware.targets:
-                yield device.hardware.name, device.hardware.comes_up
+                whose = "its vendor has it come up" if device.initial_state is None else "the spec has it come up"
+                yield device.hardware.name, device.comes_up, whose
 
 
 def _managed_nodes(graph: CellGraph) -> Iterator[Values]:
@@ -283,7 +284,7 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "mock_statement": (("device", "loaded", "by", "date"), _mock_statements),
     "mock_motion": (("command",), lambda graph: _each(move_mock(graph.cell))),
     "manager": (("manager",), _managers),
-    "component": (("component", "state"), _components),
+    "component": (("component", "state", "whose"), _components),
     "mock_action": (("action",), _mock_actions),
     "real_start": (("where", "command"), lambda graph: start_real(graph.cell)),
     "joint_states": (("topic",), _joint_states),

@@ -50,8 +50,8 @@ def _of_manager(cell: Cell, manager: ControllerManager) -> dict[str, ParameterVa
     # An update_rate with a decimal point makes the manager abort.
     rate: dict[str, ParameterValue] = {"update_rate": round(manager.update_rate_hz)}
     for state in ("unconfigured", "inactive"):
-        components = (cell.device(name).hardware for name in manager.devices)
-        if named := tuple(one.name for one in components if one is not None and one.comes_up == state):
+        devices = (cell.device(name) for name in manager.devices)
+        if named := tuple(one.hardware.name for one in devices if one.hardware and one.comes_up == state):
             rate[f"hardware_components_initial_state.{state}"] = named
     hardware = [cell.device(name).hardware for name in manager.devices]
     if Feature.LIMITED_COMMANDS in features(cell.distro) and any(

@@ -46,6 +46,7 @@ def with_statements(device: Device, written: DeviceSpec, port: str | None, docum
         architecture=written.architecture,
         versions=_versions(written),
         connection=_connection(written, port),
+        initial_state=written.initial_state,
         limit_shares=limit_shares(written),
         stamp=_stamp(written),
         adapter=_adapter(written),

@@ -42,6 +42,7 @@ _STATED = {
     "model",
     "architecture",
     "connection",
+    "initial_state",
     "stamp",
     "payload",
     "tcp",
@@ -137,7 +138,7 @@ def _stated(cell: Cell, device: Device) -> dict[str, Tree]:
         field.name: _section(cell, getattr(device.versions, field.name), (*path, field.name))
         for field in fields(device.versions)
     }
-    for key in ("connection", "payload", "tcp", "program", "collision", "tool_connector", "adapter"):
+    for key in ("connection", "initial_state", "payload", "tcp", "program", "collision", "tool_connector", "adapter"):
         tree[key] = _section(cell, getattr(device, key), (*path, key))
     tree["limits"] = _section(cell, device.limit_shares, (*path, "limits"))
     tree["simulated_joints"] = {one.name: _section(cell, one, one.path) for one in device.simulated_joints}

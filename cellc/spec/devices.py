@@ -218,6 +218,11 @@ class DeviceSpec(SpecModel):
         description="Kinematics of this very robot; those of its type if absent, which keeps the real cell closed.",
         examples=[{"file": "arm_kinematics.yaml", "measured": "2026-07-01", "owner": "robot"}],
     )
+    initial_state: Literal["unconfigured", "inactive", "active"] | None = Field(
+        None,
+        description="State in which its hardware component comes up; as its vendor has it if absent.",
+        examples=["inactive"],
+    )
     payload: PayloadSpec | None = Field(
         None,
         description="Load told to the arm, tool included.",
