@@ -7,10 +7,11 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 
 from cellc.cell.cell import Cell
 from cellc.cell.device import Device
-from cellc.cell.interface import Interface, InterfaceKind
+from cellc.cell.interface import Endpoint, Interface, InterfaceKind
 from cellc.cell.site import UNKNOWN
+from cellc.contract.bring_up import CLAIM_WATCH
+from cellc.deploy.bringup import bring_up
 from cellc.deploy.configuration import version_tuple
-from cellc.deploy.endpoints import ends_on_real
 from cellc.deploy.gate_motion import (
     Values,
     cancels,
@@ -25,7 +26,7 @@ from cellc.deploy.gate_motion import (
     stop_reasons,
     unguarded,
 )
-from cellc.deploy.processes import asks_for_motion, description_nodes
+from cellc.deploy.processes import asks_for_motion, description_nodes, motion_clients, started_by_a_person
 from cellc.deploy.recording import record_command
 from cellc.deploy.releases import ACTIVATE, CLAIM, move_mock, move_real, start_mock, start_real
 from cellc.deploy.versions import installed_parts
@@ -240,9 +241,36 @@ def _devices(graph: CellGraph) -> Iterator[Values]:
 
 def _interfaces(graph: CellGraph) -> Iterator[Values]:
     for one in _on_real(graph):
-        starts, ends = ends_on_real(graph.cell, one)
+        starts, ends = _ends_on_real(graph.cell, one)
         command = endpoint_command(graph.cell, one.kind, one.name)
         yield one.name, ", ".join(starts) or "nobody", ", ".join(ends) or "nobody", command
+
+
+def _ends_on_real(cell: Cell, interface: Interface) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return the full names of who publishes or serves, and of who subscribes or calls, when the real target runs.
+
+    A driver's node listens to the controllers of its robot, the stopper of claims to what it watches, and a planner has
+    a client of each action that it executes on. A person who compares the graph with the page finds them all.
+    """
+    late = {node.full_name for node in motion_clients(cell) if started_by_a_person(cell, node)}
+
+    def named(ends: tuple[Endpoint, ...]) -> Iterator[str]:
+        for end in ends:
+            if "real" in end.targets:
+                yield end.full_name + (" (from G7 on)" if end.full_name in late else "")
+
+    sinks = dict.fromkeys((*named(interface.sinks), *_beside(cell, interface)))
+    return tuple(dict.fromkeys(named(interface.sources))), tuple(sinks)
+
+
+def _beside(cell: Cell, interface: Interface) -> Iterator[str]:
+    """Yield who listens or calls though no line of the spec says so."""
+    for node in cell.nodes if interface.kind is not InterfaceKind.ACTION else ():
+        asked = node.endpoints.requests if interface.kind is InterfaceKind.SERVICE else node.endpoints.subscribes
+        if interface.name in {node.remaps.get(one, one) for one in asked}:
+            yield node.full_name
+    if any(watch.while_holds.topic == interface.name for watch in bring_up(cell).watches):
+        yield CLAIM_WATCH
 
 
 def _streams(graph: CellGraph) -> Iterator[Values]:

@@ -5,9 +5,11 @@ there is one file for each manager (``<manager>.controllers.yaml`` where there a
 and ``controllers.real.yaml`` where a controller commands real hardware otherwise) and one for each node, because each
 is read by another process. ``qos_overrides.yaml`` has the QoS of the contract with the names of rclcpp's
 QosOverridingOptions; a node whose author passed no such options ignores it without a word: gate L4 looks at what the
-endpoints really offer. Left out: what is a matter of launching, such as which controllers are active; nodes without
-parameters; overrides of controllers and the controller manager, which allow none, and of interfaces that the spec does
-not write.
+endpoints really offer. ``recording_qos.yaml`` is the override file of rosbag2: what an attempt records, with the QoS
+that every publisher offers, below the command that records it; raw images on the control path are recorded only where
+the spec asks for them, since their volume belongs on another card. Left out: what is a matter of launching, such as
+which controllers are active; nodes without parameters; overrides of controllers and the controller manager, which allow
+none, and of interfaces that the spec does not write.
 """
 
 from __future__ import annotations
@@ -17,20 +19,23 @@ from collections.abc import Iterator
 from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
 from cellc.cell.control import Controller, ControllerManager
-from cellc.cell.interface import TARGETS, NodeSource, ParameterValue
+from cellc.cell.interface import TARGETS, NodeSource, ParameterValue, Qos
 from cellc.deploy.deployment import Deployment
-from cellc.deploy.files import QOS_OVERRIDES, controllers_file, node_file
+from cellc.deploy.files import QOS_OVERRIDES, RECORDING, controllers_file, node_file
+from cellc.deploy.recording import record_command
 from cellc.formats.header import Header
 from cellc.formats.parameter_file import NodeParameters, parameter_file, qos_parameters
+from cellc.formats.yaml_text import Tree, render
 from cellc.graph.cell_graph import CellGraph
 from cellc.vocabulary import Feature, features
 
 
 def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
-    """Yield the files of controller managers, of nodes, and of QoS overrides."""
+    """Yield the files of controller managers, of nodes, of QoS overrides, and of the recording."""
     yield from _of_managers(graph, plan.header)
     yield from _of_nodes(graph, plan.header)
     yield from _qos_overrides(graph, plan.header)
+    yield _recording(graph, plan)
 
 
 def _of_managers(graph: CellGraph, header: Header) -> Iterator[Artifact]:
@@ -80,3 +85,21 @@ def _qos_overrides(graph: CellGraph, header: Header) -> Iterator[Artifact]:
     ]
     if sections:
         yield Artifact(QOS_OVERRIDES, parameter_file(header, sections))
+
+
+def _recording(graph: CellGraph, plan: Deployment) -> Artifact:
+    # As a comment, so that the override file says what it is used with; E is the folder of the attempt. Durations are
+    # left at their defaults, which match any publisher.
+    command = "# " + " \\\n#   ".join(record_command(graph.cell, "bag")) + "\n\n"
+    text = render({name: _profile(qos) for name, qos in plan.recorded.items()})
+    origin = "# interfaces, control.controllers, recording.topics\n"
+    return Artifact(RECORDING, plan.header.commented("#") + command + origin + text)
+
+
+def _profile(qos: Qos) -> Tree:
+    return {
+        "history": "keep_last",
+        "depth": qos.depth,
+        "reliability": qos.reliability,
+        "durability": qos.durability,
+    }

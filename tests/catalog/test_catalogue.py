@@ -25,7 +25,7 @@ from cellc.catalog.load import (
 )
 from cellc.vocabulary import OF_ONE_DEVICE, Distro
 from tests.foreign_yaml import safe_load
-from tests.oracles import UPSTREAM
+from tests.oracles import UPSTREAM, needs_upstream
 
 PARAMETERS = UPSTREAM / "parameters"
 PLACEHOLDERS = {
@@ -209,6 +209,7 @@ def test_reader_of_system_default_is_best_effort_on_fast_dds_alone() -> None:
     }
 
 
+@needs_upstream
 @pytest.mark.parametrize("distro", Distro)
 @pytest.mark.parametrize("kind", controller_kinds())
 def test_parameters_are_those_that_upstream_declares(kind: str, distro: Distro) -> None:
@@ -232,8 +233,6 @@ def _comparable(value: Any) -> Any:
 
 
 def _upstream(kind: str, distro: Distro) -> dict[str, dict[str, Any]]:
-    if not PARAMETERS.is_dir():
-        pytest.skip("upstream's own files are not beside this checkout")
     file = DECLARATIONS[kind]
     if kind == "parallel_gripper" and distro == "humble":
         file = "gripper_controllers__gripper_action_controller_parameters"

@@ -6,7 +6,6 @@ n-th time. So a busy machine changes nothing.
 
 from __future__ import annotations
 
-import os
 import signal
 import subprocess
 import sys
@@ -17,8 +16,6 @@ import pytest
 from tests.cells import ROOT
 from tests.cli.refused import everything_below
 from tests.cli.run import MINIMAL, run
-
-pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals are those of POSIX")
 
 _START = """
 import os, signal, sys

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from types import ModuleType, SimpleNamespace
 from typing import Any
@@ -25,15 +26,16 @@ def _words(*more: str) -> list[str]:
 
 @dataclass
 class Future:
-    """What is answered at once, or never."""
+    """What is answered at once, or never; a value that is only known later is asked for by a function."""
 
     answer: Any
+    later: Callable[[], Any] | None = None
 
     def done(self) -> bool:
         return self.answer is not None
 
     def result(self) -> Any:
-        return self.answer
+        return self.answer if self.later is None else self.later()
 
 
 @dataclass
@@ -68,12 +70,12 @@ class Robot:
 
     def get_result_async(self) -> Future:
         answer = SimpleNamespace(result=SimpleNamespace(error_code=0, error_string=""))
-        future = Future(answer if self.ends else None)
-        # 5 is STATUS_CANCELED and 4 STATUS_SUCCEEDED of action_msgs/msg/GoalStatus.
-        future.result = lambda: SimpleNamespace(  # type: ignore[method-assign]  # what it is by then
-            status=5 if "cancel" in self.log else 4, result=answer.result
-        )
-        return future
+
+        def ended() -> SimpleNamespace:
+            # 5 is STATUS_CANCELED and 4 STATUS_SUCCEEDED of action_msgs/msg/GoalStatus.
+            return SimpleNamespace(status=5 if "cancel" in self.log else 4, result=answer.result)
+
+        return Future(answer if self.ends else None, ended)
 
     def cancel_goal_async(self) -> None:
         self.log.append("cancel")

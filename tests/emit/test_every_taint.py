@@ -45,10 +45,12 @@ def test_what_launch_and_xacro_would_evaluate_is_text_even_where_a_reader_lets_i
     assert any("$(" in text for text in done.trial.taken.values())
 
 
-@pytest.mark.parametrize("payload", list(PAYLOADS.values()), ids=list(PAYLOADS))
+# No XML holds the others.
+_IN_XML = {name: text for name, text in PAYLOADS.items() if "\0" not in text and text.isprintable()}
+
+
+@pytest.mark.parametrize("payload", list(_IN_XML.values()), ids=list(_IN_XML))
 def test_names_of_nodes_and_their_topics_are_text_in_launch_files_whatever_readers_refuse(payload: str) -> None:
-    if "\0" in payload or not payload.isprintable():
-        pytest.skip("no XML holds it")
     text = f"tq0001q{payload}"
     harmless = twin_of(text)
     assert not list(differences(_launched_with(text), _launched_with(harmless), {harmless: text}))

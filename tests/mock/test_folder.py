@@ -74,11 +74,12 @@ def test_rehearsal_that_no_spec_makes_is_refused(load_with: LoadWith, changes: d
         load_with(**changes)
 
 
-@pytest.mark.parametrize("character", ["\x1b", "\x9b", "\u202e", "\u200b", "\U000e0041"])
-@pytest.mark.parametrize("as_it_is", [True, False])
+@pytest.mark.parametrize(
+    ("character", "as_it_is"),
+    [("\x1b", False)]  # JSON forbids it as it is
+    + [(character, way) for character in ("\x9b", "\u202e", "\u200b", "\U000e0041") for way in (True, False)],
+)
 def test_hidden_character_of_a_json_file_is_named_with_its_line(folder: Path, character: str, as_it_is: bool) -> None:
-    if as_it_is and character == "\x1b":
-        pytest.skip("JSON forbids it as it is")
     file = folder / "contract.json"
     told = json.loads(file.read_text())
     told["summary"] = f"a{character}b"

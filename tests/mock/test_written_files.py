@@ -99,7 +99,6 @@ def test_index_of_somebody_else_is_not_replaced(victim: Path, tmp_path: Path) ->
         EvidenceFolder(folder, ["report.html"])
 
 
-@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="the system has no named pipes")
 @pytest.mark.parametrize("place", ["evidence", ".evidence.tmp-99999999/new"])
 def test_pipe_in_the_place_of_the_index_is_not_waited_for(place: str, tmp_path: Path) -> None:
     (tmp_path / place).mkdir(parents=True)

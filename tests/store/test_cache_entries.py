@@ -54,7 +54,6 @@ def test_a_huge_entry_is_neither_written_nor_read(home: Path, monkeypatch: pytes
     assert not (home / "kind/huge").exists()
 
 
-@pytest.mark.skipif(not hasattr(os, "getuid"), reason="the system has no numbers of users")
 def test_a_cache_of_another_user_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
     write_entry("kind/name", b"0123456789")
     monkeypatch.setattr(os, "getuid", lambda: -1)
@@ -110,7 +109,6 @@ def test_a_cache_or_key_in_the_working_tree_of_the_spec_is_not_used(
             assert not (tree / ".hidden").exists()
 
 
-@pytest.mark.skipif(not hasattr(os, "getuid"), reason="the system has no permissions of groups")
 @pytest.mark.parametrize("folder", [".", "kind"])
 def test_a_folder_that_others_may_write_is_no_cache(folder: str, home: Path) -> None:
     write_entry("kind/name", b"0123456789")
@@ -120,7 +118,6 @@ def test_a_folder_that_others_may_write_is_no_cache(folder: str, home: Path) -> 
     assert read_entry("kind/name") == b"0123456789"
 
 
-@pytest.mark.skipif(not hasattr(os, "getuid"), reason="the system has no permissions of groups")
 def test_the_key_is_for_this_user_alone(home: Path) -> None:
     write_entry("kind/name", b"0123456789")
     key = home.parent / "state" / "cellc" / "cache.key"
@@ -154,7 +151,6 @@ def test_what_unpacks_to_more_than_an_answer_is_none(monkeypatch: pytest.MonkeyP
     assert read_entry("kind/name") is None
 
 
-@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="the system has no named pipes")
 def test_a_pipe_in_the_place_of_an_entry_is_not_waited_for(home: Path) -> None:
     (home / "kind").mkdir(parents=True)
     os.mkfifo(home / "kind/name")

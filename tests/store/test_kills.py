@@ -17,8 +17,6 @@ from cellc.store.cache import read_entry, write_entry
 from cellc.store.swap import write_whole
 from tests.output.building import as_contents, build_of, contents
 
-pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="a system without fork")
-
 OLD = build_of(a_txt="one\n", b_txt="two\n", old__d_txt="d\n")
 NEW = build_of(a_txt="changed\n", b_txt="two\n", new__e_txt="e\n")
 _STEPS = ("open", "os.rename", "os.mkdir", "os.rmdir", "os.remove", "os.link", "shutil.rmtree")

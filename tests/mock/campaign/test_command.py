@@ -89,7 +89,6 @@ def test_mock_runs_a_campaign_without_the_compiler(folders: dict[str, Path]) -> 
     assert ran.out.startswith("passed  ready/skip_cycles@1: succeeded")
 
 
-@pytest.mark.skipif(os.name != "posix", reason="needs signals of POSIX")
 def test_ctrl_c_ends_all_processes_with_one_line(folders: dict[str, Path]) -> None:
     command = [sys.executable, "-m", "cellc", "mock", str(folders["fr3_hand"]), "--campaign", "--jobs", "2"]
     child = subprocess.Popen(

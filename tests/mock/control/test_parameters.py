@@ -112,7 +112,6 @@ _STYLES = (
 _BROKEN = ("n: [", "n:\n  ros__parameters: {x: *y}", "n: {x: 1, x}: 2]", "\x01", "a: b: c")
 
 
-@pytest.mark.skipif(not hasattr(yaml, "CSafeLoader"), reason="PyYAML was built without libyaml")
 @pytest.mark.parametrize("text", [_STYLES, *_BROKEN])
 def test_file_is_read_alike_with_and_without_libyaml(text: str, monkeypatch: pytest.MonkeyPatch) -> None:
     def read() -> object:
