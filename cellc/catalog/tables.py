@@ -9,6 +9,14 @@ from cellc.catalog.controller_kind import ParameterFacts
 from cellc.spec.quantity import Duration
 
 
+class CatalogTable(CatalogModel):
+    """A file of facts: the version of its notation, the day on which they were read, and where."""
+
+    format: Literal[1]
+    as_of: Date
+    sources: tuple[Text, ...] = Field(min_length=1)
+
+
 class DistroFacts(CatalogModel):
     """One distribution."""
 
@@ -30,12 +38,9 @@ class DistroFacts(CatalogModel):
     mock_parameters: dict[Token, ParameterFact]
 
 
-class DistroTable(CatalogModel):
+class DistroTable(CatalogTable):
     """``catalog/distros.yaml``: every figure holds as of ``as_of`` and grows old."""
 
-    format: Literal[1]
-    as_of: Date
-    sources: tuple[Text, ...] = Field(min_length=1)
     distros: dict[DistroName, DistroFacts]
     dead_mock_parameters: dict[Text, Text]
     harmless_plugins: dict[Text, Text] = Field(min_length=1)
@@ -43,12 +48,9 @@ class DistroTable(CatalogModel):
     hardware_packages: dict[Token, Text] = Field(min_length=1)
 
 
-class ControllerManagerFacts(CatalogModel):
+class ControllerManagerFacts(CatalogTable):
     """``catalog/controller_manager.yaml``: parameters of the manager's node and of every controller's node."""
 
-    format: Literal[1]
-    as_of: Date
-    sources: tuple[Text, ...] = Field(min_length=1)
     package: Token
     executable: Token
     parameters: dict[Text, ParameterFacts]
@@ -64,12 +66,9 @@ class InterfaceTypeFacts(CatalogModel):
     only: tuple[DistroName, ...] = ()
 
 
-class InterfaceTypeTable(CatalogModel):
+class InterfaceTypeTable(CatalogTable):
     """``catalog/message_types.yaml``: keys are full names such as ``sensor_msgs/msg/Image``."""
 
-    format: Literal[1]
-    as_of: Date
-    sources: tuple[Text, ...] = Field(min_length=1)
     types: dict[Text, InterfaceTypeFacts]
 
     def kind_of(self, name: str) -> Literal["topic", "service", "action"] | None:
@@ -125,12 +124,9 @@ class KnownEndpoint(CatalogModel):
     source: Text
 
 
-class QosTable(CatalogModel):
+class QosTable(CatalogTable):
     """``catalog/qos_profiles.yaml``."""
 
-    format: Literal[1]
-    as_of: Date
-    sources: tuple[Text, ...] = Field(min_length=1)
     profiles: dict[Token, QosProfile]
     system_default: dict[Rmw, SystemDefaults]
     endpoints: tuple[KnownEndpoint, ...]
@@ -155,12 +151,9 @@ class PipelineFacts(PlannerPlugin):
     capabilities: tuple[Text, ...] = ()
 
 
-class PlannerTable(CatalogModel):
+class PlannerTable(CatalogTable):
     """``catalog/moveit.yaml``: what solves inverse kinematics, what plans, and the planners of OMPL."""
 
-    format: Literal[1]
-    as_of: Date
-    sources: tuple[Text, ...] = Field(min_length=1)
     solvers: dict[Token, PlannerPlugin]
     pipelines: dict[Token, PipelineFacts]
     planners: tuple[Token, ...]

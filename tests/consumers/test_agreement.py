@@ -46,9 +46,22 @@ _OF_DRIVERS = {
 }
 
 
+# Chapter 4, section 6: what is logged of every attempt.
+_LOGGED = [
+    *("attempt_id", "version_tuple", "calibration_id", "goal_frame", "goal_stamp", "joint_state_age", "tf_lookup_age"),
+    *("plan_result", "controller_name", "action_goal_id", "speed_scaling", "safety_state", "fault_code"),
+    *("cancel/result", "operator_intervention"),
+]
+
+
 def contract(cell: str, distro: str) -> Any:
     """Return the contract as plain data."""
     return contract_data(build(cell, distro).texts["contract.json"])
+
+
+@every_build
+def test_attempts_are_logged_with_what_the_chapter_asks_for(cell: str, distro: str) -> None:
+    assert contract(cell, distro)["attempt_fields"] == _LOGGED
 
 
 @every_build

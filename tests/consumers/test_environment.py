@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import subprocess
+import sys
 from pathlib import Path
 from xml.etree.ElementTree import fromstring
 
@@ -14,6 +15,17 @@ from tests.consumers.matrix import build, every_build, spec_for
 from tests.consumers.starting import every_process, launched
 from tests.emit.cells import emitted
 from tests.foreign_yaml import safe_load
+
+# rviz (14.1.18) and moveit_ros/visualization of moveit2 (2.12.3): RViz passes over a name that it does not have.
+_OF_TOPIC = {"Value", "Depth", "History Policy", "Reliability Policy", "Durability Policy", "Filter size"}
+_OF_DISPLAYS = {
+    "rviz_default_plugins/Grid": {"Cell Size", "Plane Cell Count"},
+    "rviz_default_plugins/RobotModel": {"Description Source", "Description Topic", "Visual Enabled"},
+    "rviz_default_plugins/TF": {"Show Names", "Frame Timeout"},
+    "rviz_default_plugins/Image": {"Topic"},
+    "moveit_rviz_plugin/PlanningScene": {"Planning Scene Topic", "Robot Description"},
+    "moveit_rviz_plugin/Trajectory": {"Trajectory Topic", "Loop Animation", "Robot Description"},
+}
 
 
 @every_build
@@ -41,6 +53,29 @@ def test_environment_is_the_spec_and_leads_to_files_of_the_package(cell: str, di
         assert set(leads) == wanted[stated["RMW_IMPLEMENTATION"]]
         assert texts[path].splitlines()[-1] == "unset _cell_share"  # it is sourced
         assert texts[path].count(f'"$(ros2 pkg prefix --share {cell})"') == 1
+
+
+@every_build
+def test_rviz_knows_every_property_of_its_displays(cell: str, distro: str) -> None:
+    tree = safe_load(build(cell, distro).texts["config/cell.rviz"])
+    assert set(tree) == {"Panels", "Visualization Manager"}
+    shown = tree["Visualization Manager"]
+    assert set(shown) == {"Class", "Displays", "Global Options", "Tools", "Views"}
+    assert set(shown["Global Options"]) == {"Fixed Frame", "Frame Rate"}
+    for display in shown["Displays"]:
+        assert set(display) - {"Class", "Name", "Enabled"} == _OF_DISPLAYS[display["Class"]]
+        for value in display.values():
+            assert not isinstance(value, dict) or set(value) <= _OF_TOPIC
+
+
+@every_build
+def test_programs_use_no_name_that_nothing_defines(cell: str, distro: str) -> None:
+    tool = [str(Path(sys.executable).parent / "ruff"), "check", "--isolated", "--no-cache", "--select", "F", "-"]
+    programs = [text for text in build(cell, distro).texts.values() if text.startswith("#!/usr/bin/env python3")]
+    assert programs
+    for text in programs:
+        done = subprocess.run(tool, input=text, text=True, check=False, capture_output=True)
+        assert done.returncode == 0, done.stdout
 
 
 @every_build

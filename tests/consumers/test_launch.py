@@ -33,6 +33,17 @@ _PACKAGES = {
     "parallel_gripper_action_controller/GripperActionController": "parallel_gripper_controller",
     "position_controllers/GripperActionController": "gripper_controllers",
 }
+# The packages of moveit2 and its pipelines that hold these plugins, by their plugin descriptions (2.12.3).
+_PACKAGES_OF_MOVEIT = {
+    "kdl_kinematics_plugin": "moveit_kinematics",
+    "ompl_interface": "moveit_planners_ompl",
+    "pilz_industrial_motion_planner": "pilz_industrial_motion_planner",
+    "moveit_simple_controller_manager": "moveit_simple_controller_manager",
+    # Of moveit_ros_planning, which comes with the node that loads them.
+    "default_planning_request_adapters": "moveit_ros_move_group",
+    "default_planner_request_adapters": "moveit_ros_move_group",
+    "default_planning_response_adapters": "moveit_ros_move_group",
+}
 _ADDRESS = re.compile(r"\b\d+\.\d+\.\d+\.\d+\b|/dev/\w+")
 
 
@@ -235,6 +246,8 @@ def test_plugins_are_of_packages_that_the_manifest_names(cell: str, distro: str)
         if fnmatch(path, "*controllers*.yaml") and "moveit" not in path:
             types = re.findall(r"^ +type: (\S+)$", text, re.MULTILINE)
             used |= {_PACKAGES.get(plugin, plugin.split("/")[0]) for plugin in types}
+        if path.startswith("config/moveit/"):
+            used |= {_PACKAGES_OF_MOVEIT[home] for home in re.findall(r"\b([a-z_]+)/[A-Z]\w+", text)}
     assert used <= depends
 
 

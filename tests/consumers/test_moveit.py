@@ -21,6 +21,7 @@ _REQUEST_HUMBLE = {
     "FixStartStateCollision",
     "FixStartStatePathConstraints",
 }
+_JUDGED = ["ResolveConstraintFrames", "ValidateWorkspaceBounds", "CheckStartStateBounds", "CheckStartStateCollision"]
 _PLUGINS = {
     "ompl": "ompl_interface/OMPLPlanner",
     "pilz_industrial_motion_planner": "pilz_industrial_motion_planner/CommandPlanner",
@@ -122,8 +123,14 @@ def test_pipelines_name_plugins_and_adapters_that_exist(cell: str, distro: str) 
             assert found[f"{pipeline}.planning_plugins"] == [plugin]
             for side, known in (("request", _REQUEST), ("response", _RESPONSE)):
                 adapters = found[f"{pipeline}.{side}_adapters"]
-                assert {one.removeprefix(f"default_planning_{side}_adapters/") for one in adapters} <= known
-                assert len(adapters) == len(set(adapters)) >= 2
+                found_here = [one.removeprefix(f"default_planning_{side}_adapters/") for one in adapters]
+                assert set(found_here) <= known
+                # moveit_configs_utils, default_configs/*_planning.yaml (2.12.3): the planner of a pipeline may leave
+                # out that it times a path by itself, and nothing else.
+                timed = ["AddTimeOptimalParameterization"] * (pipeline == "ompl")
+                assert found_here == (
+                    _JUDGED if side == "request" else [*timed, "ValidateSolution", "DisplayMotionPath"]
+                )
     if found:
         assert found["planning_pipelines"] == list(_PLUGINS)
         switches = ("execution_duration_monitoring", "wait_for_trajectory_completion")

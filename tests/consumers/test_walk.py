@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import subprocess
+from typing import Any
 
 from tests.consumers.matrix import build, every_build
 from tests.emit.cells import contract_data
@@ -67,6 +68,24 @@ def test_every_gate_leaves_evidence_of_its_own(cell: str, distro: str) -> None:
         assert set(_KEPT.findall(text)) <= {file}
         files.append(file)
     assert len(set(files)) == len(_ORDER)
+
+
+@every_build
+def test_every_interface_of_the_real_target_has_the_ends_of_the_contract(cell: str, distro: str) -> None:
+    line = re.compile(r"^- \[ \] `(\S+)` has its declared ends: (.+) → (.+)$", re.MULTILINE)
+    stated = line.findall(sections(cell, distro)["L3"])
+    promised = contract_data(build(cell, distro).texts["contract.json"])["interfaces"]
+    ends = {name: (_on_real(one["sources"]), _on_real(one["sinks"])) for name, one in promised.items()}
+    there = {name: sides for name, sides in ends.items() if sides[0] or not promised[name]["sources"]}
+    assert [name for name, _, _ in stated] == list(there)
+    for name, starts, stops in stated:
+        sources, sinks = there[name]
+        assert set(starts.split(", ")) == (sources or {"nobody"}), name
+        assert sinks <= {one.split(" (")[0] for one in stops.split(", ")}, name  # drivers and planners come beside
+
+
+def _on_real(ends: list[dict[str, Any]]) -> set[str]:
+    return {end["full_name"] for end in ends if "real" in end.get("targets", ["mock", "real"])}
 
 
 @every_build

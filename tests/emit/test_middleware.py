@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -26,6 +27,11 @@ def _text(rmw: str, discovery: str, distro: str = "jazzy") -> str:
     return text.replace("\nnetwork:", SECOND_HOST, 1)
 
 
+@cache
+def _fast_dds_schema() -> xmlschema.XMLSchema11:
+    return xmlschema.XMLSchema11(UPSTREAM / "xsd" / "fastdds_profiles.xsd")
+
+
 def _of_middleware(artifacts: dict[str, str]) -> dict[str, str]:
     return {path: text for path, text in artifacts.items() if path.startswith("middleware/")}
 
@@ -35,7 +41,7 @@ def _of_middleware(artifacts: dict[str, str]) -> dict[str, str]:
 @pytest.mark.parametrize("discovery", ["multicast", "unicast", "localhost", "off"])
 def test_fast_dds_profile_is_what_fast_dds_declares(distro: str, discovery: str, tmp_path: Path) -> None:
     files = emitted(tmp_path, _text("rmw_fastrtps_cpp", discovery, distro))
-    schema = xmlschema.XMLSchema11(UPSTREAM / "xsd" / "fastdds_profiles.xsd")
+    schema = _fast_dds_schema()
     for host in ("control_pc", "vision_pc"):
         # Version 2 has another namespace than the schema, which is that of version 3.
         old = "http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles"

@@ -13,6 +13,7 @@ from __future__ import annotations
 import re
 import shutil
 import xml.etree.ElementTree as ElementTree
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -74,9 +75,9 @@ def marks(rule: Rule, example: Example) -> list[Place]:
     return places
 
 
-def places(example: Example, folder: Path) -> list[Place]:
-    """Return what is found in an example that was merged into the complete cell in ``folder``."""
-    return [_place(one, example, folder) for one in diagnose_example(example, folder)]
+def places(diagnosed: Iterable[Diagnostic], example: Example, folder: Path) -> list[Place]:
+    """Return where findings stand in an example that was merged into the complete cell in ``folder``."""
+    return [_place(one, example, folder) for one in diagnosed]
 
 
 def _place(found: Diagnostic, example: Example, folder: Path) -> Place:

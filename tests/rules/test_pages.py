@@ -72,20 +72,17 @@ def test_every_section_of_the_principles_is_the_source_of_a_rule() -> None:
 @pytest.mark.parametrize("rule", RULES)
 def test_reported_example_is_reported_where_it_is_marked_and_nowhere_else(rule: Rule, tmp_path: Path) -> None:
     reported, _ = examples(rule)
-    found = sorted(places(reported, tmp_path), key=lambda place: (place.code, place.line))
+    diagnosed = diagnose_example(reported, tmp_path)
+    for one in diagnosed:
+        if one.code == rule.code:
+            assert one.severity is rule.severity
+            assert one.help
+            assert "\n" not in one.message + one.help
+    found = sorted(places(diagnosed, reported, tmp_path), key=lambda place: (place.code, place.line))
     expected = sorted(marks(rule, reported), key=lambda place: (place.code, place.line))
     assert rule.code in {place.code for place in expected}
     assert len(found) == len(expected), found
     assert all(map(matches, found, expected)), found
-
-
-@pytest.mark.parametrize("rule", RULES)
-def test_finding_of_the_example_has_the_severity_of_its_rule_and_help_in_one_line(rule: Rule, tmp_path: Path) -> None:
-    for found in diagnose_example(examples(rule)[0], tmp_path):
-        if found.code == rule.code:
-            assert found.severity is rule.severity
-            assert found.help
-            assert "\n" not in found.message + found.help
 
 
 @pytest.mark.parametrize("rule", RULES)

@@ -11,7 +11,7 @@ from cellc.description.urdf_reader import read_urdf
 from cellc.diagnostics.diagnostic import CodePage
 from cellc.report.pages import STAGES, render_page
 from cellc.source.read import read
-from tests.rules.examples import Example, Place, matches, places
+from tests.rules.examples import Example, Place, diagnose_example, matches, places
 
 _SHOWN_MARK = re.compile(r"(?:#|<!--) expect(?: at| -->|$)", re.MULTILINE)
 PAGES = [*STAGES["spec"], *STAGES["link"]]
@@ -30,7 +30,7 @@ def test_example_of_a_stage_is_reported_at_its_mark_and_nowhere_else(page: CodeP
     lines = enumerate(example.text.splitlines(), start=1)
     marked = [(number, mark[1]) for number, line in lines if (mark := re.search("# expect at (.+)", line))]
     expected = [Place(page.code, number, key) for number, key in marked]
-    found = places(example, tmp_path)
+    found = places(diagnose_example(example, tmp_path), example, tmp_path)
     assert len(found) == len(expected) > 0
     assert all(matches(one, wanted) for one, wanted in zip(found, expected, strict=True)), found
 

@@ -7,13 +7,10 @@ switches, such as a door, the first motion at all.
 Example that is reported:
 
 ```yaml
+# a cell of wired outputs
 devices:
-  io: {model: ./demo_io, mount: {parent: world, xyz: 0 2 0 m}, revision: A, firmware: io 1.0.0,
-       driver: demo_io_driver 1.0.0}
   clamp: {model: ./demo_clamp, mount: {parent: world, xyz: 0 2 1 m}, revision: A,
           switching: {outputs: {valve: io/io/out_0}, inputs: {closed: io/io/in_0}, power_lost: holds}}
-control:
-  controllers: {outputs: {type: demo_outputs, device: io, client: task}}
 rehearsals:
   clamped: {steps: [{set: clamp, state: closed}, move: home]}  # expect at move
 ```
@@ -21,13 +18,10 @@ rehearsals:
 Example that is accepted:
 
 ```yaml
+# a cell of wired outputs
 devices:
-  io: {model: ./demo_io, mount: {parent: world, xyz: 0 2 0 m}, revision: A, firmware: io 1.0.0,
-       driver: demo_io_driver 1.0.0}
   clamp: {model: ./demo_clamp, mount: {parent: world, xyz: 0 2 1 m}, revision: A,
           switching: {outputs: {valve: io/io/out_0}, inputs: {closed: io/io/in_0}, power_lost: holds}}
-control:
-  controllers: {outputs: {type: demo_outputs, device: io, client: task}}
 rehearsals:
   clamped: {steps: [{set: clamp, state: closed}, {sense: clamp, state: closed}, move: home]}
 ```

@@ -6,29 +6,23 @@ of them sets the other.
 Example that is reported:
 
 ```yaml
+# a cell of wired outputs
 devices:
-  io: {model: ./demo_io, mount: {parent: world, xyz: 0 2 0 m}, revision: A, firmware: io 1.0.0,
-       driver: demo_io_driver 1.0.0}
   lamp: {model: ./demo_lamp, mount: {parent: world, xyz: 0 2 1 m}, revision: A,
          switching: {outputs: {light: io/io/out_0}}}
   beacon: {model: ./demo_lamp, mount: {parent: world, xyz: 0 2 2 m}, revision: A,
            switching: {outputs: {light: io/io/out_0}}}  # expect at light
-control:
-  controllers: {outputs: {type: demo_outputs, device: io, client: task}}
 ```
 
 Example that is accepted:
 
 ```yaml
+# a cell of wired outputs
 devices:
-  io: {model: ./demo_io, mount: {parent: world, xyz: 0 2 0 m}, revision: A, firmware: io 1.0.0,
-       driver: demo_io_driver 1.0.0}
   lamp: {model: ./demo_lamp, mount: {parent: world, xyz: 0 2 1 m}, revision: A,
          switching: {outputs: {light: io/io/out_0}}}
   beacon: {model: ./demo_lamp, mount: {parent: world, xyz: 0 2 2 m}, revision: A,
            switching: {outputs: {light: io/io/out_1}}}
-control:
-  controllers: {outputs: {type: demo_outputs, device: io, client: task}}
 ```
 
 Fix: wire each to an output of its own.

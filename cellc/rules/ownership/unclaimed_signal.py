@@ -16,13 +16,10 @@ devices:
 Example that is accepted:
 
 ```yaml
+# a cell of wired outputs
 devices:
-  io: {model: ./demo_io, mount: {parent: world, xyz: 0 2 0 m}, revision: A, firmware: io 1.0.0,
-       driver: demo_io_driver 1.0.0}
   lamp: {model: ./demo_lamp, mount: {parent: world, xyz: 0 2 1 m}, revision: A,
          switching: {outputs: {light: io/io/out_0}}}
-control:
-  controllers: {outputs: {type: demo_outputs, device: io, client: task}}
 ```
 
 Fix: add a controller that takes it, of the kind that the catalog has for its device, or a `gpio_command`.

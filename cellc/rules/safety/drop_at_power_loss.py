@@ -6,25 +6,19 @@ borne is an answer of the risk assessment, not of a program. UNKNOWN is judged a
 Example that is reported:
 
 ```yaml
+# a cell of wired outputs
 devices:
-  io: {model: ./demo_io, mount: {parent: world, xyz: 0 2 0 m}, revision: A, firmware: io 1.0.0,
-       driver: demo_io_driver 1.0.0}
   clamp: {model: ./demo_clamp, mount: {parent: world, xyz: 0 2 1 m}, revision: A,
           switching: {outputs: {valve: io/io/out_0}, power_lost: drops}}  # expect at power_lost
-control:
-  controllers: {outputs: {type: demo_outputs, device: io, client: task}}
 ```
 
 Example that is accepted:
 
 ```yaml
+# a cell of wired outputs
 devices:
-  io: {model: ./demo_io, mount: {parent: world, xyz: 0 2 0 m}, revision: A, firmware: io 1.0.0,
-       driver: demo_io_driver 1.0.0}
   clamp: {model: ./demo_clamp, mount: {parent: world, xyz: 0 2 1 m}, revision: A,
           switching: {outputs: {valve: io/io/out_0}, power_lost: drops, accepted_by: safety}}
-control:
-  controllers: {outputs: {type: demo_outputs, device: io, client: task}}
 ```
 
 Fix: take a valve that keeps its state and state `power_lost: holds`, or have the drop accepted and state
