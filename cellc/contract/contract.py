@@ -113,7 +113,7 @@ class ContractInterface(ContractModel):
     kind: Literal["topic", "service", "action"] = Field(description="Kind of exchange.")
     type: str = Field(description="ROS type.")
     sources: tuple[ContractEndpoint, ...] = Field(description="Publishers, or the server.")
-    sinks: tuple[ContractEndpoint, ...] = Field(description="Subscribers, or the clients.")
+    sinks: tuple[ContractEndpoint, ...] = Field(default=(), description="Subscribers, or the clients.")
     frame: str | None = Field(None, description="Frame of the payload.")
     unit: str | None = Field(None, description="Unit of the payload.")
     time_source: str | None = Field(None, description="Clock of the stamps.")

@@ -1,4 +1,7 @@
-"""JSON text for review: what fits into a line stands in one, everything else has one item a line."""
+"""JSON text for review: what fits into a line stands in one, everything else has one item a line.
+
+The only item of a list, where it takes several lines, shares its brackets' lines: ``"sources": [{`` ... ``}]``.
+"""
 
 from __future__ import annotations
 
@@ -27,6 +30,8 @@ def _value(value: Json, key: str, depth: int) -> str:
         return key + _enclosed("{", entries, "}", len(key), depth)
     if isinstance(value, Sequence) and not isinstance(value, str):
         entries = [_value(inner, "", depth + 1) for inner in value]
+        if key and len(value) == 1 and "\n" in entries[0]:
+            return _value(value[0], f"{key}[", depth) + "]"
         return key + _enclosed("[", entries, "]", len(key), depth)
     return key + _scalar(value)
 
