@@ -49,6 +49,28 @@ def interface_facts(interface: Interface) -> Iterator[str]:
     yield f"owner {interface.owner or _NOT_STATED}; {failure_label(interface)}"
 
 
+def unused(cell: Cell) -> tuple[tuple[Interface, ...], ...]:
+    """Return what nobody in the cell reads or calls, together where it is offered by the same and owned alike."""
+    found: dict[tuple[object, ...], list[Interface]] = {}
+    for one in cell.interfaces:
+        if one.sources and not one.sinks:
+            offered_by = frozenset(end.full_name for end in one.sources)
+            found.setdefault((offered_by, one.kind, one.owner), []).append(one)
+    return tuple(map(tuple, found.values()))
+
+
+def unused_title(group: tuple[Interface, ...]) -> str:
+    """Return what is said of interfaces that nobody uses."""
+    kind, use = group[0].kind, "reads" if group[0].kind is InterfaceKind.TOPIC else "calls"
+    return f"{len(group)} {kind.value}{'s' if len(group) > 1 else ''} that nobody of this cell {use}"
+
+
+def unused_facts(group: tuple[Interface, ...]) -> Iterator[str]:
+    """Yield the names of interfaces that nobody uses, and their owner; the contract has the rest."""
+    yield ", ".join(one.name for one in group)
+    yield f"owner {group[0].owner or _NOT_STATED}"
+
+
 def frame_label(interface: Interface) -> str:
     """Return the frame of an interface: the stated one, otherwise what its type says."""
     return interface.frame or _FRAMES.get(interface.type, _NOT_STATED)

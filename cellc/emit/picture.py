@@ -19,7 +19,15 @@ from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
 from cellc.cell.interface import Interface, InterfaceKind
 from cellc.deploy.deployment import Deployment
-from cellc.deploy.labels import claim_facts, driver_facts, interface_facts, stop_facts
+from cellc.deploy.labels import (
+    claim_facts,
+    driver_facts,
+    interface_facts,
+    stop_facts,
+    unused,
+    unused_facts,
+    unused_title,
+)
 from cellc.formats.escape import one_line
 from cellc.formats.xml_text import element, render
 from cellc.graph.cell_graph import CellGraph
@@ -65,10 +73,20 @@ def _bands(cell: Cell) -> tuple[Band, ...]:
     """Return the ROS graph, vendor control and physical safety, in the order in which a goal meets them."""
     owners = cell.owners.responsibilities
     return (
-        Band("ROS 2 graph", False, tuple(map(_exchange, cell.interfaces))),
+        Band("ROS 2 graph", False, tuple(_exchanges(cell))),
         Band(f"Vendor control (owner {owners.vendor_safety})", True, (*_claims(cell), *_drivers(cell))),
         Band(f"Physical safety (owner {owners.physical_stop})", True, tuple(_stops(cell))),
     )
+
+
+def _exchanges(cell: Cell) -> Iterator[Row]:
+    groups = unused(cell)
+    alone = {one.name for group in groups for one in group}
+    yield from (_exchange(one) for one in cell.interfaces if one.name not in alone)
+    for group in groups:
+        sources, facts = tuple(end.node for end in group[0].sources), tuple(unused_facts(group))
+        starts, ends = (sources, ("nobody",)) if group[0].kind is InterfaceKind.TOPIC else (("nobody",), sources)
+        yield Row(starts, unused_title(group), facts, ends)
 
 
 def _exchange(interface: Interface) -> Row:

@@ -92,8 +92,8 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
         markdown_comment(plan.header.text),
         f"# {cell.name}",
         markdown(cell.summary),
-        f"Configuration `{plan.configuration_id}`, ROS 2 {cell.distro}. This folder is a ROS 2 package; the spec is "
-        "its only source, so that a change is made there.",
+        f"A ROS 2 package for {cell.distro}; the spec is its only source, so that a change is made there. Which "
+        "configuration it is stands in `manifest.json`.",
         *_gates(plan),
         "## Every shell, once",
         "From the folder that holds `cells/` and `generated/`, with ROS 2 sourced:",

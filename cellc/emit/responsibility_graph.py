@@ -15,7 +15,15 @@ from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
 from cellc.cell.interface import Endpoint, Interface, InterfaceKind
 from cellc.deploy.deployment import Deployment
-from cellc.deploy.labels import claim_facts, driver_facts, interface_facts, stop_facts
+from cellc.deploy.labels import (
+    claim_facts,
+    driver_facts,
+    interface_facts,
+    stop_facts,
+    unused,
+    unused_facts,
+    unused_title,
+)
 from cellc.formats.escape import mermaid
 from cellc.graph.cell_graph import CellGraph
 
@@ -32,8 +40,13 @@ def _diagram(cell: Cell) -> Iterator[str]:
     yield from _ros_graph(cell)
     yield from _vendor_control(cell)
     yield from _physical_safety(cell)
+    groups = unused(cell)
+    alone = {one.name for group in groups for one in group}
     for interface in cell.interfaces:
-        yield from _arrows(cell, interface)
+        if interface.name not in alone:
+            yield from _arrows(cell, interface)
+    for group in groups:
+        yield from _unused(cell, group)
     yield from _claims(cell)
     yield from _drivers(cell)
     yield f"style vendor {_BOLD}"
@@ -82,6 +95,14 @@ def _arrows(cell: Cell, interface: Interface) -> Iterator[str]:
     hub = _id("interface", interface.name)
     yield from (f'{_end(cell, start)} -- "{_qos(start)}" --> {hub}' for start in starts)
     yield from (f'{hub} -- "{_qos(end)}" --> {_end(cell, end)}' for end in ends)
+
+
+def _unused(cell: Cell, group: tuple[Interface, ...]) -> Iterator[str]:
+    yield _box("interface", group[0].name, unused_title(group), *unused_facts(group))
+    hub, topic = _id("interface", group[0].name), group[0].kind is InterfaceKind.TOPIC
+    for source in group[0].sources:
+        start, end = (_end(cell, source), hub) if topic else (hub, _end(cell, source))
+        yield f"{start} --> {end}"
 
 
 def _qos(end: Endpoint) -> str:

@@ -23,7 +23,7 @@ def test_every_file_names_its_command_and_the_configuration_stands_where_it_is_l
     identity = json.loads(artifacts["contract.json"])["configuration_id"]
     assert re.fullmatch(r"cfg-[0-9a-f]{12}", identity)
     # manifest.json holds it too, and is taken over these.
-    assert {path for path, text in artifacts.items() if identity in text} == {"contract.json", "README.md"}
+    assert {path for path, text in artifacts.items() if identity in text} == {"contract.json"}
     for path, text in artifacts.items():
         if not path.endswith(".json"):
             head = "\n".join(text.splitlines()[:9])

@@ -62,7 +62,7 @@ def test_a_spec_and_what_was_generated_of_it_are_the_same(main: Package) -> None
 def test_a_folder_from_before_the_cell_was_hashed_is_the_same_but_for_its_id(main: Package) -> None:
     older = dict(main.files)
     own = _configuration(main)
-    for path in ("contract.json", "manifest.json", "README.md"):
+    for path in ("contract.json", "manifest.json"):
         text = re.sub(r',\s*"cell_sha256": "[0-9a-f]{64}"', "", older[path])
         older[path] = text.replace(own, "cfg-0123456789ab")
     assert "cell_sha256" not in older["manifest.json"]
@@ -106,7 +106,7 @@ def test_a_mount_that_moves_by_a_millimetre_changes_few_files_and_lines(tmp_path
     differing = [path for path in after.files if after.files[path] != main.files[path]]
     lines = sum(len(set(after.files[path].split("\n")) - set(main.files[path].split("\n"))) for path in differing)
     assert len(differing) <= 8
-    assert lines <= 15  # one of them is the TCP that the robot must be told
+    assert lines < 15
     told, *moved = changes_of(main, after)
     assert told.startswith("dangerous payload | arm | TCP that the robot is told | at 0.00 0.00 173.00 mm of arm_tool0")
     assert "-> at 0.00 0.00 174.00 mm of arm_tool0" in told
