@@ -38,10 +38,10 @@ def changed(folder: Path, cell: str, old: str, new: str) -> dict[str, list[str]]
 def test_moved_mount_changes_few_files(cell: str, old: str, new: str, tmp_path: Path) -> None:
     files = changed(tmp_path, cell, old, new)
     described = {f"urdf/{cell}.mock.urdf", f"urdf/{cell}.real.urdf", "config/frames.yaml"}
-    assert described | {"contract.json", "manifest.json", "README.md"} <= set(files)
+    assert described | {"contract.json", "manifest.json"} <= set(files)
     assert len(files) <= 8
     # The value where it stands, the configuration id, and the hashes of these files in the manifest.
-    assert all(len(files[path]) == 2 for path in described | {"contract.json", "README.md"})
+    assert all(len(files[path]) == 2 for path in described | {"contract.json"})
     assert sum(map(len, files.values())) <= 40
 
 
