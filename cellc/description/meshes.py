@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from cellc.description.model import Mesh
-from cellc.description.packages import lies_under, searched_folders
+from cellc.description.packages import lies_under, package_folders, repository_of
 from cellc.limits import MIB, limits, option
 from cellc.store.regular_file import open_regular
 from cellc.transforms import Vector3
@@ -211,7 +211,7 @@ def _search_folders(environment: Mapping[str, str]) -> Iterator[Path]:
 def _packages(parts: Sequence[str], roots: Iterable[Path]) -> Iterator[tuple[Path, Path]]:
     """Yield each root with each folder below it that may be the package."""
     for root in roots if parts else ():
-        yield from ((root, Path(folder)) for folder in searched_folders(parts[0], root.as_posix()))
+        yield from ((root, Path(folder)) for folder in package_folders(parts[0], root.as_posix()))
 
 
 def _absolute(file: Path, roots: Sequence[Path], shelves: Sequence[Path]) -> Path:
@@ -229,7 +229,7 @@ def _absolute(file: Path, roots: Sequence[Path], shelves: Sequence[Path]) -> Pat
 def _within(file: Path, root: Path) -> Path:
     # Links are followed once: one that changes after this look is not followed again.
     real = os.path.realpath(file)
-    if not lies_under(real, root.as_posix()):
+    if not lies_under(real, repository_of(root.as_posix())):
         message = "must lie in the folder of the spec, and is a link that leads out of it"
         raise MeshError(MESH_OUTSIDE_ROOT, message, "put a copy of the file in its place")
     return Path(real)

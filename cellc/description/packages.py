@@ -5,8 +5,10 @@ The ament index of the machine is left out: these are packages that come with a 
 
 from __future__ import annotations
 
+import glob
 import os
 import re
+from collections.abc import Iterator
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*", re.ASCII)
 
@@ -27,9 +29,28 @@ def searched_folders(name: str, root: str) -> tuple[str, ...]:
 
 def find_package(name: str, root: str) -> str | None:
     """Return the first existing folder of a package, or None."""
+    return next((folder for folder in package_folders(name, root) if os.path.isdir(folder)), None)
+
+
+def package_folders(name: str, root: str) -> Iterator[str]:
+    """Yield every folder that may be a package: those named, then one in a repository of a workspace or of a device."""
     if _NAME.fullmatch(name) is None:
-        return None
-    return next((folder for folder in searched_folders(name, root) if os.path.isdir(folder)), None)
+        return
+    yield from searched_folders(name, root)
+    yield from sorted(glob.glob(os.path.join(glob.escape(root), "src", "*", name)))
+    for device in sorted(glob.glob(os.path.join(glob.escape(root), "*", "device.yaml"))):
+        yield os.path.join(os.path.dirname(device), name)
+
+
+def repository_of(folder: str) -> str:
+    """Return the folder itself, or the one above it that version control begins in: links may lead about in there."""
+    above = os.path.realpath(folder)
+    while not os.path.exists(os.path.join(above, ".git")):
+        parent = os.path.dirname(above)
+        if parent == above:
+            return folder
+        above = parent
+    return above
 
 
 def lies_under(path: str, folder: str) -> bool:

@@ -7,6 +7,7 @@ Reads what the URDF specification calls the model, and the components of ``<ros2
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
 from typing import TypeVar
 
 from cellc.description.model import (
@@ -180,7 +181,7 @@ def _read_joint(element: XmlElement) -> Joint:
     if kind not in JOINT_TYPES:
         help_text = did_you_mean(kind, JOINT_TYPES, "joint types")
         raise refused("urdf-unknown-joint-type", element, f"joint `{name}` has the unknown type `{kind}`", help_text)
-    axis = element.first("axis")
+    axis, limit = element.first("axis"), _optional(element, "limit", _read_limit)
     return Joint(
         name=name,
         type=kind,
@@ -188,7 +189,7 @@ def _read_joint(element: XmlElement) -> Joint:
         child=required(required_child(element, "child"), "link"),
         pose=origin_pose(element),
         axis=(1.0, 0.0, 0.0) if axis is None else vector(axis, "xyz"),
-        limit=_optional(element, "limit", _read_limit),
+        limit=_without_ends(limit) if kind == "continuous" else limit,
         mimic=_optional(element, "mimic", _read_mimic),
         dynamics=_optional(element, "dynamics", _read_dynamics),
         safety=_optional(element, "safety_controller", _read_safety),
@@ -199,6 +200,11 @@ def _read_joint(element: XmlElement) -> Joint:
 def _optional(element: XmlElement, tag: str, read: Callable[[XmlElement], _T]) -> _T | None:
     child = element.first(tag)
     return None if child is None else read(child)
+
+
+def _without_ends(limit: JointLimit | None) -> JointLimit | None:
+    """Leave out what a continuous joint has no meaning for: to every parser its `lower` and `upper` are not there."""
+    return None if limit is None else replace(limit, lower=None, upper=None)
 
 
 def _read_limit(element: XmlElement) -> JointLimit:

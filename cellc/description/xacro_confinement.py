@@ -25,6 +25,7 @@ from cellc.diagnostics import Span
 from cellc.limits import limits, option
 
 _PLACE = "cellc-place"
+_NUMBER = re.compile(r"[-+]?(?:\d{1,15}\.?\d{0,15}|\.\d{1,15})(?:[eE][-+]?\d{1,2})?", re.ASCII)
 _SUBSTITUTION = re.compile(r"\$\((\w+)\s*(.*?)\s*\)", re.DOTALL)
 
 
@@ -40,7 +41,7 @@ class Confinement:
         self.failure: BaseException | None = None
         self.place: Span | None = None
         self._touched: Any = None
-        self._packages: set[str] = set()
+        self._packages: dict[str, str] = {}
 
     @contextmanager
     def installed(self) -> Iterator[None]:
@@ -105,8 +106,8 @@ class Confinement:
             self.warnings.append(f"`{specification}` matches no file")
         yield from files
 
-    def substitute(self, text: str) -> str:
-        """Resolve one ``$(…)``: ``arg``, ``find`` and ``dirname``; the rest reaches out of the description."""
+    def substitute(self, text: str) -> Any:
+        """Resolve ``$(…)`` of ``arg``, ``find``, ``dirname`` and ``eval``; the rest reaches out of the description."""
         match = _SUBSTITUTION.fullmatch(text)
         command, operand = (match[1], match[2]) if match else (text, "")
         if command == "arg":
@@ -115,11 +116,30 @@ class Confinement:
             return self.package(operand)
         if command == "dirname":
             return os.path.dirname(xacro.filestack[-1]) or "."
+        if command == "eval":
+            return evaluate(operand, {**functions(), **self._typed_arguments()})
         raise XacroRefusedError(
             "xacro-refused-substitution",
             f"`{text[:60]}` is refused: a description may not depend on its surroundings",
-            "use `$(arg NAME)`, `$(find PACKAGE)`, `$(dirname)` or `${…}`",
+            "use `$(arg NAME)`, `$(find PACKAGE)`, `$(dirname)`, `$(eval …)` or `${…}`",
         )
+
+    def _typed_arguments(self) -> dict[str, Any]:
+        """Return the arguments as numbers and truths where they are written so, as roslaunch's ``eval`` has them."""
+        given: Mapping[str, str] = xacro.substitution_args_context["arg"]
+        return {name: _typed(value) for name, value in given.items()}
+
+    def in_packages(self, filename: str) -> str:
+        """Name a file as ``package://`` that the description names by the folder of a package that it found.
+
+        The folder is one of this machine, or relative to it; ``file:///$(find PACKAGE)`` is how some vendors write it.
+        """
+        path = filename.removeprefix("file://")
+        for name, folder in sorted(self._packages.items()):
+            for written in (folder, f"/{folder}"):
+                if path.startswith(f"{written}/"):
+                    return f"package://{name}{path[len(written) :]}"
+        return filename
 
     def argument(self, name: str) -> str:
         """Return the value of a xacro argument."""
@@ -138,7 +158,7 @@ class Confinement:
             raise XacroRefusedError(
                 "xacro-package-not-found", f"package `{name}` is not found", f"put it in one of {places}"
             )
-        self._packages.add(folder)
+        self._packages[name] = folder
         return folder
 
     def path_of(self, name: str) -> str:
@@ -146,7 +166,7 @@ class Confinement:
 
         Where the root is a relative path, so is that of a package, and both count from the current folder.
         """
-        in_package = any(name.startswith(f"{folder}/") for folder in self._packages)
+        in_package = any(name.startswith(f"{folder}/") for folder in self._packages.values())
         return name if in_package else str(xacro.abs_filename_spec(name))
 
     def _xacro_functions(self) -> dict[str, Any]:
@@ -208,6 +228,12 @@ class Confinement:
             return original(node, *arguments)
 
         return check_attrs
+
+
+def _typed(value: str) -> Any:
+    if _NUMBER.fullmatch(value):
+        return float(value) if set(value) & set(".eE") else int(value)
+    return {"true": True, "false": False}.get(value.lower(), value)
 
 
 def place_of(node: Any) -> Span | None:

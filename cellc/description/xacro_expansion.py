@@ -50,6 +50,8 @@ def expand_here(
     with confinement.installed():
         try:
             document = _process(confinement, file, arguments)
+            for mesh in document.getElementsByTagName("mesh"):
+                mesh.setAttribute("filename", confinement.in_packages(mesh.getAttribute("filename")))
             text = document.toprettyxml(indent="  ")
         except Exception as error:
             return Outcome(None, (_failure(error, confinement, start),))

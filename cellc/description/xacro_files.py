@@ -14,7 +14,7 @@ from typing import Any
 import xacro
 import yaml
 
-from cellc.description.packages import lies_under
+from cellc.description.packages import lies_under, repository_of
 from cellc.description.xacro_expression import evaluate, functions
 from cellc.diagnostics import Span
 from cellc.limits import MIB, limits, option
@@ -46,12 +46,17 @@ class ConfinedFiles:
 
     def __init__(self, root: str, shown_root: str | None = None) -> None:
         self.root = root
+        self._within = repository_of(root)
         self._shown_root = shown_root
         self._bytes_read = 0
 
     def holds(self, path: str) -> bool:
         """Whether a path lies under the root, links followed."""
-        return lies_under(path, self.root)
+        # A path that is written out of the root is out of it; a link may lead to another folder of the repository.
+        written = os.path.abspath(path)
+        return lies_under(path, self.root) or (
+            f"{written}{os.sep}".startswith(f"{os.path.abspath(self.root)}{os.sep}") and lies_under(path, self._within)
+        )
 
     def checked(self, path: str) -> str:
         """Return ``path`` unless it leads out of the root."""
@@ -97,7 +102,7 @@ class ConfinedFiles:
         return data
 
     def load_yaml(self, path: str) -> Any:
-        """Read a YAML file of parameters, as ``xacro.load_yaml`` does, without anchors."""
+        """Read a YAML file of parameters, as ``xacro.load_yaml`` does, with aliases as far as the limits go."""
         text = self.read(path)
         shown = self.shown(path)
         if len(text) > limits().xacro_yaml_bytes:
@@ -105,12 +110,28 @@ class ConfinedFiles:
             raise XacroRefusedError("xacro-too-large", message, option("xacro-yaml-bytes"))
         try:
             # One alias of an alias of an alias is a text of gigabytes once it is written out.
-            if any(isinstance(event, yaml.AliasEvent) for event in yaml.parse(text, Loader=_UnitLoader)):
-                raise XacroRefusedError("xacro-bad-yaml", f"`{shown}` uses aliases", "write the values out")
+            if _written_out(yaml.compose(text, Loader=_UnitLoader)) > limits().xacro_items:
+                message = f"`{shown}` has more than {limits().xacro_items} values where its aliases are written out"
+                raise XacroRefusedError("xacro-bad-yaml", message, option("xacro-items"))
             return yaml.load(text, Loader=_UnitLoader)  # a SafeLoader
         except (yaml.YAMLError, ValueError, RecursionError) as error:
             reason = str(error).split("\n", 1)[0]
             raise XacroRefusedError("xacro-bad-yaml", f"`{shown}` is not readable YAML: {reason}") from None
+
+
+def _written_out(root: yaml.Node | None) -> float:
+    """Count the values of a document whose aliases are written out; one in itself counts without end."""
+    counts: dict[int, float] = {}
+
+    def count(node: yaml.Node) -> float:
+        if id(node) not in counts:
+            counts[id(node)] = math.inf  # while it is being counted
+            items = node.value if isinstance(node, yaml.CollectionNode) else []
+            parts = (part for item in items for part in (item if isinstance(item, tuple) else (item,)))
+            counts[id(node)] = 1.0 + sum(map(count, parts))
+        return counts[id(node)]
+
+    return 0 if root is None else count(root)
 
 
 class _UnitLoader(yaml.SafeLoader):

@@ -17,8 +17,9 @@ from cellc.store.cache import recall
 
 @dataclass(frozen=True, slots=True)
 class MeshFault:
-    """A mesh that cannot be used: code of a rule, message and help, and where the description names it."""
+    """A mesh that cannot be used: its name, code of a rule, message and help, and where the description names it."""
 
+    name: str
     code: str
     message: str
     help: str
@@ -59,8 +60,9 @@ def _faults(graph: CellGraph) -> tuple[MeshFault, ...]:
     facts = {file: _facts(file, found, spec_of(graph)) for file in found}
     owners = dict(reversed(placed))  # of each file and scale the first link
     return tuple(
-        MeshFault(fault.code, fault.message, fault.help_text, mesh.span or owners[mesh].span, owners[mesh].path)
-        for mesh, fault in unusable(meshes, files, facts)
+        MeshFault(mesh.filename, why.code, why.message, why.help_text, mesh.span or owner.span, owner.path)
+        for mesh, why in unusable(meshes, files, facts)
+        for owner in (owners[mesh],)
     )
 
 

@@ -245,7 +245,11 @@ def cell_of(folder: GeneratedFolder) -> MockCell:
     """
     return MockCell(
         folder,
-        PlanMemory(build_motion_model(folder.contract, folder.urdf, folder.description, folder.allowed_collisions)),
+        PlanMemory(
+            build_motion_model(
+                folder.contract, folder.urdf, folder.description, folder.allowed_collisions, folder.mesh_roots
+            )
+        ),
     )
 
 

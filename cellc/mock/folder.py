@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
@@ -46,6 +47,7 @@ class GeneratedFolder:
         notes: how it differs from its manifest, one line each; empty as it was generated.
         edits: paths of the files that differ.
         listed: paths of all files of the manifest.
+        mesh_roots: folders beside which the packages of meshes may lie, as at the build.
     """
 
     contract: Contract
@@ -60,6 +62,7 @@ class GeneratedFolder:
     notes: tuple[str, ...]
     edits: tuple[str, ...]
     listed: tuple[str, ...]
+    mesh_roots: tuple[Path, ...] = ()
 
     @property
     def edited(self) -> bool:
@@ -110,7 +113,14 @@ def read_folder(folder: Path, *, edited: bool = False) -> GeneratedFolder:
         notes=notes,
         edits=edits,
         listed=tuple(manifest.files),
+        mesh_roots=_mesh_roots(folder, contract.cell),
     )
+
+
+def _mesh_roots(folder: Path, cell: str) -> tuple[Path, ...]:
+    """Return where the spec lies as a rule: in `cells/NAME` beside `generated`, or beside `generated` itself."""
+    above = Path(os.path.abspath(folder)).parents
+    return tuple(root for base in above[:2] for root in (base / "cells" / cell, base))
 
 
 def _bring_up(folder: Path, contract: Contract) -> BringUp:

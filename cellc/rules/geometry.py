@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from cellc.cell.frame import Frame, FrameKind
-from cellc.feasibility import BodyContact, DisabledAnswer, MotionAnswer, mesh_faults
+from cellc.feasibility import BodyContact, DisabledAnswer, MeshFault, MotionAnswer, mesh_faults
 from cellc.limits import option
 from cellc.rules.kit import CellGraph, Finding, Findings, Related, found
 
@@ -43,10 +43,16 @@ KNOWN_GOALS = (*KNOWN_POSES, "goal-moves-with-tip", "goal-out-of-reach", "implau
 
 
 def unusable_meshes(graph: CellGraph, code: str) -> Findings:
-    """Yield the meshes of collision shapes that cannot be used for the reason that a rule reports."""
-    for fault in mesh_faults(graph):
-        if fault.code == code:
-            yield Finding(fault.message, fault.span, fault.path, fault.help)
+    """Yield the meshes of collision shapes that cannot be used for the reason that a rule reports.
+
+    Those of one device that are not there are one finding: one package is missing, not twenty files.
+    """
+    faults: dict[object, list[MeshFault]] = {}
+    for number, fault in enumerate(fault for fault in mesh_faults(graph) if fault.code == code):
+        faults.setdefault(fault.path if code == "mesh-not-found" else number, []).append(fault)
+    for first, *others in faults.values():
+        more = f"; nor {', '.join(f'`{fault.name}`' for fault in others)}" if others else ""
+        yield Finding(first.message + more, first.span, first.path, first.help)
 
 
 def beyond_limits(graph: CellGraph, answer: MotionAnswer | DisabledAnswer) -> Findings:

@@ -7,6 +7,7 @@ from collections import OrderedDict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from pathlib import Path
 
 from cellc.contract.contract import Contract, ContractGroup, ContractJointLimits
 from cellc.description.model import Description
@@ -62,13 +63,17 @@ class MotionModel:
 
 
 def build_motion_model(
-    contract: Contract, urdf: str, description: Description, allowed_collisions: Sequence[tuple[str, str]]
+    contract: Contract,
+    urdf: str,
+    description: Description,
+    allowed_collisions: Sequence[tuple[str, str]],
+    mesh_roots: Sequence[Path] = (),
 ) -> MotionModel:
     """Build the planners of all groups; raise MockError where the URDF and the contract do not fit together."""
     unplanned = ""
     try:
         try:
-            robot = RobotModel.from_urdf(urdf, description=description)
+            robot = RobotModel.from_urdf(urdf, description=description, mesh_roots=mesh_roots)
         except UnknownShapeError as error:
             robot, unplanned = RobotModel.from_urdf(without_meshes(urdf)), str(error)
         scene = CollisionScene(robot, disabled_collisions=allowed_collisions)

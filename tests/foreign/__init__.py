@@ -1,0 +1,1 @@
+"""Descriptions as their vendors ship them, with constructs that are not ours."""

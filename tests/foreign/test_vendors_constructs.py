@@ -1,0 +1,104 @@
+"""Constructs of vendors' descriptions are read as ROS reads them, and stay in the folder that they came in."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from cellc.description.meshes import identify
+from cellc.description.model import Description, Mesh
+from cellc.description.packages import find_package
+from cellc.description.read_description import read_description
+
+_HEAD = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">'
+_LINK = '<link name="{0}"><collision><geometry><mesh filename="{1}"/></geometry></collision></link>'
+
+
+def _read(folder: Path, body: str, **arguments: str) -> Description:
+    file = folder / "robot.urdf.xacro"
+    file.write_text(f"{_HEAD}{body}</robot>", encoding="utf-8")
+    read = read_description(file, arguments, folder)
+    assert read.value is not None, read.diagnostics
+    return read.value
+
+
+def _mesh(description: Description) -> str:
+    shape = description.links[0].collisions[0].geometry
+    assert isinstance(shape, Mesh)
+    return shape.filename
+
+
+@pytest.mark.parametrize("written", ["file:///$(find arm_description)", "file://$(find arm_description)",
+                                     "$(find arm_description)", "package://arm_description"])  # fmt: skip
+def test_mesh_named_by_the_folder_of_its_package_is_in_the_package(
+    written: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # UFACTORY's xarm_description names meshes as `file:///$(find xarm_description)/meshes/…`.
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "arm_description").mkdir()
+    for root in (tmp_path, Path(".")):
+        read = _read(root, _LINK.format("a", f"{written}/meshes/a.stl"))
+        assert _mesh(read) == "package://arm_description/meshes/a.stl"
+
+
+@pytest.mark.parametrize(
+    ("expression", "value"),
+    [("1 + 2 * 3", "7"), ("joints - 1", "5"), ("joints == 6", "True"), ("side == 'left' or joints > 7", "False")],
+)
+def test_eval_of_arithmetic_and_comparisons_of_arguments_is_computed(
+    expression: str, value: str, tmp_path: Path
+) -> None:
+    body = '<xacro:arg name="joints" default="6"/><xacro:arg name="side" default="right"/>'
+    read = _read(tmp_path, f'{body}<link name="x_$(eval {expression})"/>')
+    assert read.links[0].name == f"x_{value}"
+
+
+def test_eval_decides_what_is_in_the_robot(tmp_path: Path) -> None:
+    body = '<xacro:arg name="hand" default="false"/><link name="a"/>'
+    body += '<xacro:if value="$(eval hand == True)"><link name="b"/></xacro:if>'
+    assert [link.name for link in _read(tmp_path, body).links] == ["a"]
+    assert [link.name for link in _read(tmp_path, body, hand="true").links] == ["a", "b"]
+
+
+def test_aliases_in_a_file_of_parameters_are_written_out(tmp_path: Path) -> None:
+    # As franka_description's hand: one block of limits, used for both fingers.
+    text = "left: &finger {mass: 0.01, size: [1, 2]}\nright: *finger\nthird: {<<: *finger, mass: 0.02}\n"
+    (tmp_path / "hand.yaml").write_text(text, encoding="utf-8")
+    body = '<xacro:property name="h" value="${xacro.load_yaml(\'hand.yaml\')}"/>'
+    read = _read(tmp_path, body + "<link name=\"m_${h['right']['mass']}_${h['third']['size'][1]}\"/>")
+    assert read.links[0].name == "m_0.01_2"
+
+
+def test_continuous_joint_has_no_ends_whatever_its_limit_says(tmp_path: Path) -> None:
+    # Kinova's j2s6s200 writes lower="-6.28" at its continuous joints.
+    limit = '<limit lower="-6.28" upper="6.28" effort="30" velocity="0.6"/>'
+    joint = f'<joint name="j" type="continuous"><parent link="a"/><child link="b"/>{limit}</joint>'
+    read = _read(tmp_path, f'<link name="a"/><link name="b"/>{joint}').joints[0].limit
+    assert read is not None
+    assert (read.lower, read.upper, read.effort, read.velocity) == (None, None, 30.0, 0.6)
+
+
+@pytest.mark.parametrize("place", ["src/vendor/arm_description", "my_arm/arm_description", "share/arm_description"])
+def test_package_lies_in_a_workspace_or_in_the_folder_of_a_device(place: str, tmp_path: Path) -> None:
+    (tmp_path / place / "meshes").mkdir(parents=True)
+    (tmp_path / "my_arm").mkdir(exist_ok=True)
+    (tmp_path / "my_arm" / "device.yaml").touch()
+    (tmp_path / place / "meshes" / "a.stl").write_bytes(b"solid a")
+    assert find_package("arm_description", str(tmp_path)) == str(tmp_path / place)
+    found = identify("package://arm_description/meshes/a.stl", (tmp_path,), {})
+    assert found.path == str(tmp_path / place / "meshes" / "a.stl")
+
+
+def test_link_within_the_repository_is_followed(tmp_path: Path) -> None:
+    (tmp_path / ".git").mkdir()
+    (tmp_path / "vendor" / "arm_description").mkdir(parents=True)
+    (tmp_path / "vendor" / "arm_description" / "a.stl").write_bytes(b"solid a")
+    (tmp_path / "vendor" / "arm_description" / "a.xacro").write_text(f'{_HEAD}<link name="a"/></robot>', "utf-8")
+    cell = tmp_path / "cells" / "mine"
+    cell.mkdir(parents=True)
+    (cell / "arm_description").symlink_to("../../vendor/arm_description")
+    found = identify("package://arm_description/a.stl", (cell,), {})
+    assert found.path == str(tmp_path / "vendor" / "arm_description" / "a.stl")
+    read = _read(cell, '<xacro:include filename="$(find arm_description)/a.xacro"/>')
+    assert [link.name for link in read.links] == ["a"]
