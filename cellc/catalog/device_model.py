@@ -16,7 +16,7 @@ from typing import Literal
 
 from pydantic import Field, model_validator
 
-from cellc.catalog.catalog_model import CatalogModel, Date, DistroName, FileName, GateName, Text, Token
+from cellc.catalog.catalog_model import CatalogModel, Date, DistroName, FileName, GateName, PartName, Text, Token
 from cellc.catalog.device_controller import DeviceController
 from cellc.catalog.device_interfaces import (
     ActionFacts,
@@ -279,8 +279,18 @@ class SwitchedFacts(CatalogModel):
     source: Text
 
 
+class AllowedPair(CatalogModel):
+    """Two links whose contact is looked for nowhere, and why: the vendor's SRDF, or a person, says so."""
+
+    links: tuple[PartName, PartName]
+    because: Text
+
+
 class DeviceModel(CatalogModel):
-    """One ``device.yaml``."""
+    """One ``device.yaml``.
+
+    ``excused`` are findings on its description that endanger nobody and that who uses it cannot mend, each with why.
+    """
 
     format: Literal[1]
     model: Token
@@ -290,11 +300,13 @@ class DeviceModel(CatalogModel):
     as_of: Date
     sources: tuple[Text, ...] = Field(min_length=1)
     description: DescriptionFacts
-    base: Token
-    frames: dict[Token, Token]
-    tool_frame: Token | None = None
-    optical_frames: tuple[Token, ...] = ()
-    home: dict[Token, JointPosition] | None = None
+    base: PartName
+    frames: dict[PartName, PartName]
+    tool_frame: PartName | None = None
+    optical_frames: tuple[PartName, ...] = ()
+    home: dict[PartName, JointPosition] | None = None
+    allowed_collisions: tuple[AllowedPair, ...] = ()
+    excused: dict[Literal["impossible-inertia"], Text] = Field(default_factory=dict)
     kinematics: KinematicsFacts | None = None
     jog: JogFacts | None = None
     limits: LimitFacts = Field(default_factory=LimitFacts)

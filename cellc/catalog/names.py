@@ -79,6 +79,8 @@ def _of_description(model: DeviceModel, description: Description) -> Iterator[_R
     if model.camera is not None:
         for name, stream in model.camera.streams.items():
             yield link(("camera", "streams", name, "frame"), stream.frame)
+    for number, pair in enumerate(model.allowed_collisions):
+        yield from (link(("allowed_collisions", number, "links", place), name) for place, name in enumerate(pair.links))
     for path, name in _joints_named(model):
         if name != _EVERY_JOINT:
             yield _Reference(path, name, "joint", joints, "description")

@@ -281,6 +281,8 @@ class Device(Entity):
         record: where the record of an attempt has fields from that the real one alone can tell.
         jog: how people move one joint where the driver cannot run meanwhile; None where it can.
         commissioning: what people do at the real one, in the vendor's order.
+        allowed_collisions: pairs of links, prefix applied, whose contact is not looked for.
+        excused: codes of findings on its description that its folder excuses, and why.
         mock_cannot_prove: what no mock shows of it.
     """
 
@@ -334,6 +336,8 @@ class Device(Entity):
     jog: str | None = None
     commissioning: tuple[CommissioningStep, ...] = ()
     version_rows: tuple[VersionRow, ...] = ()
+    allowed_collisions: tuple[tuple[str, str], ...] = ()
+    excused: Mapping[str, str] = field(default_factory=dict)
     mock_cannot_prove: tuple[str, ...] = ()
 
     def joint(self, name: str) -> DeviceJoint:

@@ -6,6 +6,7 @@ import sys
 from collections.abc import Sequence
 from functools import partial
 from importlib import import_module
+from keyword import iskeyword
 
 import click
 
@@ -21,6 +22,7 @@ _COMMANDS = {
     "diagnose": "Tell what a symptom may mean, and what to look at.",
     "diff": "Tell what changed in a cell, and what that means.",
     "explain": "Explain a diagnostic code.",
+    "import": "Make a device folder of a robot as its vendor ships it.",
     "init": "Write a new cell from device names.",
     "mock": "Execute the rehearsals of a generated folder.",
     "schema": "Print or write the JSON schemas.",
@@ -37,7 +39,8 @@ class _LazyGroup(click.Group):
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         if cmd_name not in _COMMANDS:
             return None
-        command = getattr(import_module(f"cellc.cli.{cmd_name}"), cmd_name)
+        name = f"{cmd_name}_" if iskeyword(cmd_name) else cmd_name
+        command = getattr(import_module(f"cellc.cli.{name}"), name)
         assert isinstance(command, click.Command)
         return command
 

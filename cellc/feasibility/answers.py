@@ -11,7 +11,7 @@ MARGIN_M = 0.005
 
 @dataclass(frozen=True, slots=True, order=True)
 class DisabledLinks:
-    """Two links that need no collision check, the lesser name first; ``reason`` is adjacent, never or always."""
+    """Two links that need no collision check, the lesser name first; ``reason`` is adjacent, never, always or user."""
 
     first: str
     second: str

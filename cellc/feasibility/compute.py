@@ -96,7 +96,8 @@ def _answer(question: MotionQuestion, mesh_roots: Sequence[Path], purse: Purse) 
     start = {joint: value for joint, value in question.start if joint in robot.joints}
     samples = _samples(robot)
     disabled = decided_collisions(robot, samples=samples, rng_seed=RNG_SEED, margin_m=MARGIN_M, purse=purse)
-    scene = CollisionScene(robot, disabled_collisions=[pair.links for pair in disabled], other_positions=start)
+    unchecked = [*(pair.links for pair in disabled), *question.allowed]
+    scene = CollisionScene(robot, disabled_collisions=unchecked, other_positions=start)
     asked = {goal.group for goal in question.goals}
     planners = {group.name: _planner(group, robot, scene) for group in question.groups if group.name in asked}
     poses = tuple(_pose(pose, planners, scene, start) for pose in purse.over(question.poses))

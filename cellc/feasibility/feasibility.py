@@ -6,6 +6,7 @@ Both are computed by the planner and kept in the cache. The planner is imported 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import TypeVar
 
@@ -17,6 +18,8 @@ from cellc.graph.cell_graph import CellGraph
 from cellc.limits import limits
 from cellc.store.cache import recall
 
+ALLOWED = "user"
+"""The word of MoveIt's Setup Assistant for a pair that a person, and no sampling, takes out."""
 _Answer = TypeVar("_Answer", DisabledAnswer, MotionAnswer)
 
 
@@ -26,12 +29,24 @@ def disabled_links(graph: CellGraph) -> DisabledAnswer:
     Where the planner refuses the description, because it names a mesh that is not here for instance, these are the
     pairs that follow from the tree alone.
     """
-    return graph.once(_disabled)
+    return graph.once(_with_allowed)
 
 
 def motion_answer(graph: CellGraph) -> MotionAnswer:
     """Return what poses and goals lead to; an empty answer where the cell has no group to move."""
     return graph.once(_motion) if graph.cell.groups else MotionAnswer()
+
+
+def _with_allowed(graph: CellGraph) -> DisabledAnswer:
+    answer = _disabled(graph)
+    known = {frozenset((pair.first, pair.second)) for pair in answer.pairs}
+    allowed = {
+        DisabledLinks(min(pair), max(pair), ALLOWED)
+        for device in graph.cell.devices
+        for pair in device.allowed_collisions
+        if frozenset(pair) not in known
+    }
+    return replace(answer, pairs=tuple(sorted({*answer.pairs, *allowed}))) if allowed else answer
 
 
 def _disabled(graph: CellGraph) -> DisabledAnswer:

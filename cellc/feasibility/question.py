@@ -70,6 +70,7 @@ class MotionQuestion:
     poses: tuple[PoseQuestion, ...]
     goals: tuple[GoalQuestion, ...]
     views: tuple[ViewQuestion, ...] = ()
+    allowed: tuple[tuple[str, str], ...] = ()
 
 
 def shapes_and_joints(cell: Cell) -> str:
@@ -94,6 +95,7 @@ def motion_question(graph: CellGraph) -> MotionQuestion:
             for question in _goal(graph.frames, goal, tips[goal.group][1])
         ),
         views=tuple(_views(graph)),
+        allowed=tuple(pair for device in cell.devices for pair in device.allowed_collisions),
     )
 
 

@@ -84,7 +84,9 @@ def with_catalog(
         ),
         record=tuple(_record(facts)),
         version_rows=facts.versions,
-        mock_cannot_prove=facts.mock_cannot_prove,
+        allowed_collisions=tuple((prefix + a, prefix + b) for a, b in (one.links for one in facts.allowed_collisions)),
+        excused={str(code): because for code, because in facts.excused.items()},
+        mock_cannot_prove=(*facts.mock_cannot_prove, *_taken_on_trust(facts)),
     )
 
 
@@ -162,6 +164,14 @@ def _simulated_joints(written: DeviceSpec, device: Device, document: SourceDocum
         )
         for key, one in written.simulated_joints.items()
     )
+
+
+def _taken_on_trust(facts: DeviceModel) -> Iterator[str]:
+    """Yield what its folder says need not be looked at, with the reason."""
+    for code, because in facts.excused.items():
+        yield f"`{code}` of its description is excused: {because}"
+    for pair in facts.allowed_collisions:
+        yield f"contact of `{pair.links[0]}` and `{pair.links[1]}` is not looked for: {pair.because}"
 
 
 def _gripper(facts: DeviceModel, prefix: str) -> Gripper | None:

@@ -21,7 +21,7 @@ class SpecModel(BaseModel):
 
 NAME_PATTERN = r"^[A-Za-z][A-Za-z0-9_]*$"
 PACKAGE_NAME_PATTERN = r"^[a-z][a-z0-9_]+$"
-REFERENCE_PATTERN = r"^[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)?$"
+REFERENCE_PATTERN = r"^[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_.-]*)?$"
 
 # Device, controller, node and interface tokens end up in ROS graph names: one token of `[A-Za-z_][A-Za-z0-9_]*`.
 Name = Annotated[str, StringConstraints(pattern=NAME_PATTERN, max_length=64)]

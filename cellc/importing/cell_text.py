@@ -1,0 +1,64 @@
+"""A first cell around an imported robot: it stands at home, goes a little way, and comes back."""
+
+from __future__ import annotations
+
+from cellc.description.model import Joint
+from cellc.importing.chain import Chain, away_of, home_of, range_of
+
+_WIDEST = {False: 0.2, True: 0.02}
+_SHARE = 0.25
+"""Of a joint's range that a path tolerance is at most."""
+
+
+def cell_text(name: str, folder: str, chain: Chain, ros: str) -> str:
+    """Write the spec of a cell whose one device is the folder, named relative to the spec."""
+    joints = ", ".join(f"arm/{joint.name}" for joint in chain.joints)
+    base, tip = f"arm/{chain.base}", f"arm/{chain.tip}"
+    return "\n".join(
+        (
+            "format: 1",
+            f"cell: {name}",
+            f"summary: {name} on the mock, as `cellc import` made it",
+            f"versions: {{ros: {ros}}}        # what is missing here is UNKNOWN and blocks the real target",
+            "devices:",
+            f"  arm: {{model: {folder}, mount: {{parent: world}}}}",
+            "control:",
+            "  update_rate: 100 Hz",
+            "  controllers:",
+            "    joint_states: {type: joint_state_broadcaster}",
+            "    arm_trajectory:",
+            "      type: joint_trajectory",
+            "      device: arm",
+            f"      joints: [{joints}]",
+            "      goal_time: 1 s",
+            f"      path_tolerance: {_tolerance(chain, 1.0)}",
+            f"      goal_tolerance: {_tolerance(chain, 0.1)}",
+            "motion:",
+            f"  groups: {{arm_group: {{base: {base}, tip: {tip}}}}}",
+            "  poses:",
+            f"    home: {{arm_group: {_positions([(joint, home_of(joint)) for joint in chain.joints])}}}",
+            f"    away: {{arm_group: {_positions([(joint, away_of(joint)) for joint in chain.joints])}}}",
+            "rehearsals:",
+            "  first_move: {steps: [move: away, move: home]}",
+            "",
+        )
+    )
+
+
+def _tolerance(chain: Chain, share: float) -> str:
+    """Return one figure for each kind of joint of the chain, small beside what the shortest of them moves."""
+    parts = []
+    for slides, unit in ((False, "rad"), (True, "m")):
+        ranges = [range_of(joint) for joint in chain.joints if joint.slides == slides]
+        if ranges:
+            parts.append(f"{share * min(_WIDEST[slides], _SHARE * min(ranges)):.3g} {unit}")
+    return " ".join(parts)
+
+
+def _positions(values: list[tuple[Joint, float]]) -> str:
+    """Write positions, a unit wherever the kind of joint changes."""
+    texts = []
+    for number, (joint, value) in enumerate(values):
+        last = number + 1 == len(values) or values[number + 1][0].slides != joint.slides
+        texts.append(f"{value:.6g}" + (f" {'m' if joint.slides else 'rad'}" if last else ""))
+    return " ".join(texts)

@@ -1,0 +1,141 @@
+"""Which joints of a description move as one chain, and where each begins and goes: what a first motion needs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from cellc.description.model import Description, Joint
+from cellc.importing.source import ImportRefusedError
+
+_SHARE = 0.1
+"""Of the way to the farther limit: what the first motion moves a joint."""
+_LARGEST = {True: 0.05, False: 0.2}
+"""By whether a joint slides: the most that it moves, m or rad."""
+_HANDS = 3
+"""A link that this many joints carry, and that several branches of joints hang on, is the palm of a hand."""
+
+
+@dataclass(frozen=True, slots=True)
+class Chain:
+    """A run of joints between two links, each with a range; names are those of the description."""
+
+    base: str
+    tip: str
+    joints: tuple[Joint, ...]
+
+
+def actuated(description: Description) -> tuple[Joint, ...]:
+    """Return the joints that move on their own."""
+    return tuple(joint for joint in description.joints if joint.movable and joint.mimic is None)
+
+
+def chain_of(description: Description) -> Chain:
+    """Return the longest chain of joints that can be planned for, without the fingers at its end.
+
+    Raises:
+        ImportRefusedError: no joint moves.
+    """
+    parents = {joint.child: joint for joint in description.joints}
+    chains = [_above(link.name, parents) for link in description.links]
+    runs = [run for chain in chains for run in _runs(chain)]
+    longest = max(runs, key=lambda run: len(run.joints), default=None)
+    if longest is None:
+        raise ImportRefusedError(f"`{description.name}` has no joint that moves: there is nothing to drive")
+    return _with_tool(_without_fingers(longest, description), description)
+
+
+def home_of(joint: Joint) -> float:
+    """Return the position of a joint nearest zero that its limits hold."""
+    lower, upper = _ends(joint)
+    return min(max(0.0, lower), upper)
+
+
+def away_of(joint: Joint) -> float:
+    """Return a position a little way from home, towards the farther limit."""
+    home, (lower, upper) = home_of(joint), _ends(joint)
+    way = upper - home if upper - home >= home - lower else lower - home
+    most = _LARGEST[joint.slides]
+    return home + max(-most, min(most, _SHARE * way))
+
+
+def range_of(joint: Joint) -> float:
+    """Return how far a joint moves, rad or m; a turn where it has no ends."""
+    lower, upper = _ends(joint)
+    return upper - lower
+
+
+def _ends(joint: Joint) -> tuple[float, float]:
+    limit = joint.limit
+    if joint.type == "continuous" or limit is None or limit.lower is None or limit.upper is None:
+        return (-3.14, 3.14)
+    return (limit.lower, limit.upper)
+
+
+def _above(link: str, parents: Mapping[str, Joint]) -> tuple[Joint, ...]:
+    """Return the joints from the root to a link; as far as a cycle where there is one."""
+    found: list[Joint] = []
+    while link in parents and parents[link] not in found:
+        found.append(parents[link])
+        link = parents[link].parent
+    return tuple(reversed(found))
+
+
+def _runs(chain: tuple[Joint, ...]) -> list[Chain]:
+    """Split a chain where a joint cannot be planned for, and leave out what does not move."""
+    runs, run, base = list[Chain](), list[Joint](), ""
+    for joint in chain:
+        plannable = joint.movable and joint.mimic is None and _has_way(joint)
+        if plannable:
+            base, run = (base or joint.parent), [*run, joint]
+        elif joint.type != "fixed":
+            runs, run, base = [*runs, *_ended(base, run)], [], ""
+    return [*runs, *_ended(base, run)]
+
+
+def _ended(base: str, run: list[Joint]) -> list[Chain]:
+    return [Chain(base, run[-1].child, tuple(run))] if run else []
+
+
+def _has_way(joint: Joint) -> bool:
+    limit = joint.limit
+    return range_of(joint) > 0.0 and (limit is None or limit.velocity is None or limit.velocity > 0.0)
+
+
+def _without_fingers(chain: Chain, description: Description) -> Chain:
+    """End a chain at the palm: where several branches move, or where what is left slides as jaws do."""
+    below: dict[str, list[Joint]] = {}
+    for joint in description.joints:
+        below.setdefault(joint.parent, []).append(joint)
+    for count in range(_HANDS, len(chain.joints)):
+        finger = chain.joints[count]
+        branches = sum(_moves(joint, below) for joint in below[finger.parent])
+        if branches > 1 or finger.slides:
+            return Chain(chain.base, finger.parent, chain.joints[:count])
+    return chain
+
+
+def _moves(joint: Joint, below: Mapping[str, list[Joint]]) -> bool:
+    waiting, seen = [joint], set[str]()
+    while waiting:
+        one = waiting.pop()
+        if one.movable:
+            return True
+        if one.child not in seen:
+            seen.add(one.child)
+            waiting += below.get(one.child, [])
+    return False
+
+
+def _with_tool(chain: Chain, description: Description) -> Chain:
+    """Follow fixed joints from the tip to the last frame, as far as there is one way."""
+    fixed: dict[str, list[str]] = {}
+    for joint in description.joints:
+        if joint.type == "fixed":
+            fixed.setdefault(joint.parent, []).append(joint.child)
+    tip, seen = chain.tip, {chain.tip}
+    while len(fixed.get(tip, ())) == 1 and fixed[tip][0] not in seen:
+        tip = fixed[tip][0]
+        seen.add(tip)
+    tools = [link for link in fixed.get(tip, ()) if link in ("tool0", "tcp", "ee_link")]
+    return Chain(chain.base, tools[0] if tools else tip, chain.joints)

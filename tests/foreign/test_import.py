@@ -1,0 +1,174 @@
+"""A robot as its vendor ships it becomes a device folder that checks, and a cell that moves it."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.cli.run import run
+
+_LIMIT = '<limit lower="-2" upper="2" velocity="1" effort="10"/>'
+_BODY = '<inertial><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>'
+
+
+def _joint(name: str, parent: str, child: str, kind: str = "revolute", inside: str = _LIMIT) -> str:
+    ends = f'<parent link="{parent}"/><child link="{child}"/><origin xyz="0 0 0.3"/><axis xyz="0 1 0"/>'
+    return f'<joint name="{name}" type="{kind}">{ends}{inside}</joint>'
+
+
+def _links(*names: str) -> str:
+    return "".join(f'<link name="{name}">{_BODY}</link>' for name in names)
+
+
+def _robot(*parts: str) -> str:
+    return f'<robot name="Odd-Arm">{"".join(parts)}</robot>'
+
+
+ARM = (_links("a", "b", "c"), _joint("j1", "a", "b"), _joint("j2", "b", "c"))
+
+
+@pytest.fixture(name="here")
+def here_fixture(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def _import(here: Path, text: str, *options: str, name: str = "arm.urdf") -> tuple[int, str]:
+    (here / name).write_text(text, encoding="utf-8")
+    ran = run("import", name, *options)
+    assert "Traceback" not in ran.out + ran.err
+    assert "bug of cellc" not in ran.out + ran.err
+    return ran.code, ran.out + ran.err
+
+
+def test_imported_robot_moves_in_its_first_cell(here: Path) -> None:
+    slide = '<limit lower="0" upper="1" velocity="1" effort="10"/>'
+    parts = (_links("rail", "a", "b"), _joint("slide", "rail", "a", "prismatic", slide), _joint("turn", "a", "b"))
+    code, out = _import(here, _robot(*parts), "--cell")
+    assert code == 0, out
+    assert "wrote odd_arm: 3 files" in out
+    assert "away: {arm_group: 0.05 m 0.2 rad}" in (here / "cell.yaml").read_text(encoding="utf-8")
+    assert run("build", "cell.yaml").code == 0
+    ran = run("mock", "generated/odd_arm_cell")
+    assert (ran.code, "first_move: succeeded" in ran.out) == (0, True)
+
+
+def test_second_import_leaves_what_a_person_wrote_and_tells_what_changed(here: Path) -> None:
+    assert _import(here, _robot(*ARM))[0] == 0
+    assert run("import", "--check", "odd_arm").code == 0
+    device = here / "odd_arm" / "device.yaml"
+    device.write_text(device.read_text(encoding="utf-8").replace("vendor: UNKNOWN", "vendor: Us"), encoding="utf-8")
+    (here / "odd_arm" / "robot.urdf").write_text("changed", encoding="utf-8")
+    checked = run("import", "--check", "odd_arm")
+    assert (checked.code, "changed: robot.urdf" in checked.out) == (1, True)
+    code, out = _import(here, _robot(*ARM))
+    assert (code, "kept odd_arm/device.yaml" in out) == (0, True)
+    assert "vendor: Us" in device.read_text(encoding="utf-8")
+    assert run("import", "--check", "odd_arm").code == 0
+
+
+def test_what_the_files_do_not_say_is_a_question(here: Path) -> None:
+    assert _import(here, _robot(*ARM))[0] == 0
+    head = (here / "odd_arm" / "device.yaml").read_text(encoding="utf-8").partition("format:")[0]
+    assert "what does the vendor allow?" in head
+    assert "which plugin drives the robot" in head
+    assert "may the description be kept" in head
+
+
+def test_plugin_and_interfaces_are_those_of_ros2_control(here: Path) -> None:
+    tag = (
+        '<ros2_control name="x" type="system"><hardware><plugin>vendor_driver/Arm</plugin>'
+        '<param name="robot_ip">10.0.0.2</param></hardware><joint name="j1"><command_interface name="position"/>'
+        '<command_interface name="velocity"/><state_interface name="position"/></joint></ros2_control>'
+    )
+    _import(here, _robot(*ARM, tag))
+    text = (here / "odd_arm" / "device.yaml").read_text(encoding="utf-8")
+    assert "plugin: vendor_driver/Arm" in text
+    assert "robot_ip: 10.0.0.2" in text
+    assert "command: [position, velocity]" in text
+
+
+def test_pairs_of_an_srdf_may_touch_and_say_why(here: Path) -> None:
+    pair = '<disable_collisions link1="c" link2="a" reason="Never"/><disable_collisions link1="a" link2="nobody"/>'
+    (here / "arm.srdf").write_text(f'<robot name="Odd-Arm">{pair}</robot>', encoding="utf-8")
+    assert _import(here, _robot(*ARM), "--srdf", "arm.srdf", "--cell")[0] == 0
+    assert "because: arm.srdf says Never" in (here / "odd_arm" / "device.yaml").read_text(encoding="utf-8")
+    assert run("build", "cell.yaml").code == 0
+    assert "is not looked for: arm.srdf says Never" in run("audit", "cell.yaml").out
+
+
+def test_meshes_of_collision_shapes_come_along_and_no_others(here: Path) -> None:
+    package = here / "vendor_description"
+    (package / "meshes").mkdir(parents=True)
+    (package / "package.xml").write_text("<package><license>BSD</license></package>", encoding="utf-8")
+    triangle = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0.5\nendloop\nendfacet\n"
+    for name in ("hull", "pretty"):
+        (package / "meshes" / f"{name}.stl").write_text(f"solid a\n{triangle}endsolid a\n", encoding="utf-8")
+    mesh = '<geometry><mesh filename="package://vendor_description/meshes/{}.stl"/></geometry>'
+    seen = f"<visual>{mesh.format('pretty')}</visual><collision>{mesh.format('hull')}</collision>"
+    text = _robot(*ARM).replace('<link name="a">', f'<link name="a">{seen}')
+    (package / "arm.urdf").write_text(text, encoding="utf-8")
+    assert run("import", "vendor_description", "-o", "mine").code == 0
+    lock = json.loads((here / "mine" / "import.lock.json").read_text(encoding="utf-8"))
+    assert sorted(lock["files"]) == ["robot.urdf", "vendor_description/meshes/hull.stl"]
+    assert "license BSD" in (here / "mine" / "device.yaml").read_text(encoding="utf-8")
+
+
+_TURNING = "".join(
+    _joint(f"j{number}", f"l{number}", f"l{number + 1}", "fixed" if number % 4 else "revolute")
+    for number in range(200)
+)  # fmt: skip
+NASTY = {
+    "no limits": (_robot(_links("a", "b"), _joint("j", "a", "b", inside="")), "missing-joint-limits"),
+    "two roots": (_robot(_links("a", "b", "lone"), _joint("j", "a", "b")), "must have one root, got a, lone"),
+    "a name with a space": (_robot(_links("a", "the tool"), _joint("j", "a", "the tool")), "got `the tool`"),
+    "a name beyond ASCII": (_robot(_links("a", "grüße"), _joint("j", "a", "grüße")), "got `grüße`"),
+    "degrees for radians": (
+        _robot(_links("a", "b"), _joint("j", "a", "b", inside=_LIMIT.replace("-2", "-180").replace('"2"', '"180"'))),
+        "degrees-as-radians",
+    ),
+    "zero mass": (
+        _robot(*ARM).replace('<mass value="1"/>', '<mass value="-1"/>'),
+        "negative-mass",
+    ),
+    "mimic in a circle": (
+        _robot(_links("a", "b", "c"), _joint("j0", "a", "b", inside=f'{_LIMIT}<mimic joint="j1"/>'),
+               _joint("j1", "b", "c", inside=f'{_LIMIT}<mimic joint="j0"/>')),
+        "no joint that moves",
+    ),
+    "mimic of a fixed joint": (
+        _robot(*ARM, _links("f", "g"), _joint("x", "a", "f", "fixed", ""),
+               _joint("y", "a", "g", inside=f'{_LIMIT}<mimic joint="x"/>')),
+        "mimic-of-fixed-joint",
+    ),
+    "a closed loop": (_robot(*ARM, _joint("back", "c", "b")), "link-with-two-parents"),
+    "nothing that moves": (_robot(_links("a", "b"), _joint("j", "a", "b", "fixed", "")), "nothing to drive"),
+    "not a robot": ("<sdf/>", "urdf-not-a-robot"),
+    "not closed": ("<robot name='x'>", "xml-not-well-formed"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", NASTY)
+def test_nasty_description_is_refused_for_its_own_reason(case: str, here: Path) -> None:
+    text, reason = NASTY[case]
+    code, out = _import(here, text)
+    assert code == 1
+    assert reason in out
+
+
+def test_missing_package_and_two_hundred_joints_are_no_reason_to_refuse(here: Path) -> None:
+    mesh = '<collision><geometry><mesh filename="package://absent/a.stl"/></geometry></collision>'
+    links = "".join(f'<link name="l{number}">{mesh if number < 3 else ""}</link>' for number in range(201))
+    code, out = _import(here, _robot(links, _TURNING))
+    assert code == 0, out
+    assert "1 meshes of collision shapes, package://absent/a.stl first" in (here / "odd_arm" / "device.yaml").read_text(
+        encoding="utf-8"
+    )
+
+
+@pytest.mark.parametrize("named", ["nowhere", "nowhere.urdf", "."])
+def test_robot_that_is_not_there_is_refused_in_one_line(named: str, here: Path) -> None:
+    ran = run("import", named)
+    assert (ran.code, ran.out.count("\n")) == (1, 1)
