@@ -5,7 +5,8 @@ Texts may carry placeholders that link fills in: ``{device}`` the name in the sp
 same or, where there is none, the name, ``{address}`` and ``{port}`` of the connection, ``{host_address}`` of the host's
 card, ``{carrier_address}`` that of the device on which this one is mounted, ``{controller_KIND}`` the full name of the
 cell's controller of that kind on this device, ``{share:PACKAGE}`` the share folder of an installed package,
-``{played_by}`` who starts its program, ``{thresholds}`` those of collisions as a request, ``{tool_voltage}``,
+``{played_by}`` who starts its program, ``{thresholds}`` those of collisions as a request, ``{load}`` what
+it carries beside its tool as one, ``{joint_stiffness}`` and ``{cartesian_stiffness}`` as lists, ``{tool_voltage}``,
 ``{tool_baud_rate}``, ``{tool_parity}``, ``{tool_stop_bits}``, ``{tool_rx_idle_chars}``, ``{tool_tx_idle_chars}``,
 ``{tool_port}`` and ``{tool_tcp_port}`` what the spec says of its tool connector, ``{carrier}`` the robot through whose
 tool connector it has its power. Links, joints, sensors and
@@ -28,7 +29,7 @@ from cellc.catalog.device_interfaces import (
     SpeedScalingFacts,
     TopicFacts,
 )
-from cellc.catalog.robot_facts import PlugFacts, RobotControllerFacts, StepCondition
+from cellc.catalog.robot_facts import HumanStep, PlugFacts, RobotControllerFacts, StepCondition
 from cellc.spec.quantity import Force, JointAcceleration, JointJerk, JointPosition, Length, Mass, Velocity
 from cellc.vocabulary import GateCode
 
@@ -76,7 +77,7 @@ class RecoveryFacts(CatalogModel):
     """The way out of one state: steps in order, the human ones first."""
 
     state: Token
-    steps: tuple[Text, ...] = Field(min_length=1)
+    steps: tuple[HumanStep, ...] = Field(min_length=1)
 
 
 class SafetyFacts(CatalogModel):
@@ -90,8 +91,8 @@ class SafetyFacts(CatalogModel):
     told: tuple[StateTopicFacts, ...] = ()
     modes: tuple[Text, ...] = ()
     recovery: tuple[RecoveryFacts, ...] = ()
-    ending: tuple[Text, ...] = ()
-    ended: tuple[Text, ...] = ()
+    ending: tuple[HumanStep, ...] = ()
+    ended: tuple[HumanStep, ...] = ()
     watchdog: Text | None = None
     source: Text
 

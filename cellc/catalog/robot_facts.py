@@ -1,6 +1,6 @@
 """What the controller of a robot can be told, and who can start the program on it."""
 
-from typing import Literal
+from typing import Literal, Union
 
 from pydantic import Field
 
@@ -102,17 +102,36 @@ class PlugFacts(CatalogModel):
     source: Text
 
 
+class StiffnessSpan(CatalogModel):
+    """The least and the most of a stiffness, in N/m or N m/rad."""
+
+    least: float
+    most: float
+
+
+class ImpedanceFacts(CatalogModel):
+    """What impedance the robot's own controller takes; ``acts_on`` are the command interfaces that it controls."""
+
+    joint: StiffnessSpan
+    translation: StiffnessSpan
+    rotation: StiffnessSpan
+    acts_on: tuple[Token, ...] = Field(min_length=1)
+    source: Text
+
+
 class RobotControllerFacts(CatalogModel):
     """What the robot's own controller can be told.
 
     ``payload_service`` says which service tells it the payload, and when; ``thresholds`` which takes those of
-    collisions.
+    collisions; ``load_service`` tells it what it carries beside the tool that its installation has.
     """
 
     program: ProgramFacts | None = None
     tcp: CenterFacts | None = None
     payload_service: Text | None = None
     thresholds: Text | None = None
+    load_service: Text | None = None
+    impedance: ImpedanceFacts | None = None
     tool_connector: ToolConnectorFacts | None = None
 
 
@@ -124,6 +143,9 @@ StepCondition = Literal[
     "payload_by_service",
     "thresholds_stated",
     "thresholds_open",
+    "load_stated",
+    "joint_impedance_stated",
+    "cartesian_impedance_stated",
     "tool_power",
     "tool_serial_pendant",
     "tool_serial_dashboard",
@@ -131,3 +153,14 @@ StepCondition = Literal[
     "through_tool",
 ]
 """What a spec may say of a device, so that people do one thing or the other."""
+
+
+class GuardedStep(CatalogModel):
+    """What people do only where one of these is so of the device."""
+
+    when: tuple[StepCondition, ...] = Field(min_length=1)
+    does: Text
+
+
+HumanStep = Union[Text, GuardedStep]
+"""What people do at a device, always or where something is so of it; placeholders are filled."""

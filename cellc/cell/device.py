@@ -10,7 +10,16 @@ from cellc.cell.entity import Entity
 from cellc.cell.frame import WORLD
 from cellc.cell.hardware import Effect, HardwareComponent
 from cellc.cell.interface import InterfaceKind
-from cellc.cell.robot import CollisionThresholds, HostProgram, Payload, Plug, RobotFacts, RobotProgram, ToolConnector
+from cellc.cell.robot import (
+    CollisionThresholds,
+    HostProgram,
+    Impedance,
+    Payload,
+    Plug,
+    RobotFacts,
+    RobotProgram,
+    ToolConnector,
+)
 from cellc.cell.site import UNKNOWN, Clock, JointFigure
 from cellc.cell.switched import Switched
 from cellc.cell.vendor import CommissioningStep, RecordSource, VendorSafety
@@ -263,7 +272,7 @@ class Device(Entity):
         carries: devices mounted on this one, directly or on a frame of it.
         host: the computer that runs its driver; empty where the cell names none.
         versions, connection, initial_state, limit_shares, stamp, adapter, simulated_joints: what the spec states of it.
-        payload, tcp, program, collision: what its own controller is told, and who starts the program there.
+        payload, tcp, program, collision, impedance: what its own controller is told, and who starts the program there.
         robot: what its own controller can be told.
         tool_connector: what the connector at its tool frame gives; None where the spec says nothing.
         plug: what it takes from the tool connector of a robot, where the catalog tells.
@@ -311,6 +320,7 @@ class Device(Entity):
     tcp: str | None = None
     program: RobotProgram | None = None
     collision: CollisionThresholds | None = None
+    impedance: Impedance | None = None
     robot: RobotFacts = field(default_factory=RobotFacts)
     tool_connector: ToolConnector | None = None
     plug: Plug | None = None

@@ -12,6 +12,15 @@ Moments6 = tuple[float, float, float, float, float, float]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Load:
+    """The part of a payload that a service tells; center of mass in the tool frame in m, inertia about it."""
+
+    mass_kg: float
+    center_of_mass: Vector3
+    inertia: Moments6
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Payload:
     """Load that the robot controller is told of, as all that hangs on its tool frame.
 
@@ -19,12 +28,14 @@ class Payload:
         center_of_mass: in the tool frame, m.
         inertia: about the center of mass, in axes parallel to the tool frame; None where nobody states it.
         told_by: installation or service.
+        load: the part of it that a service tells beside the tool; None where there is none.
     """
 
     mass_kg: float
     center_of_mass: Vector3
     inertia: Moments6 | None = None
     told_by: str = "installation"
+    load: Load | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -50,6 +61,32 @@ class CollisionThresholds:
     torque: Thresholds
     force: Thresholds
     moment: Thresholds
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CartesianImpedance:
+    """Stiffness at the tool: N/m along the axes, N m/rad about them."""
+
+    translation: tuple[float, ...]
+    rotation: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Impedance:
+    """How stiff the robot's own controller holds what it is commanded; ``joint`` in N m/rad, None where unstated."""
+
+    joint: tuple[float, ...] | None = None
+    cartesian: CartesianImpedance | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ImpedanceFacts:
+    """What impedance a kind of robot takes: least and most of each, and the command interfaces on which it acts."""
+
+    joint: tuple[float, float]
+    translation: tuple[float, float]
+    rotation: tuple[float, float]
+    acts_on: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -119,6 +156,8 @@ class RobotFacts:
         thresholds: whether it takes thresholds of collisions.
         payload_service: whether a service tells it the payload; in local mode only while its program runs.
         tcp_kind, tcp_topic: kind of controller that publishes where the TCP is, and the topic below its node.
+        load_service: whether a service tells it what it carries beside its tool.
+        impedance_facts: what impedance it takes; None where it takes none.
         tool_facts: what the connector at its tool frame can give; None where it has none.
     """
 
@@ -127,4 +166,6 @@ class RobotFacts:
     payload_service: bool = False
     tcp_kind: str | None = None
     tcp_topic: str | None = None
+    load_service: bool = False
+    impedance_facts: ImpedanceFacts | None = None
     tool_facts: ToolFacts | None = None

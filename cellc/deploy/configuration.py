@@ -33,7 +33,7 @@ _NOT_OF_AN_ENTITY = frozenset(
     {
         *("span", "places", "declared", "owner"),
         *("endpoints", "inside", "version_rows", "commissioning", "mock_cannot_prove"),  # the catalog's
-        *("plug", "tool_facts"),  # what a tool and its connector could be told
+        *("plug", "tool_facts", "load_service", "impedance_facts"),  # what a tool and its connector could be told
     }
 )
 """Fields of any part of it that do."""

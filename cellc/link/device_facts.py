@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from cellc.catalog.device_interfaces import ViewFacts
 from cellc.catalog.device_model import CommissioningStep as CommissioningFacts
 from cellc.catalog.device_model import DeviceModel
+from cellc.catalog.robot_facts import HumanStep
 from cellc.cell.device import (
     Adapter,
     Camera,
@@ -74,7 +75,7 @@ def with_catalog(
         offers=tuple(offered_interfaces(facts, nodes, known, distro)),
         starts=started_nodes(nodes, known, distro),
         network=_network_needs(facts, known),
-        safety=_vendor_safety(facts, known),
+        safety=_vendor_safety(facts, known, holding),
         packages=_packages(facts),
         jog=None if facts.jog is None else facts.jog.does,
         commissioning=tuple(
@@ -243,11 +244,20 @@ def _step(facts: CommissioningFacts, known: Placeholders) -> CommissioningStep:
     )
 
 
-def _vendor_safety(facts: DeviceModel, known: Placeholders) -> VendorSafety:
-    """Return the vendor's safety boundary; empty where the catalog has none."""
+def _vendor_safety(facts: DeviceModel, known: Placeholders, holding: frozenset[str]) -> VendorSafety:
+    """Return the vendor's safety boundary; empty where the catalog has none.
+
+    Args:
+        holding: what is so of the device, of all that a step may be bound to.
+    """
     safety = facts.safety
     if safety is None:
         return VendorSafety()
+
+    def told(steps: Iterable[HumanStep]) -> tuple[str, ...]:
+        free = (one if isinstance(one, str) else one.does if holding.intersection(one.when) else "" for one in steps)
+        return tuple(known.fill(step) for step in free if step)
+
     return VendorSafety(
         states=tuple(
             SafetyState(name=one.name, stops=one.stops, reported=one.reported, gate=one.gate) for one in safety.states
@@ -257,10 +267,10 @@ def _vendor_safety(facts: DeviceModel, known: Placeholders) -> VendorSafety:
             for one in safety.told
             if (kind := f"controller_{one.controller}") in known.values
         ),
-        ending=safety.ending,
-        ended=safety.ended,
+        ending=told(safety.ending),
+        ended=told(safety.ended),
         modes=safety.modes,
-        recovery=tuple(RecoveryProcedure(state=one.state, steps=one.steps) for one in safety.recovery),
+        recovery=tuple(RecoveryProcedure(state=one.state, steps=told(one.steps)) for one in safety.recovery),
         watchdog=safety.watchdog,
     )
 

@@ -2,14 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
+from cellc.catalog import robot_facts as catalog
 from cellc.catalog.device_model import DeviceModel
 from cellc.catalog.robot_facts import ProgramWay
 from cellc.cell.device import Device
 from cellc.cell.interface import ParameterValue
-from cellc.cell.robot import CollisionThresholds, Payload, RobotFacts, RobotProgram, Thresholds
+from cellc.cell.robot import (
+    CartesianImpedance,
+    CollisionThresholds,
+    Impedance,
+    ImpedanceFacts,
+    Load,
+    Moments6,
+    Payload,
+    RobotFacts,
+    RobotProgram,
+    Thresholds,
+)
 from cellc.diagnostics import Diagnostic, Outcome
 from cellc.link.frames import FrameNames
 from cellc.link.quantities import vector
@@ -17,7 +29,7 @@ from cellc.link.tool import tool_conditions, tool_facts
 from cellc.spec.cell_spec import CellSpec
 from cellc.spec.devices import DeviceSpec
 from cellc.spec.quantity import QuantityVector
-from cellc.spec.robot import CollisionSpec, ProgramSpec
+from cellc.spec.robot import CollisionSpec, ImpedanceSpec, PayloadSpec, ProgramSpec
 
 DRIVER = "driver"
 """The word of a spec for a program that the driver of the robot sends and starts."""
@@ -36,6 +48,7 @@ def with_robot(device: Device, facts: DeviceModel, written: DeviceSpec) -> Devic
         payload=_payload(written),
         program=None if program is None else RobotProgram(played_by=program.played_by, mode=program.mode),
         collision=None if written.collision is None else _collision(written.collision),
+        impedance=None if written.impedance is None else _impedance(written.impedance),
         robot=_robot(facts),
     )
 
@@ -66,7 +79,14 @@ def conditions(facts: DeviceModel, written: DeviceSpec) -> frozenset[str]:
     told_by = "installation" if written.payload is None else written.payload.told_by
     thresholds = "open" if written.collision is None else "stated"
     name = "" if way is None else way.name
-    told = (name, f"payload_by_{told_by}", f"thresholds_{thresholds}", *tool_conditions(written, name))
+    impedance = written.impedance
+    stated = {
+        "load_stated": written.payload is not None and written.payload.load is not None,
+        "joint_impedance_stated": impedance is not None and impedance.joint is not None,
+        "cartesian_impedance_stated": impedance is not None and impedance.cartesian is not None,
+    }
+    more = (name for name, so in stated.items() if so)
+    told = (name, *more, f"payload_by_{told_by}", f"thresholds_{thresholds}", *tool_conditions(written, name))
     return frozenset(told)
 
 
@@ -81,6 +101,12 @@ def robot_words(written: DeviceSpec) -> Iterator[tuple[str, str]]:
     yield "played_by", "a person" if written.program is None else written.program.played_by
     if written.collision is not None:
         yield "thresholds", _request(_collision(written.collision))
+    if written.payload is not None and (load := _load(written.payload)) is not None:
+        yield "load", _load_request(load)
+    if written.impedance is not None and written.impedance.joint is not None:
+        yield "joint_stiffness", _listed(written.impedance.joint.si)
+    if written.impedance is not None and (at := written.impedance.cartesian) is not None:
+        yield "cartesian_stiffness", _listed((*at.translation.si, *at.rotation.si))
 
 
 def _starter(program: ProgramSpec) -> str:
@@ -96,23 +122,56 @@ def _request(collision: CollisionThresholds) -> str:
         ("upper", "force"): (*collision.force.upper, *collision.moment.upper),
     }
     parts = (
-        f"{side}_{kind}_thresholds_{phase}: [{', '.join(map(repr, numbers))}]"
+        f"{side}_{kind}_thresholds_{phase}: {_listed(numbers)}"
         for (side, kind), numbers in values.items()
         for phase in ("acceleration", "nominal")
     )
     return "{" + ", ".join(parts) + "}"
 
 
+def _listed(numbers: Iterable[float]) -> str:
+    return f"[{', '.join(map(repr, numbers))}]"
+
+
+def _load_request(load: Load) -> str:
+    """Return the fields of a request; of a symmetric matrix rows and columns say the same."""
+    xx, yy, zz, xy, xz, yz = load.inertia
+    matrix = _listed((xx, xy, xz, xy, yy, yz, xz, yz, zz))
+    center = _listed(load.center_of_mass)
+    return f"{{mass: {load.mass_kg!r}, center_of_mass: {center}, load_inertia: {matrix}}}"
+
+
+def _moments(inertia: QuantityVector) -> Moments6:
+    xx, yy, zz, xy, xz, yz = inertia.si
+    return (xx, yy, zz, xy, xz, yz)
+
+
 def _payload(written: DeviceSpec) -> Payload | None:
     payload = written.payload
     if payload is None:
         return None
-    inertia = None
-    if payload.inertia is not None:
-        xx, yy, zz, xy, xz, yz = payload.inertia.si
-        inertia = (xx, yy, zz, xy, xz, yz)
-    center = vector(payload.center_of_mass)
-    return Payload(mass_kg=payload.mass.si, center_of_mass=center, inertia=inertia, told_by=payload.told_by)
+    return Payload(
+        mass_kg=payload.mass.si,
+        center_of_mass=vector(payload.center_of_mass),
+        inertia=None if payload.inertia is None else _moments(payload.inertia),
+        told_by=payload.told_by,
+        load=_load(payload),
+    )
+
+
+def _load(payload: PayloadSpec) -> Load | None:
+    load = payload.load
+    if load is None:
+        return None
+    return Load(mass_kg=load.mass.si, center_of_mass=vector(load.center_of_mass), inertia=_moments(load.inertia))
+
+
+def _impedance(written: ImpedanceSpec) -> Impedance:
+    at = written.cartesian
+    return Impedance(
+        joint=None if written.joint is None else written.joint.si,
+        cartesian=None if at is None else CartesianImpedance(translation=at.translation.si, rotation=at.rotation.si),
+    )
 
 
 def _collision(written: CollisionSpec) -> CollisionThresholds:
@@ -133,7 +192,18 @@ def _robot(facts: DeviceModel) -> RobotFacts:
         ways=tuple((way.by, way.mode) for way in ways),
         thresholds=told.thresholds is not None,
         payload_service=told.payload_service is not None,
+        load_service=told.load_service is not None,
+        impedance_facts=None if told.impedance is None else _impedance_facts(told.impedance),
         tcp_kind=None if told.tcp is None else told.tcp.controller,
         tcp_topic=None if told.tcp is None else told.tcp.topic,
         tool_facts=tool_facts(told.tool_connector),
+    )
+
+
+def _impedance_facts(told: catalog.ImpedanceFacts) -> ImpedanceFacts:
+    return ImpedanceFacts(
+        joint=(told.joint.least, told.joint.most),
+        translation=(told.translation.least, told.translation.most),
+        rotation=(told.rotation.least, told.rotation.most),
+        acts_on=told.acts_on,
     )

@@ -48,6 +48,7 @@ _STATED = {
     "tcp",
     "program",
     "collision",
+    "impedance",
     "tool_connector",
     "adapter",
     "simulated_joints",
@@ -138,7 +139,17 @@ def _stated(cell: Cell, device: Device) -> dict[str, Tree]:
         field.name: _section(cell, getattr(device.versions, field.name), (*path, field.name))
         for field in fields(device.versions)
     }
-    for key in ("connection", "initial_state", "payload", "tcp", "program", "collision", "tool_connector", "adapter"):
+    for key in (
+        "connection",
+        "initial_state",
+        "payload",
+        "tcp",
+        "program",
+        "collision",
+        "impedance",
+        "tool_connector",
+        "adapter",
+    ):
         tree[key] = _section(cell, getattr(device, key), (*path, key))
     tree["limits"] = _section(cell, device.limit_shares, (*path, "limits"))
     tree["simulated_joints"] = {one.name: _section(cell, one, one.path) for one in device.simulated_joints}

@@ -15,7 +15,7 @@ from cellc.spec.quantity import (
     RollPitchYaw,
     TimeShift,
 )
-from cellc.spec.robot import CollisionSpec, PayloadSpec, ProgramSpec
+from cellc.spec.robot import CollisionSpec, ImpedanceSpec, PayloadSpec, ProgramSpec
 from cellc.spec.tool import ToolConnectorSpec
 
 
@@ -240,6 +240,11 @@ class DeviceSpec(SpecModel):
         None,
         description="Who starts the program on the robot's own controller; a person at the device if absent.",
         examples=[{"played_by": "operator", "mode": "local"}],
+    )
+    impedance: ImpedanceSpec | None = Field(
+        None,
+        description="How stiff the robot's own controller holds what it is commanded; as the robot has it if absent.",
+        examples=[{"joint": "3000 3000 3000 2500 2500 2000 2000 N m/rad"}],
     )
     tool_connector: ToolConnectorSpec | None = Field(
         None,

@@ -59,6 +59,8 @@ FORCE = _dimension("force", {"N": "1", "kN": "1000"}, 1e6)
 TORQUE = _dimension("torque", {"N m": "1"}, 1e5)
 INERTIA = _dimension("inertia", {"kg m^2": "1", "g m^2": "0.001"}, 1e5)
 VOLTAGE = _dimension("voltage", {"V": "1"}, 1e4)
+STIFFNESS = _dimension("stiffness", {"N/m": "1", "N/mm": "1000"}, 1e8)
+ANGULAR_STIFFNESS = _dimension("angular stiffness", {"N m/rad": "1"}, 1e8)
 VELOCITY = _dimension("velocity", {"m/s": "1", "mm/s": "0.001"}, 1e4)
 ACCELERATION = _dimension("acceleration", {"m/s^2": "1", "mm/s^2": "0.001"}, 1e6)
 JERK = _dimension("jerk", {"m/s^3": "1", "mm/s^3": "0.001"}, 1e8)
@@ -243,6 +245,13 @@ Forces = Annotated[QuantityVector, QuantityType((FORCE,), "30 30 30 N", size=3, 
 Moments = Annotated[QuantityVector, QuantityType((TORQUE,), "25 25 25 N m", size=3, least=0.0)]
 JointTorques = Annotated[QuantityVector, QuantityType((TORQUE,), "25 25 22 20 19 17 14 N m", size=0, least=0.0)]
 Inertia = Annotated[QuantityVector, QuantityType((INERTIA,), "0.0011 0.0011 0.0009 0 0 0 kg m^2", size=6)]
+Stiffnesses = Annotated[QuantityVector, QuantityType((STIFFNESS,), "3000 3000 3000 N/m", size=3, least=0.0)]
+AngularStiffnesses = Annotated[
+    QuantityVector, QuantityType((ANGULAR_STIFFNESS,), "300 300 300 N m/rad", size=3, least=0.0)
+]
+JointStiffnesses = Annotated[
+    QuantityVector, QuantityType((ANGULAR_STIFFNESS,), "3000 3000 3000 2500 2500 2000 2000 N m/rad", size=0, least=0.0)
+]
 JointPosition = Annotated[Quantity, QuantityType((ANGLE, LENGTH), "0.2 rad")]
 JointVelocity = Annotated[Quantity, QuantityType((ANGULAR_VELOCITY, VELOCITY), "30 deg/s")]
 JointAcceleration = Annotated[Quantity, QuantityType((ANGULAR_ACCELERATION, ACCELERATION), "2 rad/s^2", least=1e-6)]

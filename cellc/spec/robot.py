@@ -5,7 +5,31 @@ from typing import Literal
 from pydantic import Field
 
 from cellc.spec.base import SpecModel, Text
-from cellc.spec.quantity import Forces, Inertia, JointTorques, Mass, Moments, Position
+from cellc.spec.quantity import (
+    AngularStiffnesses,
+    Forces,
+    Inertia,
+    JointStiffnesses,
+    JointTorques,
+    Mass,
+    Moments,
+    Position,
+    Stiffnesses,
+)
+
+
+class LoadSpec(SpecModel):
+    """The part of a payload that a service tells the robot, beside the tool that its installation has."""
+
+    mass: Mass = Field(..., description="Mass, the tool left out.", examples=["0.2 kg"])
+    center_of_mass: Position = Field(
+        ..., description="Center of mass in the frame where tools mount.", examples=["0 0 120 mm"]
+    )
+    inertia: Inertia = Field(
+        ...,
+        description="Inertia about the center of mass, in axes parallel to that frame: ixx iyy izz ixy ixz iyz.",
+        examples=["0.0002 0.0002 0.0001 0 0 0 kg m^2"],
+    )
 
 
 class PayloadSpec(SpecModel):
@@ -24,6 +48,33 @@ class PayloadSpec(SpecModel):
         "installation",
         description="How the robot gets it: by what is saved on it, or by a service of its driver.",
         examples=["installation"],
+    )
+    load: LoadSpec | None = Field(
+        None,
+        description="Part of it that a service tells the robot, beside the tool.",
+        examples=[{"mass": "0.2 kg", "center_of_mass": "0 0 120 mm", "inertia": "0.0002 0.0002 0.0001 0 0 0 kg m^2"}],
+    )
+
+
+class CartesianImpedanceSpec(SpecModel):
+    """Stiffness at the tool along and about the axes of the robot's own frame for it."""
+
+    translation: Stiffnesses = Field(..., description="Along the axes.", examples=["3000 3000 3000 N/m"])
+    rotation: AngularStiffnesses = Field(..., description="About the axes.", examples=["300 300 300 N m/rad"])
+
+
+class ImpedanceSpec(SpecModel):
+    """How stiff the robot's own controller holds what it is commanded."""
+
+    joint: JointStiffnesses | None = Field(
+        None,
+        description="Of all joints, in the order of the description.",
+        examples=["3000 3000 3000 2500 2500 2000 2000 N m/rad"],
+    )
+    cartesian: CartesianImpedanceSpec | None = Field(
+        None,
+        description="At the tool.",
+        examples=[{"translation": "3000 3000 3000 N/m", "rotation": "300 300 300 N m/rad"}],
     )
 
 

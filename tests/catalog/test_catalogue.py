@@ -31,7 +31,7 @@ PARAMETERS = UPSTREAM / "parameters"
 PLACEHOLDERS = {
     *("device", "prefix", "bare_prefix", "prefix_namespace", "stem"),
     *("address", "port", "host_address", "carrier_address"),
-    *("played_by", "thresholds", "carrier"),
+    *("played_by", "thresholds", "carrier", "load", "joint_stiffness", "cartesian_stiffness"),
     *("tool_voltage", "tool_baud_rate", "tool_parity", "tool_stop_bits", "tool_port"),
     *("tool_rx_idle_chars", "tool_tx_idle_chars", "tool_tcp_port"),
 }

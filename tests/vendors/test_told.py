@@ -56,6 +56,29 @@ def test_a_person_plays_at_the_pendant_or_over_the_dashboard(tmp_path: Path) -> 
     assert "shows REMOTE, so that Play on it does nothing" in _gate(remote, "G3")
 
 
+@pytest.mark.parametrize(
+    ("program", "starts"),
+    [
+        ("program: {played_by: operator, mode: remote}", "call play of arm_dashboard_client"),
+        ("program: {played_by: driver, mode: remote}", "call resend_robot_program"),
+    ],
+    ids=["dashboard", "headless"],
+)
+def test_in_remote_mode_nobody_is_sent_to_a_pendant_that_starts_nothing(
+    program: str, starts: str, tmp_path: Path
+) -> None:
+    # operation_modes.rst of 6.0.0: with remote control the pendant neither plays nor powers; services do.
+    texts = _ways(tmp_path, program)
+    audit = texts["audit.md"].replace("\\", "")
+    for state in ("protective_stop", "emergency_stop"):
+        way = audit.split(f"\narm, {state}:\n")[1].split(":\n")[0]
+        assert starts in way
+        assert "teach pendant" not in way
+        assert "call stop of arm_dashboard_client, do not resume" in way
+    assert "call power_off of arm_dashboard_client" in audit
+    assert "calls power_on and then brake_release of arm_dashboard_client" in _gate(texts["gates/promotion.md"], "G5")
+
+
 def test_the_tcp_stands_in_the_gate_as_the_pendant_shows_it() -> None:
     # By hand: the gripper is 11 mm beyond tool0 and turned by 90 deg about z, the TCP 162 mm beyond the gripper.
     gate = _gate(artifacts_of("ur5e_pick")["gates/promotion.md"], "G5")
@@ -100,3 +123,27 @@ def test_collision_thresholds_stand_in_the_gate_as_a_whole_request(distro: str, 
         assert request[f"upper_torque_thresholds_{phase}"] == [one + 10.0 for one in torque]
         assert request[f"lower_force_thresholds_{phase}"] == wrench
         assert request[f"upper_force_thresholds_{phase}"] == [one + 10.0 for one in wrench]
+
+
+def test_load_and_impedance_stand_in_the_gate_as_whole_requests(tmp_path: Path) -> None:
+    # franka_msgs of 2.5.0: SetLoad with a matrix of 9 by columns, SetJointStiffness with 7, SetCartesianStiffness with 6.
+    text = spec_text("fr3_hand").replace(
+        "    tcp: hand/hand_tcp\n",
+        "    tcp: hand/hand_tcp\n"
+        "    impedance: {joint: 3000 3000 3000 2500 2500 2000 2000 N m/rad,\n"
+        "                cartesian: {translation: 2 2 1 N/mm, rotation: 200 200 100 N m/rad}}\n",
+    )
+    load = "load: {mass: 200 g, center_of_mass: 0 0 120 mm, inertia: 3 2 1 0.5 0.25 0.125 g m^2}"
+    stated = "center_of_mass: -5 5 46 mm"
+    gate = _gate(emitted(tmp_path, text.replace(stated, f"{stated}, {load}"))["gates/promotion.md"], "G5")
+    calls = dict(re.findall(r"`ros2 service call /service_server/set_(\S+) franka_msgs/srv/\w+ \"(\{.*?\})\"`", gate))
+    assert safe_load(calls["joint_stiffness"]) == {"joint_stiffness": [3000.0] * 3 + [2500.0] * 2 + [2000.0] * 2}
+    assert safe_load(calls["cartesian_stiffness"]) == {"cartesian_stiffness": [2000, 2000, 1000, 200, 200, 100]}
+    told = safe_load(calls["load"])
+    assert (told["mass"], told["center_of_mass"]) == (0.2, [0.0, 0.0, 0.12])
+    xx, xy, xz, yx, yy, yz, zx, zy, zz = told["load_inertia"]
+    assert (xx, yy, zz) == (0.003, 0.002, 0.001)
+    assert (xy, xz, yz) == (yx, zx, zy) == (0.0005, 0.00025, 0.000125)
+    # communication_test.cpp of libfranka 0.20.4, the last lines: below 0.95 it warns, below 0.90 it is not sufficient.
+    assert "`communication_test 172.16.0.2`" in gate
+    assert "must be at least 0.95" in gate
