@@ -10,7 +10,7 @@ from cellc.cell.device import Device
 from cellc.cell.entity import Places
 from cellc.cell.frame import Frame, SceneBox
 from cellc.cell.interface import ImpliedEndpoints, Interface, Node
-from cellc.cell.motion import CartesianGoal, NamedPose, Pipeline, PlanningGroup, Rehearsal
+from cellc.cell.motion import CartesianGoal, NamedPose, Octomap, Pipeline, PlanningGroup, Rehearsal, Servo
 from cellc.cell.site import (
     TARGET_DEFAULTS,
     Bringup,
@@ -74,6 +74,8 @@ class Cell:
     adapters: tuple[AdaptedDevice, ...] = ()
     groups: tuple[PlanningGroup, ...] = ()
     pipelines: tuple[Pipeline, ...] = ()
+    octomap: Octomap | None = None
+    servo: Servo | None = None
     poses: tuple[NamedPose, ...] = ()
     goals: tuple[CartesianGoal, ...] = ()
     rehearsals: tuple[Rehearsal, ...] = ()

@@ -41,6 +41,48 @@ class Pipeline:
     capabilities: tuple[str, ...]
 
 
+DEPTH_IMAGE, POINT_CLOUD = "sensor_msgs/msg/Image", "sensor_msgs/msg/PointCloud2"
+"""Types of interfaces that can feed an occupancy map."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Octomap:
+    """The occupancy map of move_group; ``source`` is the topic that feeds it, ``nearest_m`` what its sensor sees."""
+
+    source: str
+    resolution_m: float
+    range_m: float
+    padding_m: float
+    rate_hz: float
+    nearest_m: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Servo:
+    """MoveIt Servo: a node that turns twists, joint speeds or poses into commands of a controller.
+
+    Args:
+        node: its name in the spec.
+        controller: full name of the controller; ``topic`` and ``type`` are what it is commanded by.
+        positions, velocities: what of the joints it is sent.
+        commands: speed_units or unitless; ``linear``, ``rotational`` and ``joint`` are the largest speeds in SI.
+    """
+
+    node: str
+    group: str
+    controller: str
+    topic: str
+    type: str
+    positions: bool
+    velocities: bool
+    commands: str
+    linear: float
+    rotational: float
+    joint: float
+    period_s: float
+    command_timeout_s: float
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlanningGroup(Entity):
     """A chain of joints from ``base_link`` to ``tip_frame``; ``controllers`` drive its joints.

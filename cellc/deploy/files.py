@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from cellc.cell.cell import Cell
 from cellc.cell.control import ControllerManager
-from cellc.cell.interface import TARGETS, Node
+from cellc.cell.interface import TARGETS, Node, NodeSource
 
 REHEARSALS = "rehearsals.json"
 """What the mock executes."""
@@ -50,6 +50,11 @@ PARAMETER_FILES = (
 )
 """In the order in which move_group is given them."""
 
+SERVO = "config/moveit/servo.yaml"
+"""What MoveIt Servo is told, where the cell has it."""
+
+SENSORS = "config/moveit/sensors_3d.yaml"
+"""What feeds the occupancy map of move_group, where the cell has one."""
 
 FIRST_GOAL_PROGRAM = "scripts/first_goal"
 """What sends the one small goal before an application is started."""
@@ -78,7 +83,14 @@ def node_file(node: Node) -> str:
 
 def parameter_files(cell: Cell, target: str) -> tuple[str, ...]:
     """Return the files that move_group is given on ``mock``, ``real`` or what a substitution makes of them."""
-    return tuple(moveit_controllers_file(cell, target) if file == CONTROLLERS else file for file in PARAMETER_FILES)
+    sensors = () if cell.octomap is None else (SENSORS,)
+    files = (*PARAMETER_FILES, *sensors)
+    return tuple(moveit_controllers_file(cell, target) if file == CONTROLLERS else file for file in files)
+
+
+def servo_files(cell: Cell) -> tuple[str, ...]:
+    """Return the files that MoveIt Servo is given."""
+    return () if cell.servo is None else (PARAMETER_FILES[0], JOINT_LIMITS, SERVO)
 
 
 def moveit_controllers_file(cell: Cell, target: str) -> str:
@@ -95,6 +107,11 @@ def semantic_file(cell: Cell) -> str:
 def plans(cell: Cell) -> bool:
     """Tell whether the cell has what MoveIt plans for and the node that does it; otherwise nobody reads its files."""
     return bool(cell.groups) and any(is_planner(node) for node in cell.nodes)
+
+
+def is_servo(cell: Cell, node: Node) -> bool:
+    """Tell whether a node runs MoveIt Servo."""
+    return cell.servo is not None and node.source is NodeSource.SPEC and node.name == cell.servo.node
 
 
 def is_planner(node: Node) -> bool:

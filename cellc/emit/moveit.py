@@ -3,8 +3,7 @@
 ROS parameter files for every node that is started with them, with the keys of MoveIt 2.5 on Humble and of 2.12 and
 later on the others. Only for a cell with planning groups and a node that reads them: a controller takes no limits from
 here. The controllers that it calls are a file for each target where a device's own node takes the goals on real
-hardware. Left out: limits of joints that follow another; ``sensors_3d``, because no sensor of the catalog feeds an
-occupancy map; and servoing, which is no goal with a result.
+hardware. ``sensors_3d`` and ``servo`` where the cell has them. Left out: limits of joints that follow another.
 """
 
 from __future__ import annotations
@@ -15,15 +14,17 @@ from dataclasses import dataclass
 from cellc.artifact import Artifact
 from cellc.cell.cell import Cell
 from cellc.cell.device import DeviceJoint
+from cellc.cell.frame import WORLD
 from cellc.cell.interface import TARGETS, ParameterValue
-from cellc.cell.motion import Pipeline
+from cellc.cell.motion import POINT_CLOUD, Octomap, Pipeline, Servo
 from cellc.deploy.deployment import Deployment
-from cellc.deploy.files import JOINT_LIMITS, is_planner, moveit_controllers_file, plans
+from cellc.deploy.files import JOINT_LIMITS, SENSORS, SERVO, is_planner, moveit_controllers_file, plans
 from cellc.diagnostics import YamlPath
 from cellc.formats.header import Header
 from cellc.formats.parameter_file import ANY_NODE, NodeParameters, parameter_file
 from cellc.formats.yaml_text import Tree, render
 from cellc.graph.cell_graph import CellGraph
+from cellc.link.hardware import JOINT_STATES
 from cellc.vocabulary import Feature, features
 
 Parameters = Mapping[str, ParameterValue]
@@ -36,6 +37,7 @@ _TYPES = ("FollowJointTrajectory", "GripperCommand", "ParallelGripperCommand")
 _SCALING: dict[str, float] = {"default_velocity_scaling_factor": 0.1, "default_acceleration_scaling_factor": 0.1}
 
 _SAMPLING = "ompl"
+_SENSOR = "map_source"
 _REQUEST = "default_planning_request_adapters"
 _RESPONSE = "default_planning_response_adapters"
 _REQUEST_ADAPTERS = (
@@ -83,6 +85,12 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     ):
         section = NodeParameters(ANY_NODE, origin, parameters)
         yield Artifact(f"config/moveit/{name}.yaml", parameter_file(plan.header, [section]))
+    if cell.octomap is not None:
+        section = NodeParameters(ANY_NODE, ("motion", "octomap"), _sensors(cell, cell.octomap))
+        yield Artifact(SENSORS, parameter_file(plan.header, [section]))
+    if cell.servo is not None:
+        section = NodeParameters(ANY_NODE, ("motion", "servo"), _servo(cell, cell.servo))
+        yield Artifact(SERVO, parameter_file(plan.header, [section]))
     for file, target in {moveit_controllers_file(cell, target): target for target in TARGETS}.items():
         section = NodeParameters(ANY_NODE, _CONTROL, _controllers(cell, target))
         yield Artifact(file, parameter_file(plan.header, [section]))
@@ -236,6 +244,85 @@ def _planning_scene() -> Parameters:
         "publish_robot_description": False,
         "publish_robot_description_semantic": True,
     }
+
+
+def _sensors(cell: Cell, octomap: Octomap) -> Parameters:
+    """Return what feeds the occupancy map: an updater refuses to start where one of its parameters is missing.
+
+    The plugins are those of moveit_ros_perception, with the parameters of setParams in 2.5.9 and 2.12.4:
+    moveit_ros/perception/depth_image_octomap_updater/src, moveit_ros/perception/pointcloud_octomap_updater/src.
+    """
+    types = {interface.name: interface.type for interface in cell.interfaces}
+    common: Parameters = {
+        "padding_offset": octomap.padding_m,
+        "padding_scale": 1.0,
+        "max_update_rate": octomap.rate_hz,
+        "filtered_cloud_topic": "octomap_input_without_robot",
+        "ns": "",
+    }
+    if types.get(octomap.source) == POINT_CLOUD:
+        plugin, own = "PointCloudOctomapUpdater", _of_cloud(octomap)
+    else:
+        plugin, own = "DepthImageOctomapUpdater", _of_image(octomap)
+    sensor = {"sensor_plugin": f"occupancy_map_monitor/{plugin}", **own, **common}
+    parameters = {f"{_SENSOR}.{name}": value for name, value in sensor.items()}
+    return {"octomap_resolution": octomap.resolution_m, "sensors": (_SENSOR,), **parameters}
+
+
+def _of_cloud(octomap: Octomap) -> Parameters:
+    return {"point_cloud_topic": octomap.source, "max_range": octomap.range_m, "point_subsample": 1}
+
+
+def _of_image(octomap: Octomap) -> Parameters:
+    return {
+        "image_topic": octomap.source,
+        "queue_size": 5,
+        "near_clipping_plane_distance": octomap.nearest_m,
+        "far_clipping_plane_distance": octomap.range_m,
+        "shadow_threshold": 0.2,
+        "skip_vertical_pixels": 4,
+        "skip_horizontal_pixels": 6,
+    }
+
+
+def _servo(cell: Cell, servo: Servo) -> Parameters:
+    """Return what MoveIt Servo is told; move_group keeps the planning scene, and Servo follows it.
+
+    Sources: moveit2@2.12.4 moveit_ros/moveit_servo/config/servo_parameters.yaml, the same in 2.14.1 and 2.15.0; @2.5.9
+    moveit_ros/moveit_servo/src/servo_parameters.cpp:101-260, where frames have no default that fits a robot.
+    """
+    (group,) = (group for group in cell.groups if group.name == servo.group)
+    frames: Parameters = {
+        "use_gazebo": False,
+        "planning_frame": WORLD,
+        "ee_frame_name": group.tip_frame,
+        "robot_link_command_frame": group.base_link,
+    }
+    told: Parameters = {
+        "move_group_name": group.name,
+        "command_in_type": servo.commands,
+        "scale.linear": servo.linear,
+        "scale.rotational": servo.rotational,
+        "scale.joint": servo.joint,
+        "incoming_command_timeout": servo.command_timeout_s,
+        "publish_period": servo.period_s,
+        "command_out_topic": servo.topic,
+        "command_out_type": servo.type.replace("/msg/", "/"),
+        "publish_joint_positions": servo.positions,
+        "publish_joint_velocities": servo.velocities,
+        "publish_joint_accelerations": False,
+        "check_collisions": True,
+        "is_primary_planning_scene_monitor": False,
+        "monitored_planning_scene_topic": _scene_topic(cell),
+        "joint_topic": JOINT_STATES,
+        **({} if Feature.PLUGIN_LISTS in features(cell.distro) else frames),
+    }
+    return {f"moveit_servo.{name}": value for name, value in told.items()}
+
+
+def _scene_topic(cell: Cell) -> str:
+    namespace = next((node.namespace for node in cell.nodes if is_planner(node)), "")
+    return f"{namespace}/monitored_planning_scene"
 
 
 def _called(cell: Cell, target: str) -> Iterator[_Called]:

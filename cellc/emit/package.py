@@ -34,6 +34,7 @@ _EXECUTION = "moveit_simple_controller_manager"
 _FIRST_GOAL = ("builtin_interfaces", "control_msgs", "sensor_msgs", "trajectory_msgs")
 _MOVE_GROUP = "moveit_ros_move_group"
 _OF_MOVEIT = "moveit_"
+_PERCEPTION = "moveit_ros_perception"
 _FOLDERS = ("config", "launch", "security", "urdf")
 _ON_HOSTS = "middleware"
 _FILES = ("contract.json", "manifest.json", "rehearsals.json")
@@ -90,7 +91,8 @@ def _of_moveit(cell: Cell) -> set[str]:
     """Return the packages of planning that have the version of MoveIt; other solvers have their own."""
     solvers = {group.solver.package for group in cell.groups}
     own = {name for name in solvers if name.startswith(_OF_MOVEIT)}
-    return {_EXECUTION, _MOVE_GROUP, *own, *(pipeline.package for pipeline in cell.pipelines)}
+    perception = () if cell.octomap is None else (_PERCEPTION,)
+    return {_EXECUTION, _MOVE_GROUP, *perception, *own, *(pipeline.package for pipeline in cell.pipelines)}
 
 
 def _dependencies(cell: Cell) -> tuple[str, ...]:

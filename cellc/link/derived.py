@@ -14,6 +14,7 @@ from cellc.cell.control import Controller, ControllerManager
 from cellc.cell.device import Device
 from cellc.cell.frame import Frame, FrameKind
 from cellc.cell.interface import Endpoint, Interface, InterfaceKind, Qos
+from cellc.cell.motion import Servo
 from cellc.diagnostics import YamlPath
 from cellc.link.endpoints import LATCHED, SENSOR_DATA, TF, TF_STATIC_LISTENER, EndName, EndpointNames, QosResolver
 from cellc.link.frames import ROBOT_STATE_PUBLISHER
@@ -36,6 +37,7 @@ class Derivation:
     frames: tuple[Frame, ...]
     ends: EndpointNames
     resolver: QosResolver
+    servo: Servo | None = None
 
     def end(self, node: str, interface: str, path: YamlPath, qos: Qos | None = None) -> Endpoint:
         """Return an end by its name in the spec or its full name; one that nothing has is reported elsewhere."""
@@ -62,7 +64,8 @@ _DESCRIPTION = "/robot_description"
 def derive_interfaces(source: Derivation, written: tuple[Interface, ...]) -> tuple[Interface, ...]:
     """Return the interfaces that the user did not write: controllers' actions and states, TF, the description."""
     known = {interface.name for interface in written}
-    derived = [*_tf(source), *_descriptions(source), *joint_states(source), *control_interfaces(source)]
+    controlled = (*control_interfaces(source), *_servoed(source))
+    derived = [*_tf(source), *_descriptions(source), *joint_states(source), *controlled]
     return tuple(interface for interface in derived if interface.name not in known)
 
 
@@ -236,9 +239,36 @@ def _goal_unit(source: Derivation, controller: Controller) -> str:
 
 
 def _clients(source: Derivation, controller: Controller, interface: str) -> tuple[Endpoint, ...]:
-    if controller.client is None:
+    """Return the client of a controller; MoveIt Servo streams to its topic, and calls nothing of it."""
+    streamed = source.servo is not None and source.servo.controller == controller.full_name
+    if controller.client is None or streamed:
         return ()
     return (source.end(controller.client, interface, (*controller.path, "client")),)
+
+
+def _servoed(source: Derivation) -> Iterator[Interface]:
+    """Yield the topic on which MoveIt Servo commands its controller."""
+    servo = source.servo
+    named = (one for manager in source.managers for one in manager.controllers)
+    controller = next((one for one in named if servo is not None and one.full_name == servo.controller), None)
+    if servo is None or controller is None:
+        return
+    path: YamlPath = ("motion", "servo")
+    qos = source.resolver.writer("system_default"), source.resolver.reader("system_default")
+    yield Interface(
+        name=servo.topic,
+        path=path,
+        span=source.document.locate(path),
+        kind=InterfaceKind.TOPIC,
+        type=servo.type,
+        sources=(source.end(servo.node, servo.topic, (*path, "node"), qos[0]),),
+        sinks=(source.end(controller.label, servo.topic, controller.path, qos[1]),),
+        derived=True,
+        unit=_goal_unit(source, controller),
+        time_source="ros",
+        owner=source.spec.owners.responsibilities.command,
+        wants="newest",
+    )
 
 
 def _of_one_device(source: Derivation, controller: Controller) -> Iterator[Interface]:

@@ -18,6 +18,7 @@ from cellc.link.frames import FrameNames, link_frames, link_scene, name_frames, 
 from cellc.link.hand_eye import Measured, link_hand_eye, with_mounts
 from cellc.link.interfaces import link_interfaces
 from cellc.link.motion import link_goals, link_groups, link_poses
+from cellc.link.moveit import link_octomap, link_servo, with_octomap
 from cellc.link.nodes import link_nodes, standard_nodes
 from cellc.link.planners import link_pipelines
 from cellc.link.programs import implied_endpoints, with_programs
@@ -95,14 +96,17 @@ def _link_with_devices(
     context = ControlContext(spec, document, distro, {one.device.name: one for one in bound})
     managers = link_managers(context)
     loops = managers.value or ()
-    all_nodes = tuple(with_programs((*(nodes.value or ()), *standard_nodes(spec, document, loops)), distro))
+    started = with_programs((*(nodes.value or ()), *standard_nodes(spec, document, loops)), distro)
+    all_nodes = tuple(with_octomap(node, spec) for node in started)
     controllers = tuple(controller for manager in loops for controller in manager.controllers)
     resolver = _qos_resolver(spec)
     ends = name_endpoints(spec, bound, all_nodes, loops, resolver)
     interfaces = link_interfaces(spec, document, ends, names)
     written = interfaces.value or ()
-    derived = derive_interfaces(Derivation(spec, document, distro, loops, devices, all_frames, ends, resolver), written)
     groups = link_groups(spec, document, devices, all_frames, names, controllers, distro)
+    servo = link_servo(spec, document, groups.value or (), controllers)
+    source = Derivation(spec, document, distro, loops, devices, all_frames, ends, resolver, servo.value)
+    derived = derive_interfaces(source, written)
     pipelines = link_pipelines(spec, document, distro)
     poses = link_poses(spec, document, groups.value or ())
     goals = link_goals(spec, document, groups.value or (), names)
@@ -118,12 +122,27 @@ def _link_with_devices(
         adapters=tuple(bind_adapters(devices, controllers, (*written, *derived))),
         groups=groups.value or (),
         pipelines=pipelines.value or (),
+        octomap=link_octomap(spec.motion.octomap, devices),
+        servo=servo.value,
         poses=poses.value or (),
         goals=goals.value or (),
         rehearsals=rehearsals.value or (),
         behaviours={controller.plugin: controller.behaviour for controller in controllers},
     )
-    parts = (linked_devices, placed, centers, nodes, managers, interfaces, groups, pipelines, poses, goals, rehearsals)
+    parts = (
+        linked_devices,
+        placed,
+        centers,
+        nodes,
+        managers,
+        interfaces,
+        groups,
+        servo,
+        pipelines,
+        poses,
+        goals,
+        rehearsals,
+    )
     return Outcome(cell, tuple(problem for part in parts for problem in part.diagnostics))
 
 

@@ -5,6 +5,7 @@ from typing import Annotated, Literal, Union
 from pydantic import Discriminator, Field, Tag
 
 from cellc.spec.base import FrameReference, Name, Namespace, ParameterValue, SpecModel, Text
+from cellc.spec.moveit import OctomapSpec, ServoSpec
 from cellc.spec.quantity import (
     Duration,
     JointPosition,
@@ -136,6 +137,26 @@ class MotionSpec(SpecModel):
         description="Planning pipelines of MoveIt; the first is the default.",
         examples=[["ompl", "chomp"]],
         min_length=1,
+    )
+    octomap: OctomapSpec | None = Field(
+        None,
+        description="Occupancy map that plans keep clear of; none if absent.",
+        examples=[
+            {"source": "/camera/depth/image_rect_raw", "resolution": "25 mm", "range": "2 m", "padding": "30 mm"}
+        ],
+    )
+    servo: ServoSpec | None = Field(
+        None,
+        description="MoveIt Servo; none if absent.",
+        examples=[
+            {
+                "node": "servo",
+                "controller": "arm_velocity",
+                "linear": "0.05 m/s",
+                "rotational": "0.2 rad/s",
+                "joint": "0.2 rad/s",
+            }
+        ],
     )
     poses: dict[Name, dict[Name, JointPositions]] = Field(
         default_factory=dict,

@@ -126,7 +126,7 @@ def test_collision_thresholds_stand_in_the_gate_as_a_whole_request(distro: str, 
 
 
 def test_load_and_impedance_stand_in_the_gate_as_whole_requests(tmp_path: Path) -> None:
-    # franka_msgs of 2.5.0: SetLoad with a matrix of 9 by columns, SetJointStiffness with 7, SetCartesianStiffness with 6.
+    # franka_msgs of 2.5.0: SetLoad has a matrix of 9 by columns, SetJointStiffness 7 figures, SetCartesianStiffness 6.
     text = spec_text("fr3_hand").replace(
         "    tcp: hand/hand_tcp\n",
         "    tcp: hand/hand_tcp\n"

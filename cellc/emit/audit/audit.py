@@ -156,6 +156,10 @@ def _not_provable(cell: Cell) -> Iterator[str]:
     for device in cell.devices:
         of = f"{device.name} ({device.vendor} {device.model})"
         yield from (f"- {markdown(f'{of}: {text}')}" for text in device.mock_cannot_prove)
+    if cell.octomap is not None:
+        yield f"- the occupancy map of {code(cell.octomap.source)}: the mock plans without it"
+    if cell.servo is not None:
+        yield f"- {code(cell.servo.node)}, which runs MoveIt Servo: the mock executes none, and sends no command to it"
     for device, name, said in cell.signed_for_mock():
         signed = f"that {code(name)} touches no hardware is a statement of {said.by}, {said.date}"
         yield f"- {markdown(f'{device.name}: {signed}')}"

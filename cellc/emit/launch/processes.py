@@ -20,11 +20,13 @@ from cellc.deploy.files import (
     controllers_file,
     description_file,
     is_planner,
+    is_servo,
     manager_description_file,
     node_file,
     parameter_files,
     plans,
     semantic_file,
+    servo_files,
 )
 from cellc.deploy.labels import TF_RATE_HZ
 from cellc.formats.escape import launch_text, launch_words
@@ -143,11 +145,12 @@ def moving_node(cell: Cell, node: Node, hosts: tuple[str, ...], prefix: str) -> 
 
 
 def _parameters(cell: Cell, node: Node) -> Iterator[Element]:
-    if is_planner(node) and plans(cell):
+    if plans(cell) and (is_planner(node) or is_servo(cell, node)):
         yield _description(cell)
         semantic = f"$(command 'cat {share(cell, semantic_file(cell))}')"
         yield element("param", {"name": "robot_description_semantic", "value": semantic, "type": "str"})
-        yield from (element("param", {"from": share(cell, file)}) for file in parameter_files(cell, TARGET))
+        files = parameter_files(cell, TARGET) if is_planner(node) else servo_files(cell)
+        yield from (element("param", {"from": share(cell, file)}) for file in files)
     if node.parameters:
         yield element("param", {"from": share(cell, node_file(node))})
     if node.source is NodeSource.SPEC and qos_parameters(cell, node):

@@ -22,7 +22,7 @@ control:
 
 Fix: delete `impedance`, or command the arm by an interface that its own controller follows.
 
-Source: https://github.com/frankarobotics/libfranka/releases/tag/0.20.4 (0.20.4): torques are not affected
+Source: docs/principles.md#facts-of-the-catalog
 """
 
 from __future__ import annotations

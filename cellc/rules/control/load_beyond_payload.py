@@ -9,7 +9,8 @@ Example that is reported:
 ```yaml
 devices:
   arm: {payload: {mass: 1.0 kg, center_of_mass: 0 0 58 mm,
-                  load: {mass: 1.2 kg, center_of_mass: 0 0 90 mm, inertia: 0.001 0.001 0.001 0 0 0 kg m^2}}}  # expect at load
+                  load: {mass: 1.2 kg, center_of_mass: 0 0 90 mm,  # expect at load
+                         inertia: 0.001 0.001 0.001 0 0 0 kg m^2}}}
 ```
 
 Example that is accepted:
@@ -22,7 +23,7 @@ devices:
 
 Fix: state as `load` only what is carried beside the tool, and a payload that holds both.
 
-Source: https://github.com/frankarobotics/libfranka/releases/tag/0.20.4 (0.20.4): setLoad is not for the end effector
+Source: docs/principles.md#facts-of-the-catalog
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """An impedance does not fit the robot that is told it.
 
-One figure short, or past what the controller of the robot takes, the request is refused when people send it, and the arm
-stays as stiff as it was before, which may be stiffer than the risk assessment of the cell has it.
+One figure short, or past what the controller of the robot takes, the request is refused when people send it, and the
+arm stays as stiff as it was before, which may be stiffer than the risk assessment of the cell has it.
 
 Example that is reported:
 
@@ -23,7 +23,7 @@ control:
 
 Fix: give each joint and axis a figure within what the robot takes, and none to a robot that takes none.
 
-Source: https://github.com/frankarobotics/libfranka/releases/tag/0.20.4 (0.20.4): setJointImpedance, setCartesianImpedance
+Source: docs/principles.md#facts-of-the-catalog
 """
 
 from __future__ import annotations
