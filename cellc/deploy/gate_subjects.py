@@ -12,6 +12,7 @@ from cellc.cell.site import UNKNOWN
 from cellc.contract.bring_up import CLAIM_WATCH
 from cellc.deploy.bringup import bring_up
 from cellc.deploy.configuration import version_tuple
+from cellc.deploy.files import is_servo
 from cellc.deploy.gate_motion import (
     Values,
     cancels,
@@ -36,7 +37,7 @@ from cellc.formats.numbers import positive_zero, shortest
 from cellc.graph.cell_graph import CellGraph
 from cellc.link.derived import JOINT_STATE_TYPE
 from cellc.pins import is_commit, last_word
-from cellc.vocabulary import BringUpPhase, GateCode
+from cellc.vocabulary import BringUpPhase, Feature, GateCode, features
 
 Row = Mapping[str, str]
 CELL = "cell"
@@ -161,6 +162,18 @@ def _tool_connectors(graph: CellGraph) -> Iterator[Values]:
             links = ((one.name, one.connection) for one in graph.cell.devices)
             tools = (name for name, link in links if link is not None and link.through == device.name)
             yield device.name, voltage, ", ".join(tools) or "whatever hangs on it"
+
+
+def _servo(graph: CellGraph) -> Iterator[Values]:
+    """Yield what MoveIt Servo commands, what starts it, and who else could: the ends of that topic."""
+    servo = graph.cell.servo
+    if servo is not None:
+        (node,) = (one for one in graph.cell.nodes if is_servo(graph.cell, one))
+        service = "switch_command_type" if Feature.PLUGIN_LISTS in features(graph.cell.distro) else "start_servo"
+        speeds = (graph.cell.text("motion", "servo", name) for name in ("linear", "rotational", "joint"))
+        timeout = shortest(servo.command_timeout_s)
+        command = endpoint_command(graph.cell, InterfaceKind.TOPIC, servo.topic)
+        yield node.full_name, f"{node.full_name}/{service}", servo.controller, *speeds, timeout, command
 
 
 def _figures(values: Iterable[float], digits: int) -> str:
@@ -321,6 +334,7 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "loaded_device": (("device", "mass", "center_of_mass", "inertia", "frame", "told_by"), _loaded_devices),
     "tool_center": (("device", "tcp", "frame", "xyz", "turn", "rpy", "command"), _tool_centers),
     "tool_connector": (("device", "voltage", "tools"), _tool_connectors),
+    "servo": (("node", "starts", "controller", "linear", "rotational", "joint", "timeout", "command"), _servo),
     "stop_evidence": (("evidence",), lambda graph: _each(graph.cell.safety.stop.evidence)),
     "first_motion": (_FIRST_MOTION, first_motion),
     "small_goal": ((*_FIRST_MOTION, "command", "cancel"), small_goal),

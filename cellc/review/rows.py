@@ -114,6 +114,13 @@ ROWS: Sequence[Row] = (
         Rule.DANGEROUS,
         ordered=False,
     ),
+    Row(
+        "parameters {_} {node} ros__parameters moveit_servo scale ...",
+        _A.LIMITS,
+        "largest speed of servoing",
+        Rule.MORE,
+        why=_LIMIT,
+    ),
     Row("parameters {_} {node} ros__parameters ...", _A.CONTROL, "parameter", Rule.REVIEW),
     Row("real hardware {component} plugin", _A.CONTROL, "hardware plugin", Rule.DANGEROUS),
     Row("mock hardware {component} plugin", _A.CONTROL, "hardware plugin of the mock", Rule.DANGEROUS),

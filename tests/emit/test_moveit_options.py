@@ -8,7 +8,7 @@ from xml.etree import ElementTree
 import pytest
 
 from tests.cells import spec_text
-from tests.emit.cells import emitted
+from tests.emit.cells import contract_data, emitted
 from tests.foreign_yaml import safe_load
 
 _SERVO = """
@@ -112,3 +112,17 @@ def test_the_policy_lets_servo_command_that_controller_and_the_audit_that_the_mo
     proof = texts["audit.md"].split("\n## What the mock cannot prove\n")[1]
     assert "MoveIt Servo: the mock executes none" in proof
     assert "the mock plans without it" in proof
+
+
+def test_the_mock_still_detects_in_the_stream_that_perception_hears(texts: dict[str, str]) -> None:
+    # Depth stands first among the interfaces, and nobody looks for the object in it.
+    camera = contract_data(texts["contract.json"])["devices"]["camera"]["camera"]
+    assert camera["topic"] == "/camera/color/image_raw"
+
+
+def test_the_gate_has_the_service_that_starts_servo_and_its_figures(texts: dict[str, str], distro: str) -> None:
+    # servo_node.cpp of 2.5.9, line 58; of 2.12.4, line 130.
+    gate = texts["gates/promotion.md"].split("\n## G7 ")[1].replace("\\", "")
+    starts = "/servo/start_servo" if distro == "humble" else "/servo/switch_command_type"
+    assert f"moves nothing until {starts} is called and `/arm_jog` is switched in" in gate
+    assert "at no more than 50 mm/s, 0.2 rad/s and 0.1 rad/s a joint, and it halts within 0.1 s" in gate

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from cellc.cell.cell import Cell
 from cellc.cell.control import AdaptedDevice
 from cellc.cell.device import Device, SimulatedJoint
+from cellc.cell.frame import FrameKind
 from cellc.cell.hardware import HardwareComponent
 from cellc.cell.interface import Interface, InterfaceKind
 from cellc.cell.site import UNKNOWN
@@ -128,16 +129,17 @@ def _switched(device: Device) -> ContractSwitched | None:
 
 
 def _used_stream(cell: Cell, device: Device, types: tuple[str, ...]) -> Interface | None:
-    return next(
-        (
-            interface
-            for interface in cell.interfaces
-            if interface.kind is InterfaceKind.TOPIC
-            and interface.type in types
-            and any(source.node == device.name for source in interface.sources)
-        ),
-        None,
-    )
+    """Return the stream in which something is detected, the first where none is: the mock has one for each camera."""
+    used = [
+        interface
+        for interface in cell.interfaces
+        if interface.kind is InterfaceKind.TOPIC
+        and interface.type in types
+        and any(source.node == device.name for source in interface.sources)
+    ]
+    detecting = {frame.authority for frame in cell.frames if frame.kind is FrameKind.DYNAMIC}
+    looked_at = (one for one in used if detecting & {sink.node for sink in one.sinks})
+    return next(looked_at, next(iter(used), None))
 
 
 def adapters(cell: Cell) -> dict[str, ContractAdapter]:
