@@ -7,7 +7,10 @@ from dataclasses import dataclass, replace
 from cellc.catalog.load import load_distros, load_qos_profiles
 from cellc.catalog.tables import RMWS, Rmw
 from cellc.cell.cell import Cell
+from cellc.cell.control import Controller
+from cellc.cell.device import Device
 from cellc.cell.frame import Frame, SceneBox
+from cellc.cell.motion import CartesianGoal, NamedPose, Octomap, Pipeline, PlanningGroup, Servo
 from cellc.diagnostics import Diagnostic, Outcome, Severity, did_you_mean
 from cellc.link.control import bind_adapters, link_managers
 from cellc.link.controller import ControlContext
@@ -103,13 +106,11 @@ def _link_with_devices(
     ends = name_endpoints(spec, bound, all_nodes, loops, resolver)
     interfaces = link_interfaces(spec, document, ends, names)
     written = interfaces.value or ()
-    groups = link_groups(spec, document, devices, all_frames, names, controllers, distro)
-    servo = link_servo(spec, document, groups.value or (), controllers)
-    source = Derivation(spec, document, distro, loops, devices, all_frames, ends, resolver, servo.value)
+    planned = _planned(spec, document, devices, all_frames, names, controllers, distro)
+    assert planned.value is not None  # what cannot be bound is reported and left out
+    servo = planned.value.servo
+    source = Derivation(spec, document, distro, loops, devices, all_frames, ends, resolver, servo)
     derived = derive_interfaces(source, written)
-    pipelines = link_pipelines(spec, document, distro)
-    poses = link_poses(spec, document, groups.value or ())
-    goals = link_goals(spec, document, groups.value or (), names)
     rehearsals = link_rehearsals(spec, document, devices, loops, (*written, *derived), names)
     cell = replace(
         _surroundings(spec, document, distro, placed.value.measured),
@@ -120,30 +121,55 @@ def _link_with_devices(
         interfaces=(*written, *derived),
         managers=loops,
         adapters=tuple(bind_adapters(devices, controllers, (*written, *derived))),
-        groups=groups.value or (),
-        pipelines=pipelines.value or (),
-        octomap=link_octomap(spec.motion.octomap, devices),
-        servo=servo.value,
-        poses=poses.value or (),
-        goals=goals.value or (),
         rehearsals=rehearsals.value or (),
         behaviours={controller.plugin: controller.behaviour for controller in controllers},
     )
-    parts = (
-        linked_devices,
-        placed,
-        centers,
-        nodes,
-        managers,
-        interfaces,
-        groups,
-        servo,
-        pipelines,
-        poses,
-        goals,
-        rehearsals,
+    parts = (linked_devices, placed, centers, nodes, managers, interfaces, planned, rehearsals)
+    return Outcome(_with_plans(cell, planned.value), tuple(problem for part in parts for problem in part.diagnostics))
+
+
+@dataclass(frozen=True, slots=True)
+class _Planned:
+    """What moves by a plan: groups with their named poses and goals, what plans for them, and servoing."""
+
+    groups: tuple[PlanningGroup, ...]
+    pipelines: tuple[Pipeline, ...]
+    poses: tuple[NamedPose, ...]
+    goals: tuple[CartesianGoal, ...]
+    octomap: Octomap | None
+    servo: Servo | None
+
+
+def _planned(
+    spec: CellSpec,
+    document: SourceDocument,
+    devices: tuple[Device, ...],
+    frames: tuple[Frame, ...],
+    names: FrameNames,
+    controllers: tuple[Controller, ...],
+    distro: Distro,
+) -> Outcome[_Planned]:
+    groups = link_groups(spec, document, devices, frames, names, controllers, distro)
+    known = groups.value or ()
+    pipelines, poses = link_pipelines(spec, document, distro), link_poses(spec, document, known)
+    goals = link_goals(spec, document, known, names)
+    servo = link_servo(spec, document, known, controllers)
+    octomap = link_octomap(spec.motion.octomap, devices)
+    parts = (groups, servo, pipelines, poses, goals)
+    planned = _Planned(known, pipelines.value or (), poses.value or (), goals.value or (), octomap, servo.value)
+    return Outcome(planned, tuple(problem for part in parts for problem in part.diagnostics))
+
+
+def _with_plans(cell: Cell, planned: _Planned) -> Cell:
+    return replace(
+        cell,
+        groups=planned.groups,
+        pipelines=planned.pipelines,
+        poses=planned.poses,
+        goals=planned.goals,
+        octomap=planned.octomap,
+        servo=planned.servo,
     )
-    return Outcome(cell, tuple(problem for part in parts for problem in part.diagnostics))
 
 
 def _surroundings(spec: CellSpec, document: SourceDocument, distro: Distro, measured: Measured) -> Cell:
