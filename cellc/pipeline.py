@@ -6,6 +6,7 @@ on an error, so that one mistake does not cascade; rules all run.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,12 +15,15 @@ from cellc.artifact import Artifact
 from cellc.diagnostics import Diagnostic, Outcome, Severity
 from cellc.diagnostics.diagnostic import CodePage, Findings
 from cellc.graph.cell_graph import CellGraph, build_graph
-from cellc.link.link import link
+from cellc.link.link import bare_cell, link
 from cellc.rules.ignores import apply_ignores, ignore_comments, misused_ignores
-from cellc.rules.run import run_rules
+from cellc.rules.run import ALL_RULES, run_rules
 from cellc.source import read
 from cellc.source.text import with_shown_texts
 from cellc.spec.parse import parse
+
+_DESCRIPTIONS = (".urdf", ".xacro")
+_ON_MODELS = tuple(one for one in ALL_RULES if one.family == "MOD" or one.code == "missing-velocity-limit")
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,8 +45,13 @@ class Checked:
 
 
 def check(path: str | Path) -> Checked:
-    """Read, parse and link a spec, run every rule on its graph, and take out what comments in the spec excuse."""
+    """Read, parse and link a spec, run every rule on its graph, and take out what comments in the spec excuse.
+
+    A URDF or xacro file is judged as it is, by the rules on descriptions alone.
+    """
     file = Path(path).as_posix()
+    if file.endswith(_DESCRIPTIONS):
+        return _check_description(Path(path))
     source = read(path)
     if source.value is None or not source.ok:
         texts = {} if source.value is None else source.value.texts
@@ -60,6 +69,19 @@ def check(path: str | Path) -> Checked:
     graph = build_graph(cell.value)
     found += run_rules(graph)
     return _checked(file, texts, _excused(found, texts), graph)
+
+
+def _check_description(path: Path) -> Checked:
+    # A spec that names devices of the catalog alone is checked without the reader of xacro.
+    from cellc.description.read_description import read_description
+
+    package = next((folder.parent for folder in path.absolute().parents if (folder / "package.xml").is_file()), None)
+    root = path.parent if package is None else Path(os.path.relpath(package))
+    read = read_description(path, {}, root)
+    found = list(read.diagnostics)
+    if read.value is not None:
+        found += run_rules(build_graph(bare_cell(read.value, path.as_posix(), root.as_posix())), _ON_MODELS)
+    return _checked(path.as_posix(), {}, _sorted(found))
 
 
 def compile_cell(checked: Checked) -> Outcome[tuple[Artifact, ...]]:

@@ -184,6 +184,7 @@ class HardwarePart:
     state_interfaces: tuple[HardwareInterface, ...]
     mimic: str | None
     limits_enabled: bool
+    span: Span | None = field(default=None, compare=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -199,6 +200,7 @@ class HardwareComponent:
     joints: tuple[HardwarePart, ...]
     sensors: tuple[HardwarePart, ...]
     gpios: tuple[HardwarePart, ...]
+    span: Span | None = field(default=None, compare=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -214,6 +216,7 @@ class Description:
     joints: tuple[Joint, ...]
     hardware: tuple[HardwareComponent, ...] = ()
     hardware_error: str = ""
+    hardware_error_span: Span | None = None
 
     def link(self, name: str) -> Link | None:
         """Find a link, the first where a name stands twice."""

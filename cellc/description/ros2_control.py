@@ -6,18 +6,22 @@ import re
 
 from cellc.description.model import HardwareComponent, HardwareInterface, HardwarePart
 from cellc.description.xml_tree import XmlElement
+from cellc.diagnostics import Span
 
 
 class _RefusedError(Exception):
     """Stops the reading with the message of the component parser."""
 
 
-def read_hardware(robot: XmlElement) -> tuple[tuple[HardwareComponent, ...], str]:
-    """Read the hardware components of a robot; or none, and the message with which ros2_control refuses one of them."""
+def read_hardware(robot: XmlElement) -> tuple[tuple[HardwareComponent, ...], str, Span | None]:
+    """Read the hardware components of a robot; or none, with what ros2_control says as it refuses one, and where."""
+    components, reading = [], robot
     try:
-        return tuple(_read_component(element) for element in robot.all("ros2_control")), ""
+        for reading in robot.all("ros2_control"):
+            components.append(_read_component(reading))
     except _RefusedError as error:
-        return (), str(error)
+        return (), str(error), reading.span
+    return tuple(components), "", None
 
 
 def _read_component(element: XmlElement) -> HardwareComponent:
@@ -37,6 +41,7 @@ def _read_component(element: XmlElement) -> HardwareComponent:
         joints=tuple(_read_part(child) for child in element.all("joint")),
         sensors=tuple(_read_part(child) for child in element.all("sensor")),
         gpios=tuple(_read_part(child) for child in element.all("gpio")),
+        span=element.span,
     )
 
 
@@ -58,6 +63,7 @@ def _read_part(element: XmlElement) -> HardwarePart:
         state_interfaces=tuple(_read_interface(child) for child in element.all("state_interface")),
         mimic=element.attributes.get("mimic"),
         limits_enabled=limits is None or limits.attributes.get("enable", "true").strip().lower() != "false",
+        span=element.span,
     )
 
 

@@ -89,8 +89,7 @@ def read_urdf(text: str, file: str, origins: Origins | None = None, *, from_user
     found.extend(_unsafe(root, from_user))
     if found:
         return Outcome(None, tuple(found))
-    hardware, hardware_error = read_hardware(root)
-    return Outcome(Description(name[0], tuple(links), tuple(joints), hardware, hardware_error))
+    return Outcome(Description(name[0], tuple(links), tuple(joints), *read_hardware(root)))
 
 
 def _too_many(root: XmlElement) -> Diagnostic | None:

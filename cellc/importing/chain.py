@@ -41,7 +41,7 @@ def chain_of(description: Description) -> Chain:
     runs = [run for chain in chains for run in _runs(chain)]
     longest = max(runs, key=lambda run: len(run.joints), default=None)
     if longest is None:
-        raise ImportRefusedError(f"`{description.name}` has no joint that moves: there is nothing to drive")
+        raise ImportRefusedError(f"`{description.name}` has no joint that moves, with a range and a speed above 0")
     return _with_tool(_without_fingers(longest, description), description)
 
 

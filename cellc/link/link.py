@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from pathlib import PurePosixPath
 
 from cellc.catalog.load import load_distros, load_qos_profiles
 from cellc.catalog.tables import RMWS, Rmw
 from cellc.cell.cell import Cell
 from cellc.cell.control import Controller
 from cellc.cell.device import Device
+from cellc.cell.entity import Places
 from cellc.cell.frame import Frame, SceneBox
 from cellc.cell.motion import CartesianGoal, NamedPose, Octomap, Pipeline, PlanningGroup, Servo
-from cellc.diagnostics import Diagnostic, Outcome, Severity, did_you_mean
+from cellc.cell.site import Versions
+from cellc.description.model import Description
+from cellc.diagnostics import Diagnostic, Outcome, Severity, Span, did_you_mean
 from cellc.link.control import bind_adapters, link_managers
 from cellc.link.controller import ControlContext
 from cellc.link.derived import Derivation, derive_interfaces
@@ -231,3 +235,27 @@ def _rmw(spec: CellSpec) -> Rmw:
         if written == rmw:
             return rmw
     return "rmw_fastrtps_cpp"
+
+
+def bare_cell(description: Description, file: str, root: str) -> Cell:
+    """Return a description alone as a cell of one device; what has no place in it begins the file.
+
+    Args:
+        root: the folder beside whose files the packages of meshes lie.
+    """
+    start, path = Span(file, 1, 1, 1, 1), ("devices", "robot")
+    roots = description.roots()
+    device = Device(
+        name="robot",
+        path=path,
+        span=start,
+        model=description.name,
+        vendor="",
+        kind="arm",
+        description=description,
+        root_link=roots[0] if roots else "",
+    )
+    beside = Span(PurePosixPath(root, PurePosixPath(file).name).as_posix(), 1, 1, 1, 1)
+    places = Places(file, {("cell",): start, ("devices",): start, path: start, (*path, "model"): beside})
+    ros = Distro.JAZZY  # no rule on models asks for it
+    return Cell(name=description.name, places=places, distro=ros, versions=Versions(ros=ros), devices=(device,))

@@ -144,7 +144,7 @@ NASTY = {
         "mimic-of-fixed-joint",
     ),
     "a closed loop": (_robot(*ARM, _joint("back", "c", "b")), "link-with-two-parents"),
-    "nothing that moves": (_robot(_links("a", "b"), _joint("j", "a", "b", "fixed", "")), "nothing to drive"),
+    "nothing that moves": (_robot(_links("a", "b"), _joint("j", "a", "b", "fixed", "")), "no joint that moves"),
     "not a robot": ("<sdf/>", "urdf-not-a-robot"),
     "not closed": ("<robot name='x'>", "xml-not-well-formed"),
 }  # fmt: skip
