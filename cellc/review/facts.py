@@ -35,6 +35,9 @@ _CHECKS = (
     ("tcp", re.compile(r"- \[ \] (.+) holds its TCP (.+); what it shows then .*")),
     ("tool_voltage", re.compile(r"- \[ \] The tool connector of (.+) gives (.+): each was told .*")),
     ("thresholds", re.compile(r"- \[ \] (.+): collision thresholds are set (.+)")),
+    ("load", re.compile(r"- \[ \] (.+): the load beside the end effector (.+)")),
+    ("joint_impedance", re.compile(r"- \[ \] (.+): the impedance of the joints (.+)")),
+    ("tool_impedance", re.compile(r"- \[ \] (.+): the impedance at the tool (.+)")),
     ("first_motion", re.compile(r"- \[ \] (Said aloud before it moves): (.+)")),
 )
 _VERSIONS = "\n## Version tuple\n"

@@ -32,6 +32,9 @@ ROWS: Sequence[Row] = (
     Row("check payload {device}", _A.PAYLOAD, "payload that the robot is told", Rule.DANGEROUS, why="the arm may sag"),
     Row("check tcp {device}", _A.PAYLOAD, "TCP that the robot is told", Rule.DANGEROUS, why="it is another point"),
     Row("check thresholds {device}", _A.SAFETY, "collision thresholds that the robot is told", Rule.DANGEROUS),
+    Row("check load {device}", _A.PAYLOAD, "load that the robot is told", Rule.DANGEROUS, why="the arm may sag"),
+    Row("check joint_impedance {device}", _A.SAFETY, "impedance of the joints", Rule.DANGEROUS),
+    Row("check tool_impedance {device}", _A.SAFETY, "impedance at the tool", Rule.DANGEROUS),
     Row("check tool_voltage {device}", _A.SAFETY, "voltage of the tool connector", Rule.DANGEROUS, why=_BURNS),
     Row("spec payload {device} ...", _A.PAYLOAD, "payload", Rule.DANGEROUS, why="the arm may sag"),
     # Frames and what measured them.
@@ -115,7 +118,7 @@ ROWS: Sequence[Row] = (
         ordered=False,
     ),
     Row(
-        "parameters {_} {node} ros__parameters moveit_servo scale ...",
+        "file config/moveit/servo.yaml {_} ros__parameters moveit_servo scale {what}",
         _A.LIMITS,
         "largest speed of servoing",
         Rule.MORE,

@@ -26,12 +26,13 @@ Source: https://github.com/UniversalRobots/Universal_Robots_ROS2_Driver/releases
 
 from __future__ import annotations
 
+from cellc.cell.device import Device
 from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
-    """Yield tools on a connector that is not told what to give, or that gives something else than they take."""
+    """Yield tools on the connector of another robot, of one that is told nothing, or that gives another voltage."""
     for device in graph.cell.devices:
         link = device.connection
         if link is None or link.through is None:
@@ -39,6 +40,9 @@ def check(graph: CellGraph) -> Findings:
         path = (*device.path, "connection", "through")
         robot = graph.cell.device(link.through)
         place = (*robot.path, "tool_connector")
+        if device.name not in _hanging(graph, robot):
+            message = f"`{device.name}` must hang on `{robot.name}`, from whose tool connector it has its power"
+            yield found(graph, path, message, "name the robot that carries it")
         if robot.tool_connector is None:
             message = f"`{device.name}` has its power from `{robot.name}`, whose tool connector gives nothing stated"
             yield found(graph, path, message, f"write `tool_connector` of `{robot.name}` with the voltage of its tool")
@@ -47,3 +51,15 @@ def check(graph: CellGraph) -> Findings:
             message = f"the tool connector must give `{device.name}` {device.plug.voltage_v:g} V, got {given}"
             related = (Related("stated here", graph.cell.locate(*place, "voltage")),)
             yield found(graph, path, message, related=related)
+
+
+def _hanging(graph: CellGraph, robot: Device) -> set[str]:
+    """Return what a robot carries, and what hangs on that."""
+    carried: set[str] = set()
+    left = [*robot.carries]
+    while left:
+        name = left.pop()
+        if name not in carried:
+            carried.add(name)
+            left += graph.cell.device(name).carries
+    return carried

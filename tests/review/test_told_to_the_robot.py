@@ -1,0 +1,44 @@
+"""What people tell a robot, and how fast it servos, is graded by itself: each stands in a checklist or a file alone."""
+
+from __future__ import annotations
+
+import pytest
+
+from cellc.review.compare import changes_between
+from cellc.review.facts import facts_of
+from tests.cells import generated
+
+_LINES = {
+    "load that the robot is told": "- [ ] arm: the load beside the end effector that Desk has is told: mass {}",
+    "impedance of the joints": "- [ ] arm: the impedance of the joints is set to {}",
+    "impedance at the tool": "- [ ] arm: the impedance at the tool is set to {}",
+    "voltage of the tool connector": (
+        "- [ ] The tool connector of arm gives {}, to gripper: each was told by its nameplate to take that"
+    ),
+}
+_SERVO = "/**:\n  ros__parameters:\n    moveit_servo:\n      scale:\n        linear: {}\n"
+
+
+@pytest.fixture(scope="module")
+def files() -> dict[str, str]:
+    folder = generated("minimal")
+    found = (path for path in folder.rglob("*") if path.is_file())
+    return {path.relative_to(folder).as_posix(): path.read_text(encoding="utf-8") for path in found}
+
+
+def _graded(files: dict[str, str], path: str, before: str, after: str) -> list[tuple[str, str]]:
+    """Return grade and quantity of each change between two texts at the end of a file."""
+    one, other = ({**files, path: files.get(path, "") + text} for text in (before, after))
+    return [(str(change.grade), change.quantity) for change in changes_between(facts_of(one), facts_of(other))]
+
+
+@pytest.mark.parametrize("quantity", _LINES)
+def test_another_figure_for_the_robot_is_dangerous(quantity: str, files: dict[str, str]) -> None:
+    line = _LINES[quantity]
+    assert _graded(files, "gates/promotion.md", line.format("1"), line.format("2")) == [("dangerous", quantity)]
+
+
+def test_faster_servoing_is_dangerous_and_slower_is_not(files: dict[str, str]) -> None:
+    told = _graded(files, "config/moveit/servo.yaml", _SERVO.format(0.05), _SERVO.format(0.4))
+    assert told == [("dangerous", "largest speed of servoing linear")]
+    assert _graded(files, "config/moveit/servo.yaml", _SERVO.format(0.4), _SERVO.format(0.05))[0][0] == "safe"
