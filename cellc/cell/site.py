@@ -191,11 +191,15 @@ class Stop:
     evidence: tuple[str, ...] = ()
 
 
+STOPPED = ("protective_stop", "emergency_stop", "fault")
+"""What every robot can be stopped by; others are its vendor's."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Recovery:
     """The states that need recovery, who acknowledges, and what becomes of an old goal."""
 
-    states: tuple[str, ...] = ("protective_stop", "emergency_stop", "fault")
+    states: tuple[str, ...] = STOPPED
     acknowledge: str = "operator"
     on_reconnect: str = "discard_goal"
     owner: str = UNKNOWN

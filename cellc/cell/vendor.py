@@ -42,6 +42,12 @@ class VendorSafety:
     recovery: tuple[RecoveryProcedure, ...] = ()
     watchdog: str | None = None
 
+    @property
+    def recoverable_stops(self) -> tuple[str, ...]:
+        """The states that stop the device and that its vendor tells the way out of."""
+        led_out = {way.state for way in self.recovery}
+        return tuple(state.name for state in self.states if state.stops and state.name in led_out)
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CommissioningStep:

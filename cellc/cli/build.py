@@ -61,8 +61,8 @@ def build(
 ) -> None:
     """Check each cell in FILES and write its ROS 2 package to OUTPUT/<cell>.
 
-    Errors stop a cell from being written. Blockers do not: they refuse the real target, not the mock. Files that you
-    put beside the generated ones stay. No option hides an error.
+    Errors stop a cell from being written. Blockers do not: they refuse the real target, not the mock, and are summed
+    here; `cellc check` shows each. Files that you put beside the generated ones stay. No option hides an error.
     """
     wanted = read_selection(select, ignore)
     built: list[Findings] = []
@@ -86,7 +86,7 @@ def build(
                     told += [] if report is None else [_told(report, folder)]
             built.append(findings)
     shown = [selected_and_errors(one, wanted) for one in built]
-    show_findings(shown, output_format, hidden=number_hidden(built, shown))
+    show_findings(shown, output_format, hidden=number_hidden(built, shown), sum_blockers=True)
     if output_format == "text" and told:
         show(*told)
     if differs:

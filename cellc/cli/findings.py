@@ -12,7 +12,7 @@ from cellc.diagnostics import Diagnostic, Severity
 from cellc.diagnostics.diagnostic import Findings
 from cellc.printing import show, show_document
 from cellc.report.selection import Selection, UnknownSelectionError, selection
-from cellc.report.text_report import render_text, summary
+from cellc.report.text_report import render_text, summary, summed_blockers
 
 FORMAT = click.option(
     "--format",
@@ -39,20 +39,27 @@ FAIL_ON = click.option(
 _RANK = {Severity.ERROR: 0, Severity.BLOCKER: 1, Severity.WARNING: 2, Severity.AUDIT: 3}
 
 
-def show_findings(found: Sequence[Findings], output_format: str, *, hidden: int = 0) -> None:
+def show_findings(
+    found: Sequence[Findings], output_format: str, *, hidden: int = 0, sum_blockers: bool = False
+) -> None:
     """Write the findings of all cells to standard output.
 
     Args:
         found: one for each cell.
         hidden: findings that options left out; people are told how many.
+        sum_blockers: whether people are told the number of blockers only, where nothing is worse.
     """
     if output_format != "text":
         _show_for_programs([d for one in found for d in one.diagnostics], output_format)
         return
     for one in found:
-        if one.diagnostics:
-            show(*render_text(one.diagnostics, one.texts), "")
+        summed = sum_blockers and all(each.severity is not Severity.ERROR for each in one.diagnostics)
+        listed = [each for each in one.diagnostics if not summed or each.severity is not Severity.BLOCKER]
+        if listed:
+            show(*render_text(listed, one.texts), "")
         show(summary(one.diagnostics, [one.file]))
+        if summed:
+            show(*summed_blockers(one.diagnostics, one.file))
     if hidden:
         show(f"{hidden} hidden by --select or --ignore")
 

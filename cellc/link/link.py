@@ -117,7 +117,7 @@ def _link_with_devices(
     derived = derive_interfaces(source, written)
     rehearsals = link_rehearsals(spec, document, devices, loops, (*written, *derived), names)
     cell = replace(
-        _surroundings(spec, document, distro, placed.value.measured),
+        _surroundings(spec, document, distro, placed.value.measured, devices),
         devices=devices,
         frames=all_frames,
         scene=placed.value.scene,
@@ -176,7 +176,9 @@ def _with_plans(cell: Cell, planned: _Planned) -> Cell:
     )
 
 
-def _surroundings(spec: CellSpec, document: SourceDocument, distro: Distro, measured: Measured) -> Cell:
+def _surroundings(
+    spec: CellSpec, document: SourceDocument, distro: Distro, measured: Measured, devices: tuple[Device, ...]
+) -> Cell:
     """Return the cell before anything stands in it: its hosts, network, owners, safety, figures, and all places."""
     places = bind_places(document)
     table = load_distros().value
@@ -192,7 +194,7 @@ def _surroundings(spec: CellSpec, document: SourceDocument, distro: Distro, meas
         network=bind_network(spec),
         calibrations=bind_calibrations(spec, places, measured.files),
         owners=bind_owners(spec),
-        safety=bind_safety(spec),
+        safety=bind_safety(spec, devices),
         bringup=bind_bringup(spec),
         kpis=bind_kpis(spec),
         recording=bind_recording(spec),

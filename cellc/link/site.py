@@ -8,9 +8,11 @@ from __future__ import annotations
 import datetime
 from collections.abc import Iterable, Mapping
 
+from cellc.cell.device import Device
 from cellc.cell.entity import Places
 from cellc.cell.site import (
     ATTEMPT_FIELDS,
+    STOPPED,
     TARGET_DEFAULTS,
     ApprovalOwners,
     Bringup,
@@ -148,13 +150,14 @@ def bind_owners(spec: CellSpec) -> Owners:
     )
 
 
-def bind_safety(spec: CellSpec) -> Safety:
-    """Return the safety boundary."""
+def bind_safety(spec: CellSpec, devices: tuple[Device, ...]) -> Safety:
+    """Return the safety boundary; where no recovery states are stated, those that its devices have a way out of."""
     stop, recovery = spec.safety.stop, spec.safety.recovery
+    stops = (state for device in devices for state in device.safety.recoverable_stops)
     return Safety(
         stop=Stop(authority=stop.authority, path=stop.path, independent_of=stop.independent_of, evidence=stop.evidence),
         recovery=Recovery(
-            states=recovery.states,
+            states=tuple(dict.fromkeys((*STOPPED, *stops))) if recovery.states is None else recovery.states,
             acknowledge=recovery.acknowledge,
             on_reconnect=recovery.on_reconnect,
             owner=recovery.owner,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
@@ -85,6 +86,19 @@ def summary(diagnostics: Iterable[Diagnostic], files: Sequence[str]) -> Line:
     told = parts or [Styled("no findings", Style.GREEN)]
     listed = (piece for part in told for piece in (", ", part))
     return (*tuple(listed)[1:], f" in {place}")
+
+
+def summed_blockers(diagnostics: Iterable[Diagnostic], file: str) -> list[Line]:
+    """Return in two lines how many blockers of which code keep the real target closed, and who shows each of them."""
+    found = Counter(one.code for one in diagnostics if one.severity is Severity.BLOCKER)
+    if not found:
+        return []
+    codes = ", ".join(f"{number} {code}" for code, number in sorted(found.items(), key=lambda one: (-one[1], one[0])))
+    command = shlex.quote(file)
+    return [
+        f"the real target stays closed: {codes}",
+        f"`cellc check {command}` shows each, `cellc audit {command}` asks the person who can answer",
+    ]
 
 
 def _part(severity: Severity, number: int) -> Styled:

@@ -72,9 +72,10 @@ class StopSpec(SpecModel):
 class RecoverySpec(SpecModel):
     """The named states that need recovery, and who acknowledges."""
 
-    states: tuple[Name, ...] = Field(
-        ("protective_stop", "emergency_stop", "fault"),
-        description="States that need recovery.",
+    states: tuple[Name, ...] | None = Field(
+        None,
+        description="States that need recovery. Absent: `protective_stop`, `emergency_stop`, `fault`, and every other "
+        "stop that the vendor of a device leads out of.",
         examples=[["protective_stop"]],
     )
     acknowledge: Literal["operator", "automatic"] = Field(

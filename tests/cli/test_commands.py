@@ -25,6 +25,23 @@ def test_blockers_fail_a_check_that_asks_for_it() -> None:
     assert run("check", PICK, "--fail-on", "blocker").code == 1
 
 
+def test_build_sums_blockers_and_names_the_commands_that_tell_more(tmp_path: Path) -> None:
+    ran = run("build", MINIMAL, "-o", str(tmp_path))
+    assert ran.code == 0
+    assert "blocker[" not in ran.out
+    assert "the real target stays closed: 3 controller-without-client, 3 unknown-version, 1 missing-approval" in ran.out
+    assert f"`cellc check {MINIMAL}` shows each, `cellc audit {MINIMAL}` asks the person who can answer" in ran.out
+
+
+def test_build_that_an_error_stops_lists_its_blockers_too(tmp_path: Path) -> None:
+    spec = tmp_path / "cell.yaml"
+    spec.write_text(Path(MINIMAL).read_text(encoding="utf-8").replace("ros: jazzy", "ros: jazzzy"), encoding="utf-8")
+    ran = run("build", str(spec), "-o", str(tmp_path / "out"))
+    assert ran.code == 1
+    assert "error[" in ran.out
+    assert "stays closed" not in ran.out
+
+
 def test_check_of_several_cells_reports_each() -> None:
     ran = run("check", PICK, MINIMAL)
     assert PICK in ran.out

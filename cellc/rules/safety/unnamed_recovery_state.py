@@ -21,9 +21,9 @@ Source: docs/principles.md#recovery
 
 from __future__ import annotations
 
+from cellc.cell.site import STOPPED
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
-_STOPPED = ("protective_stop", "emergency_stop", "fault")
 _EVERYWHERE = "emergency_stop"
 
 
@@ -32,7 +32,7 @@ def check(graph: CellGraph) -> Findings:
     """Yield the states that are missing, in one finding; what no device has that states its own is not asked for."""
     states = graph.cell.safety.recovery.states
     known = {state.name for device in graph.cell.devices for state in device.safety.states}
-    asked = [state for state in _STOPPED if state in known or not known or state == _EVERYWHERE]
+    asked = [state for state in STOPPED if state in known or not known or state == _EVERYWHERE]
     missing = [state for state in asked if state not in states]
     if missing:
         names = ", ".join(f"`{state}`" for state in missing)
