@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from cellc.cell.cell import Cell
-from cellc.cell.control import ControllerManager
+from cellc.cell.control import Controller, ControllerManager
 from cellc.cell.interface import TARGETS, Node, NodeSource
 
 REHEARSALS = "rehearsals.json"
@@ -95,8 +95,19 @@ def servo_files(cell: Cell) -> tuple[str, ...]:
 
 def moveit_controllers_file(cell: Cell, target: str) -> str:
     """Return the path of the file with the controllers that move_group calls: one, unless the targets differ."""
-    differs = any(one.active and one.action is not None and len(one.targets) < len(TARGETS) for one in cell.controllers)
+    called = [one for one in cell.controllers if executes_plans(cell, one) and one.action is not None]
+    differs = any(len(one.targets) < len(TARGETS) for one in called)
     return CONTROLLERS.replace(".yaml", f".{target}.yaml") if differs else CONTROLLERS
+
+
+def executes_plans(cell: Cell, controller: Controller) -> bool:
+    """Tell whether MoveIt may send a controller goals: one that names a client is commanded by that node alone.
+
+    move_group makes a client of each that it is told of as it starts, which shows as a second commander, and which an
+    enforced policy refuses.
+    """
+    planners = {node.name for node in cell.nodes if is_planner(node)}
+    return controller.active and (controller.client is None or controller.client in planners)
 
 
 def semantic_file(cell: Cell) -> str:

@@ -18,7 +18,7 @@ from cellc.cell.frame import WORLD
 from cellc.cell.interface import TARGETS, ParameterValue
 from cellc.cell.motion import POINT_CLOUD, Octomap, Pipeline, Servo
 from cellc.deploy.deployment import Deployment
-from cellc.deploy.files import JOINT_LIMITS, SENSORS, SERVO, is_planner, moveit_controllers_file, plans
+from cellc.deploy.files import JOINT_LIMITS, SENSORS, SERVO, executes_plans, is_planner, moveit_controllers_file, plans
 from cellc.diagnostics import YamlPath
 from cellc.formats.header import Header
 from cellc.formats.parameter_file import ANY_NODE, NodeParameters, parameter_file
@@ -200,7 +200,7 @@ def _config(planner: str) -> str:
 
 
 def _controllers(cell: Cell, target: str) -> Parameters:
-    """Return what executes on a target: active controllers with an action that MoveIt knows, and what stands in."""
+    """Return what executes plans on a target: controllers with an action that MoveIt knows, and what stands in."""
     called = {_name(cell, one): one for one in _called(cell, target) if _short(one.type) in _TYPES}
     parameters: dict[str, ParameterValue] = {
         "moveit_controller_manager": f"{_MANAGER}/MoveItSimpleControllerManager",
@@ -327,9 +327,11 @@ def _scene_topic(cell: Cell) -> str:
 
 def _called(cell: Cell, target: str) -> Iterator[_Called]:
     for one in cell.controllers:
-        if one.active and target in one.targets and one.action is not None:
+        if not executes_plans(cell, one):
+            continue
+        if target in one.targets and one.action is not None:
             yield _Called(one.action, one.action_type or "", one.joints)
-        elif one.active and target == "real" and one.stand_in is not None:
+        elif target == "real" and one.stand_in is not None:
             yield _Called(one.stand_in.action, one.stand_in.action_type, one.joints)
 
 

@@ -34,7 +34,7 @@ from cellc.deploy.releases import start_mock
 from cellc.formats.escape import code, markdown, markdown_comment
 from cellc.formats.parameter_file import spec_path
 from cellc.graph.cell_graph import CellGraph
-from cellc.graph.enclaves import people_enclave
+from cellc.graph.enclaves import commissioning_enclave, people_enclave
 from cellc.graph.versions import unreleased
 from cellc.vocabulary import BringUpPhase
 
@@ -171,7 +171,8 @@ def _enforced(cell: Cell) -> Iterator[str]:
         "Where access is enforced, keys are made in a shell as above: domain and middleware are read from it, and "
         "another of either needs new ones. A process then starts in its enclave of `security/policy.xml`, which the "
         "launch files name, or not at all. Each host has its own enclaves alone, and `private/` is kept "
-        "away from the cell. What people type is told its enclave in a shell that launches nothing:"
+        "away from the cell. What people type is told its enclave in a shell that launches nothing: that in which they "
+        f"look, or {code(commissioning_enclave(cell))} for the one command by which a gate or a recovery acts:"
     )
     yield _fenced(
         (

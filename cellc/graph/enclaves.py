@@ -30,6 +30,11 @@ def people_enclave(cell: Cell) -> str:
     return f"/{cell.name}/people"
 
 
+def commissioning_enclave(cell: Cell) -> str:
+    """Return the enclave of the one command with which a person acts, where a gate or a recovery has it."""
+    return f"/{cell.name}/commissioning"
+
+
 def bring_up_enclave(cell: Cell) -> str:
     """Return the enclave of the program with which the bring-up waits, configures and activates."""
     return f"/{cell.name}/bring_up"
@@ -48,5 +53,6 @@ def enclaves(cell: Cell) -> Iterator[tuple[str, YamlPath]]:
     for manager in cell.managers:
         yield manager_enclave(cell, manager), manager.path
         yield spawner_enclave(cell, manager), manager.path
-    for path in (people_enclave(cell), bring_up_enclave(cell), first_goal_enclave(cell)):
+    typed = (people_enclave(cell), commissioning_enclave(cell))
+    for path in (*typed, bring_up_enclave(cell), first_goal_enclave(cell)):
         yield path, ("cell",)

@@ -8,7 +8,7 @@ from xml.etree.ElementTree import Element, fromstring
 from tests.consumers.matrix import build, every_planning_build
 from tests.consumers.parameter_files import told
 from tests.consumers.refused_parameters import claimed
-from tests.consumers.starting import activated, node_name, processes
+from tests.consumers.starting import activated, node_name, processes, written_managers
 
 # launch_moveit.md 5.3; request and response adapters of default_planning_*_adapters, Jazzy and later.
 _REQUEST = {"ResolveConstraintFrames", "ValidateWorkspaceBounds", "CheckStartStateBounds", "CheckStartStateCollision"}
@@ -34,6 +34,7 @@ _EXECUTION = (
     "allowed_start_tolerance",
     "wait_for_trajectory_completion",
 )
+_CALLED = ("type", "action_ns", "joints", "default")
 _LIMITS = ("position_limits", "velocity_limits", "acceleration_limits", "jerk_limits")
 _BOUNDS = ("min_position", "max_position", "max_velocity", "max_acceleration", "max_jerk")
 
@@ -65,6 +66,17 @@ def _commanded(cell: str, distro: str) -> dict[str, list[str]]:
     return found
 
 
+def _planned(cell: str, distro: str) -> dict[str, list[str]]:
+    """Return those that the spec has move_group command: a second client is a second commander."""
+    own = {
+        f"{namespace}/{name}".removeprefix("/")
+        for namespace, manager in written_managers(cell, distro)
+        for name, one in manager["controllers"].items()
+        if one.get("client") == "move_group"
+    }
+    return {name: joints for name, joints in _commanded(cell, distro).items() if name in own}
+
+
 def _expected(cell: str, distro: str) -> set[str]:
     """Return the name of every parameter of a complete configuration."""
     groups = [
@@ -76,7 +88,7 @@ def _expected(cell: str, distro: str) -> set[str]:
     names |= {"planning_pipelines", "default_planning_pipeline", "capabilities", "moveit_controller_manager"}
     manager = "moveit_simple_controller_manager"
     names |= {f"{manager}.controller_names"}
-    names |= {f"{manager}.{one}.{key}" for one in commanded for key in ("type", "action_ns", "joints", "default")}
+    names |= {f"{manager}.{one}.{key}" for one in _planned(cell, distro) for key in _CALLED}
     planning = "robot_description_planning"
     names |= {f"{planning}.default_{one}_scaling_factor" for one in ("velocity", "acceleration")}
     names |= {f"{planning}.cartesian_limits.max_{one}" for one in ("trans_vel", "trans_acc", "trans_dec", "rot_vel")}
@@ -153,10 +165,11 @@ def test_controllers_of_moveit_have_the_joints_of_their_controllers(cell: str, d
     found, manager = _told(cell, distro), "moveit_simple_controller_manager"
     if not found:
         return
-    commanded = _commanded(cell, distro)
-    assert found[f"{manager}.controller_names"] == list(commanded)
+    planned = _planned(cell, distro)
+    assert planned
+    assert found[f"{manager}.controller_names"] == list(planned)
     gripper = "GripperCommand" if distro == "humble" else "ParallelGripperCommand"
-    for name, joints in commanded.items():
+    for name, joints in planned.items():
         kind, action = (
             (gripper, "gripper_cmd") if len(joints) == 1 else ("FollowJointTrajectory", "follow_joint_trajectory")
         )

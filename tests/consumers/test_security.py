@@ -145,6 +145,9 @@ def test_what_one_node_calls_another_serves(cell: str, distro: str) -> None:
     served = {
         name.replace("~", node) for node, profile in found.items() for name in granted(profile, "services", "reply")
     }
+    # Who executes an action serves its cancel.
+    executed = {name.replace("~", node) for node, one in found.items() for name in granted(one, "actions", "execute")}
+    served |= {f"{action}/_action/cancel_goal" for action in executed}
     for name, profile in found.items():
         assert granted(profile, "services", "request") <= served, name
 
@@ -174,14 +177,15 @@ def test_arm_of_one_side_is_not_commanded_from_the_other(side: str) -> None:
     assert not [action for action in granted(profile, "actions", "call") if action.startswith(f"/{other}/")]
 
 
-def _people(cell: str, distro: str) -> Permissions:
-    return permissions(build(cell, distro).texts["security/policy.xml"])[f"/{cell}/people"]
+def _typed(cell: str, distro: str, enclave: str = "people") -> Permissions:
+    return permissions(build(cell, distro).texts["security/policy.xml"])[f"/{cell}/{enclave}"]
 
 
 @every_build
 def test_people_may_do_what_the_gates_have_them_type(cell: str, distro: str) -> None:
-    may, asked = _people(cell, distro), 0
-    for command in (one for text in sections(cell, distro).values() for one in commands(text)):
+    may, asked = _typed(cell, distro), 0
+    typed = (one for text in sections(cell, distro).values() for one in commands(text))
+    for command in (re.sub(r"^timeout \d+ ", "", one).split(" | ")[0] for one in typed):
         words = command.split()
         ends: list[tuple[Right, str]] = []
         if re.search(r"ros2 topic (echo|hz|delay|bw)", command):
@@ -191,11 +195,11 @@ def test_people_may_do_what_the_gates_have_them_type(cell: str, distro: str) -> 
         elif command.startswith("ros2 control list_"):
             ends = [("request", f"{words[-1]}/{words[2]}")]
         elif command.startswith("ros2 lifecycle get"):
-            ends = [("request", f"{words[3]}/get_state")]
+            ends = [("request", f"{words[-1]}/get_state")]
         elif command.startswith("ros2 lifecycle set"):
-            ends = [("request", f"{words[3]}/{one}") for one in ("change_state", "get_available_transitions")]
-        elif command.startswith("ros2 param get"):
-            ends = [("request", f"{words[3]}/get_parameters")]
+            ends = [("request", f"{words[-2]}/{one}") for one in ("change_state", "get_available_transitions")]
+        elif command.startswith("ros2 service call") and words[3].endswith("/get_parameters"):
+            ends = [("request", words[3])]
         elif "tf2_echo" in command or "tf2_monitor" in command:
             ends = [("subscribe", "/tf"), ("subscribe", "/tf_static")]
         for right, name in ends:
@@ -206,10 +210,63 @@ def test_people_may_do_what_the_gates_have_them_type(cell: str, distro: str) -> 
 
 @every_build
 def test_people_may_neither_command_nor_switch_from_a_shell(cell: str, distro: str) -> None:
-    texts, may = build(cell, distro).texts, _people(cell, distro)
+    texts, may = build(cell, distro).texts, _typed(cell, distro)
     for name, one in contract_data(texts["contract.json"])["interfaces"].items():
         assert one["kind"] != "action" or not may.allow("call", name), name
         assert one["kind"] != "topic" or not may.allow("publish", name) or name in ("/rosout", "/parameter_events")
     for namespace, _ in written_managers(cell, distro):
         for service in ("switch_controller", "set_hardware_component_state", "load_controller", "set_parameters"):
             assert not may.allow("request", f"{namespace}/controller_manager/{service}")
+
+
+_ACTS = re.compile(r"ros2 service call (/\S+)|ros2 control (switch_controller|set_hardware_component_state)")
+
+
+@every_build
+def test_a_person_may_act_where_a_gate_or_a_recovery_says_so(cell: str, distro: str) -> None:
+    texts, may = build(cell, distro).texts, _typed(cell, distro, "commissioning")
+    pages = " ".join(" ".join(texts[page].split()) for page in ("gates/promotion.md", "gates/network.md", "audit.md"))
+    found = list(_ACTS.finditer(pages))
+    assert {one[2] for one in found} >= {"switch_controller"}
+    assert cell == "minimal" or any((one[1] or "").endswith("/cancel_goal") for one in found)
+    for one in found:
+        managers = [f"{namespace}/controller_manager/{one[2]}" for namespace, _ in written_managers(cell, distro)]
+        for name in [one[1]] if one[1] else managers:
+            assert may.allow("request", name), name
+
+
+@pytest.mark.parametrize("distro", ["humble", "jazzy"])
+def test_a_person_may_call_what_the_vendor_of_an_arm_has_people_call(distro: str) -> None:
+    # franka_ros2 2.5.0 and 3.4.0: recovery from a reflex, homing of the hand, thresholds before a claim.
+    may = _typed("fr3_hand", distro, "commissioning")
+    assert may.allow("call", "/action_server/error_recovery")
+    assert may.allow("call", "/hand_gripper/homing")
+    assert may.allow("request", "/service_server/set_full_collision_behavior")
+    assert not may.allow("call", "/action_server/ptp_motion")
+    assert not may.allow("call", "/hand_gripper/grasp")
+
+
+@every_build
+def test_who_acts_in_a_gate_sends_no_goal_to_a_controller_and_says_nothing(cell: str, distro: str) -> None:
+    texts, may = build(cell, distro).texts, _typed(cell, distro, "commissioning")
+    for name, one in contract_data(texts["contract.json"])["interfaces"].items():
+        assert one["kind"] != "action" or not may.allow("request", f"{name}/_action/send_goal"), name
+        assert one["kind"] != "topic" or not may.allow("publish", name) or name in ("/rosout", "/parameter_events")
+    for namespace, _ in written_managers(cell, distro):
+        for service in ("load_controller", "unload_controller", "set_parameters"):
+            assert not may.allow("request", f"{namespace}/controller_manager/{service}")
+
+
+@every_build
+def test_rviz_may_show_what_its_configuration_shows(cell: str, distro: str) -> None:
+    texts, may = build(cell, distro).texts, _typed(cell, distro)
+    topics = re.findall(r"^ +(?:Value|[A-Z]\w+(?: \w+)* Topic): (/\S+)$", texts["config/cell.rviz"], re.MULTILINE)
+    assert "/robot_description" in topics
+    for topic in (*topics, "/tf", "/tf_static", "/clock", "/parameter_events"):
+        assert may.allow("subscribe", topic), topic
+    # moveit2, planning_scene_display.cpp: the whole scene is asked for once.
+    assert "/monitored_planning_scene" not in topics or may.allow("request", "/get_planning_scene")
+    for one in ("/rviz/reset_time", "/rviz/get_parameters", "/rviz_private_94213/list_parameters"):
+        assert may.allow("reply", one) or (
+            one.startswith("/rviz_private") and "/monitored_planning_scene" not in topics
+        )

@@ -45,10 +45,26 @@ def test_every_called_controller_is_one_of_the_cell(distro: str) -> None:
     assert called == {}
 
 
-def test_action_types_follow_the_distribution() -> None:
+def _called(folder: Path, client: str, distro: str = "jazzy") -> dict[str, Any]:
+    """Return what move_group calls where a node is the client of the gripper."""
+    text = spec_text("ur5e_pick").replace("device: gripper, client: task}", f"device: gripper, client: {client}}}")
+    found = emitted(folder, text.replace("ros: jazzy", f"ros: {distro}"))["config/moveit/controllers.yaml"]
+    (section,) = safe_load(found).values()
+    called: dict[str, Any] = section["ros__parameters"]["moveit_simple_controller_manager"]
+    return called
+
+
+def test_action_types_follow_the_distribution(tmp_path: Path) -> None:
     # ParallelGripperCommand is new in Jazzy; before, the controller serves GripperCommand.
-    types = {d: _parameters(d)["moveit_simple_controller_manager"]["gripper_action"]["type"] for d in DISTROS}
+    types = {d: _called(tmp_path, "move_group", d)["gripper_action"]["type"] for d in DISTROS}
     assert types == dict.fromkeys(DISTROS, "ParallelGripperCommand") | {"humble": "GripperCommand"}
+
+
+def test_move_group_calls_no_controller_that_another_node_commands(tmp_path: Path) -> None:
+    # It makes a client of each as it starts (moveit2, trajectory_execution_manager.cpp): a second one at the action,
+    # and one that an enforced policy, which grants it to the declared client alone, refuses.
+    assert _called(tmp_path, "task")["controller_names"] == ["arm_trajectory"]
+    assert "gripper_action" not in _called(tmp_path, "task")
 
 
 @pytest.mark.parametrize("distro", DISTROS)

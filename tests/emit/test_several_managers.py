@@ -111,5 +111,6 @@ def test_every_parameter_key_carries_its_namespace() -> None:
 def test_network_gate_looks_at_each_description_and_knows_that_sources_add_up() -> None:
     gates = _artifacts()["gates/network.md"]
     for side in ("left", "right"):
-        assert f"ros2 param get /{side}/description_publisher robot_description | grep plugin" in gates
+        asked = f"ros2 service call /{side}/description_publisher/get_parameters rcl_interfaces/srv/GetParameters"
+        assert f'{asked} "{{names: [robot_description]}}" | grep -o "plugin.[[:alnum:]_]*/[[:alnum:]_:]*"' in gates
     assert "`/joint_states` arrives at 500 Hz or more: 2 sources add up, no sample older than 0.1 s" in gates

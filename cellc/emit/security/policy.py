@@ -2,7 +2,8 @@
 
 SROS2 policy 0.2.0, read by ``ros2 security create_permission``. One enclave a node, one for the controller manager's
 process with its controllers and hardware nodes, one for the spawners, one for the program of the bring-up, one for
-what people type while they pass the gates. Only the clients that the spec declares may call an action and only its
+what people type while they pass the gates, and
+one for the command with which they act there. Only the clients that the spec declares may call an action and only its
 sources may publish a topic. Left out: keys and certificates, which belong into no repository.
 """
 
@@ -21,6 +22,7 @@ from cellc.deploy.first_goal import NODE, first_goal
 from cellc.emit.security.rights import (
     Profile,
     bring_up_process,
+    commissioning,
     manager_client,
     manager_process,
     node_profiles,
@@ -32,6 +34,7 @@ from cellc.formats.xml_text import element, render
 from cellc.graph.cell_graph import CellGraph
 from cellc.graph.enclaves import (
     bring_up_enclave,
+    commissioning_enclave,
     enclave_of,
     first_goal_enclave,
     manager_enclave,
@@ -59,6 +62,7 @@ def _enclaves(cell: Cell, plan: Deployment) -> Iterator[Element]:
     if (goal := first_goal(cell)) is not None:
         yield _enclave(first_goal_enclave(cell), [sender(cell, f"/{NODE}", goal.action, goal.topic)])
     yield _enclave(people_enclave(cell), people(cell))
+    yield _enclave(commissioning_enclave(cell), commissioning(cell))
 
 
 def _spawners(cell: Cell, manager: ControllerManager) -> Iterator[Profile]:

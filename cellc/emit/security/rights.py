@@ -5,6 +5,7 @@ The bring-up may see what it waits for, configure, observe and claim; it may nev
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, fields, replace
 from functools import reduce
@@ -12,8 +13,10 @@ from xml.etree.ElementTree import Element
 
 from cellc.cell.cell import Cell
 from cellc.cell.control import Controller, ControllerManager
+from cellc.cell.device import Device
 from cellc.cell.interface import InnerNode, InterfaceKind, Node, NodeEndpoints, NodeSource
 from cellc.contract.bring_up import TARGETS, BringUp, TopicProof
+from cellc.deploy.files import is_planner, plans
 from cellc.deploy.processes import bring_up_nodes, description_nodes, motion_clients
 from cellc.deploy.recording import recorded_topics
 from cellc.formats.xml_text import element
@@ -25,11 +28,17 @@ _CONTROLLER_STATE = "~/controller_state"
 # What the program of the bring-up calls.
 _OF_MANAGED = ("change_state", "get_state")
 _OF_MANAGER = ("list_controllers", "list_hardware_components", "set_hardware_component_state", "switch_controller")
-# What the commands of the gates call: `ros2 control list_*`, `ros2 lifecycle get` and `set`, `ros2 param get`.
+# What the commands of the gates call: `ros2 control list_*`, `ros2 lifecycle get` and `set`, `get_parameters`.
 _LISTED = ("list_controllers", "list_hardware_components", "list_hardware_interfaces")
+# What recoveries and the way back call: `ros2 control switch_controllers` and `set_hardware_component_state`.
+_ACTED_ON = ("set_hardware_component_state", "switch_controller")
 _LOOKED_AT = ("get_available_transitions", "get_state")
 # The names that they give their nodes: ros2cli (and its daemon), tf2_ros, rosbag2_transport.
 _TYPED = ("_ros2cli_*", "tf2_echo", "tf2_monitor*", "rosbag2_recorder", "transform_listener_impl_*")
+# RViz's node and, of MoveIt's displays, those of the scene monitor and of who waits for a description; rviz 14.3,
+# rviz_common/src/rviz_common/visualizer_app.cpp:151; moveit2 2.14.3, planning_scene_monitor.cpp:116 and
+# synchronized_string_parameter.cpp:123.
+_RVIZ = ("rviz", "rviz_private_*", "rviz_ssp_*")
 _OF_RECORDER = ("is_paused", "pause", "record", "resume", "snapshot", "split_bagfile", "stop")
 
 
@@ -248,3 +257,55 @@ def people(cell: Cell) -> Iterator[Profile]:
     for name in _TYPED:
         profile = _granted(cell, f"/{name}")
         yield _with(_with(profile, asks), recorder) if name == "rosbag2_recorder" else _with(profile, asks)
+    for name in _RVIZ if plans(cell) else _RVIZ[:1]:
+        yield _with(_with(_granted(cell, f"/{name}"), asks), _shown(cell))
+
+
+def _shown(cell: Cell) -> NodeEndpoints:
+    """Return what RViz has for the displays of ``config/cell.rviz``, and its service that begins its views anew."""
+    place = next((node.namespace for node in cell.nodes if is_planner(node)), "")
+    planned = ("monitored_planning_scene", "display_planned_path", "robot_description_semantic")
+    return NodeEndpoints(
+        subscribes=("/robot_description", *(f"{place}/{one}" for one in planned if plans(cell))),
+        requests=(f"{place}/get_planning_scene",) if plans(cell) else (),
+        serves=("~/reset_time",),
+    )
+
+
+def commissioning(cell: Cell) -> Iterator[Profile]:
+    """Yield the rights of the command with which a person acts: to end motion and give claims back, beside looking.
+
+    And to call what a vendor's procedure names. A goal is sent by none of it but where that procedure says so.
+    """
+    actions = (one.name for one in cell.interfaces if one.kind is InterfaceKind.ACTION and "real" in one.targets)
+    managers = tuple(f"{one.node}/{name}" for one in cell.managers for name in _ACTED_ON)
+    named = [one for device in cell.devices for one in _in_procedures(cell, device)]
+    requests = (
+        *(f"{name}/_action/cancel_goal" for name in actions),
+        *managers,
+        *(name for kind, name in named if kind is InterfaceKind.SERVICE),
+    )
+    calls = tuple(name for kind, name in named if kind is InterfaceKind.ACTION)
+    for profile in people(cell):
+        yield replace(profile, request=(*profile.request, *requests), call=(*profile.call, *calls))
+
+
+def _in_procedures(cell: Cell, device: Device) -> Iterator[tuple[InterfaceKind, str]]:
+    """Yield what nodes of a device serve that its vendor has people call: ``call NAME``, ``NAME of NODE``."""
+    steps = (step for way in device.safety.recovery for step in way.steps)
+    text = " ".join((*steps, *(step.does for step in device.commissioning)))
+    for kind, name in dict.fromkeys(_served(cell, device)):
+        node, _, last = name.rpartition("/")
+        of = re.escape(node.rpartition("/")[2])
+        if re.search(rf"\b(?:action|calls?) (?:{re.escape(name)}|{last})\b|\b{last} of (?:the )?{of}\b", text):
+            yield kind, name
+
+
+def _served(cell: Cell, device: Device) -> Iterator[tuple[InterfaceKind, str]]:
+    yield from ((one.kind, one.name) for one in device.offers if one.kind is not InterfaceKind.TOPIC)
+    nodes = [(node.full_name, node.endpoints) for node in cell.nodes if node.device == device.name]
+    if device.hardware is not None:
+        nodes += [(one.full_name, one.endpoints) for one in device.hardware.nodes]
+    for node, own in nodes:
+        yield from ((InterfaceKind.SERVICE, name.replace("~", node, 1)) for name in own.serves)
+        yield from ((InterfaceKind.ACTION, name.replace("~", node, 1)) for name in own.executes)
