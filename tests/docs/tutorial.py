@@ -1,6 +1,6 @@
-"""Runs the tutorial as a reader would: its edits are made, its commands run, and their output stands below each.
+"""Runs a page as a reader would: its edits are made, its commands run, and their output stands below each.
 
-After a message has changed, `python -m tests.docs.tutorial` writes what is printed now into the page.
+After a message has changed, `python -m tests.docs.tutorial` writes what is printed now into the pages.
 """
 
 from __future__ import annotations
@@ -8,6 +8,7 @@ from __future__ import annotations
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import tempfile
 from pathlib import Path
@@ -19,7 +20,9 @@ from tests.cli.run import run as run_command
 
 PAGE = ROOT / "docs" / "tutorial.md"
 _BLOCK = re.compile(r"```(console|diff)\n(.*?)```", re.DOTALL)
-_TIMES = re.compile(r"in \d+\.\d+ s \(\d+ x real time\)")
+_TIMES = re.compile(r"in \d+\.\d+ s( \(\d+ x real time\))?")
+OWN_ROBOT = ROOT / "docs" / "own_robot.md"
+_ROBOT = ROOT / "tests/corpus/valid/parts/lift/lift.urdf"
 
 
 def rerun(page: str, folder: Path) -> str:
@@ -73,6 +76,13 @@ def _shell(command: str, folder: Path, text: str) -> str:
     return done.stdout + done.stderr
 
 
+def rerun_page(page: Path, folder: Path) -> str:
+    """Return a page with the output that its commands print, in a folder that has the reader's robot."""
+    shutil.copy(_ROBOT, folder / "my_arm.urdf")
+    return rerun(page.read_text(encoding="utf-8"), folder)
+
+
 if __name__ == "__main__":
-    with tempfile.TemporaryDirectory() as place:
-        PAGE.write_text(rerun(PAGE.read_text(encoding="utf-8"), Path(place)), encoding="utf-8")
+    for shown in (PAGE, OWN_ROBOT):
+        with tempfile.TemporaryDirectory() as place:
+            shown.write_text(rerun_page(shown, Path(place)), encoding="utf-8")
