@@ -27,7 +27,8 @@ NodeName = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_{}]+\Z", max_l
 """A name of the ROS graph of one token, with placeholders; it also becomes the name of a file."""
 GraphName = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_{}/~]+\Z", max_length=300)]
 FileName = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_][A-Za-z0-9_.-]*\Z", max_length=100)]
-Date = Annotated[str, StringConstraints(pattern=r"^\d{4}-\d{2}-\d{2}\Z")]
+DAY = r"^\d{4}-\d{2}-\d{2}\Z"
+Date = Annotated[str, StringConstraints(pattern=DAY)]
 DistroName = Annotated[Distro, Strict(False)]
 BehaviourName = Annotated[Behaviour, Strict(False)]
 MomentName = Annotated[Moment, Strict(False)]

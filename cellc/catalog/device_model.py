@@ -287,6 +287,10 @@ class AllowedPair(CatalogModel):
     because: Text
 
 
+Excusable = Literal["impossible-inertia", "missing-joint-limits", "missing-velocity-limit"]
+"""Codes on a description that endanger nobody: no motion is planned with a tensor, nor with an idle joint."""
+
+
 class DeviceModel(CatalogModel):
     """One ``device.yaml``.
 
@@ -307,7 +311,7 @@ class DeviceModel(CatalogModel):
     optical_frames: tuple[PartName, ...] = ()
     home: dict[PartName, JointPosition] | None = None
     allowed_collisions: tuple[AllowedPair, ...] = ()
-    excused: dict[Literal["impossible-inertia"], Text] = Field(default_factory=dict)
+    excused: dict[Excusable, Text] = Field(default_factory=dict)
     kinematics: KinematicsFacts | None = None
     jog: JogFacts | None = None
     limits: LimitFacts = Field(default_factory=LimitFacts)

@@ -8,16 +8,21 @@ from typing import TypeVar
 
 from pydantic import BaseModel, ValidationError
 
+from cellc.catalog.catalog_model import DAY
 from cellc.diagnostics import Diagnostic, Outcome, Severity, Span, YamlPath, format_path
 from cellc.source.compose import compose
 from cellc.source.document import SourceDocument
 from cellc.source.text import read_text
+from cellc.spec.errors import problem_of
+from cellc.spec.place import place_of
 
 ModelT = TypeVar("ModelT", bound=BaseModel)
 _CODE = "catalogue-entry-invalid"
 _UNKNOWN_KEY = "extra_forbidden"
 _WORDINGS = {_UNKNOWN_KEY: "there is no key `{}`", "missing": "`{}` is missing"}
-_HELP = {_UNKNOWN_KEY: "check its spelling, or remove it", "missing": "add it"}
+_A_NAME = "use letters, digits and `_`, a letter first"
+_SHAPES = {DAY: "write the day as `2026-07-01`"}
+_HELP = {"missing": "add it"}
 
 
 def read_model(path: Path, shown: str, model: type[ModelT]) -> Outcome[tuple[ModelT, SourceDocument]]:
@@ -41,7 +46,7 @@ def read_model(path: Path, shown: str, model: type[ModelT]) -> Outcome[tuple[Mod
     try:
         value = model.model_validate(_frozen(document.data))
     except ValidationError as error:
-        return Outcome(None, tuple(_findings(error, document)))
+        return Outcome(None, tuple(_findings(error, document, model)))
     return Outcome((value, document))
 
 
@@ -54,14 +59,16 @@ def _frozen(data: object) -> object:
     return data
 
 
-def _findings(error: ValidationError, document: SourceDocument) -> Iterator[Diagnostic]:
+def _findings(error: ValidationError, document: SourceDocument, model: type[BaseModel]) -> Iterator[Diagnostic]:
     for problem in error.errors(include_url=False):
         path = _path_in(document.data, problem["loc"])
         name = format_path(path) or document.file
         wording = _WORDINGS.get(problem["type"])
-        message = wording.format(name) if wording else f"`{name}`: {problem['msg'][:1].lower()}{problem['msg'][1:]}"
+        said = problem_of(problem, place_of(problem["loc"], model), document)
+        message = wording.format(name) if wording else said.message
         place = document.locate_key(path) if problem["type"] == _UNKNOWN_KEY else document.locate(path)
-        advice = _HELP.get(problem["type"], "correct the value")
+        shape = str(problem.get("ctx", {}).get("pattern", ""))
+        advice = _SHAPES.get(shape, _A_NAME) if shape else _HELP.get(problem["type"], said.help)
         yield Diagnostic(_CODE, Severity.ERROR, message, place, path, advice)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import click
@@ -25,7 +26,7 @@ def schema(name: str | None, output: Path | None, reference: bool) -> None:
     if reference:
         show_document(spec_reference())
         return
-    files = schema_files()
+    files = {**schema_files(), "device.schema.json": _device_schema()}
     if output is not None:
         for file, text in files.items():
             write_whole(output / file, text)
@@ -36,3 +37,13 @@ def schema(name: str | None, output: Path | None, reference: bool) -> None:
         known = ", ".join(file.removesuffix(".schema.json") for file in files)
         raise click.UsageError(f"there is no schema `{name}`; the schemas are {known}")
     show_document(files[wanted])
+
+
+def _device_schema() -> str:
+    """Return the schema of a ``device.yaml``, a folder of the user's own."""
+    from cellc.catalog.device_model import DeviceModel
+    from cellc.contract.base import DIALECT
+
+    schema = {"$schema": DIALECT, **DeviceModel.model_json_schema(), "title": "Device"}
+    # JSON Schema's engines end a text with `$`, Python's with `\\Z`.
+    return json.dumps(schema, indent=2, ensure_ascii=False).replace('\\\\Z"', '$"') + "\n"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from cellc.description.model import Joint
+from cellc.formats.numbers import shortest
 from cellc.importing.chain import Chain, away_of, home_of, range_of
 
 _WIDEST = {False: 0.2, True: 0.02}
@@ -60,5 +61,5 @@ def _positions(values: list[tuple[Joint, float]]) -> str:
     texts = []
     for number, (joint, value) in enumerate(values):
         last = number + 1 == len(values) or values[number + 1][0].slides != joint.slides
-        texts.append(f"{value:.6g}" + (f" {'m' if joint.slides else 'rad'}" if last else ""))
+        texts.append(shortest(value) + (f" {'m' if joint.slides else 'rad'}" if last else ""))
     return " ".join(texts)

@@ -56,7 +56,7 @@ def away_of(joint: Joint) -> float:
     home, (lower, upper) = home_of(joint), _ends(joint)
     way = upper - home if upper - home >= home - lower else lower - home
     most = _LARGEST[joint.slides]
-    return home + max(-most, min(most, _SHARE * way))
+    return round(home + max(-most, min(most, _SHARE * way)), 6)
 
 
 def range_of(joint: Joint) -> float:
@@ -99,7 +99,9 @@ def _ended(base: str, run: list[Joint]) -> list[Chain]:
 
 def _has_way(joint: Joint) -> bool:
     limit = joint.limit
-    return range_of(joint) > 0.0 and (limit is None or limit.velocity is None or limit.velocity > 0.0)
+    if limit is None or not limit.velocity or limit.velocity < 0.0:
+        return False
+    return joint.type == "continuous" or (limit.lower is not None and limit.upper is not None and range_of(joint) > 0.0)
 
 
 def _without_fingers(chain: Chain, description: Description) -> Chain:
@@ -134,7 +136,7 @@ def _with_tool(chain: Chain, description: Description) -> Chain:
         if joint.type == "fixed":
             fixed.setdefault(joint.parent, []).append(joint.child)
     tip, seen = chain.tip, {chain.tip}
-    while len(fixed.get(tip, ())) == 1 and fixed[tip][0] not in seen:
+    while len(fixed.get(tip, ())) == 1 and fixed[tip][0] not in seen and "/" not in fixed[tip][0]:
         tip = fixed[tip][0]
         seen.add(tip)
     tools = [link for link in fixed.get(tip, ()) if link in ("tool0", "tcp", "ee_link")]

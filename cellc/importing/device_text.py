@@ -10,6 +10,7 @@ from pathlib import Path
 import yaml
 
 from cellc.description.model import Description, HardwareComponent, Joint
+from cellc.formats.numbers import shortest
 from cellc.importing.chain import Chain, actuated, home_of
 from cellc.importing.source import Robot
 
@@ -81,7 +82,7 @@ def _facts(robot: Robot, chain: Chain, judged: Judged, day: str) -> dict[str, ob
         "frames": {name: name for name in dict.fromkeys((description.roots()[0], chain.base, chain.tip))},
         "tool_frame": chain.tip,
     }
-    homes = {joint.name: f"{home_of(joint):.9g} {_unit(joint)}" for joint in joints if home_of(joint)}
+    homes = {joint.name: f"{shortest(home_of(joint))} {_unit(joint)}" for joint in joints if home_of(joint)}
     if homes:
         facts["home"] = homes
     if judged.allowed:

@@ -18,7 +18,14 @@ from cellc.store.swap import write_whole
 
 LOCK = "import.lock.json"
 _TOUCHING = "UNKNOWN: they touch where every joint is at its home, and nobody has said that they may"
-_TENSOR = "as its description has it; no motion is planned with it, and nobody weighed the links"
+_NOT_DRIVEN = "UNKNOWN: its description states none for some joints, and no controller commands those"
+_EXCUSES = {
+    "impossible-inertia": "as its description has it; no motion is planned with it, and nobody weighed the links",
+    "missing-joint-limits": _NOT_DRIVEN,
+    "missing-velocity-limit": _NOT_DRIVEN,
+}
+_PASSES = 3
+"""A finding may hide others: of geometry, where the limits of a joint are not known."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,10 +51,12 @@ def write_folder(folder: Path, robot: Robot, chain: Chain, disabled: Pairs, day:
     kept = (folder / "device.yaml").exists()
     if not kept:
         write_whole(folder / "device.yaml", device_text(robot, chain, Judged(disabled), day))
-    judged, checked = _judged(folder, chain, disabled)
-    if not kept and judged != Judged(disabled):
+    judged, checked = _judged(folder, chain, Judged(disabled))
+    for _ in range(0 if kept else _PASSES):
         write_whole(folder / "device.yaml", device_text(robot, chain, judged, day))
-        _, checked = _judged(folder, chain, disabled)
+        before, (judged, checked) = judged, _judged(folder, chain, judged)
+        if judged == before:
+            break
     return Written(len(files) + 2, sum(map(len, files.values())), kept, checked)
 
 
@@ -68,19 +77,19 @@ def _hash(content: bytes) -> str:
     return f"sha256:{hashlib.sha256(content).hexdigest()}"
 
 
-def _judged(folder: Path, chain: Chain, disabled: Pairs) -> tuple[Judged, Checked]:
+def _judged(folder: Path, chain: Chain, before: Judged) -> tuple[Judged, Checked]:
     """Check the folder in a cell of its own, and return what of the description has to be taken on trust."""
     spec = folder / ".import.yaml"  # in the folder, so that findings name its files
     try:
         spec.write_text(cell_text("imported", "./", chain, "jazzy"), encoding="utf-8")
         checked = check(spec)
         graph = checked.graph
-        excused = {one.code: _TENSOR for one in checked.diagnostics if one.code == "impossible-inertia"}
-        touching = dict(disabled)
+        excused = {one.code: _EXCUSES[one.code] for one in checked.diagnostics if one.code in _EXCUSES}
+        touching = dict(before.allowed)
         answer = MotionAnswer() if graph is None else motion_answer(graph)
     finally:
         spec.unlink()
     for contact in (*answer.start, *(one for pose in answer.poses for one in pose.contacts)):
         first, second = sorted(link.removeprefix("arm_") for link in (contact.first, contact.second))
         touching.setdefault((first, second), _TOUCHING)
-    return Judged(touching, excused), checked
+    return Judged(touching, {**before.excused, **excused}), checked

@@ -162,6 +162,6 @@ def _refuse(description: Description) -> None:
     if len(roots) != 1:
         raise ImportRefusedError(f"the links must have one root, got {', '.join(roots) or 'none'}")
     names = [*(link.name for link in description.links), *(joint.name for joint in description.joints)]
-    wrong = next((name for name in names if re.fullmatch(r"[A-Za-z_][A-Za-z0-9_.-]*", name) is None), None)
+    wrong = next((name for name in names if re.fullmatch(r"[A-Za-z_][A-Za-z0-9_./-]*", name) is None), None)
     if wrong is not None:
-        raise ImportRefusedError(f"names of links and joints must be letters, digits, `_`, `.` and `-`, got `{wrong}`")
+        raise ImportRefusedError(f"names of links and joints must be letters, digits and `_./-`, got `{wrong}`")

@@ -116,3 +116,25 @@ def test_figure_of_another_unit_than_its_joint_is_found_at_its_line(
     (found,) = load_device_folder(tmp_path / device, tmp_path).diagnostics
     assert message in found.message
     assert found.span.line == text[: text.index(old)].count("\n") + 1
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message", "help_text"),
+    [
+        ("kind: arm", "kind: arn", "`kind` must be one of its choices, got the text `arn`", "did you mean `arm`?"),
+        ("base: rail", "base: 3", "expected text for `base`, got the number `3`", 'put it in quotes: `"3"`'),
+        ("{file: lift.urdf}", "lift.urdf", "expected a mapping for `description`", "write a mapping"),
+        ("as_of: 2026-07-01", "as_of: July", "`July` cannot be used as `as_of`", "write the day as `2026-07-01`"),
+        ("model: lift", "model: my lift", "`my lift` cannot be used as `model`", "use letters, digits and `_`"),
+        ("slide: {value: 2 m/s^2", "slide: {value: 2 kg", "`kg` is not a unit of", "write a number and the unit"),
+    ],
+)
+def test_wrong_value_is_told_in_the_words_of_the_spec(
+    old: str, new: str, message: str, help_text: str, tmp_path: Path
+) -> None:
+    shutil.copytree(PARTS / "lift", tmp_path / "lift")
+    file = tmp_path / "lift" / "device.yaml"
+    file.write_text(file.read_text(encoding="utf-8").replace(old, new, 1), encoding="utf-8")
+    (found,) = load_device_folder(tmp_path / "lift", tmp_path).diagnostics
+    assert found.message.startswith(message)
+    assert found.help.startswith(help_text)

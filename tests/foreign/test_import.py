@@ -121,7 +121,7 @@ _TURNING = "".join(
     for number in range(200)
 )  # fmt: skip
 NASTY = {
-    "no limits": (_robot(_links("a", "b"), _joint("j", "a", "b", inside="")), "missing-joint-limits"),
+    "no limits": (_robot(_links("a", "b"), _joint("j", "a", "b", inside="")), "no joint that moves, with a range"),
     "two roots": (_robot(_links("a", "b", "lone"), _joint("j", "a", "b")), "must have one root, got a, lone"),
     "a name with a space": (_robot(_links("a", "the tool"), _joint("j", "a", "the tool")), "got `the tool`"),
     "a name beyond ASCII": (_robot(_links("a", "grüße"), _joint("j", "a", "grüße")), "got `grüße`"),
@@ -172,3 +172,28 @@ def test_missing_package_and_two_hundred_joints_are_no_reason_to_refuse(here: Pa
 def test_robot_that_is_not_there_is_refused_in_one_line(named: str, here: Path) -> None:
     ran = run("import", named)
     assert (ran.code, ran.out.count("\n")) == (1, 1)
+
+
+@pytest.mark.parametrize(
+    ("limit", "code"),
+    [
+        ('<limit effort="1" velocity="1"/>', "missing-joint-limits"),
+        (_LIMIT.replace('"1"', '"0"'), "missing-velocity-limit"),
+    ],
+)
+def test_joint_without_limits_is_excused_as_long_as_nothing_commands_it(limit: str, code: str, here: Path) -> None:
+    wheel = (_links("wheel"), _joint("spin", "a", "wheel", inside=limit))
+    assert _import(here, _robot(*ARM, *wheel), "--cell")[0] == 0
+    assert f"excused: {{{code}: 'UNKNOWN" in (here / "odd_arm" / "device.yaml").read_text(encoding="utf-8")
+    assert f"`{code}` of its description is excused" in run("audit", "cell.yaml").out
+    cell = here / "cell.yaml"
+    text = cell.read_text(encoding="utf-8")
+    assert run("check", "cell.yaml").code == 0
+    cell.write_text(text.replace("joints: [arm/j1, arm/j2]", "joints: [arm/j1, arm/j2, arm/spin]"), encoding="utf-8")
+    assert code in run("check", "cell.yaml").out
+
+
+def test_home_at_a_limit_of_many_digits_stays_within_it(here: Path) -> None:
+    limit = _LIMIT.replace('"-2"', '"-2.77507351"').replace('"2"', '"-0.61086523819"')
+    code, out = _import(here, _robot(_links("a", "b"), _joint("knee", "a", "b", inside=limit)))
+    assert code == 0, out

@@ -24,7 +24,10 @@ Source: https://wiki.ros.org/urdf/XML/joint (as of 2026-11-22): velocity is a re
 
 from __future__ import annotations
 
+from cellc.rules.excuses import spared
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
+
+_CODE = "missing-velocity-limit"
 
 
 @rule(Severity.ERROR, assumes=("missing-joint-limits", "limit-share-of-nothing"))
@@ -32,7 +35,7 @@ def check(graph: CellGraph) -> Findings:
     """Yield joints with a command interface and without a velocity limit above zero."""
     for device in graph.cell.devices:
         for joint in device.actuated_joints:
-            if joint.velocity is None or joint.velocity <= 0.0:
+            if (joint.velocity is None or joint.velocity <= 0.0) and not spared(graph, device, joint.name, _CODE):
                 stated = "no velocity limit" if joint.velocity is None else f"a velocity limit of {joint.velocity:g}"
                 message = f"joint `{joint.name}` has {stated}"
                 yield found(graph, (*device.path, "model"), message)

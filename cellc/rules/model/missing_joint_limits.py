@@ -27,6 +27,7 @@ Source: https://wiki.ros.org/urdf/XML/joint (as of 2026-11-22): limit is require
 
 from __future__ import annotations
 
+from cellc.rules.excuses import spared
 from cellc.rules.kit import CellGraph, Finding, Findings, Severity, rule
 
 
@@ -39,7 +40,7 @@ def check(graph: CellGraph) -> Findings:
         limit = part.joint.limit
         stated = {} if limit is None else {"lower": limit.lower, "upper": limit.upper, "velocity": limit.velocity}
         missing = [name for name in ("lower", "upper", "velocity") if stated.get(name) is None]
-        if missing:
+        if missing and not spared(graph, part.device, part.joint.name, "missing-joint-limits"):
             names = ", ".join(f"`{name}`" for name in missing)
             message = f"{part.joint.type} joint `{part.joint.name}` does not state {names}"
             yield Finding(message, part.span, part.path)
