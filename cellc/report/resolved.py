@@ -103,6 +103,7 @@ def resolved_tree(cell: Cell) -> dict[str, Tree]:
         "groups": _entities(cell, cell.groups),
         "poses": {f"{pose.name}.{pose.group}": _entity(cell, pose) for pose in cell.poses},
         "goals": _entities(cell, cell.goals),
+        **{key: _section(cell, one, ("motion", key)) for key in ("octomap", "servo") if (one := getattr(cell, key))},
     }
     tree["rehearsals"] = _entities(cell, cell.rehearsals)
     sections = ("owners", "safety", "bringup", "kpis", "recording", "targets", "mock_plugins", "mock_programs")
@@ -196,7 +197,7 @@ def _section(cell: Cell, value: object, path: YamlPath) -> Tree:
 
 def _key(field: str) -> str:
     """Return the key of the spec behind a field: its name without the unit."""
-    return field.removesuffix("_hz").removesuffix("_kg").removesuffix("_s").removesuffix("_m")
+    return field.removesuffix("_hz").removesuffix("_kg").removesuffix("_s").removesuffix("_m").removesuffix("_v")
 
 
 def _written(cell: Cell, path: YamlPath) -> str:

@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 from pydantic import Field, StringConstraints
 
 from cellc.spec.base import Name, SpecModel
-from cellc.spec.quantity import Duration, Frequency, JointVelocity, Length, Velocity
+from cellc.spec.quantity import Edge, Frequency, JointVelocity, Length, Period, Velocity
 
 Topic = Annotated[str, StringConstraints(pattern=r"^(/[A-Za-z_][A-Za-z0-9_]*)+$", max_length=256)]
 
@@ -18,8 +18,8 @@ class OctomapSpec(SpecModel):
         description="Interface that feeds it: a depth image, with its camera info beside it, or a point cloud.",
         examples=["/camera/depth/image_rect_raw"],
     )
-    resolution: Length = Field(..., description="Edge of a cell of the map.", examples=["25 mm"])
-    range: Length = Field(..., description="Distance beyond which nothing is put in.", examples=["2 m"])
+    resolution: Edge = Field(..., description="Edge of a cell of the map.", examples=["25 mm"])
+    range: Edge = Field(..., description="Distance beyond which nothing is put in.", examples=["2 m"])
     padding: Length = Field(
         ..., description="How much larger the robot is taken when it is cut out of the data.", examples=["30 mm"]
     )
@@ -42,9 +42,9 @@ class ServoSpec(SpecModel):
     linear: Velocity = Field(..., description="Largest speed along an axis.", examples=["0.05 m/s"])
     rotational: JointVelocity = Field(..., description="Largest speed about an axis.", examples=["0.2 rad/s"])
     joint: JointVelocity = Field(..., description="Largest speed of a joint.", examples=["0.2 rad/s"])
-    period: Duration | None = Field(
+    period: Period | None = Field(
         None, description="Time from one command of the controller to the next; 10 ms if absent.", examples=["4 ms"]
     )
-    command_timeout: Duration | None = Field(
+    command_timeout: Period | None = Field(
         None, description="Silence after which it halts the joints; 100 ms if absent.", examples=["100 ms"]
     )

@@ -229,6 +229,9 @@ LONGEST_S = 1e6  # eleven days: no budget, timeout or step of a cell is longer
 SLOWEST_HZ = 1e-6
 
 Length = Annotated[Quantity, QuantityType((LENGTH,), "162 mm", least=0.0)]
+# What is divided by, or stepped in: a map of cells without an edge, a loop without a period, has no end.
+Edge = Annotated[Quantity, QuantityType((LENGTH,), "25 mm", least=1e-3)]
+Period = Annotated[Quantity, QuantityType((DURATION,), "4 ms", least=1e-4, most=1.0)]
 Duration = Annotated[Quantity, QuantityType((DURATION,), "200 ms", least=0.0, most=LONGEST_S)]
 # Ahead or behind: a clock without a battery starts in 1970. Where a length of time has this type, a rule judges it.
 TimeShift = Annotated[Quantity, QuantityType((DURATION,), "-1.5 ms")]

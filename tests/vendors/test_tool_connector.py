@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
 
+from cellc.report.resolved import Tree, resolved_tree
 from tests.cells import graph_of, spec_text, written
 from tests.emit.cells import emitted
 from tests.vendors.oracle import RELEASES, Release, facts
@@ -61,3 +63,20 @@ def test_the_voltage_is_named_before_anything_has_power(tmp_path: Path) -> None:
     # The settings reach the connector as the program starts, and the gripper is activated with no program.
     played, activated = enabling.index("plays the program once and stops it"), enabling.index("hardware that moves")
     assert played < activated
+
+
+def test_show_has_the_voltage_as_it_is_written_and_the_port_where_it_leads(tmp_path: Path) -> None:
+    devices = resolved_tree(graph_of(written(tmp_path, _spec())).cell)["devices"]
+    assert isinstance(devices, dict)
+    shown = dict(leaves(devices))
+    assert shown["arm.tool_connector.voltage"] == "24 V"
+    assert shown["gripper.connection.port"] == "/run/user/1000/arm_tool"
+
+
+def leaves(tree: dict[str, Tree], path: str = "") -> Iterator[tuple[str, str]]:
+    """Yield the texts of a tree by their dotted paths."""
+    for key, value in tree.items():
+        if isinstance(value, dict):
+            yield from leaves(value, f"{path}{key}.")
+        else:
+            yield f"{path}{key}", value.text
