@@ -66,11 +66,12 @@ def link_devices(spec: CellSpec, document: SourceDocument, distro: Distro | None
     for name, written in spec.devices.items():
         parent = _parent_frame(name, written, spec, document, entries)
         problems += parent.diagnostics
-        if parent.value is not None:
-            bound = _device(name, written, spec, document, entries[name], parent.value, distro, shifts[name])
-            bound = replace(bound, device=with_kinematics(bound.device, kinematics[name], bound.facts))
-            problems += _unknown_simulated_joints(bound.device, document)
-            devices.append(bound)
+        # Mounted somewhere even so: what refers to its frames, its node and its joints is right.
+        mount = parent.value or WORLD
+        bound = _device(name, written, spec, document, entries[name], mount, distro, shifts[name])
+        bound = replace(bound, device=with_kinematics(bound.device, kinematics[name], bound.facts))
+        problems += _unknown_simulated_joints(bound.device, document)
+        devices.append(bound)
     return Outcome(tuple(devices), tuple(problems))
 
 

@@ -110,7 +110,8 @@ def _link_with_devices(
     ends = name_endpoints(spec, bound, all_nodes, loops, resolver)
     interfaces = link_interfaces(spec, document, ends, names)
     written = interfaces.value or ()
-    planned = _planned(spec, document, devices, all_frames, names, controllers, distro)
+    all_placed = linked_devices.ok and placed.ok
+    planned = _planned(spec, document, devices, all_frames, names, controllers, distro, placed=all_placed)
     assert planned.value is not None  # what cannot be bound is reported and left out
     servo = planned.value.servo
     source = Derivation(spec, document, distro, loops, devices, all_frames, ends, resolver, servo)
@@ -152,8 +153,10 @@ def _planned(
     names: FrameNames,
     controllers: tuple[Controller, ...],
     distro: Distro,
+    *,
+    placed: bool,
 ) -> Outcome[_Planned]:
-    groups = link_groups(spec, document, devices, frames, names, controllers, distro)
+    groups = link_groups(spec, document, devices, frames, names, controllers, distro, placed=placed)
     known = groups.value or ()
     pipelines, poses = link_pipelines(spec, document, distro), link_poses(spec, document, known)
     goals = link_goals(spec, document, known, names)

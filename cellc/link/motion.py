@@ -26,8 +26,14 @@ def link_groups(
     names: FrameNames,
     controllers: tuple[Controller, ...],
     distro: Distro,
+    *,
+    placed: bool,
 ) -> Outcome[tuple[PlanningGroup, ...]]:
-    """Bind each group to the movable joints between its base link and its tip, base first."""
+    """Bind each group to the movable joints between its base link and its tip, base first.
+
+    Args:
+        placed: whether all devices and frames hang where the spec says; otherwise the cause of a broken chain is told.
+    """
     groups: list[PlanningGroup] = []
     problems: list[Diagnostic] = []
     joint_of_link = {joint.child: joint for device in devices for joint in device.description.joints if joint.movable}
@@ -42,7 +48,8 @@ def link_groups(
         links = _chain(parents, base.value, tip.value)
         if links is None:
             circle = _circle(frames, tip.value)
-            problems.append(_not_a_chain(name, written.base, written.tip, document, circle))
+            if placed or circle is not None:
+                problems.append(_not_a_chain(name, written.base, written.tip, document, circle))
             continue
         joints = tuple(joint_of_link[link].name for link in links if link in joint_of_link)
         groups.append(
