@@ -224,8 +224,12 @@ _FOR_PLANNING = {
 }
 
 
-def _driven(texts: dict[str, str]) -> bool:
-    return any(device["driver"] for device in contract_data(texts["contract.json"])["devices"].values())
+def _planned_at_a_driver(texts: dict[str, str], cell: str, distro: str) -> bool:
+    """Tell whether move_group commands a controller whose goals a driver's own node takes on real hardware."""
+    devices = contract_data(texts["contract.json"])["devices"]
+    controllers = (one for _, manager in written_managers(cell, distro) for one in manager["controllers"].values())
+    planned = {one.get("device") for one in controllers if one.get("client") == "move_group"}
+    return any(device["driver"] and name in planned for name, device in devices.items())
 
 
 @every_build
@@ -235,7 +239,7 @@ def test_package_has_every_part(cell: str, distro: str) -> None:
     assert _PARTS | descriptions <= set(texts)
     spec = safe_load(spec_for(cell, distro))
     # One file of controllers, unless a driver's own node takes goals on real hardware.
-    called = ("controllers.mock", "controllers.real") if _driven(texts) else ("controllers",)
+    called = ("controllers.mock", "controllers.real") if _planned_at_a_driver(texts, cell, distro) else ("controllers",)
     planning = _FOR_PLANNING | {f"config/moveit/{name}.yaml" for name in called}
     assert planning & set(texts) == (planning if cell in PLANNING else set())  # nobody reads them where no node plans
     assert {f"middleware/{host}.sh" for host in spec.get("hosts", {})} <= set(texts)
