@@ -117,7 +117,7 @@ def _packaged(name: str, file: Path) -> str:
     """Name a mesh by a package: one beside the description becomes one of a package of the description's own."""
     scheme, separator, path = name.partition("://")
     if separator and scheme == "package":
-        return name
+        return _PACKAGE + path.lstrip("/")  # `package:///PKG/…` stands in vendors' files, and their loaders take it
     absolute = Path(path) if scheme == "file" and separator else file.parent / name
     for above in absolute.parents:
         if (above / "package.xml").is_file():

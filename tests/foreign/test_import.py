@@ -116,6 +116,16 @@ def test_meshes_of_collision_shapes_come_along_and_no_others(here: Path) -> None
     assert "license BSD" in (here / "mine" / "device.yaml").read_text(encoding="utf-8")
 
 
+def test_package_behind_three_slashes_is_the_package(here: Path) -> None:
+    # As in example-robot-data's TALOS.
+    (here / "talos_data").mkdir()
+    facet = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0.5\nendloop\nendfacet\n"
+    (here / "talos_data" / "a.stl").write_text(f"solid a\n{facet}endsolid a\n", encoding="utf-8")
+    mesh = '<collision><geometry><mesh filename="package:///talos_data/a.stl"/></geometry></collision>'
+    assert _import(here, _robot(*ARM).replace('<link name="a">', f'<link name="a">{mesh}'))[0] == 0
+    assert (here / "odd_arm" / "talos_data" / "a.stl").is_file()
+
+
 _TURNING = "".join(
     _joint(f"j{number}", f"l{number}", f"l{number + 1}", "fixed" if number % 4 else "revolute")
     for number in range(200)
