@@ -48,6 +48,46 @@ _EXAMPLES: Mapping[str, str] = {
   <joint name="turn" type="rotary"><parent link="base"/> <child link="tip"/></joint>  <!-- expect -->
 </robot>
 """,
+    "urdf-not-expanded": """
+<robot name="arm">
+  <link name="${prefix}base"/>  <!-- expect -->
+</robot>
+""",
+    "xacro-failed": """
+<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <link name="${prefix}base"/>  <!-- expect -->
+</robot>
+""",
+    "xacro-file-not-found": """
+<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:include filename="gripper.xacro"/>  <!-- expect -->
+</robot>
+""",
+    "xacro-outside-root": """
+<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:include filename="/opt/arm.xacro"/>  <!-- expect -->
+</robot>
+""",
+    "xacro-package-not-found": """
+<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:include filename="$(find arm_description)/urdf/arm.xacro"/>  <!-- expect -->
+</robot>
+""",
+    "xacro-refused-expression": """
+<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <link name="${().__class__}"/>  <!-- expect -->
+</robot>
+""",
+    "xacro-refused-substitution": """
+<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <link name="$(env USER)_base"/>  <!-- expect -->
+</robot>
+""",
+    "xacro-warning": """
+<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">  <!-- expect -->
+  <xacro:property name="pi" value="3"/>
+</robot>
+""",
     "xml-entities": """
 <!DOCTYPE robot [<!ENTITY arm "arm">]>  <!-- expect -->
 <robot name="arm"/>

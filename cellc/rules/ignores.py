@@ -21,6 +21,10 @@ CODES: tuple[CodePage, ...] = (
         "or knows the place of; errors of reading and linking say that the cell is not known. A comment can justify "
         "neither, so both stay: the finding, and this one.",
         "remove the comment and mend what the code reports",
+        """
+safety:
+  stop: {authority: UNKNOWN, path: hardwired}  # cellc: ignore unknown-stop-authority nobody knows yet
+""",
     ),
     CodePage(
         "ignore-without-reason",
@@ -29,6 +33,10 @@ CODES: tuple[CodePage, ...] = (
         "Whoever reviews the cell later must be able to judge whether the exception still holds. Without a reason the "
         "comment has no effect.",
         "write `# cellc: ignore CODE reason`",
+        """
+versions:
+  rollback: {image: UNKNOWN, configuration: UNKNOWN}  # cellc: ignore missing-rollback
+""",
     ),
     CodePage(
         "unknown-ignored-code",
@@ -36,6 +44,10 @@ CODES: tuple[CodePage, ...] = (
         "a comment ignores a code that does not exist",
         "A misspelt code ignores nothing, and the finding that was meant looks as if it came back by itself.",
         "write a code that `cellc explain` lists; several are separated by commas",
+        """
+versions:
+  ros: jazzy  # cellc: ignore ros-past-end-of-live it stays until spring
+""",
     ),
     CodePage(
         "unused-ignore",
@@ -44,6 +56,10 @@ CODES: tuple[CodePage, ...] = (
         "What was excused is gone or stands on another line, and the comment would hide the next defect of its kind. "
         "It counts at the end of the line that is reported.",
         "delete the comment, or move it to the end of the reported line",
+        """
+versions:
+  ros: jazzy  # cellc: ignore ros-past-end-of-life it stays until spring
+""",
     ),
 )
 

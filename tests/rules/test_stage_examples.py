@@ -8,9 +8,12 @@ from pathlib import Path
 import pytest
 
 from cellc.description.urdf_reader import read_urdf
+from cellc.description.xacro_expansion import expand_here
 from cellc.diagnostics.diagnostic import CodePage
+from cellc.pipeline import check
 from cellc.report.pages import STAGES, render_page
 from cellc.source.read import read
+from tests.cells import spec_text, written
 from tests.rules.examples import Example, Place, diagnose_example, matches, places
 
 _SHOWN_MARK = re.compile(r"(?:#|<!--) expect(?: at| -->|$)", re.MULTILINE)
@@ -44,7 +47,7 @@ def test_marks_of_an_example_are_not_shown() -> None:
 # what takes a process of its own to expand.
 _UNSHOWN = re.compile(
     r"file-(too-large|unreadable)|not-utf8|key-collision|too-(deep|many-values|many-includes)"
-    r"|catalogue-entry-invalid|xml-too-.*|urdf-not-expanded|xacro-.*"
+    r"|catalogue-entry-invalid|xml-too-.*|xacro-(bad-yaml|missing-argument|not-text|too-large|unknown-argument)"
 )
 
 
@@ -63,7 +66,27 @@ def test_example_of_a_file_is_reported_at_its_mark_and_nowhere_else(page: CodePa
 
 
 @pytest.mark.parametrize("page", [one for one in STAGES["catalog"] if one.example], ids=lambda page: page.code)
-def test_example_of_a_description_is_reported_at_its_mark_and_nowhere_else(page: CodePage) -> None:
+def test_example_of_a_description_is_reported_at_its_mark_and_nowhere_else(page: CodePage, tmp_path: Path) -> None:
     text = page.example.lstrip("\n")
-    found = [(one.code, one.span.line) for one in read_urdf(text, "arm.urdf").diagnostics]
+    if "xmlns:xacro" in text:
+        file = tmp_path / "arm.urdf.xacro"
+        file.write_text(text, encoding="utf-8")
+        diagnostics = expand_here(file.as_posix(), {}, tmp_path.as_posix(), tmp_path.as_posix()).diagnostics
+    else:
+        diagnostics = read_urdf(text, "arm.urdf", from_user=True).diagnostics
+    found = [(one.code, one.span.line) for one in diagnostics]
     assert found == [(page.code, number) for number, line in enumerate(text.splitlines(), 1) if "expect -->" in line]
+
+
+@pytest.mark.parametrize("page", STAGES["ignores"], ids=lambda page: page.code)
+def test_example_of_a_comment_is_reported_on_its_line(page: CodePage, tmp_path: Path) -> None:
+    section, line = page.example.strip("\n").split("\n")
+    text = spec_text("ur5e_pick")
+    start = re.search(rf"^{section}", text, re.MULTILINE)
+    assert start is not None
+    after, times = re.subn(rf"^{line.partition(':')[0]}: .*$", line, text[start.end() :], count=1, flags=re.MULTILINE)
+    assert times == 1
+    text = text[: start.end()] + after
+    number = text[: text.index(line)].count("\n") + 1
+    found = check(written(tmp_path, text)).diagnostics
+    assert [one.span.line for one in found if one.code == page.code] == [number]
