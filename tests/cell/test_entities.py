@@ -113,6 +113,7 @@ def test_linking_fills_every_section_that_some_spec_states() -> None:
         CORPUS / "valid" / "every_target.yaml",
         CORPUS / "valid" / "direct_sdk_arm.yaml",
         CORPUS / "valid" / "more_fields.yaml",
+        CORPUS / "valid" / "servo_and_octomap.yaml",
     ):
         cell = linked(path)
         unfilled = {name for name in unfilled if getattr(cell, name) == getattr(empty, name)}

@@ -13,6 +13,7 @@ from cellc.mock.agreement.said import Edited, Names, Said, below, differing, par
 _NODE = "/move_group"
 _LIMITS = "robot_description_planning.joint_limits."
 _CALLED = "moveit_simple_controller_manager."
+_PLANNING = "moveit_msgs/action/MoveGroup"
 _TYPES = ("FollowJointTrajectory", "GripperCommand", "ParallelGripperCommand")
 _POSITIONS = ("has_position_limits", "min_position", "max_position")
 
@@ -50,18 +51,19 @@ def _comparable(said: Names, own: ContractJointLimits) -> tuple[Names, Names]:
 
 
 def moveit_controllers(edited: Edited, file: str) -> Iterator[str]:
-    """Compare what MoveIt calls with the actions of the active controllers, on the target of the file."""
+    """Compare what MoveIt calls with the actions of the active controllers that no other node commands."""
     called = parameters(file, edited.texts[file], _NODE)
     target: Literal["mock", "real"] = "real" if file.endswith(".real.yaml") else "mock"
+    said = below(called, _CALLED)
+    names = said.get("controller_names", ())
+    listed = [str(name) for name in names] if isinstance(names, list) else []
     executed = {
         action.rpartition("/")[0].strip("/"): (action, kind, one)
         for manager in edited.contract.managers.values()
         for one in manager.controllers.values()
+        if one.client is None or one.client in _planners(edited.contract)
         for action, kind in _action(one, target)
     }
-    said = below(called, _CALLED)
-    names = said.get("controller_names", ())
-    listed = [str(name) for name in names] if isinstance(names, list) else []
     yield from differing(
         {"controller_names": sorted(name.strip("/") for name in listed)},
         {"controller_names": sorted(executed)},
@@ -77,6 +79,12 @@ def moveit_controllers(edited: Edited, file: str) -> Iterator[str]:
                 "default": True,
             }
             yield from differing(below(said, f"{name}."), wanted, f"{_CALLED}{name}.")
+
+
+def _planners(contract: Contract) -> frozenset[str]:
+    """Return the nodes that plan for others: what they are the client of, they send what they planned."""
+    serving = (one for one in contract.interfaces.values() if one.type == _PLANNING)
+    return frozenset(end.node for one in serving for end in one.sources)
 
 
 def _action(one: ContractController, target: Literal["mock", "real"]) -> Iterator[tuple[str, str]]:

@@ -111,7 +111,8 @@ OFFERS = tuple(_offers())
 def _spec(offer: Offer, distro: Distro) -> str:
     device = _device(offer.device)
     mount = "" if device.model.kind == "gripper" else ", mount: {parent: world, xyz: 0 0 0 m}"
-    bounds = ", goal_time: 1 s, path_tolerance: 0.02 rad, goal_tolerance: 0.01 rad"  # fits a finger of 40 mm, too
+    unit = "m" if any(joint.type == "prismatic" for joint in device.description.joints) else "rad"
+    bounds = f", goal_time: 1 s, path_tolerance: 0.02 {unit}, goal_tolerance: 0.01 {unit}"  # fits a finger of 40 mm
     tested = f"    tested: {{type: {offer.type}, device: dev{offer.written}{bounds if _follows(offer) else ''}}}\n"
     if offer.behaviour is Behaviour.JOINT_STATE_BROADCASTER:
         tested = ""
