@@ -239,7 +239,8 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             # A controller with another client than MoveIt is no longer its to command.
             "review control | arm_trajectory | what MoveIt knows of the controller: joints | arm_shoulder_pan_joint, "
             "arm_shoulder_lift_joint, arm_elbow_joint, arm_wrist_1_joint, arm_wrist_2_joint, arm_wrist_3_joint -> None",
-            "review control | arm_trajectory | what MoveIt knows of the controller: type | FollowJointTrajectory -> None",
+            "review control | arm_trajectory | what MoveIt knows of the controller: type | "
+            "FollowJointTrajectory -> None",
             "review motion | pick | place in the root frame | xyz 450 -150 860 mm, rpy 180 0 0 deg -> "
             "xyz 450 100 860 mm, rpy 180 0 0 deg | moves 250 mm",
             "review interfaces | /part_pose | interface came | None -> geometry_msgs/msg/PoseStamped",
