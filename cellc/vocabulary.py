@@ -43,6 +43,7 @@ class Feature(Enum):
     PLUGIN_LISTS = "MoveIt takes planning plugins and their adapters as lists"
     EXIT_ENDS_LAUNCH = 'launch XML knows `on_exit="shutdown"`'
     SERVICE_INFO = "`ros2 service info` counts the clients and servers of a service"
+    CONTROLLER_ARGUMENTS = "the spawner hands controllers their remaps; those of the manager are deprecated"
     RECORD_TOPICS_OPTION = "`ros2 bag record` takes the topics after --topics"
 
 
@@ -62,6 +63,7 @@ _SINCE: Mapping[Feature, Distro] = {
     Feature.SCALED_STATE: Distro.JAZZY,
     Feature.PLUGIN_LISTS: Distro.JAZZY,
     Feature.SERVICE_INFO: Distro.JAZZY,  # ros2/ros2cli pull request 771
+    Feature.CONTROLLER_ARGUMENTS: Distro.JAZZY,  # ros2_control 4.46.0, controller_manager.cpp:4923
     Feature.RECORD_TOPICS_OPTION: Distro.JAZZY,
 }
 """The first distribution with each feature; all later ones have it too."""

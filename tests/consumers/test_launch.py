@@ -159,7 +159,10 @@ def test_spawners_follow_the_spec_and_activate_nothing(cell: str, distro: str, t
         names = [name for line in own for name in line[: line.index("-c")]]
         written_ = manager["controllers"]
         assert names == [name for name in written_ if _has_hardware(cell, distro, target, f"{namespace}/{name}")]
-    assert all(line[line.index("-c") + 2 :] == ("--inactive",) for line in spawned)
+        # Humble's manager hands its own remaps to its controllers; later ones warn, and ask it of the spawner.
+        moved = () if distro == "humble" or not namespace else (f"--remap {namespace}/joint_states:=/joint_states",)
+        told = ("--inactive", *(("--controller-ros-args", *moved) if moved else ()))
+        assert all(line[line.index("-c") + 2 :] == told for line in own)
 
 
 def _has_hardware(cell: str, distro: str, target: str, node: str) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from functools import lru_cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -56,8 +57,14 @@ def test_each_manager_takes_its_description_from_its_own_topic() -> None:
     for manager, namespace in zip(_nodes("ros2_control_node"), ("/left", "/right"), strict=True):
         remaps = {remap.get("from"): remap.get("to") for remap in manager.findall("remap")}
         topic = f"{namespace}/robot_description"
-        states = {f"{namespace}/joint_states": "/joint_states"}
-        assert remaps == {"~/robot_description": topic, "robot_description": topic} | states
+        assert remaps == {"~/robot_description": topic, "robot_description": topic}
+
+
+def test_spawners_hand_controllers_the_topic_where_joint_states_meet() -> None:
+    # ros2_control 4.46.0: a manager that is told so itself warns with every controller that this is deprecated.
+    for spawner, namespace in zip(_nodes("spawner"), ("/left", "/right"), strict=True):
+        words = shlex.split(spawner.attrib["args"])
+        assert words[-2:] == ["--controller-ros-args", f"--remap {namespace}/joint_states:=/joint_states"]
 
 
 def test_static_frames_keep_one_authority() -> None:

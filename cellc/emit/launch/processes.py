@@ -183,7 +183,6 @@ def _manager(cell: Cell, manager: ControllerManager) -> Element:
     if Feature.DESCRIPTION_TOPIC not in features(cell.distro):
         parameters.append(_description_parameter(share(cell, manager_description_file(cell, manager, TARGET))))
     topic = f"{description_home(manager) if len(cell.managers) > 1 else ''}/{_TOPIC}"
-    (node,) = (node for node in cell.nodes if node.full_name == manager.node)
     return element(
         "node",
         {
@@ -198,9 +197,20 @@ def _manager(cell: Cell, manager: ControllerManager) -> Element:
             *parameters,
             remap(f"~/{_TOPIC}", topic),
             *([] if topic == f"/{_TOPIC}" and not place else [remap(_TOPIC, topic)]),
-            *remaps(node),
+            *([] if Feature.CONTROLLER_ARGUMENTS in features(cell.distro) else remaps(_node(cell, manager))),
         ],
     )
+
+
+def _node(cell: Cell, manager: ControllerManager) -> Node:
+    return next(node for node in cell.nodes if node.full_name == manager.node)
+
+
+def _controller_arguments(cell: Cell, manager: ControllerManager) -> Iterator[str]:
+    """Yield what the spawner hands to each controller: the names that these have in the cell."""
+    if Feature.CONTROLLER_ARGUMENTS in features(cell.distro):
+        for source, target in _node(cell, manager).remaps.items():
+            yield from ("--controller-ros-args", f"--remap {source}:={target}")
 
 
 def _place(manager: ControllerManager) -> dict[str, str]:
@@ -219,7 +229,9 @@ def spawners(cell: Cell, manager: ControllerManager) -> Iterator[Element]:
                 "pkg": "controller_manager",
                 "exec": "spawner",
                 **_place(manager),
-                "args": launch_words(*one.controllers, "-c", manager.node, "--inactive"),
+                "args": launch_words(
+                    *one.controllers, "-c", manager.node, "--inactive", *_controller_arguments(cell, manager)
+                ),
                 "output": "both",
                 **enclave(spawner_enclave(cell, manager)),
                 **only_on(one.only),
