@@ -22,7 +22,6 @@ import os, signal, sys
 from importlib import import_module
 
 moments, number, group, *arguments = sys.argv[1:]
-signal.signal(signal.SIGHUP, signal.SIG_DFL)  # ignored where the tests were begun with nohup
 
 def press(kill=os.kill, number=int(number), me=0 if group else os.getpid(), tell=os.write):
     tell(2, b"pressed\\n")
