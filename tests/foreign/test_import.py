@@ -207,3 +207,15 @@ def test_home_at_a_limit_of_many_digits_stays_within_it(here: Path) -> None:
     limit = _LIMIT.replace('"-2"', '"-2.77507351"').replace('"2"', '"-0.61086523819"')
     code, out = _import(here, _robot(_links("a", "b"), _joint("knee", "a", "b", inside=limit)))
     assert code == 0, out
+
+
+def test_wheel_that_turns_without_limits_is_described_without_them(here: Path) -> None:
+    wheel = _joint("caster", "a", "wheel", "continuous", "")
+    code, out = _import(here, _robot(*ARM, _links("wheel"), wheel), "--cell")
+    assert code == 0, out
+    ran = run("build", "cell.yaml")
+    assert ran.code == 0, ran.out
+    (urdf,) = here.glob("generated/*/urdf/*.mock.urdf")
+    joint = urdf.read_text(encoding="utf-8").partition('name="arm_caster"')[2].partition("</joint>")[0]
+    assert "continuous" in joint
+    assert "<limit" not in joint

@@ -179,7 +179,7 @@ def device_joint(joint: Joint, limits: DeviceJoint | None) -> Element:
     ]
     if joint.type != "fixed":
         children.append(element("axis", {"xyz": numbers(rounded(value) for value in joint.axis)}))
-    if limits is not None:
+    if limits is not None and not (joint.type == "continuous" and limits.velocity is None and limits.effort is None):
         children.append(_limit(limits))
     if joint.mimic is not None:
         children.append(_mimic(joint.mimic))
@@ -191,9 +191,10 @@ def device_joint(joint: Joint, limits: DeviceJoint | None) -> Element:
 
 
 def _limit(joint: DeviceJoint) -> Element:
-    # urdfdom refuses a limit that lacks effort or velocity; a continuous joint has no lower and upper.
+    # urdfdom refuses a limit that lacks effort or velocity; a continuous joint has no lower and upper. What lacks them
+    # is excused and commanded by nobody: it is told to have none.
     values = {"lower": joint.lower, "upper": joint.upper} if joint.type != "continuous" else {}
-    values |= {"velocity": joint.velocity, "effort": joint.effort}
+    values |= {"velocity": joint.velocity or 0.0, "effort": joint.effort or 0.0}
     return element("limit", {name: shortest(value) for name, value in values.items() if value is not None})
 
 
