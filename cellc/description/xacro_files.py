@@ -9,9 +9,8 @@ from __future__ import annotations
 import math
 import os
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import xacro
 import yaml
 
 from cellc.description.packages import lies_under, repository_of
@@ -19,6 +18,16 @@ from cellc.description.xacro_expression import evaluate, functions
 from cellc.diagnostics import Span
 from cellc.limits import MIB, limits, option
 from cellc.store.regular_file import open_regular
+
+if TYPE_CHECKING:
+
+    class XacroError(Exception):
+        """The error of xacro 2, which has no types: texts, and the error behind it."""
+
+        def __init__(self, *told: object, exc: BaseException | None = None) -> None: ...
+
+else:
+    from xacro import XacroException as XacroError
 
 _UNITS = {
     "!radians": 1.0,
@@ -30,7 +39,7 @@ _UNITS = {
 }  # the tags that xacro gives to values in YAML
 
 
-class XacroRefusedError(xacro.XacroException):  # type: ignore[misc]  # the library has no types
+class XacroRefusedError(XacroError):
     """Ends an expansion with a code of ours; ``span`` where the place is not that of the element in work."""
 
     def __init__(
