@@ -8,7 +8,6 @@ from pathlib import PurePosixPath
 from cellc.catalog.load import load_distros, load_qos_profiles
 from cellc.catalog.tables import RMWS, Rmw
 from cellc.cell.cell import Cell
-from cellc.cell.control import Controller
 from cellc.cell.device import Device
 from cellc.cell.entity import Places
 from cellc.cell.frame import Frame, SceneBox
@@ -24,7 +23,7 @@ from cellc.link.endpoints import QosResolver, name_endpoints
 from cellc.link.frames import FrameNames, link_frames, link_scene, name_frames, scene_frames
 from cellc.link.hand_eye import Measured, link_hand_eye, with_mounts
 from cellc.link.interfaces import link_interfaces
-from cellc.link.motion import link_goals, link_groups, link_poses
+from cellc.link.motion import Machine, link_goals, link_groups, link_poses
 from cellc.link.moveit import link_octomap, link_servo, with_octomap
 from cellc.link.nodes import link_nodes, standard_nodes
 from cellc.link.planners import link_pipelines
@@ -110,8 +109,8 @@ def _link_with_devices(
     ends = name_endpoints(spec, bound, all_nodes, loops, resolver)
     interfaces = link_interfaces(spec, document, ends, names)
     written = interfaces.value or ()
-    all_placed = linked_devices.ok and placed.ok
-    planned = _planned(spec, document, devices, all_frames, names, controllers, distro, placed=all_placed)
+    machine = Machine(devices, controllers, all_frames, names, placed=linked_devices.ok and placed.ok)
+    planned = _planned(spec, document, distro, machine)
     assert planned.value is not None  # what cannot be bound is reported and left out
     servo = planned.value.servo
     source = Derivation(spec, document, distro, loops, devices, all_frames, ends, resolver, servo)
@@ -145,23 +144,13 @@ class _Planned:
     servo: Servo | None
 
 
-def _planned(
-    spec: CellSpec,
-    document: SourceDocument,
-    devices: tuple[Device, ...],
-    frames: tuple[Frame, ...],
-    names: FrameNames,
-    controllers: tuple[Controller, ...],
-    distro: Distro,
-    *,
-    placed: bool,
-) -> Outcome[_Planned]:
-    groups = link_groups(spec, document, devices, frames, names, controllers, distro, placed=placed)
+def _planned(spec: CellSpec, document: SourceDocument, distro: Distro, machine: Machine) -> Outcome[_Planned]:
+    groups = link_groups(spec, document, distro, machine)
     known = groups.value or ()
     pipelines, poses = link_pipelines(spec, document, distro), link_poses(spec, document, known)
-    goals = link_goals(spec, document, known, names)
-    servo = link_servo(spec, document, known, controllers)
-    octomap = link_octomap(spec.motion.octomap, devices)
+    goals = link_goals(spec, document, known, machine.names)
+    servo = link_servo(spec, document, known, machine.controllers)
+    octomap = link_octomap(spec.motion.octomap, machine.devices)
     parts = (groups, servo, pipelines, poses, goals)
     planned = _Planned(known, pipelines.value or (), poses.value or (), goals.value or (), octomap, servo.value)
     return Outcome(planned, tuple(problem for part in parts for problem in part.diagnostics))

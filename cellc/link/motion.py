@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 from cellc.cell.control import Controller
 from cellc.cell.device import Device
@@ -18,25 +19,29 @@ from cellc.spec.cell_spec import CellSpec
 from cellc.vocabulary import Distro
 
 
-def link_groups(
-    spec: CellSpec,
-    document: SourceDocument,
-    devices: tuple[Device, ...],
-    frames: tuple[Frame, ...],
-    names: FrameNames,
-    controllers: tuple[Controller, ...],
-    distro: Distro,
-    *,
-    placed: bool,
-) -> Outcome[tuple[PlanningGroup, ...]]:
-    """Bind each group to the movable joints between its base link and its tip, base first.
+@dataclass(frozen=True, slots=True)
+class Machine:
+    """What motion is bound to: the devices and controllers of the cell, and its frames by their names.
 
-    Args:
-        placed: whether all devices and frames hang where the spec says; otherwise the cause of a broken chain is told.
+    ``placed`` tells whether all devices and frames hang where the spec says; otherwise the cause of a broken chain is
+    told already.
     """
+
+    devices: tuple[Device, ...]
+    controllers: tuple[Controller, ...]
+    frames: tuple[Frame, ...]
+    names: FrameNames
+    placed: bool
+
+
+def link_groups(
+    spec: CellSpec, document: SourceDocument, distro: Distro, machine: Machine
+) -> Outcome[tuple[PlanningGroup, ...]]:
+    """Bind each group to the movable joints between its base link and its tip, base first."""
+    names, frames = machine.names, machine.frames
     groups: list[PlanningGroup] = []
     problems: list[Diagnostic] = []
-    joint_of_link = {joint.child: joint for device in devices for joint in device.description.joints if joint.movable}
+    joint_of_link = {joint.child: joint for device in machine.devices for joint in device.description.joints if joint.movable}
     parents = {frame.name: frame.parent for frame in frames}
     for name, written in spec.motion.groups.items():
         path = ("motion", "groups", name)
@@ -48,7 +53,7 @@ def link_groups(
         links = _chain(parents, base.value, tip.value)
         if links is None:
             circle = _circle(frames, tip.value)
-            if placed or circle is not None:
+            if machine.placed or circle is not None:
                 problems.append(_not_a_chain(name, written.base, written.tip, document, circle))
             continue
         joints = tuple(joint_of_link[link].name for link in links if link in joint_of_link)
@@ -60,7 +65,7 @@ def link_groups(
                 base_link=base.value,
                 tip_frame=tip.value,
                 joints=joints,
-                controllers=tuple(c.label for c in controllers if c.action and set(c.joints) & set(joints)),
+                controllers=tuple(c.label for c in machine.controllers if c.action and set(c.joints) & set(joints)),
                 solver=solver.value,
                 planner=written.planner,
             )
