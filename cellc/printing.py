@@ -115,6 +115,11 @@ def remark(line: Line) -> None:
         show(line, to=Stream.ERR)
 
 
+def columns() -> int:
+    """Return how wide the terminal is; 100 columns where nobody says, so that a file is the same everywhere."""
+    return shutil.get_terminal_size().columns if sys.stdout.isatty() else 100
+
+
 def show_document(text: str) -> None:
     """Print a text of several lines that we wrote, such as Markdown or JSON; what it quotes may be of strangers."""
     _write(sys.stdout, as_text(text.removesuffix("\n").split("\n"), colour=False) if text else "")

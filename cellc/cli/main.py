@@ -18,6 +18,7 @@ _COMMANDS = {
     "audit": "Print versions, expectations, command paths and open questions.",
     "build": "Check cells and write their artifacts.",
     "check": "Find what is wrong before anything moves.",
+    "compare": "Put cells beside each other: what motion rests on, who has which duty.",
     "completion": "Print the completion script of a shell.",
     "diagnose": "Tell what a symptom may mean, and what to look at.",
     "diff": "Tell what changed in a cell, and what that means.",

@@ -41,7 +41,9 @@ def link_groups(
     names, frames = machine.names, machine.frames
     groups: list[PlanningGroup] = []
     problems: list[Diagnostic] = []
-    joint_of_link = {joint.child: joint for device in machine.devices for joint in device.description.joints if joint.movable}
+    joint_of_link = {
+        joint.child: joint for device in machine.devices for joint in device.description.joints if joint.movable
+    }
     parents = {frame.name: frame.parent for frame in frames}
     for name, written in spec.motion.groups.items():
         path = ("motion", "groups", name)

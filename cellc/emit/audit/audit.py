@@ -25,10 +25,10 @@ from cellc.emit.audit.tables import (
     owners_section,
     record_section,
     signals_section,
-    table,
     tf_section,
 )
 from cellc.formats.escape import code, markdown, markdown_comment
+from cellc.formats.markdown_table import table
 from cellc.formats.parameter_file import spec_path
 from cellc.graph.cell_graph import CellGraph
 from cellc.graph.versions import Answer, Judgement, compatibility

@@ -21,7 +21,8 @@ from cellc.deploy.labels import (
     watchdog,
 )
 from cellc.deploy.processes import past_controllers
-from cellc.formats.escape import code, markdown
+from cellc.formats.escape import code
+from cellc.formats.markdown_table import table
 from cellc.formats.numbers import shortest
 from cellc.formats.parameter_file import qos_parameters
 from cellc.graph.cell_graph import CellGraph
@@ -30,18 +31,6 @@ from cellc.link.nodes import DESCRIPTION_PUBLISHER
 _NOT_STATED = "not stated"
 _ALONE: Mapping[tuple[str, ...], str] = {("real",): " (real target)", ("mock",): " (mock)"}
 """How what one target alone has is told."""
-
-
-def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """Write a table; a sentence where it has no row, so that an empty section is an answer."""
-    shown = [_row(row) for row in rows]
-    return "\n".join([_row(head), "|" + "---|" * len(head), *shown]) if shown else "None."
-
-
-def _row(cells: Sequence[str]) -> str:
-    # A bar would end the cell.
-    escaped = (markdown(cell).replace("|", "\\|") for cell in cells)
-    return f"| {' | '.join(escaped)} |"
 
 
 def owners_section(graph: CellGraph) -> str:
