@@ -11,8 +11,11 @@ import tempfile
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 from cellc.artifact import Artifact
+from cellc.catalog.compiled import device_file
+from cellc.catalog.family import read_entry
 from cellc.cell.cell import Cell
 from cellc.diagnostics import Diagnostic, Outcome
 from cellc.graph.cell_graph import CellGraph, build_graph
@@ -68,6 +71,14 @@ def written(folder: Path, text: str) -> Path:
     path = folder / "cell.yaml"
     path.write_text(text, encoding="utf-8")
     return path
+
+
+def catalog_facts(model: str) -> dict[str, Any]:
+    """Return what the catalog says of a device, its family's file included, as plain data."""
+    entry = read_entry(device_file(model), model, ROOT / "cellc/catalog/devices").value
+    assert entry is not None
+    assert isinstance(entry.data, dict)
+    return entry.data
 
 
 def document_of(path: Path) -> SourceDocument:

@@ -264,7 +264,7 @@ _XACRO = (
 _CATALOGUE = (
     _page(
         "catalogue-entry-invalid",
-        "a `device.yaml` is not what the catalog expects",
+        "a `device.yaml`, or the file of its family, is not what the catalog expects",
         "Everything derived from the device rests on it: joints, interfaces, versions, limits.",
         "mend the value that is marked; CONTRIBUTING.md walks through a device",
     ),

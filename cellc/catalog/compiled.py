@@ -18,6 +18,10 @@ CATALOG = Path(__file__).parent
 SHOWN = "cellc/catalog"
 """Stands for the folder of the package in messages: where that lies on the machine is of no interest to a reader."""
 
+DEVICE_FILE = "device.yaml"
+FAMILY_FILE = ".family.yaml"
+"""How the name of the file ends that states what the models of a family share."""
+
 _COMPILED = "compiled"
 Places = Mapping[tuple[str, str], Span]
 """Where each ``("link", name)`` and ``("joint", name)`` of a description was written before its expansion."""
@@ -38,6 +42,20 @@ def compiled_device(name: str) -> tuple[str, str, Places] | None:
     return json.dumps(entry["data"]), entry["urdf"], places
 
 
+def device_file(name: str) -> Path:
+    """Return the file that states a device: ``device.yaml`` of its own folder, or its own among those of its vendor.
+
+    Raises:
+        KeyError: the catalog lists no such device.
+    """
+    devices = CATALOG / "devices"
+    single = devices / name / DEVICE_FILE
+    found = single if single.is_file() else next(devices.glob(f"*/{name}.yaml"), None)
+    if found is None:
+        raise KeyError(name)
+    return found
+
+
 def compile_catalog() -> Iterator[tuple[Path, str]]:
     """Yield every compiled file with its text.
 
@@ -55,6 +73,7 @@ def compile_catalog() -> Iterator[tuple[Path, str]]:
 
 
 def _device(name: str) -> dict[str, Any]:
+    from cellc.catalog.family import read_entry
     from cellc.catalog.load import read_device
     from cellc.description.xacro_expansion import expand_here
 
@@ -64,14 +83,17 @@ def _device(name: str) -> dict[str, Any]:
         raise ValueError(f"{name}: {'; '.join(found.message for found in device.diagnostics)}")
     description = device.value.model.description
     shown = f"{SHOWN}/devices"
-    file = (devices / name / description.file).as_posix()
-    expansion = expand_here(file, description.arguments, devices.as_posix(), shown).value
-    assert expansion is not None  # it was read a moment ago
+    file = device_file(name)
+    entry = read_entry(file, file.name, devices).value
+    described = (file.parent / description.file).as_posix()
+    expansion = expand_here(described, description.arguments, devices.as_posix(), shown).value
+    assert entry is not None
+    assert expansion is not None  # both were read a moment ago
     places = [
         [tag, part, span.file.removeprefix(f"{shown}/"), span.line, span.column, span.end_line, span.end_column]
         for (tag, part), span in expansion.origins.items()
     ]
-    return {"data": _data(devices / name / "device.yaml"), "urdf": expansion.text, "places": places}
+    return {"data": entry.data, "urdf": expansion.text, "places": places}
 
 
 def _data(file: Path) -> object:
@@ -83,8 +105,12 @@ def _data(file: Path) -> object:
 
 
 def _files_of(name: str) -> tuple[Path, ...]:
-    devices = CATALOG / "devices"
-    return (*sorted(devices.glob("*.xacro")), *sorted(file for file in (devices / name).iterdir() if file.is_file()))
+    """Name what a device is made from: all of its folder, or its own file and what its vendor's models share."""
+    file = device_file(name)
+    beside = sorted(one for one in file.parent.iterdir() if one.is_file())
+    others = () if file.name == DEVICE_FILE else [one for one in beside if one.suffix == ".yaml" and one != file]
+    shared = sorted((CATALOG / "devices").glob("*.xacro"))
+    return (*shared, *(one for one in beside if one not in others or one.name.endswith(FAMILY_FILE)))
 
 
 def _written(name: str, sources: Sequence[Path], content: Mapping[str, object]) -> tuple[Path, str]:

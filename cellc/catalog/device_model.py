@@ -294,10 +294,12 @@ Excusable = Literal["impossible-inertia", "missing-joint-limits", "missing-veloc
 class DeviceModel(CatalogModel):
     """One ``device.yaml``.
 
+    ``family`` names the file that the model's own was laid over, where it has one.
     ``excused`` are findings on its description that endanger nobody and that who uses it cannot mend, each with why.
     """
 
     format: Literal[1]
+    family: Token | None = None
     model: Token
     vendor: Text
     summary: Text

@@ -7,13 +7,22 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 
-from cellc.catalog.compiled import CATALOG, SHOWN, compiled_device, compiled_table
+from cellc.catalog.compiled import (
+    CATALOG,
+    DEVICE_FILE,
+    FAMILY_FILE,
+    SHOWN,
+    compiled_device,
+    compiled_table,
+    device_file,
+)
 from cellc.catalog.controller_kind import ControllerKind
 from cellc.catalog.device_model import DeviceModel
+from cellc.catalog.family import read_entry
 from cellc.catalog.joint_figures import wrong_joint_figures
 from cellc.catalog.names import CatalogNames, unknown_names
 from cellc.catalog.programs import ProgramTable
-from cellc.catalog.read_model import ModelT, read_model
+from cellc.catalog.read_model import ModelT, read_model, validated
 from cellc.catalog.tables import ControllerManagerFacts, DistroTable, InterfaceTypeTable, PlannerTable, QosTable
 from cellc.description.model import Description
 from cellc.description.urdf_reader import read_urdf
@@ -34,7 +43,8 @@ class CatalogDevice:
 @lru_cache(maxsize=1)
 def device_names() -> tuple[str, ...]:
     """Name the devices of the catalog, in alphabetical order."""
-    return tuple(sorted(file.parent.name for file in (CATALOG / "devices").glob("*/device.yaml")))
+    files = (file for file in (CATALOG / "devices").glob("*/*.yaml") if not file.name.endswith(FAMILY_FILE))
+    return tuple(sorted(file.parent.name if file.name == DEVICE_FILE else file.stem for file in files))
 
 
 @lru_cache(maxsize=1)
@@ -74,7 +84,8 @@ def read_device(name: str) -> Outcome[CatalogDevice]:
     def read(file: Path, arguments: dict[str, str]) -> Outcome[Description]:
         return read_catalog_description(file, arguments, devices, shown)
 
-    return _load(devices / name, f"{shown}/{name}", read)
+    file = device_file(name)
+    return _load(file, f"{shown}/{file.relative_to(devices).as_posix()}", devices, read)
 
 
 def load_device_folder(folder: Path, root: Path, purse: Purse | None = None) -> Outcome[CatalogDevice]:
@@ -91,20 +102,24 @@ def load_device_folder(folder: Path, root: Path, purse: Purse | None = None) -> 
     def read(file: Path, arguments: dict[str, str]) -> Outcome[Description]:
         return read_description(file, arguments, root, purse)
 
-    return _load(folder, folder.as_posix(), read)
+    file = folder / DEVICE_FILE
+    return _load(file, file.as_posix(), root, read)
 
 
 def _load(
-    folder: Path, shown: str, read: Callable[[Path, dict[str, str]], Outcome[Description]]
+    file: Path, shown: str, root: Path, read: Callable[[Path, dict[str, str]], Outcome[Description]]
 ) -> Outcome[CatalogDevice]:
-    facts = read_model(folder / "device.yaml", f"{shown}/device.yaml", DeviceModel)
+    entry = read_entry(file, shown, root)
+    if entry.value is None:
+        return Outcome(None, entry.diagnostics)
+    facts = validated(entry.value, DeviceModel)
     if facts.value is None:
         return Outcome(None, facts.diagnostics)
     model, document = facts.value
-    file = folder / model.description.file
-    description = read(file, model.description.arguments)
+    described = file.parent / model.description.file
+    description = read(described, model.description.arguments)
     if description.value is None:
-        return Outcome(None, tuple(_at_its_name(found, file, document) for found in description.diagnostics))
+        return Outcome(None, tuple(_at_its_name(found, described, document) for found in description.diagnostics))
     profiles = load_qos_profiles().value
     assert profiles is not None  # package data, held valid by the catalog's tests
     known = CatalogNames({*controller_kinds(), *OF_ONE_DEVICE}, set(profiles.profiles))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TypeVar
 
@@ -33,16 +33,29 @@ def read_model(path: Path, shown: str, model: type[ModelT]) -> Outcome[tuple[Mod
         shown: its name in spans.
         model: what it must be.
     """
+    read = read_document(path, shown)
+    return Outcome(None, read.diagnostics) if read.value is None else validated(read.value, model)
+
+
+def read_document(path: Path, shown: str, fill: Mapping[str, str] | None = None) -> Outcome[SourceDocument]:
+    """Read one YAML file that holds data; ``fill`` has what stands for placeholders in its text."""
     text = read_text(path, shown, Span(shown, 1, 1, 1, 1))
     if text.value is None:
         return Outcome(None, text.diagnostics)
-    composed = compose(shown, text.value)
+    filled = text.value
+    for placeholder, value in (fill or {}).items():
+        filled = filled.replace(placeholder, value)
+    composed = compose(shown, filled)
     if composed.diagnostics:
         return Outcome(None, composed.diagnostics)
     if composed.value is None or composed.value.data is None:
         place = Span(shown, 1, 1, 1, 1)
         return Outcome(None, (Diagnostic("empty-file", Severity.ERROR, f"`{shown}` holds no data", place),))
-    document = SourceDocument(shown, {shown: text.value}, composed.value)
+    return Outcome(SourceDocument(shown, {shown: text.value}, composed.value))
+
+
+def validated(document: SourceDocument, model: type[ModelT]) -> Outcome[tuple[ModelT, SourceDocument]]:
+    """Return what a document says as a model, or a finding at each value that it cannot be."""
     try:
         value = model.model_validate(_frozen(document.data))
     except ValidationError as error:

@@ -44,6 +44,10 @@ def _device_schema() -> str:
     from cellc.catalog.device_model import DeviceModel
     from cellc.contract.base import DIALECT
 
-    schema = {"$schema": DIALECT, **DeviceModel.model_json_schema(), "title": "Device"}
+    whole = DeviceModel.model_json_schema()
+    # What the model of a family does not say, its family does.
+    whole |= {"if": {"required": ["family"]}, "then": {"required": ["model"]}, "else": {"required": whole["required"]}}
+    del whole["required"]
+    schema = {"$schema": DIALECT, **whole, "title": "Device"}
     # JSON Schema's engines end a text with `$`, Python's with `\\Z`.
     return json.dumps(schema, indent=2, ensure_ascii=False).replace('\\\\Z"', '$"') + "\n"

@@ -1,4 +1,4 @@
-"""Which files an ``include`` names, whether they may be read, and how their roots become one."""
+"""Which files an ``include`` names, whether they may be read, and how the roots of several files become one."""
 
 from __future__ import annotations
 
@@ -80,6 +80,18 @@ def merge(roots: Sequence[Node]) -> Outcome[Node]:
         message = f"the spec and its includes hold {merged.size} values; at most {limits().spec_values} are read"
         findings.append(finding("too-many-values", message, roots[0].span, limit="spec-values"))
     return Outcome(merged, tuple(findings))
+
+
+def overlay(below: Node, above: Node) -> Node:
+    """Return ``below`` with what ``above`` writes in its place: mappings merge by key, everything else replaces."""
+    if not isinstance(below.data, dict) or not isinstance(above.data, dict):
+        return above
+    children = dict(below.children)
+    for key, child in above.children.items():
+        under = children.get(key)
+        node = child.node if under is None else overlay(under.node, child.node)
+        children[key] = Child(node, child.span, child.key_span)
+    return _mapping(above, children)
 
 
 def _merge_section(name: str, first: Child, second: Child, findings: list[Diagnostic]) -> Child:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Callable
 from pathlib import Path
@@ -24,6 +25,7 @@ from cellc.catalog.load import (
     load_qos_profiles,
 )
 from cellc.vocabulary import OF_ONE_DEVICE, Distro
+from tests.cells import catalog_facts
 from tests.foreign_yaml import safe_load
 from tests.oracles import UPSTREAM, needs_upstream
 
@@ -74,8 +76,7 @@ def test_device_loads_under_its_own_name(name: str) -> None:
 
 @pytest.mark.parametrize("name", device_names())
 def test_device_text_uses_known_placeholders_only(name: str) -> None:
-    text = (CATALOG / "devices" / name / "device.yaml").read_text(encoding="utf-8")
-    for placeholder in re.findall(r'"[^"\n]*?\{([a-z_:]+)\}', text):
+    for placeholder in re.findall(r"\{([a-z_:]+)\}", json.dumps(catalog_facts(name), ensure_ascii=False)):
         kind = placeholder.removeprefix("controller_")
         own = kind != placeholder and kind in _device(name).model.controllers
         assert own or placeholder in PLACEHOLDERS or placeholder.startswith("share:")
@@ -125,7 +126,7 @@ def test_home_lies_within_the_limits(name: str) -> None:
 
 
 @pytest.mark.parametrize("load", [load_device, load_controller_kind])
-@pytest.mark.parametrize("name", ["ur5", "joint_trajectry", "", "../devices/ur5e"])
+@pytest.mark.parametrize("name", ["ur5", "joint_trajectry", "", "../devices/ur5e", "ur.family"])
 def test_name_that_is_not_listed_is_refused(load: Callable[[str], object], name: str) -> None:
     with pytest.raises(KeyError):
         load(name)

@@ -13,6 +13,7 @@ from cellc.catalog.controller_kind import ControllerKind
 from cellc.catalog.load import controller_kinds, device_names, load_controller_kind, load_device, read_device
 from cellc.catalog.read_model import read_model
 
+UR = "devices/universal_robots/ur"
 WRITTEN = sorted((CATALOG / "compiled").rglob("*.json"))
 
 
@@ -45,7 +46,7 @@ def test_compiled_tables_are_those_of_the_files(monkeypatch: pytest.MonkeyPatch)
 
 
 @pytest.mark.parametrize(
-    "changed", ["devices/ur5e/device.yaml", "devices/ur5e/ur5e.urdf.xacro", "devices/shapes.xacro"]
+    "changed", ["devices/universal_robots/ur5e.yaml", f"{UR}.family.yaml", f"{UR}.urdf.xacro", "devices/shapes.xacro"]
 )
 def test_device_whose_files_changed_is_not_taken_from_the_compiled_one(
     changed: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

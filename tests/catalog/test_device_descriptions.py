@@ -13,11 +13,12 @@ import numpy as np
 import pinocchio
 import pytest
 
-from cellc.catalog.compiled import CATALOG
+from cellc.catalog.compiled import CATALOG, device_file
 from cellc.catalog.load import device_names, load_device
 from cellc.description.model import Box, Description, Inertial
 from cellc.description.xacro_expansion import expand_here
 from tests.catalog.chains import Matrix, axis_rotation, transform
+from tests.cells import catalog_facts
 
 # Classic DH of the arm as the vendor publishes it: a, alpha, d; theta is the joint.
 PI = math.pi
@@ -134,7 +135,9 @@ def _assert_possible(inertial: Inertial) -> None:
 def _touching(name: str, positions: dict[str, float]) -> set[tuple[str, str]]:
     """Pairs of links that collide though no joint connects them."""
     devices = CATALOG / "devices"
-    expanded = expand_here((devices / name / f"{name}.urdf.xacro").as_posix(), {}, devices.as_posix()).value
+    facts = catalog_facts(name)["description"]
+    file = device_file(name).parent / facts["file"]
+    expanded = expand_here(file.as_posix(), facts.get("arguments", {}), devices.as_posix()).value
     assert expanded is not None
     model = pinocchio.buildModelFromXML(expanded.text)
     geometry = pinocchio.buildGeomFromUrdfString(model, expanded.text, pinocchio.GeometryType.COLLISION)
@@ -192,11 +195,10 @@ def test_gripper_does_not_touch_itself(angle: float) -> None:
 def test_expansion_is_the_same_under_any_hash_seed() -> None:
     program = (
         "from cellc.catalog.compiled import CATALOG\n"
-        "from cellc.catalog.load import device_names\n"
         "from cellc.description.xacro_expansion import expand_here\n"
         "d = CATALOG / 'devices'\n"
-        "for n in device_names():\n"
-        "    print(expand_here(f'{d}/{n}/{n}.urdf.xacro', {}, str(d)).value)\n"
+        "for f in sorted(d.glob('*/*.xacro')):\n"
+        "    print(expand_here(str(f), {}, str(d)).value)\n"
     )
     folder = Path(__file__).resolve().parents[2]
     outputs = [

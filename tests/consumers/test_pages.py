@@ -6,7 +6,7 @@ import json
 import re
 from typing import Any
 
-from tests.cells import ROOT
+from tests.cells import catalog_facts
 from tests.consumers.matrix import build, every_build, spec_for
 from tests.consumers.starting import node_name, processes, written
 from tests.emit.cells import contract_data
@@ -117,7 +117,7 @@ def test_audit_has_the_way_back_that_the_catalogue_knows(cell: str, distro: str)
     wanted: list[str] = []
     limits: list[str] = []
     for device, one in written(cell)["devices"].items():
-        facts = safe_load((ROOT / f"cellc/catalog/devices/{one['model']}/device.yaml").read_text(encoding="utf-8"))
+        facts = catalog_facts(one["model"])
         assert one.get("program", {"mode": "local"})["mode"] == "local"  # of these cells each is started at the pendant
         for way in facts.get("safety", {}).get("recovery", ()):
             steps = [step if isinstance(step, str) else step["does"] for step in way["steps"] if _at_pendant(step)]

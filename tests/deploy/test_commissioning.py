@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from tests.cells import DISTROS, ROOT
+from tests.cells import DISTROS, ROOT, catalog_facts
 from tests.emit.cells import CELLS, artifacts_of
 from tests.foreign_yaml import safe_load
 
@@ -37,8 +37,7 @@ def test_every_step_of_a_vendor_stands_in_its_gate_once(cell: str, distro: str) 
     gates = _gates(cell, distro)
     spec = safe_load((ROOT / "cells" / cell / "cell.yaml").read_text(encoding="utf-8"))
     for name, device in spec["devices"].items():
-        file = ROOT / "cellc" / "catalog" / "devices" / device["model"] / "device.yaml"
-        for step in safe_load(file.read_text(encoding="utf-8")).get("commissioning", []):
+        for step in catalog_facts(device["model"]).get("commissioning", []):
             said = step["does"].replace("{played_by}", device.get("program", _AT_THE_DEVICE)["played_by"])
             begins = f"{name}: {_bare(said)}"[:60]
             holding = [code for code, lines in gates.items() for line in lines if _bare(line).startswith(begins)]

@@ -20,22 +20,24 @@ from cellc.planning import (
     time_parameterize,
 )
 from cellc.transforms import Pose, from_xyz_rpy
+from tests.cells import catalog_facts
 
 from .arm import dh_tool_to_base
 
 DEVICES = Path(__file__).resolve().parents[2] / "cellc" / "catalog" / "devices"
-ARM = DEVICES / "ur5e" / "ur5e.urdf.xacro"
+ARM = DEVICES / "universal_robots" / "ur.urdf.xacro"
 GRIPPER = DEVICES / "robotiq_2f_85" / "robotiq_2f_85.urdf.xacro"
 HOME = (0.0, -1.57, 1.57, -1.57, -1.57, 0.0)
 
 
-def _expanded(path: Path) -> str:
-    return str(xacro.process_file(str(path)).toxml())
+def _expanded(path: Path, model: str) -> str:
+    arguments = catalog_facts(model)["description"].get("arguments", {})
+    return str(xacro.process_file(str(path), mappings=arguments).toxml())
 
 
 @pytest.fixture(name="planner", scope="module")
 def planner_fixture() -> Planner:
-    model = RobotModel.from_urdf(_expanded(ARM))
+    model = RobotModel.from_urdf(_expanded(ARM, "ur5e"))
     limits = JointLimits(
         model.joints,
         tuple(-math.pi if joint == "elbow_joint" else -2 * math.pi for joint in model.joints),
@@ -69,7 +71,7 @@ def test_approach_and_retreat_keep_the_limits(planner: Planner) -> None:
 
 
 def test_followers_of_the_gripper_close_with_their_leader() -> None:
-    model = RobotModel.from_urdf(_expanded(GRIPPER))
+    model = RobotModel.from_urdf(_expanded(GRIPPER, "robotiq_2f_85"))
     (leader,) = model.joints
     root = model.links[0]
     for angle in (0.0, 0.4, 0.79):

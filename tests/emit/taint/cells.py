@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
+from cellc.catalog.compiled import device_file
 from tests.cells import CORPUS, ROOT, spec_text
 from tests.consumers.matrix import spec_for
 
@@ -62,9 +63,11 @@ def _with_devices(spec: str) -> dict[str, str]:
     """Return a spec whose devices are folders of its own: copies of the catalog's."""
     files = {"cell.yaml": _OWN.sub(r"model: ./\1", spec)}
     for model in dict.fromkeys(_OWN.findall(spec)):
-        for path in (*sorted((_DEVICES / model).iterdir()), _DEVICES / "shapes.xacro"):
+        own = device_file(model)
+        for path in (*sorted(own.parent.iterdir()), _DEVICES / "shapes.xacro"):
             text = path.read_text(encoding="utf-8")
-            files[f"{model}/{path.name}"] = text.replace("../shapes.xacro", "shapes.xacro")
+            name = "device.yaml" if path == own else path.name
+            files[f"{model}/{name}"] = text.replace("../shapes.xacro", "shapes.xacro")
     return files
 
 

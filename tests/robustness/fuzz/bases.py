@@ -9,7 +9,7 @@ from functools import cache
 from pathlib import Path
 from xml.etree import ElementTree
 
-from tests.cells import CELLS, CORPUS, ROOT, spec_text
+from tests.cells import CELLS, CORPUS, ROOT, catalog_facts, spec_text
 from tests.robustness.fuzz.tree import Tree, copied, read_yaml
 
 PARTS = CORPUS / "valid" / "parts"
@@ -106,8 +106,7 @@ def _own(folder: Path) -> DeviceBase:
 
 
 def _of_catalog(compiled: Path) -> DeviceBase:
-    facts = read_yaml((_CATALOG / "devices" / compiled.stem / "device.yaml").read_text(encoding="utf-8"))
-    assert isinstance(facts, dict)
+    facts = {key: value for key, value in catalog_facts(compiled.stem).items() if key != "family"}
     return _base(facts, str(json.loads(compiled.read_text(encoding="utf-8"))["urdf"]))
 
 
