@@ -79,9 +79,9 @@ def test_same_seed_gives_the_same_pairs() -> None:
     assert _reasons(arm_urdf()) == _reasons(arm_urdf())
 
 
-@pytest.mark.parametrize("path", [ARM, GRIPPER], ids=["arm", "gripper"])
-def test_pairs_hold_at_other_samples(path: Path) -> None:
-    model = RobotModel.from_urdf(_expanded(path))
+@pytest.mark.parametrize(("path", "device"), [(ARM, "ur5e"), (GRIPPER, "robotiq_2f_85")], ids=["arm", "gripper"])
+def test_pairs_hold_at_other_samples(path: Path, device: str) -> None:
+    model = RobotModel.from_urdf(_expanded(path, device))
     pairs = disabled_collisions(model, samples=10_000, rng_seed=0, margin_m=0.005)
     never = {pair.links for pair in pairs if pair.reason is DisabledReason.NEVER}
     always = {pair.links for pair in pairs if pair.reason is DisabledReason.ALWAYS}
