@@ -13,7 +13,7 @@ tool connector it has its power. Links, joints, sensors and
 gpios are named without prefix.
 """
 
-from typing import Literal
+from typing import Literal, get_args
 
 from pydantic import Field, model_validator
 
@@ -229,12 +229,20 @@ class PayloadLimit(CatalogModel):
     source: Text
 
 
+class ReachFigure(CatalogModel):
+    """How far the arm reaches, as its vendor gives it: from the axis of the first joint."""
+
+    value: Length
+    source: Text
+
+
 class LimitFacts(CatalogModel):
     """Limits that URDF cannot hold; keys are joint names or ``*`` for all others."""
 
     acceleration: dict[Text, AccelerationLimit] = Field(default_factory=dict)
     jerk: dict[Text, JerkLimit] = Field(default_factory=dict)
     payload: PayloadLimit | None = None
+    reach: ReachFigure | None = None
 
     def acceleration_of(self, joint: str) -> AccelerationLimit | None:
         """Return the limit of a joint, named without prefix."""
@@ -291,6 +299,14 @@ Excusable = Literal["impossible-inertia", "missing-joint-limits", "missing-veloc
 """Codes on a description that endanger nobody: no motion is planned with a tensor, nor with an idle joint."""
 
 
+Kind = Literal["arm", "gripper", "camera", "digital"]
+
+
+def device_kinds() -> tuple[str, ...]:
+    """Name the kinds of devices."""
+    return get_args(Kind)
+
+
 class DeviceModel(CatalogModel):
     """One ``device.yaml``.
 
@@ -303,7 +319,7 @@ class DeviceModel(CatalogModel):
     model: Token
     vendor: Text
     summary: Text
-    kind: Literal["arm", "gripper", "camera", "digital"]
+    kind: Kind
     as_of: Date
     sources: tuple[Text, ...] = Field(min_length=1)
     description: DescriptionFacts

@@ -17,6 +17,7 @@ from cellc.version import __version__
 _COMMANDS = {
     "audit": "Print versions, expectations, command paths and open questions.",
     "build": "Check cells and write their artifacts.",
+    "catalog": "List the devices of the catalog, find some, or show one.",
     "check": "Find what is wrong before anything moves.",
     "compare": "Put cells beside each other: what motion rests on, who has which duty.",
     "completion": "Print the completion script of a shell.",

@@ -3,11 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 
 from cellc.formats.escape import markdown
 
-TableCell = str | Sequence[str]
-"""One line of prose, or several that stand below each other."""
+
+@dataclass(frozen=True, slots=True)
+class Link:
+    """A link to a file of ours."""
+
+    text: str
+    target: str
+
+
+TableCell = str | Link | Sequence[str]
+"""One line of prose, a link, or several lines that stand below each other."""
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[TableCell]]) -> str:
@@ -22,4 +32,6 @@ def _row(cells: Sequence[TableCell]) -> str:
 
 
 def _text(cell: TableCell) -> str:
+    if isinstance(cell, Link):
+        return f"[{markdown(cell.text)}]({cell.target})"
     return markdown(cell) if isinstance(cell, str) else "<br>".join(map(markdown, cell))

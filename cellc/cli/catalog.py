@@ -1,0 +1,75 @@
+"""``cellc catalog``: which devices there are, and what is known of each."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+from pydantic import TypeAdapter, ValidationError
+
+from cellc.browse.search import Wanted, found, listed
+from cellc.catalog.device_model import device_kinds
+from cellc.catalog.load import device_names, load_device
+from cellc.printing import refuse, show, show_document
+from cellc.spec.quantity import Length, Mass
+from cellc.store.swap import write_whole
+from cellc.vocabulary import Distro
+
+
+class _Figure(click.ParamType[float]):
+    """A quantity with its unit, as in a spec; its value is in SI."""
+
+    def __init__(self, name: str, adapter: TypeAdapter[Length] | TypeAdapter[Mass]) -> None:
+        self.name = name
+        self._adapter = adapter
+
+    def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        try:
+            return self._adapter.validate_python(value).si
+        except ValidationError as problem:
+            self.fail(f"{problem.errors()[0]['msg'].removeprefix('Value error, ')}.", param, ctx)
+
+
+@click.command()
+@click.argument("words", nargs=-1, metavar="[MODEL | WORD...]")
+@click.option("--kind", type=click.Choice(device_kinds()), help="Devices of one kind.")
+@click.option("--reach", type=_Figure("LENGTH", TypeAdapter(Length)), help="Arms that reach as far, such as `900 mm`.")
+@click.option("--payload", type=_Figure("MASS", TypeAdapter(Mass)), help="Arms that carry as much, such as `5 kg`.")
+@click.option("--ros", type=click.Choice([distro.value for distro in Distro]), help="Devices whose driver is for it.")
+@click.option("--all", "everything", is_flag=True, help="With --output, write the pages of all devices.")
+@click.option("-o", "--output", type=click.Path(path_type=Path, file_okay=False), help="Folder of the pages.")
+def catalog(
+    words: tuple[str, ...],
+    kind: str | None,
+    reach: float | None,
+    payload: float | None,
+    ros: str | None,
+    everything: bool,
+    output: Path | None,
+) -> None:
+    """List the devices of the catalog; show MODEL, or those whose model, vendor, driver or summary has each WORD.
+
+    \b
+    cellc catalog                                  every device
+    cellc catalog ur5e                             all that is known of one
+    cellc catalog --kind arm --reach "900 mm" --payload "5 kg" --ros jazzy
+    """
+    if (output is not None) != everything:
+        raise click.UsageError("--all and --output belong together: they write the pages of every device.")
+    # Pages load what draws.
+    from cellc.browse.page import page, pages
+
+    if output is not None:
+        for name, text in pages().items():
+            write_whole(output / name, text)
+        show(f"wrote {output.as_posix()}")
+        return
+    entry = load_device(words[0]).value if len(words) == 1 and words[0] in device_names() else None
+    if entry is not None:
+        show_document(page(entry))
+        return
+    matching = found(Wanted(words=words, kind=kind, reach_m=reach, payload_kg=payload, distro=ros))
+    if not matching:
+        refuse("no device of the catalog answers all of that: ask for less, or bring your own with `cellc import`")
+        raise click.exceptions.Exit(1)
+    show(*listed(matching))

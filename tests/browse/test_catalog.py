@@ -1,0 +1,85 @@
+"""``cellc catalog``: devices are found by what is known of them, and each has a page with a picture."""
+
+from __future__ import annotations
+
+from xml.etree import ElementTree
+
+import pytest
+
+from cellc.browse.page import page, pages, picture
+from cellc.catalog.load import CatalogDevice, device_names, load_device
+from tests.cells import ROOT
+from tests.cli.run import run
+
+_SVG = "{http://www.w3.org/2000/svg}"
+
+
+def _entry(name: str) -> CatalogDevice:
+    entry = load_device(name).value
+    assert entry is not None
+    return entry
+
+
+def _models(*arguments: str) -> list[str]:
+    ran = run("catalog", *arguments)
+    assert ran.code == 0, ran.err
+    return [line.split()[0] for line in ran.out.splitlines()[1:]]
+
+
+def test_committed_pages_are_those_of_the_catalog() -> None:
+    folder = ROOT / "docs" / "catalog"
+    written = {file.name: file.read_text(encoding="utf-8") for file in folder.iterdir()}
+    assert written == pages(), "run `cellc catalog --all -o docs/catalog` and commit it"
+
+
+def test_without_a_wish_every_device_is_listed() -> None:
+    assert _models() == list(device_names())
+
+
+def test_words_are_looked_for_in_model_vendor_driver_and_summary() -> None:
+    assert _models("libfranka") == ["franka_fr3", "franka_hand"]
+    assert _models("adaptive", "robotiq") != []
+    assert set(_models("gripper")) >= {"franka_hand", "pneumatic_gripper", "robotiq_2f_85"}
+
+
+def test_arms_are_found_by_what_their_vendors_say_of_reach_and_payload() -> None:
+    # Franka Robotics, FR3 datasheet: 855 mm, 3 kg. Universal Robots, UR5e technical specification: 850 mm, 5 kg.
+    assert {"franka_fr3", "ur5e"} <= set(_models("--reach", "850 mm"))
+    assert "ur5e" not in _models("--reach", "0.851 m")
+    assert "franka_fr3" not in _models("--payload", "4 kg")
+    assert "ur5e" in _models("--payload", "5000 g")
+
+
+def test_devices_are_found_by_kind_and_distribution() -> None:
+    assert "realsense_d435i" in _models("--kind", "camera")
+    assert "ur5e" not in _models("--kind", "camera")
+    # rosdistro: franka_ros2 is not released for Lyrical.
+    assert "franka_fr3" not in _models("--ros", "lyrical")
+    assert "ur5e" in _models("--ros", "lyrical")
+
+
+def test_what_nobody_answers_says_so_and_what_else_to_do() -> None:
+    ran = run("catalog", "--reach", "90 m")
+    assert ran.code == 1
+    assert "cellc import" in ran.err
+
+
+@pytest.mark.parametrize("wrong", [("--reach", "900"), ("--payload", "5 mm"), ("--all",), ("-o", "somewhere")])
+def test_wrong_question_is_a_usage_error(wrong: tuple[str, ...]) -> None:
+    assert run("catalog", *wrong).code == 2
+
+
+@pytest.mark.parametrize("name", device_names())
+def test_picture_names_each_frame_in_both_views(name: str) -> None:
+    entry = _entry(name)
+    root = ElementTree.fromstring(picture(entry))
+    for view in root.findall(f"{_SVG}g"):
+        said = {part.strip() for text in view.findall(f"{_SVG}text") for part in (text.text or "").split(",")}
+        assert set(entry.model.frames) <= said
+
+
+def test_page_of_an_arm_says_what_its_activation_moves() -> None:
+    text = page(_entry("robotiq_2f_85"))
+    row = next(line for line in text.splitlines() if line.startswith("| activate |"))
+    assert "| moves |" in row
+    assert run("catalog", "robotiq_2f_85").out == text
