@@ -51,7 +51,7 @@ def catalog(
 
     \b
     cellc catalog                                  every device
-    cellc catalog ur5e                             all that is known of one
+    cellc catalog MODEL                            all that is known of one
     cellc catalog --kind arm --reach "900 mm" --payload "5 kg" --ros jazzy
     """
     if (output is not None) != everything:
