@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
+from pydantic import TypeAdapter, ValidationError
+
 from cellc.catalog.device_model import DeviceModel
 from cellc.catalog.load import CatalogDevice, device_names, load_device
 from cellc.formats.markdown_table import Link, table
 from cellc.printing import Line, Style, Styled
+from cellc.spec.quantity import Length, Mass, Quantity
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -66,6 +69,34 @@ def distributions(model: DeviceModel) -> tuple[str, ...]:
     """Name the distributions for which the vendor's packages are released or built, in the order of the facts."""
     rows = (row for row in model.versions if row.part == "driver" and row.distro is not None)
     return tuple(dict.fromkeys(row.distro.value for row in rows if row.distro and (row.known or row.built_from)))
+
+
+def metres(text: str) -> float:
+    """Read a length with its unit, as in a spec.
+
+    Raises:
+        ValueError: it is none; the message says why.
+    """
+    return _read(_LENGTH, text)
+
+
+def kilograms(text: str) -> float:
+    """Read a mass with its unit, as in a spec.
+
+    Raises:
+        ValueError: it is none; the message says why.
+    """
+    return _read(_MASS, text)
+
+
+_LENGTH, _MASS = TypeAdapter(Length), TypeAdapter(Mass)
+
+
+def _read(figure: TypeAdapter[Quantity], text: str) -> float:
+    try:
+        return figure.validate_python(text).si
+    except ValidationError as problem:
+        raise ValueError(problem.errors()[0]["msg"].removeprefix("Value error, ")) from None
 
 
 def listed(devices: Iterable[CatalogDevice]) -> Iterator[Line]:

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import click
-from pydantic import TypeAdapter, ValidationError
 
-from cellc.browse.search import Wanted, found, listed
+from cellc.browse.search import Wanted, found, kilograms, listed, metres
 from cellc.catalog.device_model import device_kinds
 from cellc.catalog.load import device_names, load_device
 from cellc.printing import refuse, show, show_document
-from cellc.spec.quantity import Length, Mass
 from cellc.store.swap import write_whole
 from cellc.vocabulary import Distro
 
@@ -19,22 +18,22 @@ from cellc.vocabulary import Distro
 class _Figure(click.ParamType[float]):
     """A quantity with its unit, as in a spec; its value is in SI."""
 
-    def __init__(self, name: str, adapter: TypeAdapter[Length] | TypeAdapter[Mass]) -> None:
+    def __init__(self, name: str, read: Callable[[str], float]) -> None:
         self.name = name
-        self._adapter = adapter
+        self._read = read
 
     def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> float:
         try:
-            return self._adapter.validate_python(value).si
-        except ValidationError as problem:
-            self.fail(f"{problem.errors()[0]['msg'].removeprefix('Value error, ')}.", param, ctx)
+            return self._read(value)
+        except ValueError as problem:
+            self.fail(str(problem), param, ctx)
 
 
 @click.command()
 @click.argument("words", nargs=-1, metavar="[MODEL | WORD...]")
 @click.option("--kind", type=click.Choice(device_kinds()), help="Devices of one kind.")
-@click.option("--reach", type=_Figure("LENGTH", TypeAdapter(Length)), help="Arms that reach as far, such as `900 mm`.")
-@click.option("--payload", type=_Figure("MASS", TypeAdapter(Mass)), help="Arms that carry as much, such as `5 kg`.")
+@click.option("--reach", type=_Figure("LENGTH", metres), help="Arms that reach as far, such as `900 mm`.")
+@click.option("--payload", type=_Figure("MASS", kilograms), help="Arms that carry as much, such as `5 kg`.")
 @click.option("--ros", type=click.Choice([distro.value for distro in Distro]), help="Devices whose driver is for it.")
 @click.option("--all", "everything", is_flag=True, help="With --output, write the pages of all devices.")
 @click.option("-o", "--output", type=click.Path(path_type=Path, file_okay=False), help="Folder of the pages.")
