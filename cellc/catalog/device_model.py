@@ -295,8 +295,11 @@ class AllowedPair(CatalogModel):
     because: Text
 
 
-Excusable = Literal["impossible-inertia", "missing-joint-limits", "missing-velocity-limit"]
-"""Codes on a description that endanger nobody: no motion is planned with a tensor, nor with an idle joint."""
+Excusable = Literal["impossible-inertia", "mimic-of-nothing", "missing-joint-limits", "missing-velocity-limit"]
+"""Codes on a description that endanger nobody: no motion is planned with a tensor, nor with an idle joint.
+
+What mimics nothing is then a joint of its own, as it is to MoveIt and pinocchio, and stands at its home.
+"""
 
 
 Kind = Literal["arm", "gripper", "camera", "digital"]

@@ -69,7 +69,7 @@ def import_(
     if written.kept:
         show(f"kept {folder.as_posix()}/device.yaml as a person left it")
     if with_cell:
-        _write_cell(folder, chain, ros)
+        _write_cell(folder, chain, written.away, ros)
     errors = tuple(one for one in written.checked.diagnostics if one.severity is Severity.ERROR)
     if errors:
         show_findings((replace(written.checked.findings, diagnostics=errors),), "text")
@@ -120,7 +120,7 @@ def _tell_changes(folder: Path) -> None:
     show(f"{folder.as_posix()} is as it was imported")
 
 
-def _write_cell(folder: Path, chain: Chain, ros: str) -> None:
+def _write_cell(folder: Path, chain: Chain, away: tuple[float, ...], ros: str) -> None:
     """Write the spec beside the folder, unless a person has one there."""
     from cellc.importing.cell_text import cell_text
 
@@ -128,6 +128,6 @@ def _write_cell(folder: Path, chain: Chain, ros: str) -> None:
     if file.exists():
         show(f"kept {file.as_posix()} as it was")
     else:
-        write_whole(file, cell_text(name, f"./{folder.name}", chain, ros))
+        write_whole(file, cell_text(name, f"./{folder.name}", chain, away, ros))
         show(f"wrote {file.as_posix()}")
     show(f"next: cellc build {shlex.quote(file.as_posix())} && cellc mock generated/{name}")

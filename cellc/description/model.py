@@ -244,6 +244,15 @@ class Description:
                 waiting += children.get(link, [])
         return tuple(link.name for link in self.links if link.name not in reached)
 
+    def without_leaderless(self) -> Description:
+        """Make joints of their own of those that mimic a joint that is not there."""
+        names = {joint.name for joint in self.joints}
+        joints = (
+            replace(joint, mimic=None) if joint.mimic is not None and joint.mimic.joint not in names else joint
+            for joint in self.joints
+        )
+        return replace(self, joints=tuple(joints))
+
     def renamed(self, prefix: str) -> Description:
         """Put ``prefix`` before the name of every link and joint, and in every reference to one."""
         links = tuple(replace(link, name=prefix + link.name) for link in self.links)

@@ -22,6 +22,7 @@ from cellc.feasibility.question import GoalQuestion, GroupQuestion, MotionQuesti
 from cellc.limits import Purse, PurseError, limits
 from cellc.planning import (
     CollisionScene,
+    DisabledPair,
     DisabledReason,
     IkFailure,
     JointLimits,
@@ -92,12 +93,8 @@ def answer(question: MotionQuestion, mesh_roots: Sequence[Path] = ()) -> MotionA
 
 
 def _answer(question: MotionQuestion, mesh_roots: Sequence[Path], purse: Purse) -> MotionAnswer:
-    robot = RobotModel.from_urdf(question.urdf, mesh_roots=mesh_roots)
-    start = {joint: value for joint, value in question.start if joint in robot.joints}
-    samples = _samples(robot)
-    disabled = decided_collisions(robot, samples=samples, rng_seed=RNG_SEED, margin_m=MARGIN_M, purse=purse)
-    unchecked = [*(pair.links for pair in disabled), *question.allowed]
-    scene = CollisionScene(robot, disabled_collisions=unchecked, other_positions=start)
+    scene, disabled = _scene(question, mesh_roots, purse)
+    robot, start = scene.model, scene.other_positions
     asked = {goal.group for goal in question.goals}
     planners = {group.name: _planner(group, robot, scene) for group in question.groups if group.name in asked}
     poses = tuple(_pose(pose, planners, scene, start) for pose in purse.over(question.poses))
@@ -110,6 +107,28 @@ def _answer(question: MotionQuestion, mesh_roots: Sequence[Path], purse: Purse) 
         views=_views(question, goals, robot, start),
         rigid=tuple(BodyContact(*links) for links in rigid),
     )
+
+
+def _scene(
+    question: MotionQuestion, mesh_roots: Sequence[Path], purse: Purse
+) -> tuple[CollisionScene, tuple[DisabledPair, ...]]:
+    """Return the scene of the cell at its start, and the pairs that the shapes alone take out of it."""
+    robot = RobotModel.from_urdf(question.urdf, mesh_roots=mesh_roots)
+    start = {joint: value for joint, value in question.start if joint in robot.joints}
+    samples = _samples(robot)
+    disabled = decided_collisions(robot, samples=samples, rng_seed=RNG_SEED, margin_m=MARGIN_M, purse=purse)
+    unchecked = [*(pair.links for pair in disabled), *question.allowed]
+    return CollisionScene(robot, disabled_collisions=unchecked, other_positions=start), disabled
+
+
+def planner_of(question: MotionQuestion, group: str, mesh_roots: Sequence[Path] = ()) -> Planner:
+    """Return the planner of one group in the scene of the cell.
+
+    Raises:
+        ModelError, LimitsError, PurseError: the shapes or joints cannot be looked at, or take too long.
+    """
+    scene, _ = _scene(question, mesh_roots, _purse())
+    return _planner(next(one for one in question.groups if one.name == group), scene.model, scene)
 
 
 def _pose(

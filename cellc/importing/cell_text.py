@@ -4,15 +4,21 @@ from __future__ import annotations
 
 from cellc.description.model import Joint
 from cellc.formats.numbers import shortest
-from cellc.importing.chain import Chain, away_of, home_of, range_of
+from cellc.importing.chain import Chain, home_of, range_of
 
 _WIDEST = {False: 0.2, True: 0.02}
+GROUP = "arm_group"
+"""The planning group of the chain."""
 _SHARE = 0.25
 """Of a joint's range that a path tolerance is at most."""
 
 
-def cell_text(name: str, folder: str, chain: Chain, ros: str) -> str:
-    """Write the spec of a cell whose one device is the folder, named relative to the spec."""
+def cell_text(name: str, folder: str, chain: Chain, away: tuple[float, ...], ros: str) -> str:
+    """Write the spec of a cell whose one device is the folder, named relative to the spec.
+
+    Args:
+        away: where the joints of the chain go, rad or m.
+    """
     joints = ", ".join(f"arm/{joint.name}" for joint in chain.joints)
     base, tip = f"arm/{chain.base}", f"arm/{chain.tip}"
     return "\n".join(
@@ -35,10 +41,10 @@ def cell_text(name: str, folder: str, chain: Chain, ros: str) -> str:
             f"      path_tolerance: {_tolerance(chain, 1.0)}",
             f"      goal_tolerance: {_tolerance(chain, 0.1)}",
             "motion:",
-            f"  groups: {{arm_group: {{base: {base}, tip: {tip}}}}}",
+            f"  groups: {{{GROUP}: {{base: {base}, tip: {tip}}}}}",
             "  poses:",
-            f"    home: {{arm_group: {_positions([(joint, home_of(joint)) for joint in chain.joints])}}}",
-            f"    away: {{arm_group: {_positions([(joint, away_of(joint)) for joint in chain.joints])}}}",
+            f"    home: {{{GROUP}: {_positions([(joint, home_of(joint)) for joint in chain.joints])}}}",
+            f"    away: {{{GROUP}: {_positions(list(zip(chain.joints, away, strict=True)))}}}",
             "rehearsals:",
             "  first_move: {steps: [move: away, move: home]}",
             "",

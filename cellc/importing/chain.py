@@ -41,8 +41,26 @@ def chain_of(description: Description) -> Chain:
     runs = [run for chain in chains for run in _runs(chain)]
     longest = max(runs, key=lambda run: len(run.joints), default=None)
     if longest is None:
-        raise ImportRefusedError(f"`{description.name}` has no joint that moves, with a range and a speed above 0")
+        raise ImportRefusedError(f"`{description.name}` has no joint that can move: {_held(description)}")
     return _with_tool(_without_fingers(longest, description), description)
+
+
+def _held(description: Description) -> str:
+    """Say what keeps every joint from moving, with the first as the example."""
+    joints = actuated(description)
+    if not joints:
+        return "its joints are fixed, or mimic each other" if description.joints else "it has no joints"
+    first, limit = joints[0], joints[0].limit
+    if limit is None:
+        why = "has no limits"
+    elif first.type != "continuous" and (limit.lower is None or limit.upper is None):
+        why = "has no range"
+    elif first.type != "continuous" and range_of(first) <= 0.0:
+        why = f"goes from {limit.lower:g} to {limit.upper:g} {'m' if first.slides else 'rad'}"
+    else:
+        why = f"has a velocity of {limit.velocity:g}" if limit.velocity is not None else "has no velocity"
+    more = f", and {len(joints) - 1} more" if joints[1:] else ""
+    return f"`{first.name}` {why}{more}; what it can do stands in its `<limit>`"
 
 
 def home_of(joint: Joint) -> float:
@@ -57,6 +75,12 @@ def away_of(joint: Joint) -> float:
     way = upper - home if upper - home >= home - lower else lower - home
     most = _LARGEST[joint.slides]
     return round(home + max(-most, min(most, _SHARE * way)), 6)
+
+
+def back_of(joint: Joint) -> float:
+    """Return a position a little way from home, towards the nearer limit; home itself where that is the limit."""
+    home, (lower, upper) = home_of(joint), _ends(joint)
+    return round(min(max(2.0 * home - away_of(joint), lower), upper), 6)
 
 
 def range_of(joint: Joint) -> float:

@@ -9,9 +9,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from cellc.feasibility import MotionAnswer, motion_answer
-from cellc.importing.cell_text import cell_text
-from cellc.importing.chain import Chain
+from cellc.importing.cell_text import GROUP, cell_text
+from cellc.importing.chain import Chain, home_of
 from cellc.importing.device_text import DESCRIPTION, Judged, Pairs, device_text
+from cellc.importing.first_motion import first_goal
 from cellc.importing.source import Robot
 from cellc.pipeline import Checked, check
 from cellc.store.swap import write_whole
@@ -21,6 +22,7 @@ _TOUCHING = "UNKNOWN: they touch where every joint is at its home, and nobody ha
 _NOT_DRIVEN = "UNKNOWN: its description states none for some joints, and no controller commands those"
 _EXCUSES = {
     "impossible-inertia": "as its description has it; no motion is planned with it, and nobody weighed the links",
+    "mimic-of-nothing": "UNKNOWN: the joint to follow is not in its description; it stands at its home by itself",
     "missing-joint-limits": _NOT_DRIVEN,
     "missing-velocity-limit": _NOT_DRIVEN,
 }
@@ -30,12 +32,17 @@ _PASSES = 3
 
 @dataclass(frozen=True, slots=True)
 class Written:
-    """What a run wrote: files and their size in bytes, whether a device.yaml of a person stayed, and what is found."""
+    """What a run wrote: files and their size in bytes, whether a device.yaml of a person stayed, and what is found.
+
+    Attributes:
+        away: where the joints of the chain may go first, rad or m.
+    """
 
     files: int
     size: int
     kept: bool
     checked: Checked
+    away: tuple[float, ...]
 
 
 def write_folder(folder: Path, robot: Robot, chain: Chain, disabled: Pairs, day: str) -> Written:
@@ -51,13 +58,16 @@ def write_folder(folder: Path, robot: Robot, chain: Chain, disabled: Pairs, day:
     kept = (folder / "device.yaml").exists()
     if not kept:
         write_whole(folder / "device.yaml", device_text(robot, chain, Judged(disabled), day))
-    judged, checked = _judged(folder, chain, Judged(disabled))
+    home = tuple(home_of(joint) for joint in chain.joints)
+    judged, checked = _judged(folder, chain, home, Judged(disabled))
     for _ in range(0 if kept else _PASSES):
         write_whole(folder / "device.yaml", device_text(robot, chain, judged, day))
-        before, (judged, checked) = judged, _judged(folder, chain, judged)
+        before, (judged, checked) = judged, _judged(folder, chain, home, judged)
         if judged == before:
             break
-    return Written(len(files) + 2, sum(map(len, files.values())), kept, checked)
+    away = first_goal(checked.graph, GROUP, chain)
+    judged, checked = _judged(folder, chain, away, judged)
+    return Written(len(files) + 2, sum(map(len, files.values())), kept, checked, away)
 
 
 def changed_files(folder: Path) -> Iterator[str]:
@@ -77,11 +87,11 @@ def _hash(content: bytes) -> str:
     return f"sha256:{hashlib.sha256(content).hexdigest()}"
 
 
-def _judged(folder: Path, chain: Chain, before: Judged) -> tuple[Judged, Checked]:
+def _judged(folder: Path, chain: Chain, away: tuple[float, ...], before: Judged) -> tuple[Judged, Checked]:
     """Check the folder in a cell of its own, and return what of the description has to be taken on trust."""
     spec = folder / ".import.yaml"  # in the folder, so that findings name its files
     try:
-        spec.write_text(cell_text("imported", "./", chain, "jazzy"), encoding="utf-8")
+        spec.write_text(cell_text("imported", "./", chain, away, "jazzy"), encoding="utf-8")
         checked = check(spec)
         graph = checked.graph
         excused = {one.code: _EXCUSES[one.code] for one in checked.diagnostics if one.code in _EXCUSES}

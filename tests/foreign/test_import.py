@@ -55,6 +55,40 @@ def test_imported_robot_moves_in_its_first_cell(here: Path) -> None:
     assert (ran.code, "first_move: succeeded" in ran.out) == (0, True)
 
 
+def test_first_motion_goes_round_what_stands_on_its_straight_way(here: Path) -> None:
+    # A bar 10 mm wide turns past a post 10 mm wide, 0.3 m out at 0.1 rad: it touches from 0.07 to 0.13 rad.
+    bar = '<collision><origin xyz="0.25 0 0.1"/><geometry><box size="0.5 0.01 0.01"/></geometry></collision>'
+    post = '<collision><origin xyz="0.2985 0.03 0.4"/><geometry><box size="0.01 0.01 0.1"/></geometry></collision>'
+    links = f'<link name="a">{post}</link><link name="b"/><link name="c">{bar}</link>'
+    spin = _joint("spin", "a", "b").replace("0 1 0", "0 0 1")
+    code, out = _import(here, _robot(links, spin, _joint("nod", "b", "c").replace("0 0 0.3", "0 0 0")), "--cell")
+    assert code == 0, out
+    assert "away: {arm_group: -0.2 0.2 rad}" in (here / "cell.yaml").read_text(encoding="utf-8")
+
+
+def test_joint_that_mimics_an_absent_one_is_a_joint_of_its_own_that_stands(here: Path) -> None:
+    finger = (_links("d"), _joint("finger", "c", "d", inside=f'{_LIMIT}<mimic joint="thumb"/>'))
+    code, out = _import(here, _robot(*ARM, *finger), "--cell")
+    assert code == 0, out
+    assert "excused: {mimic-of-nothing: 'UNKNOWN" in (here / "odd_arm" / "device.yaml").read_text(encoding="utf-8")
+    assert run("build", "cell.yaml").code == 0
+    (urdf,) = here.glob("generated/*/urdf/*.mock.urdf")
+    assert "<mimic" not in urdf.read_text(encoding="utf-8")
+    assert run("mock", "generated/odd_arm_cell").code == 0
+
+
+def test_follower_without_interfaces_is_how_vendors_write_it(here: Path) -> None:
+    # As in example-robot-data's TIAGo Pro: ros2_control takes the factors from parameters, or from `<mimic>`.
+    tag = (
+        '<ros2_control name="arm" type="system"><hardware><plugin>vendor_driver/Arm</plugin></hardware>'
+        '<joint name="j1"><command_interface name="position"/><state_interface name="position"/></joint>'
+        '<joint name="j3"><param name="mimic">j2</param><param name="multiplier">1</param></joint></ros2_control>'
+    )
+    finger = (_links("d"), _joint("j3", "c", "d", inside=f'{_LIMIT}<mimic joint="j2"/>'))
+    code, out = _import(here, _robot(*ARM, *finger, tag))
+    assert code == 0, out
+
+
 def test_second_import_leaves_what_a_person_wrote_and_tells_what_changed(here: Path) -> None:
     assert _import(here, _robot(*ARM))[0] == 0
     assert run("import", "--check", "odd_arm").code == 0
@@ -131,7 +165,16 @@ _TURNING = "".join(
     for number in range(200)
 )  # fmt: skip
 NASTY = {
-    "no limits": (_robot(_links("a", "b"), _joint("j", "a", "b", inside="")), "no joint that moves, with a range"),
+    "no limits": (_robot(_links("a", "b"), _joint("j", "a", "b", inside="")), "`j` has no limits"),
+    "no range": (
+        _robot(_links("a", "b"), _joint("j", "a", "b", inside=_LIMIT.replace("2", "0"))),
+        "`Odd-Arm` has no joint that can move: `j` goes from -0 to 0 rad",
+    ),
+    "no speed": (
+        _robot(_links("a", "b", "c"), _joint("i", "a", "b", "continuous", '<limit velocity="0" effort="1"/>'),
+               _joint("j", "b", "c", inside=_LIMIT.replace("1", "0"))),
+        "`i` has a velocity of 0, and 1 more",
+    ),
     "two roots": (_robot(_links("a", "b", "lone"), _joint("j", "a", "b")), "must have one root, got a, lone"),
     "a name with a space": (_robot(_links("a", "the tool"), _joint("j", "a", "the tool")), "got `the tool`"),
     "a name beyond ASCII": (_robot(_links("a", "grüße"), _joint("j", "a", "grüße")), "got `grüße`"),
@@ -146,7 +189,7 @@ NASTY = {
     "mimic in a circle": (
         _robot(_links("a", "b", "c"), _joint("j0", "a", "b", inside=f'{_LIMIT}<mimic joint="j1"/>'),
                _joint("j1", "b", "c", inside=f'{_LIMIT}<mimic joint="j0"/>')),
-        "no joint that moves",
+        "no joint that can move: its joints are fixed, or mimic each other",
     ),
     "mimic of a fixed joint": (
         _robot(*ARM, _links("f", "g"), _joint("x", "a", "f", "fixed", ""),
@@ -154,7 +197,10 @@ NASTY = {
         "mimic-of-fixed-joint",
     ),
     "a closed loop": (_robot(*ARM, _joint("back", "c", "b")), "link-with-two-parents"),
-    "nothing that moves": (_robot(_links("a", "b"), _joint("j", "a", "b", "fixed", "")), "no joint that moves"),
+    "nothing that moves": (
+        _robot(_links("a", "b"), _joint("j", "a", "b", "fixed", "")),
+        "no joint that can move: its joints are fixed",
+    ),
     "not a robot": ("<sdf/>", "urdf-not-a-robot"),
     "not closed": ("<robot name='x'>", "xml-not-well-formed"),
 }  # fmt: skip
@@ -199,6 +245,10 @@ def test_joint_without_limits_is_excused_as_long_as_nothing_commands_it(limit: s
     cell = here / "cell.yaml"
     text = cell.read_text(encoding="utf-8")
     assert run("check", "cell.yaml").code == 0
+    assert run("build", "cell.yaml").code == 0
+    contract = json.loads((here / "generated" / "odd_arm_cell" / "contract.json").read_text(encoding="utf-8"))
+    assert ("arm_spin" in contract["joint_limits"]) == (code == "missing-joint-limits")  # a speed of 0 is no limit
+    assert run("mock", "generated/odd_arm_cell").code == 0
     cell.write_text(text.replace("joints: [arm/j1, arm/j2]", "joints: [arm/j1, arm/j2, arm/spin]"), encoding="utf-8")
     assert code in run("check", "cell.yaml").out
 

@@ -108,11 +108,12 @@ def managers(cell: Cell) -> dict[str, ContractManager]:
 def joint_limits(cell: Cell) -> dict[str, ContractJointLimits]:
     """Return the limits of every joint that moves on its own and whose limits are all stated.
 
-    A figure past what any machine has, such as the 1e16 that exporters write, is no limit.
+    A figure past what any machine has, such as the 1e16 that exporters write, is no limit. A joint with a speed of 0
+    stands still, and whoever commands it is told so by a rule.
     """
     limits: dict[str, ContractJointLimits] = {}
     for joint in (joint for device in cell.devices for joint in device.joints if joint.mimics is None):
-        if joint.velocity is not None and joint.acceleration is not None and joint.jerk is not None:
+        if joint.velocity and joint.acceleration is not None and joint.jerk is not None:
             lower, upper = (None, None) if joint.type == "continuous" else (joint.lower, joint.upper)
             limits[joint.name] = ContractJointLimits(
                 lower=None if lower is None or lower < -LARGEST else lower,

@@ -35,7 +35,7 @@ from collections import Counter
 from collections.abc import Iterator
 
 from cellc.cell.device import Device
-from cellc.description.model import Description, HardwareComponent, HardwareInterface, HardwarePart
+from cellc.description.model import Description, HardwareInterface, HardwarePart
 from cellc.diagnostics import Span, is_slip
 from cellc.rules.kit import CellGraph, Finding, Findings, Severity, rule
 
@@ -85,12 +85,13 @@ def _of_joints(device: Device) -> Told:
                 yield f"`{part.name}` is commanded by `{commanded[part.name]}` and `{component.name}`", part.span
             elif part.command_interfaces:
                 commanded[part.name] = component.name
-            yield from _of_interfaces(component, part)
+            yield from _of_interfaces(part)
+            follows = joint is not None and joint.mimic is not None
+            if not part.command_interfaces and not part.state_interfaces and not follows:
+                yield f"`{part.name}` of `{component.name}` has no interface", part.span
 
 
-def _of_interfaces(component: HardwareComponent, part: HardwarePart) -> Told:
-    if not part.command_interfaces and not part.state_interfaces:
-        yield f"`{part.name}` of `{component.name}` has no interface", part.span
+def _of_interfaces(part: HardwarePart) -> Told:
     for kind, interfaces in (("command", part.command_interfaces), ("state", part.state_interfaces)):
         names = Counter(interface.name for interface in interfaces)
         for interface in interfaces:
