@@ -22,7 +22,7 @@ from pathlib import Path
 
 from cellc.printing import show
 
-_WITHIN_S = 180.0
+_WITHIN_S = 1200.0
 _STEPS = ("import", "build", "mock")
 
 

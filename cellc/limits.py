@@ -61,7 +61,7 @@ class Limits:
     xacro_yaml_bytes: int = _row(MIB, "bytes", 64 * MIB, "one YAML file that xacro reads")
     xacro_text: int = _row(64 * KIB, "characters", 16 * MIB, "a text in an expression of xacro")
     xacro_items: int = _row(10_000, "items", 1_000_000, "a list in an expression of xacro")
-    xacro_seconds: int = _row(10, "s", 3600, "time of one expansion of xacro")
+    xacro_seconds: int = _row(10, "s", 3600, "processor time of one expansion of xacro")
     xacro_seconds_together: int = _row(30, "s", 36_000, "processor time of all expansions of one spec")
     xacro_memory: int = _row(1024 * MIB, "bytes", 64 * 1024 * MIB, "memory of one expansion of xacro")
     mesh_shapes: int = _row(1000, "shapes", 20_000, "mesh shapes of one description")
@@ -71,7 +71,7 @@ class Limits:
     mesh_triangles_together: int = _row(
         500_000, "triangles", 20_000_000, "all meshes of one description, each once for each scale"
     )
-    mesh_seconds: int = _row(8, "s", 3600, "processor time of reading all meshes of one description")
+    mesh_seconds: int = _row(24, "s", 3600, "processor time of reading all meshes of one description")
     mesh_memory: int = _row(1024 * MIB, "bytes", 64 * 1024 * MIB, "memory of reading them")
     robot_links: int = _row(1000, "links", 20_000, "links of one URDF")
     robot_joints: int = _row(200, "joints", 2000, "joints of one URDF that move")

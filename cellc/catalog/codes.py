@@ -240,8 +240,8 @@ _XACRO = (
         "xacro-too-large",
         "an expansion does not end within its bounds",
         f"At most {DEFAULTS.xacro_includes} nested includes, {DEFAULTS.xacro_macros} nested macros, "
-        f"{DEFAULTS.xacro_elements} elements, {DEFAULTS.xml_bytes // MIB} MiB and {DEFAULTS.xacro_seconds} seconds. "
-        "More is a macro or an include that calls itself.",
+        f"{DEFAULTS.xacro_elements} elements, {DEFAULTS.xml_bytes // MIB} MiB and "
+        f"{DEFAULTS.xacro_seconds} s of a processor. More is a macro or an include that calls itself.",
         "look for a macro or an include that calls itself",
     ),
     _page(

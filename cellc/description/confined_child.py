@@ -1,7 +1,9 @@
-"""A child process of bounded time, memory and output, which reads what a stranger wrote.
+"""A child process of bounded processor time, memory and output, which reads what a stranger wrote.
 
-A wrong file can make a reader loop, fill the memory or crash; then only the child ends, and its parent tells so. These
-are bounds and no sandbox: the child runs as the user, and code that took it over could do what the user may do.
+What it may do is counted in work, so that a slow or busy machine answers as a fast one does: the clock ends a child
+that hangs, and nothing else. A wrong file can make a reader loop, fill the memory or crash; then only the child ends,
+and its parent tells so. These are bounds and no sandbox: the child runs as the user, and code that took it over could
+do what the user may do.
 """
 
 from __future__ import annotations
@@ -13,8 +15,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-_LIFE = 12
-"""How many times its processor time a child lives at most: its parent may have been killed."""
+HANG_S = 1800
+"""Seconds by the clock after which a child hangs, however busy the machine is; its parent may have been killed too."""
 
 
 class ChildEndedError(Exception):
@@ -29,7 +31,7 @@ class ChildEndedError(Exception):
         self.answer = answer
 
 
-def ask_child(module: str, request: bytes, wall_seconds: float) -> bytes:
+def ask_child(module: str, request: bytes, wall_seconds: float = HANG_S) -> bytes:
     """Run a module of cellc as a child, and return what it wrote to stdout before it ended well.
 
     What it writes to stderr is dropped: libraries print there what a hostile file has them print. A Ctrl-C reaches
@@ -54,7 +56,7 @@ def ask_child(module: str, request: bytes, wall_seconds: float) -> bytes:
             )
             ended = "" if child.returncode == 0 else "takes more time or memory than it may use"
         except subprocess.TimeoutExpired:
-            ended = f"takes longer than {wall_seconds:g} s"
+            ended = f"hangs: it has not ended after {wall_seconds:g} s"
         answer.seek(0)
         written = answer.read()
     if ended:
@@ -82,7 +84,7 @@ def confine_this_process(cpu_seconds: int, memory_bytes: int, file_bytes: int) -
         hard = resource.getrlimit(kind)[1]
         allowed = amount if hard == resource.RLIM_INFINITY else min(amount, hard)
         resource.setrlimit(kind, (allowed, allowed))
-    signal.alarm(_LIFE * cpu_seconds)
+    signal.alarm(HANG_S)
     sys.addaudithook(_refuse_leaving)
 
 

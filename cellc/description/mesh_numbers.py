@@ -17,8 +17,6 @@ from cellc.description.confined_child import ChildEndedError, ask_child
 from cellc.description.meshes import MALFORMED_MESH, MeshError, MeshFacts, MeshFile, too_large
 from cellc.limits import Limits, limits
 
-_BUSY = 3
-"""Times the processor time that reading may take by the clock: others compute too."""
 _HEAD = struct.Struct("<II")
 """Bytes of the JSON head of an answer, and of the numbers behind it."""
 EXPORT_AGAIN = "open it in a viewer, and export it again"
@@ -49,7 +47,7 @@ def _packed(head: dict[str, Any], body: bytes) -> bytes:
 
 
 def read_meshes(files: tuple[MeshFile, ...]) -> tuple[MeshNumbers | MeshError, ...]:
-    """Read mesh files in a child of bounded time and memory, and say of each what it holds, or why it cannot be used.
+    """Read mesh files in a child of bounded work and memory, and say of each what it holds, or why it cannot be used.
 
     The last answer is kept: a check asks first whether a mesh can be used, and then for its numbers.
 
@@ -67,9 +65,8 @@ def _read_within(files: tuple[MeshFile, ...], allowed: Limits) -> tuple[MeshNumb
             "folder": folder,
             "files": [[file.path, file.suffix, file.digest] for file in files],
         }
-        wall_seconds = _BUSY * allowed.mesh_seconds
         try:
-            answer = ask_child("cellc.description.mesh_child", json.dumps(request).encode(), wall_seconds)
+            answer = ask_child("cellc.description.mesh_child", json.dumps(request).encode())
             return tuple(read_answers(answer, len(files)))
         except ChildEndedError as ended:
             last = too_large(f"{ended} with the meshes before it", "mesh-seconds", certain=False)

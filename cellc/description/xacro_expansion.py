@@ -8,6 +8,7 @@ Started as a program, this module is that child: it reads one request from stdin
 from __future__ import annotations
 
 import json
+import math
 import os
 import sys
 from collections.abc import Mapping
@@ -18,7 +19,7 @@ from xml.dom import minidom
 
 import xacro
 
-from cellc.description.confined_child import ChildEndedError, ask_child, confine_this_process
+from cellc.description.confined_child import HANG_S, ChildEndedError, ask_child, confine_this_process
 from cellc.description.xacro_confinement import Confinement, place_of
 from cellc.description.xacro_expression import ExpressionError
 from cellc.description.xacro_files import XacroRefusedError
@@ -125,7 +126,7 @@ def _one_line(text: str) -> str:
 
 
 def expand_xacro(
-    file: Path, arguments: Mapping[str, str], root: Path, wall_seconds: float | None = None, purse: Purse | None = None
+    file: Path, arguments: Mapping[str, str], root: Path, wall_seconds: float = HANG_S, purse: Purse | None = None
 ) -> Outcome[Expansion]:
     """Expand a xacro file that the compiler does not vouch for.
 
@@ -133,7 +134,7 @@ def expand_xacro(
         file: the xacro file, as the user named it.
         arguments: values of ``<xacro:arg>``.
         root: the folder that no file may lie outside of.
-        wall_seconds: time after which the expansion is ended; `xacro-seconds` of the limits if None.
+        wall_seconds: time by the clock after which the expansion hangs.
         purse: processor time of the expansions of the spec; one that ends for its time is the last.
 
     Returns:
@@ -145,15 +146,15 @@ def expand_xacro(
         "root": root.as_posix(),
         "folder": os.getcwd(),
         "limits": as_options(limits()),
+        "seconds": limits().xacro_seconds,
     }
-    allowed_s = limits().xacro_seconds if wall_seconds is None else wall_seconds
     start = Span(file.as_posix(), 1, 1, 1, 1)
     if purse is not None:
         if not purse.left_s:
             return _ended("the expansion is not begun: others of the spec took their time", start, "-together")
-        allowed_s = min(allowed_s, 2 * purse.left_s)  # by the clock: others compute too
+        request["seconds"] = min(limits().xacro_seconds, math.ceil(purse.left_s))
     try:
-        answer = ask_child(__name__, json.dumps(request).encode(), allowed_s)
+        answer = ask_child(__name__, json.dumps(request).encode(), wall_seconds)
     except ChildEndedError as reason:
         if purse is not None:
             purse.empty()
@@ -198,7 +199,7 @@ def main() -> None:
     """Expand what stdin asks for."""
     request = json.load(sys.stdin)
     use(raised(request["limits"]))
-    confine_this_process(limits().xacro_seconds, limits().xacro_memory, 4 * limits().xml_bytes)
+    confine_this_process(request["seconds"], limits().xacro_memory, 4 * limits().xml_bytes)
     os.chdir(request["folder"])  # names in diagnostics stay those that the user wrote
     json.dump(_encoded(expand_here(request["file"], request["arguments"], request["root"])), sys.stdout)
 

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import os
+import subprocess
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from cellc.description.mesh_numbers import read_meshes
+from cellc.description.meshes import MeshError, identify
 from cellc.description.xacro_expansion import expand_here, expand_xacro
 from cellc.diagnostics import Diagnostic
-from cellc.limits import DEFAULTS, in_force
+from cellc.limits import DEFAULTS, Purse, children_seconds, in_force, limits
 from cellc.pipeline import check
 from tests.cells import CORPUS
 
@@ -123,6 +127,25 @@ def test_endless_expansion_is_ended_by_the_wall(tmp_path: Path) -> None:
     loops = "".join(f'<a{i} b="${{python.sorted(python.range(9999))[0]}}"/>' for i in range(5000))
     outcome = expand_xacro(_write(tmp_path, f"{_HEAD}{loops}</robot>"), {}, tmp_path, wall_seconds=0.5)
     assert [found.code for found in outcome.diagnostics] == ["xacro-too-large"]
+
+
+def test_busy_machine_gives_the_answer_of_an_idle_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    # On two cores with 25 busy processes, 8 s of a processor were 100 s by the clock, and good robots were refused.
+    given: list[float] = []
+    run = subprocess.run
+
+    def watched(command: list[str], *, timeout: float, **options: Any) -> Any:
+        given.append(timeout)
+        return run(command, timeout=timeout, **options)
+
+    monkeypatch.setattr("cellc.description.confined_child.subprocess.run", watched)
+    purse = Purse(limits().xacro_seconds_together, children_seconds)
+    assert expand_xacro(_write(tmp_path, f"{_HEAD}<link name='a'/></robot>"), {}, tmp_path, purse=purse).value
+    triangle = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+    (tmp_path / "a.stl").write_text(f"solid a\n{triangle}endsolid a\n", encoding="utf-8")
+    (read,) = read_meshes((identify(f"file://{tmp_path}/a.stl", (tmp_path,), {}),))
+    assert not isinstance(read, MeshError)
+    assert min(given) > 50 * max(limits().mesh_seconds, limits().xacro_seconds)
 
 
 def test_after_an_expansion_that_took_its_time_no_other_of_the_spec_begins(tmp_path: Path) -> None:

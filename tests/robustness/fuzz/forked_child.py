@@ -36,7 +36,7 @@ def _set(ask: object) -> None:
         vars(module)["ask_child"] = ask
 
 
-def _ask_fork(module: str, request: bytes, wall_seconds: float) -> bytes:
+def _ask_fork(module: str, request: bytes, wall_seconds: float = confined_child.HANG_S) -> bytes:
     with tempfile.TemporaryFile() as given, tempfile.TemporaryFile() as answer:
         given.write(request)
         given.seek(0)
