@@ -188,6 +188,11 @@ class ContractGripper(ContractModel):
     max_effort: Magnitude = Field(description="Largest effort, N or Nm.")
 
 
+def hand_group(device: str, kind: str) -> str:
+    """Return the group of the SRDF that the fingers of a device are: an arm that has its own has another group too."""
+    return f"{device}_gripper" if kind == "arm" else device
+
+
 class ContractCamera(ContractModel):
     """The stream that perception uses."""
 

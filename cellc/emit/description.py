@@ -21,6 +21,7 @@ from xml.etree.ElementTree import Element
 from cellc.artifact import Artifact
 from cellc.cell.device import Device
 from cellc.cell.motion import NamedPose
+from cellc.contract.contract import hand_group
 from cellc.deploy.deployment import Deployment
 from cellc.deploy.files import description_file, manager_description_file, semantic_file
 from cellc.feasibility import MARGIN_M, RNG_SEED, disabled_links
@@ -53,7 +54,7 @@ def _semantic(graph: CellGraph) -> Iterator[Element]:
         yield _state(pose)
     named = {group.name for group in cell.groups}
     for device in cell.devices:
-        if device.gripper is not None and device.name not in named:
+        if device.gripper is not None and hand_group(device.name, device.kind) not in named:
             yield comment(f"devices.{device.name}")
             yield from _gripper(device)
     disabled = disabled_links(graph)
@@ -76,11 +77,12 @@ def _state(pose: NamedPose) -> Element:
 
 
 def _gripper(device: Device) -> Iterator[Element]:
-    gripper = device.gripper
+    gripper, group = device.gripper, hand_group(device.name, device.kind)
     assert gripper is not None
     joint = gripper.joint
-    yield element("group", {"name": device.name}, [element("joint", {"name": joint})])
+    yield element("group", {"name": group}, [element("joint", {"name": joint})])
     for name, position in (("open", gripper.open), ("closed", gripper.closed)):
         value = element("joint", {"name": joint, "value": shortest(position)})
-        yield element("group_state", {"name": name, "group": device.name}, [value])
-    yield element("end_effector", {"name": device.name, "group": device.name, "parent_link": device.parent_frame})
+        yield element("group_state", {"name": name, "group": group}, [value])
+    if device.kind != "arm":  # fingers of an arm have no mount; a marker then stands at the tip of the arm's group
+        yield element("end_effector", {"name": group, "group": group, "parent_link": device.parent_frame})

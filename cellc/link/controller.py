@@ -322,10 +322,14 @@ def _all_joints(context: ControlContext) -> dict[str, DeviceJoint]:
 
 
 def _default_joints(kind: ControllerKind, device: Device) -> tuple[str, ...]:
-    if kind.single_joint and device.gripper is not None:
-        return (device.gripper.joint,)
+    """Return the joints that a kind drives where the spec names none: those of the fingers and of the arm are apart."""
+    fingers = () if device.gripper is None else (device.gripper.joint,)
+    if kind.single_joint and fingers:
+        return fingers
     joints = tuple(joint.name for joint in device.actuated_joints)
-    return joints[:1] if kind.single_joint else joints
+    if kind.single_joint:
+        return joints[:1]
+    return tuple(joint for joint in joints if joint not in fingers) or joints
 
 
 def _read(kind: ControllerKind, joints: tuple[str, ...], device: Device | None) -> tuple[str, ...]:

@@ -46,6 +46,7 @@ def bind_parameters(
     values |= {name: value for name, value in _EXPLICIT.items() if _declares(kind, name, distro)}
     values |= dict(_tolerances(kind, written, joints, tolerances, distro))
     values |= dict(_gripper(kind, device, tolerances, distro))
+    values |= dict(_turning(kind, device, joints, distro))
     if written.update_rate is not None:
         values["update_rate"] = round(written.update_rate.si)
     return values | plugin.parameters | written.parameters
@@ -68,6 +69,16 @@ def _tolerances(
             yield f"constraints.{joint}.trajectory", path[joint].value
         if joint in goal:
             yield f"constraints.{joint}.goal", goal[joint].value
+
+
+def _turning(
+    kind: ControllerKind, device: Device | None, joints: tuple[str, ...], distro: Distro
+) -> Iterator[tuple[str, ParameterValue]]:
+    """Yield that errors of joints without an end count the shorter way round; later controllers see it in the URDF."""
+    if device is not None and _declares(kind, "gains.<joint>.angle_wraparound", distro):
+        for joint in device.joints:
+            if joint.type == "continuous" and joint.name in joints:
+                yield f"gains.{joint.name}.angle_wraparound", True
 
 
 def _gripper(

@@ -276,7 +276,10 @@ class Effects:
         for watch in self._watches:
             if device in self._publishers(watch.while_holds.topic):
                 at_ns = self._simulation.now_ns + REACTION_NS
-                self._simulation.at(at_ns, partial(self._let_go, watch, f"the program of {device} does not run"))
+                self._simulation.at(at_ns, partial(self._let_go, watch, self._silence(device)))
+
+    def _silence(self, device: str) -> str:
+        return f"the program of {device} does not run" if self._keeps(device) else f"{device} follows no set points"
 
     def _scale(self, device: str, factor: float) -> None:
         interface = self._facts(device).speed_scaling_interface
@@ -324,7 +327,8 @@ class Effects:
         if worst is None:
             manager.disturbances.stand(component)
         elif abs(apart[worst]) > STALE:
-            why = f"{claims[worst]} kept its set point while the program of {device} was stopped"
+            silence = f"the program of {device} was stopped" if self._keeps(device) else f"{device} followed none"
+            why = f"{claims[worst]} kept its set point while {silence}"
             if self._is_ignored(device, worst, abs(apart[worst]), why):
                 return
             measure = partial(self._note_jump, device, worst, positions[worst], apart[worst], why)

@@ -83,12 +83,18 @@ def merge(roots: Sequence[Node]) -> Outcome[Node]:
 
 
 def overlay(below: Node, above: Node) -> Node:
-    """Return ``below`` with what ``above`` writes in its place: mappings merge by key, everything else replaces."""
+    """Return ``below`` with what ``above`` writes in its place.
+
+    Mappings merge by key, everything else replaces, and null takes a key away that ``below`` has.
+    """
     if not isinstance(below.data, dict) or not isinstance(above.data, dict):
         return above
     children = dict(below.children)
     for key, child in above.children.items():
         under = children.get(key)
+        if under is not None and child.node.data is None:
+            del children[key]
+            continue
         node = child.node if under is None else overlay(under.node, child.node)
         children[key] = Child(node, child.span, child.key_span)
     return _mapping(above, children)

@@ -63,6 +63,12 @@ def test_mappings_merge_by_key_and_all_else_is_replaced(folder: Path) -> None:
     assert (after.sources, after.home) == (("a sheet",), None)
 
 
+def test_null_takes_a_key_of_the_family_away_at_any_depth(folder: Path) -> None:
+    assert _model(folder).model.limits.acceleration
+    _write(folder, "limits: {acceleration: null}\n")
+    assert _model(folder).model.limits.acceleration == {}
+
+
 def test_mistake_is_at_the_line_of_the_file_that_makes_it(folder: Path) -> None:
     family = folder.parents[1] / FAMILY
     lines = family.read_text(encoding="utf-8").splitlines()

@@ -8,16 +8,16 @@ from pathlib import Path
 import pytest
 
 from cellc.pipeline import check
+from tests.cells import CELLS, spec_text
 from tests.robustness.mutations import mutated
 
-CELLS = sorted((Path(__file__).resolve().parents[2] / "cells").glob("*/cell.yaml"))
 SEEDS = range(15)  # benchmarks/mutated_cells.py takes thousands
 LONGEST_S = 10.0  # on the processor: far above what a check takes, far below what a hang does
 
 
-@pytest.mark.parametrize("cell", CELLS, ids=lambda cell: cell.parent.name)
-def test_mutated_cell_is_diagnosed(cell: Path, tmp_path: Path) -> None:
-    text = cell.read_text(encoding="utf-8")
+@pytest.mark.parametrize("cell", CELLS)
+def test_mutated_cell_is_diagnosed(cell: str, tmp_path: Path) -> None:
+    text = spec_text(cell)
     for seed in SEEDS:
         file = tmp_path / "cell.yaml"
         file.write_bytes(mutated(text, seed).encode("utf-8", "surrogatepass"))

@@ -47,6 +47,7 @@ class Release:
 
 _UR = "Universal_Robots_ROS2_Driver"
 _ROBOTIQ = "ros2_robotiq_gripper"
+_KORTEX = "ros2_kortex"
 _KNUCKLE = ("robotiq_85_left_knuckle_joint",)
 _ALL = (
     Release("ur5e", "universal_robots/2.14.0_humble", "humble", "ur_robot_driver 2.14.0", _UR, "2.14.0"),
@@ -60,6 +61,8 @@ _ALL = (
     Release("robotiq_2f_85", "robotiq/main_3b6cf8f", "jazzy", "robotiq_driver 3b6cf8f", _ROBOTIQ, "3b6cf8f"),
     Release("robotiq_2f_85", "robotiq/main_3b6cf8f", "kilted", "robotiq_driver 3b6cf8f", _ROBOTIQ, "3b6cf8f"),
     Release("robotiq_2f_85", "robotiq/main_3b6cf8f", "lyrical", "robotiq_driver 3b6cf8f", _ROBOTIQ, "3b6cf8f"),
+    Release("kinova_gen3_2f_85", "kinova/humble", "humble", "ros2_kortex 116d87a", _KORTEX, "humble"),
+    Release("kinova_gen3_2f_85", "kinova/jazzy", "jazzy", "ros2_kortex 0.2.6", _KORTEX, "jazzy"),
 )
 RELEASES = _ALL if VENDORS.exists() else ()
 """Every release that was read, where the shared folder is there; a test over none of them is skipped."""
@@ -111,6 +114,10 @@ def demands(release: Release) -> Demands:
         one = joints["command_interfaces"] == "exactly 1, position"
         return Demands(_KNUCKLE, ("position",), ("position", "velocity"), () if one else further, True)
     joints = told["demanded_of_the_urdf"]
+    if release.repository == _KORTEX:
+        assert joints["joints"].startswith("the arm joints in motor order, then (internal gripper) the gripper joint")
+        names = tuple(f"joint_{number}" for number in range(1, 8))
+        return Demands((*names, *_KNUCKLE), tuple(joints["vendor_declares"]["command"]), ("position", "velocity"))
     names = tuple(f"fr3_joint{number}" for number in range(1, 8))
     assert joints["joint_names"].startswith("<arm_prefix_><robot_type>_joint1 .. 7, in this order")
     return Demands(names, (), (), tuple(joints["vendor_declares"]))
@@ -126,10 +133,21 @@ def exports(release: Release, side: str, prefix: str) -> dict[str, set[str]]:
     told = facts(release, "hardware_interfaces")
     if release.repository == "franka_ros2":
         return _exports_of_fr3(told, side, prefix)
+    if release.repository == _KORTEX:
+        return _named(told["exported_whatever_the_urdf_says"][f"{side}s"], {"<gripper_joint_name>": "<joint>"})
     found: dict[str, set[str]] = {}
     for name, listed in told[f"exports_{side}"].items():
         names = listed["interfaces"] if isinstance(listed, dict) else listed
         found[name.replace("<tf_prefix>", prefix)] = set(counted(names))
+    return found
+
+
+def _named(full: Iterable[str], instead: dict[str, str]) -> dict[str, set[str]]:
+    """Return full names of interfaces by what stands before the slash."""
+    found: dict[str, set[str]] = {}
+    for name in full:
+        owner, _, interface = name.partition("/")
+        found.setdefault(instead.get(owner, owner), set()).add(interface)
     return found
 
 

@@ -15,7 +15,7 @@ from cellc.deploy.deployment import plan_deployment
 from cellc.emit import description, package, parameters
 from cellc.emit.launch import launch
 from cellc.emit.security import policy
-from tests.cells import CELLS, graph_of, spec_text
+from tests.cells import EVERY_CELL, graph_of, spec_text
 from tests.foreign_yaml import safe_load
 from tests.vendors.oracle import RELEASES, Release
 
@@ -72,7 +72,10 @@ class Case:
 
 
 CASES = tuple(
-    Case(cell, release) for cell in CELLS for release in RELEASES if f"model: {release.device}\n" in spec_text(cell)
+    Case(cell, release)
+    for cell in EVERY_CELL
+    for release in RELEASES
+    if f"model: {release.device}\n" in spec_text(cell)
 )
 """Every cell of the repository with every release of every driver in it; none where the shared folder is absent."""
 

@@ -175,6 +175,45 @@ def test_the_state_of_an_fr3_is_published_as_its_vendor_publishes_it(case: Case)
         assert enclave.allow("publish", name.replace("~", "/arm_state")), name
 
 
+@pytest.mark.parametrize("case", [one for one in CASES if one.release.repository == "ros2_kortex"], ids=str)
+def test_faults_of_a_gen3_are_told_and_reset_as_its_vendor_has_it(case: Case) -> None:
+    target = real_target(case)
+    controller = _controller(target, "reset_fault")
+    told = facts(case.release, "controllers")["gen3"]["fault_controller"]
+    assert controller.plugin == told["type"]
+    assert controller.targets == ("real",)
+    assert list(controller.command_interfaces) == told["claims"]
+    assert list(controller.state_interfaces) == told["reads"]
+    ends = facts(case.release, "nodes")["fault_controller"]
+    enclave = permissions(target.texts["security/policy.xml"])[f"/{target.cell.name}/controller_manager"]
+    rights: dict[str, Right] = {"publishes": "publish", "services_served": "reply"}
+    for key, right in rights.items():
+        (name,) = ends[key]
+        assert enclave.allow(right, name.replace("~", controller.full_name))
+    (watch,) = target.yaml("config/bring_up.json")["watches"]
+    assert (watch["while_holds"]["topic"], watch["while_holds"]["value"]) == ("/arm_fault/internal_fault", False)
+    assert watch["controllers"] == ["arm_trajectory", "gripper_action"]
+
+
+@pytest.mark.parametrize("case", [one for one in CASES if one.release.repository == "ros2_kortex"], ids=str)
+def test_fingers_and_arm_of_one_component_are_driven_by_controllers_of_their_own(case: Case) -> None:
+    target = real_target(case)
+    told = facts(case.release, "controllers")["gen3"]
+    sections = target.yaml("config/controllers.yaml")
+    assert sections["arm_trajectory"]["ros__parameters"]["joints"] == told["joint_trajectory_controller"]["joints"]
+    assert sections["gripper_action"]["ros__parameters"]["joint"] == told["robotiq_gripper_controller"]["joint"]
+    type_ = sections["controller_manager"]["ros__parameters"]["gripper_action"]["type"]
+    assert type_ == told["robotiq_gripper_controller"]["type"]
+
+
+@pytest.mark.parametrize("case", [one for one in CASES if one.release.repository == "ros2_kortex"], ids=str)
+def test_errors_of_joints_without_an_end_count_the_shorter_way_round(case: Case) -> None:
+    # follow_joint_trajectory.md: from the URDF since jazzy, by angle_wraparound on humble.
+    told = real_target(case).yaml("config/controllers.yaml")["arm_trajectory"]["ros__parameters"].get("gains", {})
+    turning = {joint for joint, gains in told.items() if gains["angle_wraparound"]}
+    assert turning == ({f"joint_{n}" for n in (1, 3, 5, 7)} if case.release.distro == "humble" else set())
+
+
 @of_the_arm
 def test_what_reads_the_arm_alone_goes_on_while_the_gripper_is_activated(case: Case) -> None:
     # A broadcaster that is restarted leaves a hole in the record of the arm; joint states are those of both devices.

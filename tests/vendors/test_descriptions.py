@@ -17,6 +17,8 @@ _SOURCES = {
     "franka_fr3": ("franka/jazzy-3.4.0", "fr3_hand", ""),
     "franka_hand": ("franka/jazzy-3.4.0", "fr3_hand", ""),
     "robotiq_2f_85": ("kinova/jazzy", "gen3_7dof_2f85", "robotiq_85_"),
+    "kinova_gen3_2f_85": ("kinova/jazzy", "gen3_7dof_2f85", ""),
+    "kinova_gen3_6dof_2f_85": ("kinova/jazzy", "gen3_6dof_2f85", ""),
 }
 """Device → folder, model, and what the vendor puts before the name of the base link. None was read for the others."""
 

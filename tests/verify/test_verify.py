@@ -20,9 +20,7 @@ from cellc.verify.codes import CODES
 from cellc.verify.description import cell_poses, distance
 from cellc.verify.parsers import read_by_pinocchio, read_by_yourdfpy
 from cellc.verify.verify import verify
-from tests.cells import ROOT, built
-
-CELLS = sorted(path.parent.name for path in ROOT.glob("cells/*/cell.yaml"))
+from tests.cells import CELLS, ROOT, built
 
 
 def found_in(edits: dict[str, tuple[str, str]], cell: str = "ur5e_pick") -> set[tuple[str, str]]:

@@ -86,7 +86,7 @@ def _gripper(cell: Cell, device: Device) -> ContractGripper | None:
     gripper = device.gripper
     if gripper is None:
         return None
-    controllers = (c.label for c in cell.controllers if c.device == device.name and c.action and c.active)
+    controllers = (c.label for c in cell.controllers if gripper.joint in c.joints and c.action and c.active)
     return ContractGripper(
         joint=gripper.joint,
         controller=next(controllers, None),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Literal
 
-from cellc.contract.contract import Contract, ContractController, ContractGripper, ContractJointLimits
+from cellc.contract.contract import Contract, ContractController, ContractGripper, ContractJointLimits, hand_group
 from cellc.contract.quantities import LARGEST
 from cellc.description.xml_tree import XmlElement
 from cellc.mock.agreement.said import Edited, Names, Said, below, differing, parameters, xml
@@ -110,11 +110,12 @@ def semantics(edited: Edited, file: str) -> Iterator[str]:
     }
     contract = edited.contract
     grippers = {
-        name: device.gripper
+        hand_group(name, device.kind): device.gripper
         for name, device in contract.devices.items()
-        if device.gripper is not None and name not in contract.groups
+        if device.gripper is not None and hand_group(name, device.kind) not in contract.groups
     }
-    parents = {name: contract.frames[contract.devices[name].root_link].parent for name in grippers}
+    mounted = {name: one for name, one in contract.devices.items() if name in grippers and one.kind != "arm"}
+    parents = {name: contract.frames[one.root_link].parent for name, one in mounted.items()}
     yield from differing(groups, _executed_groups(contract, grippers), "group ")
     yield from differing(states, _executed_states(contract, grippers), "group_state ")
     yield from differing(effectors, {name: [name, parent] for name, parent in parents.items()}, "end_effector ")

@@ -1,4 +1,7 @@
-"""Programs of robots that stop and start, joints that are jogged meanwhile, and brakes that are closed."""
+"""Robots that follow no set points for a while, joints that are jogged meanwhile, and brakes that are closed.
+
+A program on the robot stops and starts; where set points pass through none, its own fault comes and goes.
+"""
 
 from __future__ import annotations
 
@@ -32,17 +35,25 @@ def claim_needs(contract: Contract, *otherwise: Unmet) -> dict[str, tuple[Need, 
     return found
 
 
+def _kept(contract: Contract, device: str) -> Need | None:
+    """Return what a device lacks when it keeps old set points: a running program, or what its claim names first."""
+    needs = claim_needs(contract, Unmet.KEEPS_SET_POINTS).get(device, ())
+    return Need.PROGRAM_RUNNING if Need.PROGRAM_RUNNING in needs else next(iter(needs), None)
+
+
 @dataclass(frozen=True, slots=True)
 class ProgramStop:
     """The program of a robot stops: it stands, tells so, and follows no set points."""
 
     kind: ClassVar[FaultKind] = FaultKind.PROGRAM_STOP
     device: str
+    need: Need
 
     @classmethod
     def of(cls, entry: FaultEntry, contract: Contract) -> ProgramStop | None:
         """Return the fault of an entry; None where the set points of its target pass through no program."""
-        return cls(entry.target) if entry.target in claim_needs(contract, Unmet.KEEPS_SET_POINTS) else None
+        need = _kept(contract, entry.target)
+        return None if need is None else cls(entry.target, need)
 
     @classmethod
     def cases(cls, contract: Contract) -> Iterator[FaultCase]:
@@ -51,11 +62,11 @@ class ProgramStop:
 
     def begin(self, ports: FaultPorts) -> None:
         """Stop."""
-        ports.effects.unmet(self.device, Need.PROGRAM_RUNNING)
+        ports.effects.unmet(self.device, self.need)
 
     def end(self, ports: FaultPorts) -> None:
         """Start again."""
-        ports.effects.met(self.device, Need.PROGRAM_RUNNING)
+        ports.effects.met(self.device, self.need)
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,11 +75,13 @@ class ProgramStart:
 
     kind: ClassVar[FaultKind] = FaultKind.PROGRAM_START
     device: str
+    need: Need
 
     @classmethod
     def of(cls, entry: FaultEntry, contract: Contract) -> ProgramStart | None:
         """Return the fault of an entry; None where the set points of its target pass through no program."""
-        return cls(entry.target) if entry.target in claim_needs(contract, Unmet.KEEPS_SET_POINTS) else None
+        need = _kept(contract, entry.target)
+        return None if need is None else cls(entry.target, need)
 
     @classmethod
     def cases(cls, contract: Contract) -> Iterator[FaultCase]:
@@ -79,11 +92,11 @@ class ProgramStart:
         """Start."""
         if self.device not in ports.effects.silenced:
             raise FaultMissedError(f"the program of {self.device} runs already")
-        ports.effects.met(self.device, Need.PROGRAM_RUNNING)
+        ports.effects.met(self.device, self.need)
 
     def end(self, ports: FaultPorts) -> None:
         """Stop again."""
-        ports.effects.unmet(self.device, Need.PROGRAM_RUNNING)
+        ports.effects.unmet(self.device, self.need)
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,14 +141,13 @@ class StaleSetPoints:
     kind: ClassVar[FaultKind] = FaultKind.STALE_SET_POINTS
     device: str
     joint: str
+    need: Need
 
     @classmethod
     def of(cls, entry: FaultEntry, contract: Contract) -> StaleSetPoints | None:
         """Return the fault of an entry; None where the set points of its target pass through no program."""
-        joints = joints_of_device(contract, entry.target)
-        if entry.target not in claim_needs(contract, Unmet.KEEPS_SET_POINTS) or not joints:
-            return None
-        return cls(entry.target, joints[0])
+        joints, need = joints_of_device(contract, entry.target), _kept(contract, entry.target)
+        return None if need is None or not joints else cls(entry.target, joints[0], need)
 
     @classmethod
     def cases(cls, contract: Contract) -> Iterator[FaultCase]:
@@ -147,10 +159,10 @@ class StaleSetPoints:
 
     def begin(self, ports: FaultPorts) -> None:
         """Stop the program, and let the rest follow."""
-        ports.effects.unmet(self.device, Need.PROGRAM_RUNNING)
+        ports.effects.unmet(self.device, self.need)
         now_ns = ports.schedule.now_ns
         ports.schedule.at(now_ns + JOG_AFTER_NS, partial(ports.effects.jog, self.device, self.joint, JOGGED))
-        start = partial(ports.effects.met, self.device, Need.PROGRAM_RUNNING)
+        start = partial(ports.effects.met, self.device, self.need)
         ports.schedule.at(now_ns + START_AFTER_NS, start)
 
     def end(self, ports: FaultPorts) -> None:

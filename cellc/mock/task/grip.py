@@ -75,7 +75,7 @@ def object_between(context: TaskContext, device: str) -> str | None:
 def _tip_link(context: TaskContext, device: str) -> str | None:
     """Return the tip frame of the group whose chain goes through the gripper."""
     contract = context.contract
-    root = contract.devices[device].root_link
+    root = _body(context, device)
     for group in contract.groups.values():
         frame = group.tip_frame
         for _ in range(len(contract.frames) + 1):
@@ -87,10 +87,17 @@ def _tip_link(context: TaskContext, device: str) -> str | None:
     return None
 
 
+def _body(context: TaskContext, device: str) -> str:
+    """Return the link that carries what is held: the one in which fingers move, which in an arm is not its base."""
+    facts = context.contract.devices[device]
+    fingers = None if facts.gripper is None else context.plant.world.carrier_of(facts.gripper.joint)
+    return fingers or facts.root_link
+
+
 def take(context: TaskContext, device: str, name: str) -> None:
     """Let a device hold an object from now on."""
     plant = context.plant
-    link = plant.contract.devices[device].root_link
+    link = _body(context, device)
     pose_in_link = plant.world.move(name, link, plant.now_ns)
     plant.planner.attach(name, link, pose_in_link, plant.world.joint_positions(plant.now_ns))
     context.held[device] = name

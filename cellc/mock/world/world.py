@@ -153,6 +153,10 @@ class World:
         """Return the true pose of a link in the root link at a time."""
         return self._links.pose(link, self.joint_positions(stamp_ns))
 
+    def carrier_of(self, joint: str) -> str | None:
+        """Return the link in which a joint moves its child; None where no joint is called so."""
+        return next((one.parent for one in self._links.joints.values() if one.name == joint), None)
+
     def place(self, name: str, link: str, pose: Pose, now_ns: int) -> None:
         """Let an object stand still in the frame of a link from now on."""
         self._placements.setdefault(name, []).append(Placement(now_ns, link, pose))
