@@ -64,7 +64,7 @@ def compile_catalog() -> Iterator[tuple[Path, str]]:
     """
     from cellc.catalog.load import controller_kinds, device_names
 
-    tables = ("distros", "controller_manager", "message_types", "moveit", "programs", "qos_profiles")
+    tables = ("distros", "controller_manager", "message_types", "moveit", "programs", "qos_profiles", "releases")
     symptoms = (f"symptoms/{file.stem}" for file in sorted((CATALOG / "symptoms").glob("*.yaml")))
     for table in (*tables, *(f"controllers/{kind}" for kind in controller_kinds()), *symptoms):
         yield _written(f"{table}.yaml", (CATALOG / f"{table}.yaml",), {"data": _data(CATALOG / f"{table}.yaml")})

@@ -23,7 +23,14 @@ from cellc.catalog.joint_figures import wrong_joint_figures
 from cellc.catalog.names import CatalogNames, unknown_names
 from cellc.catalog.programs import ProgramTable
 from cellc.catalog.read_model import ModelT, read_model, validated
-from cellc.catalog.tables import ControllerManagerFacts, DistroTable, InterfaceTypeTable, PlannerTable, QosTable
+from cellc.catalog.tables import (
+    ControllerManagerFacts,
+    DistroTable,
+    InterfaceTypeTable,
+    PlannerTable,
+    QosTable,
+    ReleaseTable,
+)
 from cellc.description.model import Description
 from cellc.description.urdf_reader import read_urdf
 from cellc.diagnostics import Diagnostic, Outcome
@@ -183,6 +190,12 @@ def load_planners() -> Outcome[PlannerTable]:
 def load_programs() -> Outcome[ProgramTable]:
     """Load what nodes and programs have at the ROS graph."""
     return _table("programs.yaml", ProgramTable)
+
+
+@lru_cache(maxsize=1)
+def load_releases() -> Outcome[ReleaseTable]:
+    """Load which versions were released together."""
+    return _table("releases.yaml", ReleaseTable)
 
 
 @lru_cache(maxsize=1)

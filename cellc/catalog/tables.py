@@ -1,5 +1,7 @@
 """What holds for every cell: ROS 2 distributions, interface types, QoS profiles, endpoints that every cell has."""
 
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from typing import Literal
 
 from pydantic import Field
@@ -46,6 +48,47 @@ class DistroTable(CatalogTable):
     harmless_plugins: dict[Text, Text] = Field(min_length=1)
     harmless_programs: dict[Text, Text] = Field(min_length=1)
     hardware_packages: dict[Token, Text] = Field(min_length=1)
+
+
+@dataclass(frozen=True, slots=True)
+class ReleaseSet:
+    """Packages that belong together: those of a sync of a distribution, or of a vendor's release, then ``built``."""
+
+    name: str
+    packages: Mapping[str, str]
+    built: bool = False
+
+
+class VendorBuild(CatalogModel):
+    """What a vendor's release on one distribution is built with, each package with its version."""
+
+    name: Text
+    distro: DistroName
+    packages: dict[Token, Text] = Field(min_length=1)
+
+
+class ReleaseTable(CatalogTable):
+    """``catalog/releases.yaml``: a package has a version from the day of one sync of a distribution until the next."""
+
+    syncs: dict[Token, dict[DistroName, dict[Date, Text]]]
+    builds: tuple[VendorBuild, ...] = ()
+
+    def sets(self, distro: str) -> tuple[ReleaseSet, ...]:
+        """Return what belonged together on a distribution, the newest first; a vendor's own releases stand last."""
+        versions = {package: of[here] for package, of in self.syncs.items() for here in of if here == distro}
+        days = sorted({day for of in versions.values() for day in of}, reverse=True)
+        synced = [
+            ReleaseSet(
+                f"{distro} of {day}", {name: of[_latest(of, day)] for name, of in versions.items() if min(of) <= day}
+            )
+            for day in days
+        ]
+        built = [ReleaseSet(one.name, one.packages, built=True) for one in self.builds if one.distro == distro]
+        return (*synced, *reversed(built))
+
+
+def _latest(days: Iterable[str], until: str) -> str:
+    return max(day for day in days if day <= until)
 
 
 class ControllerManagerFacts(CatalogTable):

@@ -10,11 +10,13 @@ from cellc.catalog.device_model import RepositoryPin, VersionRow
 from cellc.catalog.load import load_distros
 from cellc.catalog.tables import DistroFacts
 from cellc.cell.cell import Cell
+from cellc.cell.device import Device
 from cellc.cell.site import UNKNOWN
 from cellc.diagnostics import YamlPath
-from cellc.pins import same_version, version_number, version_numbers
+from cellc.graph.releases import PACKAGED, foreign_lines, named_row, own_release, was_released
+from cellc.pins import version_number, version_numbers
 
-_DEVICE_PARTS = ("revision", "firmware", "driver", "sdk", "description")
+_DEVICE_PARTS = ("revision", "firmware", *PACKAGED)
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,11 +109,11 @@ def _of_cell(cell: Cell) -> Iterator[Judgement]:
         elif facts is None or table is None:
             yield Judgement(pin, Answer.UNKNOWN, "the catalog has no such distribution")
         else:
-            answer, evidence = _cell_answer(pin, facts)
+            answer, evidence = _cell_answer(pin, facts, cell.distro)
             yield Judgement(pin, answer, f"{evidence} (as of {table.as_of})")
 
 
-def _cell_answer(pin: Pin, facts: DistroFacts) -> tuple[Answer, str]:
+def _cell_answer(pin: Pin, facts: DistroFacts, distro: str) -> tuple[Answer, str]:
     if pin.part == "ros":
         return Answer.OK, f"end of life {facts.end_of_life}"
     if pin.part == "os":
@@ -124,6 +126,8 @@ def _cell_answer(pin: Pin, facts: DistroFacts) -> tuple[Answer, str]:
         return Answer.UNKNOWN, "no matrix names it"
     if version_number(pin.text) == version_number(released):
         return Answer.OK, f"{facts.title} releases {released}"
+    if was_released(distro, name, pin.text):
+        return Answer.OK, f"{facts.title} released it before {released}"
     # MoveIt and Zenoh's middleware stay below 3 for years: their second number is what changes with the distribution.
     digits = 2 if name in ("moveit", "rmw_zenoh_cpp") and version_numbers(released)[:1] <= (2,) else 1
     if version_numbers(pin.text)[:digits] != version_numbers(released)[:digits]:
@@ -145,14 +149,19 @@ def _of_devices(cell: Cell) -> Iterator[Judgement]:
         if not pin.known:
             yield Judgement(pin, Answer.UNKNOWN, "not pinned")
             continue
-        rows = [row for row in devices[pin.holder].version_rows if row.part == pin.part]
-        judge = _firmware_answer if pin.part == "firmware" else _package_answer
-        answer, evidence = judge(pin, rows, cell.distro)
-        row = None if pin.part == "firmware" else named_row(pin, rows, cell.distro)
+        device = devices[pin.holder]
+        rows = tuple(row for row in device.version_rows if row.part == pin.part)
+        row = named_row(pin.text, pin.part, rows, cell.distro)
+        if pin.part not in PACKAGED:
+            answer, evidence = _firmware_answer(pin, rows)
+        elif row is not None:
+            answer, evidence = _known_answer(row, cell.distro)
+        else:
+            answer, evidence = _unnamed_answer(pin, device, rows, cell.distro)
         yield Judgement(pin, answer, evidence, () if row is None else row.built_from)
 
 
-def _firmware_answer(pin: Pin, rows: list[VersionRow], distro: str) -> tuple[Answer, str]:
+def _firmware_answer(pin: Pin, rows: tuple[VersionRow, ...]) -> tuple[Answer, str]:
     numbers = version_numbers(pin.text)
     for row in rows:
         if row.product != pin.text.split()[0] or not numbers:
@@ -164,24 +173,17 @@ def _firmware_answer(pin: Pin, rows: list[VersionRow], distro: str) -> tuple[Ans
     return Answer.UNKNOWN, "no matrix names it"
 
 
-def _package_answer(pin: Pin, rows: list[VersionRow], distro: str) -> tuple[Answer, str]:
-    row = named_row(pin, rows, distro)
-    if row is not None:
-        return _known_answer(row, distro)
+def _unnamed_answer(pin: Pin, device: Device, rows: tuple[VersionRow, ...], distro: str) -> tuple[Answer, str]:
+    foreign = foreign_lines(device, pin.part, distro)
+    if foreign:
+        return Answer.INCOMPATIBLE, f"it is of {foreign[0].distro}: {_origin(foreign[0])}"
+    release = own_release(device, distro)
+    if release is not None:
+        together = f"the packages of `{pin.holder}` belong together: {release.name}"
+        return (Answer.UNKNOWN, f"{together}, built from source") if release.built else (Answer.OK, together)
     here = [row for row in rows if row.distro in (None, distro) and row.known]
-    elsewhere = [row for row in rows if row not in here and row.known]
-    lines = {version_numbers(known)[:1] for row in here for known in row.known}
-    for row in elsewhere:
-        if lines and version_numbers(pin.text)[:1] not in lines and _has_line(row, pin):
-            return Answer.INCOMPATIBLE, f"it is of {row.distro}: {_origin(row)}"
     known = ", ".join(known for row in here for known in row.known)
     return Answer.UNKNOWN, f"{distro} knows {known}: {_origin(here[0])}" if here else "no matrix names it"
-
-
-def named_row(pin: Pin, rows: list[VersionRow], distro: str) -> VersionRow | None:
-    """Return the row of a distribution that names the very version of a pin; None where none does."""
-    here = (row for row in rows if row.part == pin.part and row.distro in (None, distro))
-    return next((row for row in here if any(same_version(pin.text, known) for known in row.known)), None)
 
 
 def _known_answer(row: VersionRow, distro: str) -> tuple[Answer, str]:
@@ -192,10 +194,6 @@ def _known_answer(row: VersionRow, distro: str) -> tuple[Answer, str]:
         built = f"{distro} does not release it; `sources.repos` builds it from {own.name} at {own.ref[:12]}"
         return Answer.UNKNOWN, f"{built}: {_origin(row)}"
     return Answer.OK, f"{distro} knows {', '.join(row.known)}: {_origin(row)}"
-
-
-def _has_line(row: VersionRow, pin: Pin) -> bool:
-    return any(version_numbers(known)[:1] == version_numbers(pin.text)[:1] for known in row.known)
 
 
 def _origin(row: VersionRow) -> str:

@@ -23,6 +23,7 @@ from cellc.catalog.load import (
     load_distros,
     load_message_types,
     load_qos_profiles,
+    load_releases,
 )
 from cellc.vocabulary import OF_ONE_DEVICE, Distro
 from tests.cells import catalog_facts
@@ -183,7 +184,7 @@ def test_the_name_of_a_hardware_component_is_a_name_of_ros(tmp_path: Path) -> No
 
 
 def test_tables_load() -> None:
-    for load in (load_distros, load_controller_manager, load_message_types, load_qos_profiles):
+    for load in (load_distros, load_controller_manager, load_message_types, load_qos_profiles, load_releases):
         outcome = load()
         assert outcome.diagnostics == ()
         assert outcome.value is not None

@@ -37,7 +37,13 @@ def test_compiled_kind_is_the_kind_of_the_file(kind: str) -> None:
 
 
 def test_compiled_tables_are_those_of_the_files(monkeypatch: pytest.MonkeyPatch) -> None:
-    loads = (load.load_distros, load.load_controller_manager, load.load_message_types, load.load_qos_profiles)
+    loads = (
+        load.load_distros,
+        load.load_controller_manager,
+        load.load_message_types,
+        load.load_qos_profiles,
+        load.load_releases,
+    )
     recalled = [table() for table in loads]
     monkeypatch.setattr(load, "compiled_table", lambda file: None)
     for table in loads:

@@ -25,6 +25,7 @@ Source:
 
 from __future__ import annotations
 
+from cellc.graph.releases import was_released
 from cellc.graph.versions import cell_pins, distribution
 from cellc.pins import version_numbers
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
@@ -32,7 +33,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
-    """Yield ros2_control, MoveIt and middleware pins of another major version than the distribution releases."""
+    """Yield ros2_control, MoveIt and middleware pins of another major version than the distribution ever released."""
     facts = distribution(graph.cell)
     for pin in cell_pins(graph.cell) if facts is not None else ():
         package = pin.text.split()[0] if pin.part == "rmw" else pin.part
@@ -40,6 +41,7 @@ def check(graph: CellGraph) -> Findings:
         ours, theirs = version_numbers(pin.text), version_numbers(released)
         # MoveIt and rmw_zenoh stay below 3 for years: their second number is what changes with the distribution.
         digits = 2 if theirs[:1] <= (2,) and package in ("moveit", "rmw_zenoh_cpp") else 1
-        if pin.known and ours and theirs and ours[:digits] != theirs[:digits]:
+        of_another = pin.known and ours and theirs and ours[:digits] != theirs[:digits]
+        if of_another and not was_released(graph.cell.distro, package, pin.text):
             message = f"`{pin.text}` is not of {graph.cell.distro}, which releases `{package}` {released}"
             yield found(graph, pin.path, message, f"pin the line of {released}")

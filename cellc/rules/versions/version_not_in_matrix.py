@@ -2,6 +2,9 @@
 
 Nobody has said that it works, and nobody that it does not. It stays UNKNOWN until a test of this tuple says so.
 
+What was released together is a combination that somebody tested, the newest or not: the versions of one sync of the
+distribution, or those with which a vendor's own release is built. A device is one finding, which names the nearest.
+
 Example that is reported:
 
 ```yaml
@@ -16,33 +19,40 @@ devices: {arm: {driver: demo_arm_driver 3.8.0}}
 
 Fix: pin a version of the matrix, or test the tuple on the mock and with drives disabled, and keep the evidence.
 
-Source: docs/principles.md#pinned-versions
+Source:
+
+- docs/principles.md#pinned-versions
+- https://github.com/ros/rosdistro (as of 2026-08-22): a tag of each sync, such as jazzy/2025-09-19
 """
 
 from __future__ import annotations
 
-from cellc.pins import is_commit, last_word, same_version, version_number
-from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
+from cellc.cell.device import Device
+from cellc.graph.releases import differing, foreign_lines, nearest_release, own_release, shared_parts, unlisted
+from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 
 
 @rule(Severity.BLOCKER)
 def check(graph: CellGraph) -> Findings:
-    """Yield drivers, SDKs and descriptions that no row knows, unless they are of the line of another distribution."""
+    """Yield devices with packages that no row has and no release has together; those of another line are an error."""
+    distro = graph.cell.distro
     for device in graph.cell.devices:
-        for part in ("driver", "sdk", "description"):
-            text = device.versions.part(part)
-            rows = [row for row in device.version_rows if row.part == part and row.known]
-            here = {name for row in rows if row.distro in (None, graph.cell.distro) for name in row.known}
-            elsewhere = {_line(name) for row in rows for name in row.known} - {_line(name) for name in here}
-            ours = version_number(text)
-            versioned = ours or is_commit(last_word(text))
-            known = any(same_version(text, name) for name in here)
-            if not versioned or not rows or known or (ours and here and _line(ours) in elsewhere):
-                continue
-            names = ", ".join(sorted(here)) or "none"
-            message = f"`{text}` of `{device.name}` is not in the matrix of {graph.cell.distro}, which knows {names}"
-            yield found(graph, (*device.path, part), message)
+        odd = [part for part in unlisted(device, distro) if not foreign_lines(device, part, distro)]
+        if not odd or own_release(device, distro) is not None:
+            continue
+        near = nearest_release(device, distro)
+        parts = odd if near is None else [*differing(device, near)] or odd
+        known = _known(device, odd[0], distro)
+        if near is not None:
+            *first, last = [f"{part} {version}" for part, version in shared_parts(device, near).items()]
+            known = f"{' and '.join((', '.join(first), last)) if first else last} in {near.name}, the nearest"
+        texts = " and ".join(f"`{device.versions.part(part)}`" for part in parts)
+        message = f"{texts} of `{device.name}` must be in the matrix of {distro}, which knows {known}"
+        places = [(*device.path, part) for part in parts]
+        related = tuple(Related("this version differs too", graph.cell.locate(*place)) for place in places[1:])
+        yield found(graph, places[0], message, related=related)
 
 
-def _line(version: str) -> str:
-    return version.split(".")[0]
+def _known(device: Device, part: str, distro: str) -> str:
+    rows = [row for row in device.version_rows if row.part == part and row.distro in (None, distro)]
+    return ", ".join(sorted({name for row in rows for name in row.known})) or "none"
