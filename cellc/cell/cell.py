@@ -123,6 +123,11 @@ class Cell:
         own = (one for one in self.controllers if one.device == device.name and one.kind == kind)
         return next((one for one in own if one.active and "real" in one.targets), None)
 
+    def carried_mass_kg(self, device: Device) -> float:
+        """Return the mass of what a device carries, as the descriptions of those say; 0 where they say nothing."""
+        links = (link for name in device.carries for link in self.device(name).description.links)
+        return sum(link.inertial.mass for link in links if link.inertial is not None)
+
     def device(self, name: str) -> Device:
         """Return a device by its name in the spec.
 

@@ -92,12 +92,26 @@ class ViewAnswer:
 
 
 @dataclass(frozen=True, slots=True)
+class HoldingAnswer:
+    """What holds a joint still, Nm or N without sign, in the pose or goal in which it takes most of what it has.
+
+    Attributes:
+        posture: name of the pose or goal, empty for where the cell begins.
+    """
+
+    joint: str
+    effort: float
+    posture: str
+
+
+@dataclass(frozen=True, slots=True)
 class MotionAnswer:
     """All answers of a cell; ``refused`` and ``limit`` as in `DisabledAnswer`.
 
     Attributes:
         views: where detected objects lie for their cameras.
         rigid: links that touch whatever the joints do, neighbors in the tree apart.
+        holding: joints that have a limit of effort, each where gravity takes most of it.
     """
 
     start: tuple[BodyContact, ...] = ()
@@ -107,3 +121,4 @@ class MotionAnswer:
     limit: str = ""
     views: tuple[ViewAnswer, ...] = ()
     rigid: tuple[BodyContact, ...] = ()
+    holding: tuple[HoldingAnswer, ...] = ()

@@ -14,6 +14,7 @@ from cellc.feasibility.answers import (
     DisabledAnswer,
     DisabledLinks,
     GoalAnswer,
+    HoldingAnswer,
     MotionAnswer,
     PoseAnswer,
     ViewAnswer,
@@ -21,6 +22,7 @@ from cellc.feasibility.answers import (
 from cellc.feasibility.question import GoalQuestion, GroupQuestion, MotionQuestion, PoseQuestion
 from cellc.limits import Purse, PurseError, limits
 from cellc.planning import (
+    CarriedMass,
     CollisionScene,
     DisabledPair,
     DisabledReason,
@@ -36,6 +38,7 @@ from cellc.planning import (
     beyond_reach,
     decided_collisions,
     disabled_collisions,
+    holding_efforts,
 )
 from cellc.transforms import Pose
 
@@ -99,13 +102,15 @@ def _answer(question: MotionQuestion, mesh_roots: Sequence[Path], purse: Purse) 
     planners = {group.name: _planner(group, robot, scene) for group in question.groups if group.name in asked}
     poses = tuple(_pose(pose, planners, scene, start) for pose in purse.over(question.poses))
     goals = tuple(_goal(goal, planners[goal.group], robot, start) for goal in purse.over(question.goals))
+    postures = _postures(question, goals, start)
     rigid = (pair.links for pair in disabled if pair.reason is DisabledReason.ALWAYS)
     return MotionAnswer(
         start=_contacts(scene, start),
         poses=poses,
         goals=goals,
-        views=_views(question, goals, robot, start),
+        views=_views(question, postures, robot),
         rigid=tuple(BodyContact(*links) for links in rigid),
+        holding=_holding(question, postures, robot),
     )
 
 
@@ -145,26 +150,51 @@ def _pose(
     return PoseAnswer(pose.name, _contacts(scene, positions), least)
 
 
-def _views(
-    question: MotionQuestion, goals: Sequence[GoalAnswer], robot: RobotModel, start: Mapping[str, float]
-) -> tuple[ViewAnswer, ...]:
-    """Return where each detected object is for its camera; nothing where the arm cannot get to look."""
+def _postures(
+    question: MotionQuestion, goals: Sequence[GoalAnswer], start: Mapping[str, float]
+) -> Mapping[str, Mapping[str, float]]:
+    """Return all joints in each pose, and at each goal that the arm can get to; the empty name is where they begin."""
     joints = {group.name: group.joints for group in question.groups}
     groups = {goal.name: goal.group for goal in question.goals}
-    postures = {pose.name: {**start, **dict(pose.positions)} for pose in question.poses} | {"": dict(start)}
+    postures = {"": dict(start)} | {pose.name: {**start, **dict(pose.positions)} for pose in question.poses}
     for goal in goals:
         if goal.configuration:
             taken = dict(zip(joints[groups[goal.name]], goal.configuration, strict=True))
             postures.setdefault(goal.name, {**start, **taken})
+    return postures
+
+
+def _views(
+    question: MotionQuestion, postures: Mapping[str, Mapping[str, float]], robot: RobotModel
+) -> tuple[ViewAnswer, ...]:
+    """Return where each detected object is for its camera; nothing where the arm cannot get to look."""
     found = []
     for view in question.views:
         positions = postures.get(view.posture)
         if positions is not None:
-            movable = {joint: value for joint, value in positions.items() if joint in robot.joints}
-            camera = robot.link_pose(view.camera_frame, movable, base_link=WORLD)
+            camera = robot.link_pose(view.camera_frame, _movable(robot, positions), base_link=WORLD)
             place = (camera.inverse() @ view.place).position
             found.append(ViewAnswer(view.name, view.camera_frame, view.posture, place))
     return tuple(found)
+
+
+def _holding(
+    question: MotionQuestion, postures: Mapping[str, Mapping[str, float]], robot: RobotModel
+) -> tuple[HoldingAnswer, ...]:
+    """Return the most that holds each joint which has a limit of effort."""
+    carried = [CarriedMass(one.link, one.mass_kg, one.center) for one in question.carried]
+    most: dict[str, HoldingAnswer] = {}
+    for name, positions in postures.items():
+        efforts = holding_efforts(robot, _movable(robot, positions), carried)
+        for joint in question.held:
+            effort = round(abs(efforts.get(joint, 0.0)), 6)
+            if joint in efforts and (joint not in most or effort > most[joint].effort):
+                most[joint] = HoldingAnswer(joint, effort, name)
+    return tuple(most.values())
+
+
+def _movable(robot: RobotModel, positions: Mapping[str, float]) -> dict[str, float]:
+    return {joint: value for joint, value in positions.items() if joint in robot.joints}
 
 
 def _planner(group: GroupQuestion, robot: RobotModel, scene: CollisionScene) -> Planner:
@@ -175,8 +205,8 @@ def _planner(group: GroupQuestion, robot: RobotModel, scene: CollisionScene) -> 
 
 
 def _contacts(scene: CollisionScene, positions: Mapping[str, float]) -> tuple[BodyContact, ...]:
-    movable = {joint: value for joint, value in positions.items() if joint in scene.model.joints}
-    return tuple(BodyContact(*pair) for pair in scene.contacts(scene.model.configuration(movable)))
+    movable = scene.model.configuration(_movable(scene.model, positions))
+    return tuple(BodyContact(*pair) for pair in scene.contacts(movable))
 
 
 def _goal(goal: GoalQuestion, planner: Planner, robot: RobotModel, start: Mapping[str, float]) -> GoalAnswer:

@@ -61,8 +61,17 @@ class ViewQuestion:
 
 
 @dataclass(frozen=True, slots=True)
+class CarriedQuestion:
+    """What an arm carries besides the links that the description has of it: kg, and its center in a link, m."""
+
+    link: str
+    mass_kg: float
+    center: Vector3
+
+
+@dataclass(frozen=True, slots=True)
 class MotionQuestion:
-    """The whole question; its text is what an answer is kept under."""
+    """The whole question; its text is what an answer is kept under. ``held`` are the joints with a limit of effort."""
 
     urdf: str
     start: Positions
@@ -71,6 +80,8 @@ class MotionQuestion:
     goals: tuple[GoalQuestion, ...]
     views: tuple[ViewQuestion, ...] = ()
     allowed: tuple[tuple[str, str], ...] = ()
+    carried: tuple[CarriedQuestion, ...] = ()
+    held: tuple[str, ...] = ()
 
 
 def shapes_and_joints(cell: Cell) -> str:
@@ -96,7 +107,19 @@ def motion_question(graph: CellGraph) -> MotionQuestion:
         ),
         views=tuple(_views(graph)),
         allowed=tuple(pair for device in cell.devices for pair in device.allowed_collisions),
+        carried=tuple(_carried(cell)),
+        held=tuple(joint.name for device in cell.devices for joint in device.joints if joint.effort),
     )
+
+
+def _carried(cell: Cell) -> Iterator[CarriedQuestion]:
+    """Yield what the payload of each arm has beyond the masses of its tools, where the payload has its center."""
+    for device in cell.devices:
+        if device.payload is None or device.tool_frame is None:
+            continue
+        rest_kg = device.payload.mass_kg - cell.carried_mass_kg(device)
+        if rest_kg > 0.0:
+            yield CarriedQuestion(device.tool_frame, rest_kg, device.payload.center_of_mass)
 
 
 def _views(graph: CellGraph) -> Iterator[ViewQuestion]:

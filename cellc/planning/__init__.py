@@ -3,7 +3,7 @@
 Read in this order: ``problem`` holds what is taken and given; ``model`` and ``scene`` the robot and what it may touch;
 ``chain`` one group of it. On these stand ``inverse_kinematics``, ``rrt_connect`` and ``cartesian``, which ``planner``
 joins; ``splines``, ``motion_law`` and ``trajectory`` give a path its times; ``pair_sampling`` and ``collision_matrix``
-find the pairs of links that need no check.
+find the pairs of links that need no check; ``statics`` has what holds the robot still.
 """
 
 from cellc.planning.collision_matrix import DisabledPair, DisabledReason, decided_collisions, disabled_collisions
@@ -24,10 +24,12 @@ from cellc.planning.problem import (
     UnknownShapeError,
 )
 from cellc.planning.scene import Box, CollisionScene
+from cellc.planning.statics import CarriedMass, holding_efforts
 from cellc.planning.trajectory import LimitUse, TimedTrajectory, TrajectoryPoint, time_parameterize
 
 __all__ = [
     "Box",
+    "CarriedMass",
     "CollisionScene",
     "DisabledPair",
     "DisabledReason",
@@ -49,6 +51,7 @@ __all__ = [
     "beyond_reach",
     "decided_collisions",
     "disabled_collisions",
+    "holding_efforts",
     "time_parameterize",
     "without_meshes",
 ]

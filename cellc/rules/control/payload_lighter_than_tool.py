@@ -33,10 +33,7 @@ def check(graph: CellGraph) -> Findings:
         payload = device.payload
         if payload is None or device.kind != "arm":
             continue
-        carried = [graph.cell.device(name) for name in device.carries]
-        mass = sum(
-            link.inertial.mass for tool in carried for link in tool.description.links if link.inertial is not None
-        )
+        mass = graph.cell.carried_mass_kg(device)
         if mass > payload.mass_kg + _ROUNDING_KG:
             path = (*device.path, "payload", "mass")
             message = f"`{device.name}` carries {mass:.3g} kg, but its payload is {graph.cell.text(*path)}"
