@@ -6,6 +6,7 @@ repository is built once per process and never changed.
 
 from __future__ import annotations
 
+import json
 import re
 import tempfile
 from dataclasses import dataclass
@@ -14,8 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from cellc.artifact import Artifact
-from cellc.catalog.compiled import device_file
-from cellc.catalog.family import read_entry
+from cellc.catalog.compiled import compiled_device
 from cellc.cell.cell import Cell
 from cellc.diagnostics import Diagnostic, Outcome
 from cellc.graph.cell_graph import CellGraph, build_graph
@@ -77,10 +77,10 @@ def written(folder: Path, text: str) -> Path:
 
 def catalog_facts(model: str) -> dict[str, Any]:
     """Return what the catalog says of a device, its family's file included, as plain data."""
-    entry = read_entry(device_file(model), model, ROOT / "cellc/catalog/devices").value
-    assert entry is not None
-    assert isinstance(entry.data, dict)
-    return entry.data
+    compiled = compiled_device(model)
+    assert compiled is not None
+    facts: dict[str, Any] = json.loads(compiled[0])
+    return facts
 
 
 def document_of(path: Path) -> SourceDocument:

@@ -22,6 +22,9 @@ DEVICE_FILE = "device.yaml"
 FAMILY_FILE = ".family.yaml"
 """How the name of the file ends that states what the models of a family share."""
 
+MODEL = "{model}"
+"""Stands in a family's texts for the name of the model."""
+
 _COMPILED = "compiled"
 Places = Mapping[tuple[str, str], Span]
 """Where each ``("link", name)`` and ``("joint", name)`` of a description was written before its expansion."""
@@ -38,8 +41,27 @@ def compiled_device(name: str) -> tuple[str, str, Places] | None:
     entry = _entry(f"devices/{name}", _files_of(name))
     if entry is None:
         return None
+    data, family = entry["data"], None
+    if "family" in data:
+        file = device_file(name).with_name(f"{data['family']}{FAMILY_FILE}")
+        family = _entry(_family_entry(file), (file,))
+        if family is None:
+            return None
+        shared = json.loads(json.dumps(family["data"]).replace(MODEL, data["model"]))
+        data = _laid_over(shared, data)
     places = {(tag, part): Span(f"{SHOWN}/devices/{file}", *at) for tag, part, file, *at in entry["places"]}
-    return json.dumps(entry["data"]), entry["urdf"], places
+    return json.dumps(data), entry["urdf"], places
+
+
+def _laid_over(below: Any, above: Any) -> Any:
+    """As ``overlay`` of the source: mappings merge by key, everything else replaces; the tests hold that both agree."""
+    if not isinstance(below, dict) or not isinstance(above, dict):
+        return above
+    return {**below, **{key: _laid_over(below[key], value) if key in below else value for key, value in above.items()}}
+
+
+def _family_entry(file: Path) -> str:
+    return f"devices/{file.parent.name}.{file.name}"
 
 
 def device_file(name: str) -> Path:
@@ -68,12 +90,13 @@ def compile_catalog() -> Iterator[tuple[Path, str]]:
     symptoms = (f"symptoms/{file.stem}" for file in sorted((CATALOG / "symptoms").glob("*.yaml")))
     for table in (*tables, *(f"controllers/{kind}" for kind in controller_kinds()), *symptoms):
         yield _written(f"{table}.yaml", (CATALOG / f"{table}.yaml",), {"data": _data(CATALOG / f"{table}.yaml")})
+    for family in sorted((CATALOG / "devices").glob(f"*/*{FAMILY_FILE}")):
+        yield _written(_family_entry(family), (family,), {"data": _data(family)})
     for name in device_names():
         yield _written(f"devices/{name}", _files_of(name), _device(name))
 
 
 def _device(name: str) -> dict[str, Any]:
-    from cellc.catalog.family import read_entry
     from cellc.catalog.load import read_device
     from cellc.description.xacro_expansion import expand_here
 
@@ -84,16 +107,14 @@ def _device(name: str) -> dict[str, Any]:
     description = device.value.model.description
     shown = f"{SHOWN}/devices"
     file = device_file(name)
-    entry = read_entry(file, file.name, devices).value
     described = (file.parent / description.file).as_posix()
     expansion = expand_here(described, description.arguments, devices.as_posix(), shown).value
-    assert entry is not None
-    assert expansion is not None  # both were read a moment ago
+    assert expansion is not None  # it was read a moment ago
     places = [
         [tag, part, span.file.removeprefix(f"{shown}/"), span.line, span.column, span.end_line, span.end_column]
         for (tag, part), span in expansion.origins.items()
     ]
-    return {"data": entry.data, "urdf": expansion.text, "places": places}
+    return {"data": _data(file), "urdf": expansion.text, "places": places}
 
 
 def _data(file: Path) -> object:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from pathlib import Path, PurePosixPath
 
-from cellc.catalog.compiled import FAMILY_FILE
+from cellc.catalog.compiled import FAMILY_FILE, MODEL
 from cellc.catalog.read_model import read_document
 from cellc.diagnostics import Diagnostic, Outcome, Severity
 from cellc.source.document import SourceDocument
@@ -17,7 +17,6 @@ from cellc.source.include import overlay
 from cellc.source.text import lies_under
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
-_MODEL = "{model}"
 
 
 def read_entry(file: Path, shown: str, root: Path) -> Outcome[SourceDocument]:
@@ -36,7 +35,7 @@ def read_entry(file: Path, shown: str, root: Path) -> Outcome[SourceDocument]:
     sought = _family(file, shown, name, root)
     if sought is None:
         return Outcome(None, (_no_family(name, document),))
-    family = read_document(*sought, {_MODEL: model} if _NAME.fullmatch(model) else {})
+    family = read_document(*sought, {MODEL: model} if _NAME.fullmatch(model) else {})
     if family.value is None:
         return Outcome(None, family.diagnostics)
     texts = {**family.value.texts, **document.texts}

@@ -38,7 +38,7 @@ PLACEHOLDERS = {
     *("tool_voltage", "tool_baud_rate", "tool_parity", "tool_stop_bits", "tool_port"),
     *("tool_rx_idle_chars", "tool_tx_idle_chars", "tool_tcp_port"),
 }
-ARMS = ("franka_fr3", "ur5e")
+ARMS = ("franka_fr3", "ur5e", "ur10e", "ur18", "ur30")
 # Upstream files behind each kind; on humble the gripper comes from another package.
 DECLARATIONS = {
     "joint_trajectory": "joint_trajectory_controller__joint_trajectory_controller_parameters",

@@ -38,6 +38,7 @@ UR5E_JOINTS = (
     "wrist_2_joint",
     "wrist_3_joint",
 )
+UR_MODELS = ("ur3e", "ur7e", "ur10e", "ur12e", "ur16e", "ur15", "ur18", "ur20", "ur30")
 FR3_JOINTS = tuple(f"fr3_joint{number}" for number in range(1, 8))
 
 
@@ -143,7 +144,10 @@ def _touching(name: str, positions: dict[str, float]) -> set[tuple[str, str]]:
     geometry = pinocchio.buildGeomFromUrdfString(model, expanded.text, pinocchio.GeometryType.COLLISION)
     geometry.addAllCollisionPairs()
     data, geometry_data = model.createData(), geometry.createData()
-    q = np.array([positions[joint] for joint in list(model.names)[1:]])
+    turns = [positions[joint] for joint in list(model.names)[1:]]
+    endless = [model.joints[model.getJointId(joint)].nq == 2 for joint in list(model.names)[1:]]
+    pairs = zip(turns, endless, strict=True)
+    q = np.array([part for turn, twice in pairs for part in ((math.cos(turn), math.sin(turn)) if twice else (turn,))])
     pinocchio.computeCollisions(model, data, geometry, geometry_data, q, False)
     neighbours = {frozenset((joint.parent, joint.child)) for joint in _description(name).joints}
     found = set()
@@ -161,6 +165,7 @@ def _touching(name: str, positions: dict[str, float]) -> set[tuple[str, str]]:
         ("ur5e", UR5E_JOINTS, (0, -90, 90, -90, -90, 0)),
         ("ur5e", UR5E_JOINTS, (0, -90, 0, -90, 0, 0)),
         ("ur5e", UR5E_JOINTS, (30, -60, 100, -130, -90, 45)),
+        *((name, UR5E_JOINTS, (0, -90, 90, -90, -90, 0)) for name in UR_MODELS),
         ("franka_fr3", FR3_JOINTS, (0, -45, 0, -135, 0, 90, 45)),
         ("franka_fr3", FR3_JOINTS, (0, 0, 0, -9, 0, 32, 0)),
         # Joints 2 and 4 at their ends: neighbours but one must not be mistaken for a collision.
@@ -177,6 +182,7 @@ def test_arm_does_not_touch_itself(name: str, joints: tuple[str, ...], degrees: 
     [
         # The elbow bent by 175 deg lays the forearm into the upper arm: shapes that enclose the links must meet.
         ("ur5e", UR5E_JOINTS, (0, -90, 175, 0, 0, 0)),
+        *((name, UR5E_JOINTS, (0, -90, 175, 0, 0, 0)) for name in UR_MODELS),
         # Bent forward over the base and folded, the wrist of the seven-joint arm ends in its own base or column.
         ("franka_fr3", FR3_JOINTS, (0, 100, 0, -174, 0, 120, 0)),
     ],
@@ -194,11 +200,15 @@ def test_gripper_does_not_touch_itself(angle: float) -> None:
 
 def test_expansion_is_the_same_under_any_hash_seed() -> None:
     program = (
-        "from cellc.catalog.compiled import CATALOG\n"
+        "from cellc.catalog.compiled import CATALOG, device_file\n"
+        "from cellc.catalog.load import device_names\n"
+        "from tests.cells import catalog_facts\n"
         "from cellc.description.xacro_expansion import expand_here\n"
         "d = CATALOG / 'devices'\n"
-        "for f in sorted(d.glob('*/*.xacro')):\n"
-        "    print(expand_here(str(f), {}, str(d)).value)\n"
+        "facts = {n: catalog_facts(n)['description'] for n in device_names()}\n"
+        "files = {device_file(n).parent / f['file']: f.get('arguments', {}) for n, f in facts.items()}\n"
+        "for f, a in files.items():\n"
+        "    print(expand_here(str(f), a, str(d)).value)\n"
     )
     folder = Path(__file__).resolve().parents[2]
     outputs = [

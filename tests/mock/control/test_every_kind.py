@@ -91,9 +91,15 @@ def _written(kind: ControllerKind, catalog: CatalogDevice) -> Iterator[str]:
             yield f', parameters: {{gpios: ["{gpio}"], "command_interfaces.{gpio}.interfaces": {taken}}}'
 
 
+def _of_each_family() -> dict[str, CatalogDevice]:
+    """Return the devices, one model alone of each family: interfaces and controllers are its family's, not its own."""
+    known = {name: _device(name) for name in device_names()}
+    first = {device.model.family: name for name, device in reversed(known.items())} | {"ur": "ur5e"}
+    return {name: device for name, device in known.items() if device.model.family is None or name in first.values()}
+
+
 def _offers() -> Iterator[Offer]:
-    for name in device_names():
-        device = _device(name)
+    for name, device in _of_each_family().items():
         for kind in map(_kind, controller_kinds()):
             for text in _written(kind, device):
                 yield Offer(kind.kind.value, name, kind.kind, tuple(kind.plugins), text)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import json
 import re
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from xml.etree import ElementTree
 
+from cellc.catalog.compiled import compiled_device
+from cellc.catalog.load import device_names
 from tests.cells import CELLS, CORPUS, ROOT, catalog_facts, spec_text
 from tests.robustness.fuzz.tree import Tree, copied, read_yaml
 
@@ -93,7 +94,7 @@ def devices() -> tuple[DeviceBase, ...]:
     more = [
         _own(folder) for folder in sorted((CORPUS / "invalid" / "base").iterdir()) if (folder / "device.yaml").exists()
     ]
-    return (*own, *more, *(_of_catalog(file) for file in sorted((_CATALOG / "compiled" / "devices").glob("*.json"))))
+    return (*own, *more, *map(_of_catalog, device_names()))
 
 
 def _own(folder: Path) -> DeviceBase:
@@ -105,9 +106,11 @@ def _own(folder: Path) -> DeviceBase:
     return _base(facts, urdf)
 
 
-def _of_catalog(compiled: Path) -> DeviceBase:
-    facts = {key: value for key, value in catalog_facts(compiled.stem).items() if key != "family"}
-    return _base(facts, str(json.loads(compiled.read_text(encoding="utf-8"))["urdf"]))
+def _of_catalog(name: str) -> DeviceBase:
+    facts = {key: value for key, value in catalog_facts(name).items() if key != "family"}
+    compiled = compiled_device(name)
+    assert compiled is not None
+    return _base(facts, compiled[1])
 
 
 def _base(facts: dict[str, Tree], urdf: str) -> DeviceBase:
