@@ -54,10 +54,11 @@ def compiled_device(name: str) -> tuple[str, str, Places] | None:
 
 
 def _laid_over(below: Any, above: Any) -> Any:
-    """As ``overlay`` of the source: mappings merge by key, everything else replaces; the tests hold that both agree."""
+    """As ``overlay`` of the source does; a test holds that both agree on every device."""
     if not isinstance(below, dict) or not isinstance(above, dict):
         return above
-    return {**below, **{key: _laid_over(below[key], value) if key in below else value for key, value in above.items()}}
+    merged = {**below, **{key: _laid_over(below[key], value) if key in below else value for key, value in above.items()}}
+    return {key: value for key, value in merged.items() if value is not None or key not in below}
 
 
 def _family_entry(file: Path) -> str:
