@@ -57,8 +57,8 @@ def _laid_over(below: Any, above: Any) -> Any:
     """As ``overlay`` of the source does; a test holds that both agree on every device."""
     if not isinstance(below, dict) or not isinstance(above, dict):
         return above
-    merged = {**below, **{key: _laid_over(below[key], value) if key in below else value for key, value in above.items()}}
-    return {key: value for key, value in merged.items() if value is not None or key not in below}
+    own = {key: _laid_over(below[key], value) if key in below else value for key, value in above.items()}
+    return {key: value for key, value in {**below, **own}.items() if value is not None or key not in below}
 
 
 def _family_entry(file: Path) -> str:

@@ -31,7 +31,7 @@ BAD = {
     "one word": (b"hello\n", "root-not-mapping"),
     "half a mapping": (b'{"a": 1', "not-yaml"),
     "two documents": (b"cell: a\n---\ncell: b\n", "several-documents"),
-    "unknown model": (_TEXT.replace("model: ur5e", "model: ur5").encode(), "did you mean `ur5e`?"),
+    "unknown model": (_TEXT.replace("model: ur5e", "model: ur5").encode(), "did you mean `ur5e` or `ur15`?"),
     "missing device folder": (_TEXT.replace("model: ur5e", "model: ./my_robot").encode(), "my_robot` is not a folder"),
 }
 
