@@ -121,9 +121,9 @@ class CartesianGoal(Entity):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Step(Entity):
-    """One step: ``kind`` is move, detect, grip, set, sense, wait or acknowledge.
+    """One step: ``kind`` is move, detect, grip, set, sense, call, wait or acknowledge.
 
-    ``name`` is the pose, goal, frame or device, or who acknowledges.
+    ``name`` is the pose, goal, frame, device or service, or who acknowledges.
     """
 
     kind: str

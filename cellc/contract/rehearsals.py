@@ -10,12 +10,12 @@ from cellc.vocabulary import AttemptOutcome, BringUpPhase, FaultKind
 
 
 class StepEntry(ContractModel):
-    """One step; ``target`` is a pose, goal, frame, device or who acknowledges; empty for a wait."""
+    """One step; ``target`` is a pose, goal, frame, device, service or who acknowledges; empty for a wait."""
 
-    kind: Literal["move", "detect", "grip", "set", "sense", "wait", "acknowledge"] = Field(
+    kind: Literal["move", "detect", "grip", "set", "sense", "call", "wait", "acknowledge"] = Field(
         description="What the step does."
     )
-    target: str = Field(description="Pose, goal, frame, device, or who acknowledges.")
+    target: str = Field(description="Pose, goal, frame, device, service, or who acknowledges.")
     command: Literal["open", "close"] | None = Field(None, description="What the gripper does.")
     state: str | None = Field(None, description="State that a switched device is set to, or that its sensors tell.")
     duration_s: Seconds | None = Field(None, description="How long a wait lasts.")

@@ -43,6 +43,12 @@ class SenseStep(SpecModel):
     state: Name = Field(..., description="One of its states.", examples=["closed"])
 
 
+class CallStep(SpecModel):
+    """Ask a service and wait for its answer; the mock stands in for whoever offers it."""
+
+    call: Text = Field(..., description="Service interface of the cell.", examples=["/conveyor/start"])
+
+
 class WaitStep(SpecModel):
     """Let simulated time pass."""
 
@@ -55,7 +61,7 @@ class AcknowledgeStep(SpecModel):
     acknowledge: Literal["operator"] = Field(..., description="Who acknowledges.", examples=["operator"])
 
 
-_STEP_KEYS = ("move", "detect", "grip", "set", "sense", "wait", "acknowledge")
+_STEP_KEYS = ("move", "detect", "grip", "set", "sense", "call", "wait", "acknowledge")
 
 
 def _step_key(value: object) -> str | None:
@@ -69,6 +75,7 @@ StepSpec = Annotated[
         Annotated[GripStep, Tag("grip")],
         Annotated[SetStep, Tag("set")],
         Annotated[SenseStep, Tag("sense")],
+        Annotated[CallStep, Tag("call")],
         Annotated[WaitStep, Tag("wait")],
         Annotated[AcknowledgeStep, Tag("acknowledge")],
     ],

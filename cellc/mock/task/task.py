@@ -9,6 +9,7 @@ from cellc.mock.nodes.perception import DEFAULT_RATE_HZ
 from cellc.mock.plant import Plant
 from cellc.mock.result import AttemptRecord, PacketStep
 from cellc.mock.stops import NORMAL
+from cellc.mock.task.call import call
 from cellc.mock.task.context import OUTCOME_OF_STOP, Attempt, AttemptError, Identity, TaskContext, current_state
 from cellc.mock.task.grip import grip
 from cellc.mock.task.move import move
@@ -173,6 +174,8 @@ class Task:
             switch(self._context, step.target, step.state or "")
         elif step.kind == "sense":
             yield from sense(self._context, step.target, step.state or "")
+        elif step.kind == "call":
+            yield from call(self._context, step.target)
         else:
             yield from self._context.rest(step.duration_s or 0.0)
 
