@@ -1,4 +1,4 @@
-"""Binds the faults of rehearsals to what they hit, under the name that the contract has for it, when, and by how much."""
+"""Binds faults of rehearsals to what they hit, under the name that the contract has for it, when, and by how much."""
 
 from __future__ import annotations
 

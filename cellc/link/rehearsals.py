@@ -1,4 +1,4 @@
-"""Binds rehearsals: whose steps they take, their steps to poses, goals, frames, devices and services, and their faults."""
+"""Binds rehearsals: whose steps they take, their faults, and their steps to what the cell has of these names."""
 
 from __future__ import annotations
 
