@@ -6,12 +6,12 @@ on an error, so that one mistake does not cascade; rules all run.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from cellc.artifact import Artifact
+from cellc.description.packages import root_of
 from cellc.diagnostics import Diagnostic, Outcome, Severity
 from cellc.diagnostics.diagnostic import CodePage, Findings
 from cellc.graph.cell_graph import CellGraph, build_graph
@@ -75,8 +75,7 @@ def _check_description(path: Path) -> Checked:
     # A spec that names devices of the catalog alone is checked without the reader of xacro.
     from cellc.description.read_description import read_description
 
-    package = next((folder.parent for folder in path.absolute().parents if (folder / "package.xml").is_file()), None)
-    root = path.parent if package is None else Path(os.path.relpath(package))
+    root = root_of(path)
     read = read_description(path, {}, root)
     found = list(read.diagnostics)
     if read.value is not None:

@@ -9,6 +9,7 @@ from functools import partial
 from typing import Literal
 
 from cellc.artifact import Artifact
+from cellc.description.packages import on_package_path, package_path
 from cellc.diagnostics.diagnostic import Findings
 from cellc.limits import Limits, in_force, limits
 from cellc.rules.shared_domain import Presence, presence_of, shared_domains
@@ -70,8 +71,8 @@ def compute(kind: Kind, file: str) -> CellResult:
     return CellResult(checked.findings.with_more(compiled.diagnostics), presence_of(checked.graph), artifacts)
 
 
-def _compute_within(chosen: Limits, kind: Kind, file: str) -> CellResult:
-    with in_force(chosen):
+def _compute_within(chosen: Limits, packages: Sequence[str], kind: Kind, file: str) -> CellResult:
+    with in_force(chosen), on_package_path(packages):
         return compute(kind, file)
 
 
@@ -107,7 +108,7 @@ def in_workers(kind: Kind, files: Sequence[str], number: int) -> Generator[CellR
     done = 0
     try:
         with deaf_children():
-            computed = pool.map(partial(_compute_within, limits(), kind), files)
+            computed = pool.map(partial(_compute_within, limits(), package_path(), kind), files)
         for result in computed:
             done += 1
             yield result

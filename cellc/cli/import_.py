@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import click
 
 from cellc.cli.findings import show_findings
+from cellc.cli.limit_option import limit_option
 from cellc.diagnostics import Severity
 from cellc.diagnostics.diagnostic import Findings
 from cellc.printing import show
@@ -41,6 +42,7 @@ if TYPE_CHECKING:
 @click.option(
     "--ros", type=click.Choice([distro.value for distro in Distro]), default="jazzy", help="Distribution of the cell."
 )
+@limit_option
 def import_(
     robot: str,
     arguments: tuple[str, ...],

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from cellc.description.model import Mesh
-from cellc.description.packages import lies_under, package_folders, repository_of
+from cellc.description.packages import lies_under, package_folders, package_path, repository_of
 from cellc.limits import MIB, limits, option
 from cellc.store.regular_file import open_regular
 from cellc.transforms import Vector3
@@ -31,7 +31,7 @@ MALFORMED_MESH = "malformed-mesh"
 
 _PIECE = 1 << 20
 _OF_THE_SYSTEM = ("/proc", "/sys", "/dev")
-_SHELVES = "`ROS_PACKAGE_PATH` or `AMENT_PREFIX_PATH`"
+_SHELVES = "`--package-path`"
 _SHOWN = 200
 
 
@@ -148,21 +148,23 @@ def _judge(mesh: Mesh, facts: MeshFacts, together: int) -> None:
         raise MeshError(MALFORMED_MESH, message, "write in `scale` how many m a unit of the file is")
 
 
-def identify(name: str, roots: Sequence[Path], environment: Mapping[str, str] = os.environ) -> MeshFile:
+def identify(name: str, roots: Sequence[Path], shelves: Sequence[Path] | None = None) -> MeshFile:
     """Find the file of a mesh that a description names, and hash its content.
 
-    ``package://``, ``model://`` and relative names are looked up in the folders of ``ROS_PACKAGE_PATH`` and the
-    ``share`` folders of ``AMENT_PREFIX_PATH``, which the user chose and where links to a workspace are usual; then as
-    packages in the folders of specs, out of which no link may lead. An absolute name must lie in one of these folders.
+    ``package://``, ``model://`` and relative names are looked up in the folders of the package path, which the user
+    chose and where links to a workspace are usual; then as packages in the folders of specs, out of which no link may
+    lead. An absolute name must lie in one of these folders.
 
     Args:
         roots: folders of the specs that bring the descriptions; none where only packages count.
+        shelves: folders of packages; those of the package path if None.
 
     Raises:
         MeshError: there is no such file, or it may not be read, or it is too large.
     """
     try:
-        file, suffix = _find(name, roots, tuple(_search_folders(environment))), Path(name).suffix.lower()
+        chosen = tuple(map(Path, package_path())) if shelves is None else tuple(shelves)
+        file, suffix = _find(name, roots, chosen), Path(name).suffix.lower()
         if suffix not in FORMATS:
             message = f"must be a file of {', '.join(FORMATS)}, got `{suffix[:20]}`"
             raise MeshError(MALFORMED_MESH, message, "export the shape as STL")
@@ -189,23 +191,15 @@ def _find(name: str, roots: Sequence[Path], shelves: Sequence[Path]) -> Path:
         raise MeshError(MESH_OUTSIDE_ROOT, "must not leave its folder with `..`", "name the file without `..`")
     if scheme == "file":
         return _regular(_absolute(Path(path), roots, shelves))
-    for shelf in shelves:
-        if os.path.lexists(file := shelf.joinpath(*parts)):
+    on_shelves = (folder.joinpath(*parts[1:]) for _, folder in _packages(parts, shelves))
+    for file in (*(shelf.joinpath(*parts) for shelf in shelves), *on_shelves):
+        if os.path.lexists(file):
             return _regular(Path(os.path.realpath(file)))
     for root, folder in _packages(parts, roots):
         if os.path.lexists(file := folder.joinpath(*parts[1:])):
             return _regular(_within(file, root))
-    places = f"the folder of the spec or in {_SHELVES}" if roots else f"folders of {_SHELVES}"
+    places = f"the folder of the spec or in those of {_SHELVES}" if roots else f"folders of {_SHELVES}"
     raise MeshError(MESH_NOT_FOUND, f"could not be found in {places}")
-
-
-def _search_folders(environment: Mapping[str, str]) -> Iterator[Path]:
-    for folder in filter(None, environment.get("ROS_PACKAGE_PATH", "").split(os.pathsep)):
-        yield Path(folder)
-        if (Path(folder) / "package.xml").exists():
-            yield Path(folder) / ".."
-    for prefix in filter(None, environment.get("AMENT_PREFIX_PATH", "").split(os.pathsep)):
-        yield Path(prefix) / "share"
 
 
 def _packages(parts: Sequence[str], roots: Iterable[Path]) -> Iterator[tuple[Path, Path]]:
@@ -222,7 +216,7 @@ def _absolute(file: Path, roots: Sequence[Path], shelves: Sequence[Path]) -> Pat
     chosen = any(file.is_relative_to(os.path.abspath(shelf)) for shelf in shelves)  # links of such packages are usual
     if chosen or any(lies_under(real, root.as_posix()) for root in (*roots, *shelves)):
         return Path(real)
-    message = f"must lie in the folder of the spec or in {_SHELVES}"
+    message = f"must lie in the folder of the spec or in one of {_SHELVES}"
     raise MeshError(MESH_OUTSIDE_ROOT, message, "put the file in a package beside the spec, and name it `package://…`")
 
 

@@ -1,6 +1,10 @@
 """Where the packages lie that a description names, and whether a file lies under a folder.
 
-The ament index of the machine is left out: these are packages that come with a spec, under its own folder.
+Packages come with a spec, under its own folder, or lie in the folders of the package path, which whoever calls cellc
+gives. Variables of the environment count for nothing: the same call gives the same answer in every shell.
+
+The package path belongs to the process, as the limits do: the command line alone sets it, for the time of a command,
+and hands it to the processes that it starts.
 """
 
 from __future__ import annotations
@@ -8,9 +12,40 @@ from __future__ import annotations
 import glob
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
 
+from cellc.limits import KIB
+from cellc.store.regular_file import open_regular
+
+MANIFEST = "package.xml"
+_MANIFEST_BYTES = 64 * KIB
+_DECLARED = re.compile(rb"<name>\s*([A-Za-z][A-Za-z0-9_-]*)\s*</name>")
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*", re.ASCII)
+_path: tuple[str, ...] = ()
+
+
+def package_path() -> tuple[str, ...]:
+    """Return the folders of packages that the call gave, in their order."""
+    return _path
+
+
+def use_packages(folders: Sequence[str]) -> None:
+    """Put a package path in force for the rest of the process: for one that was started with it."""
+    global _path
+    _path = tuple(folders)
+
+
+@contextmanager
+def on_package_path(folders: Sequence[str]) -> Iterator[None]:
+    """Put a package path in force for a while."""
+    before = package_path()
+    use_packages(folders)
+    try:
+        yield
+    finally:
+        use_packages(before)
 
 
 def searched_folders(name: str, root: str) -> tuple[str, ...]:
@@ -28,18 +63,50 @@ def searched_folders(name: str, root: str) -> tuple[str, ...]:
 
 
 def find_package(name: str, root: str) -> str | None:
-    """Return the first existing folder of a package, or None."""
-    return next((folder for folder in package_folders(name, root) if os.path.isdir(folder)), None)
+    """Return the first existing folder of a package, below the root or else on the package path, or None."""
+    places = (folder for place in (root, *package_path()) for folder in package_folders(name, place))
+    return next((folder for folder in places if os.path.isdir(folder)), None)
 
 
 def package_folders(name: str, root: str) -> Iterator[str]:
-    """Yield every folder that may be a package: those named, then one in a repository of a workspace or of a device."""
+    """Yield every folder that may be a package.
+
+    Those of its name come first, then one in a repository of a workspace or of a device, then those whose manifest has
+    the name: some repositories are a package of another name.
+    """
     if _NAME.fullmatch(name) is None:
         return
     yield from searched_folders(name, root)
     yield from sorted(glob.glob(os.path.join(glob.escape(root), "src", "*", name)))
     for device in sorted(glob.glob(os.path.join(glob.escape(root), "*", "device.yaml"))):
         yield os.path.join(os.path.dirname(device), name)
+    for below in ("", "*", os.path.join("src", "*"), os.path.join("src", "*", "*")):
+        manifests = sorted(glob.glob(os.path.join(glob.escape(root), below, MANIFEST)))
+        yield from (os.path.dirname(manifest) for manifest in manifests if declared_name(manifest) == name)
+
+
+def root_of(file: Path) -> Path:
+    """Return the folder in which a description and the packages that it names lie.
+
+    The workspace of its package, whose `src/` holds it or its repository; else the folder that holds the package; else
+    that of the file. It is relative where the file is.
+    """
+    package = next((above for above in file.absolute().parents if (above / MANIFEST).is_file()), None)
+    if package is None:
+        return file.parent
+    sources = next((above for above in package.parents[:2] if above.name == "src"), None)
+    root = package.parent if sources is None else sources.parent
+    return root if file.is_absolute() else Path(os.path.relpath(root))
+
+
+def declared_name(manifest: str) -> str:
+    """Return the name of a package as its ``package.xml`` has it; empty where it has none."""
+    try:
+        with open_regular(Path(manifest)) as file:
+            found = _DECLARED.search(file.read(_MANIFEST_BYTES))
+    except OSError:
+        return ""
+    return "" if found is None else found[1].decode("ascii")
 
 
 def repository_of(folder: str) -> str:

@@ -156,7 +156,9 @@ class Confinement:
         if folder is None:
             places = ", ".join(f"`{place}`" for place in searched_folders(name, self.root))
             raise XacroRefusedError(
-                "xacro-package-not-found", f"package `{name}` is not found", f"put it in one of {places}"
+                "xacro-package-not-found",
+                f"package `{name}` is not found",
+                f"put it in one of {places}, or name its folder with `--package-path`",
             )
         self._packages[name] = folder
         return folder

@@ -20,6 +20,7 @@ from xml.dom import minidom
 import xacro
 
 from cellc.description.confined_child import HANG_S, ChildEndedError, ask_child, confine_this_process
+from cellc.description.packages import package_path, use_packages
 from cellc.description.xacro_confinement import Confinement, place_of
 from cellc.description.xacro_expression import ExpressionError
 from cellc.description.xacro_files import XacroRefusedError
@@ -146,6 +147,7 @@ def expand_xacro(
         "root": root.as_posix(),
         "folder": os.getcwd(),
         "limits": as_options(limits()),
+        "packages": [os.path.abspath(folder) for folder in package_path()],
         "seconds": limits().xacro_seconds,
     }
     start = Span(file.as_posix(), 1, 1, 1, 1)
@@ -199,6 +201,7 @@ def main() -> None:
     """Expand what stdin asks for."""
     request = json.load(sys.stdin)
     use(raised(request["limits"]))
+    use_packages(request["packages"])
     confine_this_process(request["seconds"], limits().xacro_memory, 4 * limits().xml_bytes)
     os.chdir(request["folder"])  # names in diagnostics stay those that the user wrote
     json.dump(_encoded(expand_here(request["file"], request["arguments"], request["root"])), sys.stdout)

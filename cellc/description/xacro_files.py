@@ -1,7 +1,7 @@
-"""The files that an expansion may read: regular ones under one folder and of bounded size.
+"""The files that an expansion may read: regular ones under one folder, or in the package path, and of bounded size.
 
-The ament index of the machine is left out on purpose: what is built must depend on what lies beside the spec, and a
-description from a stranger must not reach the packages of the machine.
+The ament index of the machine is left out on purpose: what is built must depend on what lies beside the spec and on
+what the call names, and a description from a stranger must not reach the packages of the machine.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import yaml
 
-from cellc.description.packages import lies_under, repository_of
+from cellc.description.packages import lies_under, package_path, repository_of
 from cellc.description.xacro_expression import evaluate, functions
 from cellc.diagnostics import Span
 from cellc.limits import MIB, limits, option
@@ -63,6 +63,8 @@ class ConfinedFiles:
         """Whether a path lies under the root, links followed."""
         # A path that is written out of the root is out of it; a link may lead to another folder of the repository.
         written = os.path.abspath(path)
+        if any(f"{written}{os.sep}".startswith(f"{os.path.abspath(folder)}{os.sep}") for folder in package_path()):
+            return True  # whoever calls chose it, and links to a workspace are usual there
         return lies_under(path, self.root) or (
             f"{written}{os.sep}".startswith(f"{os.path.abspath(self.root)}{os.sep}") and lies_under(path, self._within)
         )

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from cellc.description.meshes import MeshError, identify
 from cellc.description.model import Description, Mesh
+from cellc.description.packages import MANIFEST, declared_name, root_of
 from cellc.description.urdf_reader import read_urdf
 from cellc.description.xacro_expansion import expand_xacro
 from cellc.diagnostics import Outcome, Span
@@ -81,7 +82,7 @@ def read_robot(file: Path, arguments: Mapping[str, str]) -> Outcome[Robot]:
     Raises:
         ImportRefusedError: its links are no tree, or have names that ROS does not take.
     """
-    root = _root(file)
+    root = root_of(file)
     expanded = _text(file, arguments, root)
     if expanded.value is None:
         return Outcome(None, expanded.diagnostics)
@@ -107,12 +108,6 @@ def _text(file: Path, arguments: Mapping[str, str], root: Path) -> Outcome[str]:
     return read_text(file, file.as_posix(), Span(file.as_posix(), 1, 1, 1, 1))
 
 
-def _root(file: Path) -> Path:
-    """Return the folder that holds the package of a file and its neighbours, or that of the file."""
-    package = next((above for above in file.parents if (above / "package.xml").is_file()), None)
-    return file.parent if package is None else package.parent
-
-
 def _packaged(name: str, file: Path) -> str:
     """Name a mesh by a package: one beside the description becomes one of a package of the description's own."""
     scheme, separator, path = name.partition("://")
@@ -120,8 +115,9 @@ def _packaged(name: str, file: Path) -> str:
         return _PACKAGE + path.lstrip("/")  # `package:///PKG/…` stands in vendors' files, and their loaders take it
     absolute = Path(path) if scheme == "file" and separator else file.parent / name
     for above in absolute.parents:
-        if (above / "package.xml").is_file():
-            return f"{_PACKAGE}{above.name}/{absolute.relative_to(above).as_posix()}"
+        if (above / MANIFEST).is_file():
+            package = declared_name((above / MANIFEST).as_posix()) or above.name
+            return f"{_PACKAGE}{package}/{absolute.relative_to(above).as_posix()}"
     inside = Path(os.path.normpath(absolute)).name
     return f"{_PACKAGE}meshes/{inside}" if not separator or scheme == "file" else name
 
@@ -151,7 +147,7 @@ def _identified(name: str, root: Path) -> Path | None:
 
 
 def _license(file: Path) -> str:
-    manifest = next((above / "package.xml" for above in file.parents if (above / "package.xml").is_file()), None)
+    manifest = next((above / MANIFEST for above in file.parents if (above / MANIFEST).is_file()), None)
     text = "" if manifest is None else manifest.read_text(encoding="utf-8", errors="replace")
     found = re.search(r"<license[^>]*>\s*([^<]{1,100}?)\s*</license>", text)
     return "" if found is None else found[1]

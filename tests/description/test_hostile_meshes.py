@@ -46,15 +46,15 @@ def _cell(folder: Path) -> Path:
     return folder / "cell"
 
 
-def _refusal(name: str, roots: tuple[Path, ...], environment: dict[str, str] | None = None) -> str:
+def _refusal(name: str, roots: tuple[Path, ...], shelves: tuple[Path, ...] = ()) -> str:
     with pytest.raises(MeshError) as caught:
-        identify(name, roots, environment or {})
+        identify(name, roots, shelves)
     assert "\n" not in str(caught.value)
     return caught.value.code
 
 
 def _read(file: Path) -> MeshNumbers | MeshError:
-    (read,) = read_meshes((identify(f"file://{file}", (file.parent,), {}),))
+    (read,) = read_meshes((identify(f"file://{file}", (file.parent,), ()),))
     return read
 
 
@@ -65,7 +65,7 @@ def _box(content: MeshNumbers | MeshError) -> tuple[float, ...]:
 
 def test_package_beside_the_spec_is_found(tmp_path: Path) -> None:
     root = _cell(tmp_path)
-    assert identify("package://parts/part.stl", (root,), {}).path == str(root / "parts" / "part.stl")
+    assert identify("package://parts/part.stl", (root,), ()).path == str(root / "parts" / "part.stl")
 
 
 def test_package_of_a_workspace_may_consist_of_links(tmp_path: Path) -> None:
@@ -74,9 +74,9 @@ def test_package_of_a_workspace_may_consist_of_links(tmp_path: Path) -> None:
     share.mkdir(parents=True)
     (tmp_path / "part.stl").write_text(TRIANGLE.format(CORNERS))
     (share / "part.stl").symlink_to(tmp_path / "part.stl")
-    environment = {"AMENT_PREFIX_PATH": str(tmp_path / "install")}
+    shelves = (tmp_path / "install",)
     for name in ("package://tool/part.stl", f"file://{share}/part.stl"):
-        assert identify(name, (), environment).path == str(tmp_path / "part.stl")
+        assert identify(name, (), shelves).path == str(tmp_path / "part.stl")
 
 
 @pytest.mark.parametrize(
@@ -106,8 +106,8 @@ def test_name_that_reaches_elsewhere_is_refused(name: str, code: str, tmp_path: 
 @pytest.mark.parametrize("name", ["/dev/zero", "/proc/self/environ", "/sys/kernel/notes"])
 def test_package_path_leads_to_no_file_of_the_system(name: str, tmp_path: Path) -> None:
     (tmp_path / "part.stl").symlink_to(name)
-    assert _refusal("part.stl", (), {"ROS_PACKAGE_PATH": str(tmp_path)}) == "mesh-outside-root"
-    assert _refusal(name, (), {"ROS_PACKAGE_PATH": "/"}) == "mesh-outside-root"
+    assert _refusal("part.stl", (), (tmp_path,)) == "mesh-outside-root"
+    assert _refusal(name, (), (Path("/"),)) == "mesh-outside-root"
 
 
 @pytest.mark.parametrize(
@@ -153,7 +153,7 @@ def test_link_that_changes_after_it_was_judged_is_not_followed(tmp_path: Path, m
 
 def test_file_that_changes_after_it_was_hashed_is_not_read(tmp_path: Path) -> None:
     root = _cell(tmp_path)
-    file = identify("package://parts/part.stl", (root,), {})
+    file = identify("package://parts/part.stl", (root,), ())
     Path(file.path).unlink()
     Path(file.path).symlink_to("/etc/passwd")
     (read,) = read_meshes((file,))
@@ -241,7 +241,7 @@ def results_fixture(tmp_path_factory: pytest.TempPathFactory) -> dict[str, MeshN
         archive.writestr("a.dae", _COLLADA.format("", "0 0 0 1 0 0 0 2 0") + " " * 10_000_000)
     for name, content in (SHAPES | MALFORMED).items():
         (folder / name).write_bytes(content)
-    files = tuple(identify(f"file://{file}", (folder,), {}) for file in sorted(folder.iterdir()))
+    files = tuple(identify(f"file://{file}", (folder,), ()) for file in sorted(folder.iterdir()))
     return {Path(file.path).name: read for file, read in zip(files, read_meshes(files), strict=True)}
 
 
@@ -271,7 +271,7 @@ def test_bytes_and_triangles_are_bounded(tmp_path: Path) -> None:
     assert isinstance(read, MeshError)
     assert (read.code, str(read)) == ("mesh-too-large", "must have at most 1 triangles, got 2")
     with in_force(replace(DEFAULTS, mesh_bytes=183)):
-        assert _refusal("part.stl", (), {"ROS_PACKAGE_PATH": str(tmp_path)}) == "mesh-too-large"
+        assert _refusal("part.stl", (), (tmp_path,)) == "mesh-too-large"
 
 
 def test_mesh_that_ends_the_child_is_named_and_those_before_it_are_read(tmp_path: Path) -> None:
@@ -279,7 +279,7 @@ def test_mesh_that_ends_the_child_is_named_and_those_before_it_are_read(tmp_path
     (tmp_path / "a.stl").write_bytes(_binary_stl(1, POINTS))
     (tmp_path / "b.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf" + " 1 2 3 4" * 60_000)
     (tmp_path / "c.stl").write_bytes(_binary_stl(1, POINTS))
-    files = tuple(identify(f"file://{file}", (tmp_path,), {}) for file in sorted(tmp_path.iterdir()))
+    files = tuple(identify(f"file://{file}", (tmp_path,), ()) for file in sorted(tmp_path.iterdir()))
     with in_force(replace(DEFAULTS, mesh_seconds=2)):
         read = read_meshes(files)
     assert len(read) == 2

@@ -143,7 +143,7 @@ def test_busy_machine_gives_the_answer_of_an_idle_one(tmp_path: Path, monkeypatc
     assert expand_xacro(_write(tmp_path, f"{_HEAD}<link name='a'/></robot>"), {}, tmp_path, purse=purse).value
     triangle = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
     (tmp_path / "a.stl").write_text(f"solid a\n{triangle}endsolid a\n", encoding="utf-8")
-    (read,) = read_meshes((identify(f"file://{tmp_path}/a.stl", (tmp_path,), {}),))
+    (read,) = read_meshes((identify(f"file://{tmp_path}/a.stl", (tmp_path,), ()),))
     assert not isinstance(read, MeshError)
     assert min(given) > 50 * max(limits().mesh_seconds, limits().xacro_seconds)
 

@@ -1,16 +1,17 @@
-"""An answer from the cache is the one that a run without a cache gives, whatever file or variable has changed."""
+"""An answer from the cache is the one that a run without a cache gives, whatever file or package path has changed."""
 
 from __future__ import annotations
 
 import os
 import shutil
 import struct
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 import pytest
 import yaml
 
+from cellc.description.packages import on_package_path, use_packages
 from cellc.feasibility import MotionAnswer, disabled_links, motion_answer
 from cellc.feasibility.question import MotionQuestion
 from cellc.store.cache import cache_folder
@@ -97,19 +98,18 @@ def _turn_link(folder: Path, _: pytest.MonkeyPatch) -> None:
     mesh.symlink_to(folder / "large.stl")
 
 
-def _name_other_packages(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def _name_other_packages(folder: Path, _: pytest.MonkeyPatch) -> None:
     _cube(folder / "two" / "parts" / "hand.stl", LARGE)
-    monkeypatch.setenv("ROS_PACKAGE_PATH", str(folder / "two"))
+    use_packages([str(folder / "two")])
 
 
-def _name_no_package(_: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.delenv("ROS_PACKAGE_PATH")
+def _name_no_package(_: Path, __: pytest.MonkeyPatch) -> None:
+    use_packages([])
 
 
-def _name_a_prefix(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def _name_a_prefix(folder: Path, _: pytest.MonkeyPatch) -> None:
     _cube(folder / "prefix" / "share" / "parts" / "hand.stl", LARGE)
-    monkeypatch.delenv("ROS_PACKAGE_PATH")
-    monkeypatch.setenv("AMENT_PREFIX_PATH", str(folder / "prefix"))
+    use_packages([str(folder / "prefix")])
 
 
 CHANGES = [
@@ -119,14 +119,13 @@ CHANGES = [
 
 
 @pytest.fixture(name="cache", autouse=True)
-def cache_fixture(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def cache_fixture(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     monkeypatch.delenv("CELLC_NO_CACHE", raising=False)
-    monkeypatch.setenv("ROS_PACKAGE_PATH", f"{tmp_path / 'none'}{os.pathsep}{tmp_path / 'one'}")
-    monkeypatch.delenv("AMENT_PREFIX_PATH", raising=False)
     folder = cache_folder()
     assert folder is not None
-    return folder
+    with on_package_path([str(tmp_path / "none"), str(tmp_path / "one")]):
+        yield folder
 
 
 def _answers(path: Path) -> tuple[MotionAnswer, object]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
@@ -10,6 +11,7 @@ from cellc.description.meshes import identify
 from cellc.description.model import Description, Mesh
 from cellc.description.packages import find_package
 from cellc.description.read_description import read_description
+from tests.cli.run import run
 
 _HEAD = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">'
 _LINK = '<link name="{0}"><collision><geometry><mesh filename="{1}"/></geometry></collision></link>'
@@ -86,8 +88,40 @@ def test_package_lies_in_a_workspace_or_in_the_folder_of_a_device(place: str, tm
     (tmp_path / "my_arm" / "device.yaml").touch()
     (tmp_path / place / "meshes" / "a.stl").write_bytes(b"solid a")
     assert find_package("arm_description", str(tmp_path)) == str(tmp_path / place)
-    found = identify("package://arm_description/meshes/a.stl", (tmp_path,), {})
+    found = identify("package://arm_description/meshes/a.stl", (tmp_path,), ())
     assert found.path == str(tmp_path / place / "meshes" / "a.stl")
+
+
+def test_repository_that_is_a_package_of_another_name_is_found_by_its_manifest(tmp_path: Path) -> None:
+    # As Universal_Robots_ROS2_Description, whose package is ur_description.
+    (tmp_path / "src" / "Vendor_Repository").mkdir(parents=True)
+    (tmp_path / "src" / "Vendor_Repository" / "package.xml").write_text("<package>\n <name>arm_description</name>\n")
+    assert find_package("arm_description", str(tmp_path)) == str(tmp_path / "src" / "Vendor_Repository")
+    assert find_package("Vendor", str(tmp_path)) is None
+
+
+def test_packages_are_those_that_the_call_names_and_none_of_the_environment(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    there = tmp_path / "prefix" / "share" / "hand_description"
+    there.mkdir(parents=True)
+    facet = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0.5\nendloop\nendfacet\n"
+    (there / "a.stl").write_text(f"solid a\n{facet}endsolid a\n", encoding="utf-8")
+    (there / "a.xacro").write_text(f"{_HEAD}{_LINK.format('a', 'package://hand_description/a.stl')}</robot>", "utf-8")
+    cell = tmp_path / "cell"
+    cell.mkdir()
+    (cell / "arm.urdf.xacro").write_text(
+        f'{_HEAD}<xacro:include filename="$(find hand_description)/a.xacro"/></robot>', encoding="utf-8"
+    )
+    monkeypatch.chdir(cell)
+    for name in ("AMENT_PREFIX_PATH", "ROS_PACKAGE_PATH"):
+        monkeypatch.setenv(name, str(tmp_path / "prefix"))
+    ran = run("check", "arm.urdf.xacro")
+    assert "error[xacro-package-not-found]" in ran.out
+    assert "--package-path" in ran.out
+    ran = run("check", "arm.urdf.xacro", "--package-path", f"{tmp_path}{os.pathsep}{tmp_path / 'prefix'}")
+    assert ran.out == "no findings in arm.urdf.xacro\n"
+    assert run("check", "arm.urdf.xacro", "--package-path", "absent").code == 2
 
 
 def test_link_within_the_repository_is_followed(tmp_path: Path) -> None:
@@ -98,7 +132,7 @@ def test_link_within_the_repository_is_followed(tmp_path: Path) -> None:
     cell = tmp_path / "cells" / "mine"
     cell.mkdir(parents=True)
     (cell / "arm_description").symlink_to("../../vendor/arm_description")
-    found = identify("package://arm_description/a.stl", (cell,), {})
+    found = identify("package://arm_description/a.stl", (cell,), ())
     assert found.path == str(tmp_path / "vendor" / "arm_description" / "a.stl")
     read = _read(cell, '<xacro:include filename="$(find arm_description)/a.xacro"/>')
     assert [link.name for link in read.links] == ["a"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,7 @@ import numpy as np
 import pinocchio
 import pytest
 
+from cellc.description.packages import on_package_path
 from cellc.planning import RobotModel
 
 CORNERS = ((0, 0, 0), (0.1, 0, 0), (0, 0.2, 0), (0, 0, 0.3))
@@ -27,7 +29,7 @@ ROBOT = """<robot name="r"><link name="base">
 
 
 @pytest.fixture(name="shelf")
-def shelf_fixture(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def shelf_fixture(tmp_path: Path) -> Iterator[Path]:
     parts = tmp_path / "parts"
     parts.mkdir()
     triangles = [[value for corner in face for value in CORNERS[corner]] for face in FACES]
@@ -35,9 +37,8 @@ def shelf_fixture(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (parts / "a.stl").write_bytes(bytes(80) + struct.pack("<I", len(triangles)) + body)
     lines = [f"v {x} {y} {z}" for x, y, z in CORNERS] + [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in FACES]
     (parts / "b.obj").write_text("mtllib absent.mtl\n" + "\n".join(lines) + "\n")
-    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path))
-    monkeypatch.delenv("AMENT_PREFIX_PATH", raising=False)
-    return tmp_path
+    with on_package_path([str(tmp_path)]):
+        yield tmp_path
 
 
 def _shown(geometry: Any) -> list[tuple[object, ...]]:

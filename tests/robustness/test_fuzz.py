@@ -6,11 +6,13 @@ import hashlib
 import os
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from cellc import pipeline
+from cellc.description.packages import on_package_path
 from tests.cells import ROOT
 from tests.robustness.fuzz import oracle
 from tests.robustness.fuzz.inputs import KINDS, make_input
@@ -20,10 +22,11 @@ COUNTS = {"spec": 60, "device": 60, "description": 60, "folder": 50, "cache": 8}
 
 
 @pytest.fixture(name="sandbox")
-def sandbox_fixture(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Sandbox:
-    for name in ("XDG_CACHE_HOME", "XDG_STATE_HOME", "ROS_PACKAGE_PATH", "CELLC_NO_CACHE"):
+def sandbox_fixture(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Sandbox]:
+    for name in ("XDG_CACHE_HOME", "XDG_STATE_HOME", "CELLC_NO_CACHE"):
         monkeypatch.setenv(name, "")  # the sandbox sets them, and this puts them back
-    return Sandbox(tmp_path)
+    with on_package_path([]):
+        yield Sandbox(tmp_path)
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -13,6 +13,7 @@ from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 
 from cellc.contract.rehearsals import RehearsalEntry
+from cellc.description.packages import package_path, use_packages
 from cellc.limits import Limits, limits, use
 from cellc.mock.campaign.limits import LimitsReport, check_limits, merge
 from cellc.mock.campaign.plan import CampaignPlan, CampaignRun, RunEnd
@@ -86,6 +87,7 @@ class Assignment:
     runs: tuple[CampaignRun, ...]
     seed: int
     limits: Limits
+    packages: tuple[str, ...] = ()
 
 
 def usable_cores() -> int:
@@ -170,6 +172,7 @@ def _work(connection: Connection) -> None:
     try:
         assignment: Assignment = connection.recv()
         use(assignment.limits)
+        use_packages(assignment.packages)
         cell = cell_of(assignment.folder)
         while True:
             number = connection.recv()
@@ -251,7 +254,7 @@ def conduct(
     Raises:
         MockError: a run cannot be executed.
     """
-    assignment = Assignment(cell.folder, tuple(runs), seed, limits())
+    assignment = Assignment(cell.folder, tuple(runs), seed, limits(), package_path())
     arriving = run_here(cell, assignment) if jobs == 1 else run_in_workers(assignment, jobs)
     ends: dict[int, RunEnd] = {}
     failed = 0

@@ -1,8 +1,8 @@
 """A collision shape names a mesh that is not there.
 
 Without the shape nobody checks collisions: poses and goals go unjudged, the semantic description lists neighbors alone,
-and the mock does not plan. A mesh is looked for in the folders of `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH`, as a
-sourced workspace sets them, then as a package in the folder of the spec. Shapes to look at (`<visual>`) are not read.
+and the mock does not plan. A mesh is looked for in the folders of `--package-path`, then as a package in the folder of
+the spec. Shapes to look at (`<visual>`) are not read.
 
 Example that is reported:
 
@@ -20,7 +20,7 @@ Example that is accepted:
 </link>
 ```
 
-Fix: source the workspace that holds the package, put the package beside the spec, or use boxes, cylinders and spheres.
+Fix: name the folder of the package with `--package-path`, put the package beside the spec, or use boxes and cylinders.
 
 Source: docs/principles.md#how-geometry-is-checked
 """

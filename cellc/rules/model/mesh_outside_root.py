@@ -2,7 +2,7 @@
 
 A description may come from a stranger, and `file:///home/me/part.stl`, `..` and links reach for what lies on this
 machine: the check then depends on it, and no other computer finds the file. A mesh must lie in the folder of the spec
-or in a package of `ROS_PACKAGE_PATH` or `AMENT_PREFIX_PATH`; out of the folder of the spec no link may lead.
+or in a package of `--package-path`; out of the folder of the spec no link may lead.
 
 Example that is reported:
 

@@ -17,6 +17,7 @@ import yaml
 
 from cellc.artifact import Artifact
 from cellc.deploy.deployment import plan_deployment
+from cellc.description.packages import use_packages
 from cellc.diagnose.diagnose import diagnose
 from cellc.diagnostics import Diagnostic, Severity
 from cellc.diagnostics.unsafe_text import HIDDEN
@@ -69,7 +70,7 @@ class Sandbox:
         shutil.copytree(PARTS, self.folder / "parts")
         os.environ["XDG_CACHE_HOME"] = str(self.cache.parent)
         os.environ["XDG_STATE_HOME"] = str(folder / "state")
-        os.environ["ROS_PACKAGE_PATH"] = str(self.folder)
+        use_packages([str(self.folder)])
         os.environ.pop(OFF, None)
         self._written: dict[str, bytes] = {}
         self._kept: set[tuple[tuple[str, bytes], ...]] = set()
