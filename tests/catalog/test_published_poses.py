@@ -19,7 +19,13 @@ ARMS = {name: name for name in PUBLISHED} | SAME_ARM
 # By hand from the origins in the vendor's description: shoulder to flange, stretched out, m.
 GEN3_UPPER_M = 2 * 0.21038 + 0.20843
 WRIST_M = 2 * 0.10593 + 0.061525
-REACH_M = {"kinova_gen3": GEN3_UPPER_M + WRIST_M, "kinova_gen3_6dof": 0.41 + 0.20843 + WRIST_M}
+OPENARM_M = 0.06625 + 0.15375 + 0.0955 + 0.1205
+REACH_M = {
+    "kinova_gen3": GEN3_UPPER_M + WRIST_M,
+    "kinova_gen3_6dof": 0.41 + 0.20843 + WRIST_M,
+    "openarm_v2_left": OPENARM_M,
+    "openarm_v2_right": OPENARM_M,
+}
 
 
 def _device(name: str) -> CatalogDevice:

@@ -48,6 +48,7 @@ class Release:
 _UR = "Universal_Robots_ROS2_Driver"
 _ROBOTIQ = "ros2_robotiq_gripper"
 _KORTEX = "ros2_kortex"
+_OPENARM = "openarm_ros2"
 _KNUCKLE = ("robotiq_85_left_knuckle_joint",)
 _ALL = (
     Release("ur5e", "universal_robots/2.14.0_humble", "humble", "ur_robot_driver 2.14.0", _UR, "2.14.0"),
@@ -63,6 +64,8 @@ _ALL = (
     Release("robotiq_2f_85", "robotiq/main_3b6cf8f", "lyrical", "robotiq_driver 3b6cf8f", _ROBOTIQ, "3b6cf8f"),
     Release("kinova_gen3_2f_85", "kinova/humble", "humble", "ros2_kortex 116d87a", _KORTEX, "humble"),
     Release("kinova_gen3_2f_85", "kinova/jazzy", "jazzy", "ros2_kortex 0.2.6", _KORTEX, "jazzy"),
+    Release("openarm_v2_left", "openarm/v2.0", "humble", "openarm_ros2 492b307", _OPENARM, "73ef898"),
+    Release("openarm_v2_right", "openarm/v2.0", "humble", "openarm_ros2 492b307", _OPENARM, "73ef898"),
 )
 RELEASES = _ALL if VENDORS.exists() else ()
 """Every release that was read, where the shared folder is there; a test over none of them is skipped."""
@@ -99,9 +102,27 @@ class Demands:
     exactly: bool = False
 
 
+def parameters(release: Release) -> dict[str, Any]:
+    """Return the parameters that the plugin of a release reads; ``kp1..kp7`` and ``a, b`` are several alike."""
+    read: dict[str, Any] = {}
+    for key, told in facts(release, "hardware_parameters")["parameters"].items():
+        first, _, last = key.partition("..")
+        stem = first.rstrip("0123456789")
+        ends = [int(one[len(stem) :]) for one in (first, last) if last]
+        numbered = [f"{stem}{number}" for number in range(ends[0], ends[1] + 1)] if last else []
+        read |= dict.fromkeys(numbered or key.split(", "), told)
+    return read
+
+
 def demands(release: Release) -> Demands:
     """Return what the plugin of a release wants; the wording of each vendor's facts is read here and nowhere else."""
     told = facts(release, "hardware_interfaces")
+    if release.repository == _OPENARM:
+        assert "names are made in code, openarm_<arm_prefix>joint1..7" in told["demanded_of_the_urdf"]
+        arm = f"openarm_{release.device.rpartition('_')[2]}_"
+        names = (*(f"{arm}joint{number}" for number in range(1, 8)), f"{arm}finger_joint1")
+        declared = told["vendor_declares"]
+        return Demands(names, tuple(declared["command"]), tuple(declared["state"]))
     if release.repository == _UR:
         joints = told["demanded_of_urdf"]["joints"]
         optional = {name for name, how in joints["command_interfaces"].items() if how.startswith("optional")}
@@ -133,6 +154,8 @@ def exports(release: Release, side: str, prefix: str) -> dict[str, set[str]]:
     told = facts(release, "hardware_interfaces")
     if release.repository == "franka_ros2":
         return _exports_of_fr3(told, side, prefix)
+    if release.repository == _OPENARM:
+        return {"<joint>": set(told["exported"][side])}
     if release.repository == _KORTEX:
         return _named(told["exported_whatever_the_urdf_says"][f"{side}s"], {"<gripper_joint_name>": "<joint>"})
     found: dict[str, set[str]] = {}

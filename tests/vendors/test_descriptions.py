@@ -18,6 +18,8 @@ _SOURCES = {
     "franka_hand": ("franka/jazzy-3.4.0", "fr3_hand", ""),
     "robotiq_2f_85": ("kinova/jazzy", "gen3_7dof_2f85", "robotiq_85_"),
     "kinova_gen3_2f_85": ("kinova/jazzy", "gen3_7dof_2f85", ""),
+    "openarm_v2_left": ("openarm/v2.0", "openarm_v20_bimanual", ""),
+    "openarm_v2_right": ("openarm/v2.0", "openarm_v20_bimanual", ""),
     "kinova_gen3_6dof_2f_85": ("kinova/jazzy", "gen3_6dof_2f85", ""),
 }
 """Device → folder, model, and what the vendor puts before the name of the base link. None was read for the others."""

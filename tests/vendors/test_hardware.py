@@ -2,20 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import pytest
 
-from tests.vendors.oracle import demands, exports, facts, update_rate
+from tests.vendors.oracle import demands, exports, facts, parameters, update_rate
 from tests.vendors.packages import CASES, Case, RealTarget, real_target
 
 every_case = pytest.mark.parametrize("case", CASES, ids=str)
-
-
-def _read(case: Case) -> dict[str, Any]:
-    """Return the parameters that the plugin of a release reads."""
-    read: dict[str, Any] = facts(case.release, "hardware_parameters")["parameters"]
-    return read
 
 
 def _given(target: RealTarget) -> dict[str, str]:
@@ -31,19 +23,19 @@ def test_the_plugin_is_the_vendor_s(case: Case) -> None:
 @every_case
 def test_every_parameter_that_the_plugin_requires_is_given(case: Case) -> None:
     given = _given(real_target(case))
-    required = {name for name, told in _read(case).items() if told["required"] is True}
+    required = {name for name, told in parameters(case.release).items() if told["required"] is True}
     assert required - set(given) == set()
 
 
 @every_case
 def test_no_parameter_is_given_that_the_plugin_does_not_read(case: Case) -> None:
-    assert set(_given(real_target(case))) - set(_read(case)) == set()
+    assert set(_given(real_target(case))) - set(parameters(case.release)) == set()
 
 
 @every_case
 def test_no_parameter_with_a_default_is_written_empty(case: Case) -> None:
     # The reader of ros2_control writes "text not specified in the ... tag" for each of them.
-    read = _read(case)
+    read = parameters(case.release)
     assert [name for name, value in _given(real_target(case)).items() if not value and not read[name]["required"]] == []
 
 
