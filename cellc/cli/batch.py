@@ -37,6 +37,29 @@ class CellResult:
     artifacts: tuple[Artifact, ...] | None = None
 
 
+def cell_files(paths: Sequence[str]) -> tuple[str, ...]:
+    """Return the specs that are meant: a folder stands for every ``cell.yaml`` below it, in alphabetical order.
+
+    Folders that begin with a dot and virtual environments are left out, and no link to a folder is followed. A folder
+    without a spec stays what it is, so that it is told like any other file that is none.
+    """
+    return tuple(spec for path in paths for spec in (_specs_below(path) if os.path.isdir(path) else ()) or (path,))
+
+
+def _specs_below(folder: str) -> tuple[str, ...]:
+    found: list[str] = []
+    for place, folders, files in os.walk(folder):
+        kept = (name for name in folders if not name.startswith("."))
+        folders[:] = sorted(name for name in kept if not os.path.exists(os.path.join(place, name, "pyvenv.cfg")))
+        if SPEC_FILE in files:
+            found.append(os.path.normpath(os.path.join(place, SPEC_FILE)))
+    return tuple(found)
+
+
+SPEC_FILE = "cell.yaml"
+"""What a spec is called where a folder is named instead of it."""
+
+
 def results(kind: Kind, files: Sequence[str]) -> Iterator[CellResult]:
     """Yield the result of each spec in the order of the call, with what the cells before it have against it.
 

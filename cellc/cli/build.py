@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from cellc.artifact import Artifact
-from cellc.cli.batch import CellResult, results
+from cellc.cli.batch import CellResult, cell_files, results
 from cellc.cli.findings import (
     FAIL_ON,
     FORMAT,
@@ -61,10 +61,17 @@ def build(
 ) -> None:
     """Check each cell in FILES and write its ROS 2 package to OUTPUT/<cell>.
 
+    A folder stands for every cell.yaml below it.
+
     Errors stop a cell from being written. Blockers do not: they refuse the real target, not the mock, and are summed
     here; `cellc check` shows each. Files that you put beside the generated ones stay. No option hides an error.
+
+    \b
+    cellc build cells/bench/cell.yaml          writes generated/bench
+    cellc build --check .                      fails where a generated folder is not what its cell makes
     """
     wanted = read_selection(select, ignore)
+    files = cell_files(files)
     built: list[Findings] = []
     places: dict[str, Span] = {}
     told: list[Line] = []

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from cellc.cli.batch import results
+from cellc.cli.batch import cell_files, results
 from cellc.cli.findings import (
     FAIL_ON,
     FORMAT,
@@ -52,8 +52,16 @@ def check(
     output_format: str,
     fail_on: str,
 ) -> None:
-    """Check each cell in FILES and point at what is wrong."""
+    """Check each cell in FILES and point at what is wrong; a folder stands for every cell.yaml below it.
+
+    \b
+    cellc check cells/bench/cell.yaml          one cell
+    cellc check .                              every cell of a repository
+    cellc check robot.urdf.xacro               a description alone
+    cellc check . --format github              annotations of a pull request
+    """
     wanted = read_selection(select, ignore)
+    files = cell_files(files)
     found = []
     with progress("checking") as update:
         for file in files if fix else ():

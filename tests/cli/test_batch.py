@@ -7,12 +7,13 @@ import os
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import process
 from concurrent.futures.process import BrokenProcessPool
+from pathlib import Path
 
 import pytest
 
-from cellc.cli.batch import CellResult, compute, in_workers, number_of_workers
+from cellc.cli.batch import CellResult, cell_files, compute, in_workers, number_of_workers
 from tests.cells import ROOT
-from tests.cli.run import MINIMAL
+from tests.cli.run import MINIMAL, run
 
 FILES = [file.as_posix() for file in sorted((ROOT / "tests/corpus/invalid").glob("un*.yaml"))[:3]]
 
@@ -76,3 +77,20 @@ def test_what_a_lost_process_owes_is_computed_here(monkeypatch: pytest.MonkeyPat
     monkeypatch.setattr(process, "ProcessPoolExecutor", _PoolThatBreaks)
     files = [MINIMAL, *FILES[:2]]
     assert list(in_workers("check", files, 2)) == [compute("check", file) for file in files]
+
+
+def test_folder_stands_for_every_spec_below_it(tmp_path: Path) -> None:
+    for place in ("b", "a/deep", ".hidden", "env", "generated/x"):
+        (tmp_path / place).mkdir(parents=True)
+        (tmp_path / place / "cell.yaml").write_text("format: 1\n", encoding="utf-8")
+    (tmp_path / "env" / "pyvenv.cfg").write_text("", encoding="utf-8")
+    (tmp_path / "generated" / "x" / "cell.yaml").unlink()
+    (tmp_path / "linked").symlink_to(tmp_path / "a")
+    found = [Path(file).relative_to(tmp_path).as_posix() for file in cell_files([tmp_path.as_posix()])]
+    assert found == ["a/deep/cell.yaml", "b/cell.yaml"]
+
+
+def test_folder_without_a_spec_is_told_as_what_it_is(tmp_path: Path) -> None:
+    ran = run("check", tmp_path.as_posix())
+    assert ran.code == 1
+    assert "is a folder" in ran.out

@@ -1,0 +1,63 @@
+"""The hooks of .pre-commit-hooks.yaml in a repository of a user, run by pre-commit itself."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import yaml
+
+from tests.cells import ROOT, build_into
+from tests.foreign_yaml import safe_load
+from tests.pull_request.conftest import environment, git
+
+pytest.importorskip("pre_commit", reason="pre-commit is not installed")
+
+
+def _replace(folder: Path, file: str, old: str, new: str) -> None:
+    text = (folder / file).read_text(encoding="utf-8")
+    assert old in text
+    (folder / file).write_text(text.replace(old, new, 1), encoding="utf-8")
+
+
+def _hooked(folder: Path) -> None:
+    """Configure the hooks as they are offered, from this environment instead of one that is fetched."""
+    hooks = [hook | {"language": "system"} for hook in safe_load((ROOT / ".pre-commit-hooks.yaml").read_text())]
+    file = folder / ".pre-commit-config.yaml"
+    file.write_text(yaml.safe_dump({"repos": [{"repo": "local", "hooks": hooks}]}), encoding="utf-8")
+
+
+def _commit(folder: Path) -> subprocess.CompletedProcess[str]:
+    git(folder, "add", "-A")
+    return subprocess.run(
+        (sys.executable, "-m", "pre_commit", "run"),
+        cwd=folder,
+        env=environment(PRE_COMMIT_HOME=str(folder.parent / "pre_commit")),
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=120,
+    )
+
+
+def _failing(ran: subprocess.CompletedProcess[str]) -> list[str]:
+    return [one for one in ("cellc-check", "cellc-build-check") if f"hook id: {one}" in ran.stdout]
+
+
+def test_generated_file_that_was_changed_alone_is_stopped(repository: Path) -> None:
+    _hooked(repository)
+    _replace(repository, "generated/line/package.xml", "<version>", "<version>9")
+    ran = _commit(repository)
+    assert (ran.returncode, _failing(ran)) == (1, ["cellc-build-check"]), ran.stdout + ran.stderr
+
+
+def test_device_that_was_changed_alone_is_stopped_until_its_cell_is_built(repository: Path) -> None:
+    _hooked(repository)
+    _replace(repository, "cells/line/stage/stage.urdf", 'upper="3"', 'upper="2"')
+    ran = _commit(repository)
+    assert (ran.returncode, _failing(ran)) == (1, ["cellc-build-check"]), ran.stdout + ran.stderr
+    build_into(repository / "generated/line", repository / "cells/line/cell.yaml")
+    ran = _commit(repository)
+    assert (ran.returncode, _failing(ran)) == (0, []), ran.stdout + ran.stderr
