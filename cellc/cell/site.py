@@ -79,12 +79,22 @@ class Host(Entity):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class DiscoveryServer:
+    """A server of Fast DDS's discovery on a host; ``nic`` is None where the spec leaves the card open."""
+
+    host: str
+    nic: str | None
+    port: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Network:
-    """How the nodes of the cell find each other: ``discovery`` is multicast, unicast, localhost or off."""
+    """How the nodes of the cell find each other: ``discovery`` is multicast, unicast, server, localhost or off."""
 
     domain_id: int = 0
     discovery: str = "multicast"
     peers: tuple[str, ...] = ()
+    servers: tuple[DiscoveryServer, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

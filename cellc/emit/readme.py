@@ -150,9 +150,17 @@ def _shell_of(cell: Cell) -> str:
             f"colcon build --base-paths generated --packages-select {cell.name}  # once",
             "source install/setup.bash",
             *environments,
+            *_servers(cell),
             'export E=evidence/attempt-001 && mkdir -p "$E"  # a new folder for each attempt',
         )
     )
+
+
+def _servers(cell: Cell) -> Iterator[str]:
+    """Yield what starts the discovery servers, without which nobody finds anybody."""
+    for number, server in enumerate(cell.network.servers if cell.network.discovery == "server" else ()):
+        start = f"generated/{cell.name}/middleware/{server.host}.discovery_server_{number}"
+        yield f"{start}  # on {server.host}, before all else, in a shell of its own"
 
 
 def _sources(cell: Cell) -> Iterator[str]:

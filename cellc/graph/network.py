@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from ipaddress import IPv4Address, IPv4Interface
 
 from cellc.cell.cell import Cell
+from cellc.cell.site import DiscoveryServer
 from cellc.diagnostics import YamlPath
 
 
@@ -48,6 +49,17 @@ class NetworkGraph:
     def nic(self, host: str, name: str) -> Nic | None:
         """Find a card."""
         return next((nic for nic in self.nics if nic.host == host and nic.name == name), None)
+
+    def ros_cards(self, host: str) -> tuple[Nic, ...]:
+        """Return the cards of a host that ROS may use: those with an address that are not for control."""
+        return tuple(
+            nic for nic in self.nics if nic.host == host and nic.interface is not None and "control" not in nic.carries
+        )
+
+    def card_of(self, server: DiscoveryServer) -> Nic | None:
+        """Find the card on which a discovery server listens: that of the spec, or the first of its host for ROS."""
+        cards = self.ros_cards(server.host)
+        return next((card for card in cards if server.nic in (None, card.name)), None)
 
     def nic_of(self, device: DeviceAddress) -> Nic | None:
         """Find the card on which a device is reached, where the spec names one."""

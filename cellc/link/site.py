@@ -19,6 +19,7 @@ from cellc.cell.site import (
     Calibration,
     CalibrationFile,
     Clock,
+    DiscoveryServer,
     FirstMotion,
     HardwareStatement,
     Host,
@@ -110,7 +111,8 @@ def bind_clock(written: ClockSpec | StampSpec, domain: str) -> Clock:
 def bind_network(spec: CellSpec) -> Network:
     """Return how nodes find each other."""
     written = spec.network
-    return Network(domain_id=written.domain_id, discovery=written.discovery, peers=written.peers)
+    servers = tuple(DiscoveryServer(host=one.host, nic=one.nic, port=one.port) for one in written.servers)
+    return Network(domain_id=written.domain_id, discovery=written.discovery, peers=written.peers, servers=servers)
 
 
 def bind_calibrations(

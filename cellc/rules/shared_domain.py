@@ -35,9 +35,10 @@ class Presence:
         name: of the cell, and so of its folder.
         named_at: where the spec gives the name.
         domain_id: ROS_DOMAIN_ID.
-        discovery: `multicast`, `unicast`, `localhost` or `off`.
+        discovery: `multicast`, `unicast`, `server`, `localhost` or `off`.
         cards: well-formed addresses of the hosts' network cards with their prefix lengths, such as `10.10.0.10/24`.
         peers: static peers, as they stand in the spec.
+        servers: addresses and ports of discovery servers.
         domain_at: where the spec gives the domain, or its network.
     """
 
@@ -48,6 +49,7 @@ class Presence:
     cards: tuple[str, ...]
     peers: tuple[str, ...]
     domain_at: Span
+    servers: frozenset[str] = frozenset()
 
 
 def presence_of(graph: CellGraph) -> Presence:
@@ -61,6 +63,11 @@ def presence_of(graph: CellGraph) -> Presence:
         discovery=network.discovery,
         cards=tuple(str(nic.interface) for nic in graph.network.nics if nic.interface is not None),
         peers=network.peers,
+        servers=frozenset(
+            f"{card.interface.ip}:{server.port}"
+            for server in network.servers
+            if (card := graph.network.card_of(server)) is not None and card.interface is not None
+        ),
         domain_at=cell.locate("network", "domain_id"),
     )
 
@@ -99,6 +106,9 @@ def way_between(first: Presence, second: Presence) -> str | None:
     if first.discovery == second.discovery == "multicast":
         shared = sorted({str(a.network) for a in ours for b in theirs if a.network.overlaps(b.network)})
         return f"by multicast in {shared[0]}" if shared else None
+    if "server" in (first.discovery, second.discovery):  # who asks a server does not listen to multicast
+        common = sorted(first.servers & second.servers) if first.discovery == second.discovery else []
+        return f"through the server {common[0]}" if common else None
     named = sorted(
         {str(card.ip) for card in ours} & set(second.peers) | {str(card.ip) for card in theirs} & set(first.peers)
     )

@@ -82,13 +82,28 @@ class HostSpec(SpecModel):
     )
 
 
+class DiscoveryServerSpec(SpecModel):
+    """A discovery server of Fast DDS, which every node of the cell asks who else is there."""
+
+    host: Name = Field(..., description="The host that it runs on.", examples=["control_pc"])
+    nic: Name | None = Field(
+        None, description="The card that it listens on; the first that carries no control if absent.", examples=["cell"]
+    )
+    port: int = Field(11811, ge=1024, le=65535, description="The UDP port that it listens on.", examples=[11811])
+
+
 class NetworkSpec(SpecModel):
     """How the nodes of the cell find each other."""
 
     domain_id: int = Field(0, description="ROS_DOMAIN_ID; 0 to 101 are safe on every platform.", examples=[42])
-    discovery: Literal["multicast", "unicast", "localhost", "off"] = Field(
+    discovery: Literal["multicast", "unicast", "server", "localhost", "off"] = Field(
         "multicast", description="Discovery of participants.", examples=["unicast"]
     )
     peers: tuple[Text, ...] = Field(
         (), description="Static peers of unicast discovery; hosts of the cell are added.", examples=[["10.10.0.11"]]
+    )
+    servers: tuple[DiscoveryServerSpec, ...] = Field(
+        (),
+        description="Discovery servers of `discovery: server`; each node asks all of them.",
+        examples=[[{"host": "control_pc"}]],
     )

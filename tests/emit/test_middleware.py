@@ -6,6 +6,7 @@ import json
 import re
 from functools import cache
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 import xmlschema
@@ -16,6 +17,7 @@ from tests.foreign_yaml import safe_load
 from tests.oracles import UPSTREAM, needs_upstream
 
 CONTROL_CARD = "192.168.56.10"
+SERVERS = "server, servers: [{host: control_pc}, {host: vision_pc, nic: bulk, port: 12000}]"
 SECOND_HOST = "\n  vision_pc:\n    nics: {bulk: {address: 10.10.0.11/24, carries: [camera]}}\nnetwork:"
 
 
@@ -41,6 +43,18 @@ def _of_middleware(artifacts: dict[str, str]) -> dict[str, str]:
 @pytest.mark.parametrize("discovery", ["multicast", "unicast", "localhost", "off"])
 def test_fast_dds_profile_is_what_fast_dds_declares(distro: str, discovery: str, tmp_path: Path) -> None:
     files = emitted(tmp_path, _text("rmw_fastrtps_cpp", discovery, distro))
+    _holds_for_both(files, distro)
+
+
+@needs_upstream
+@pytest.mark.parametrize("distro", ["kilted", "lyrical"])  # version 3, which is that of the schema
+def test_clients_of_discovery_servers_are_what_fast_dds_declares(distro: str, tmp_path: Path) -> None:
+    files = emitted(tmp_path, _text("rmw_fastrtps_cpp", SERVERS, distro))
+    # The parser has had it since 2.6 (Fast DDS 3.2.5, XMLElementParser.cpp:3940); the schema beside it has not.
+    _holds_for_both({path: text.replace("SUPER_CLIENT", "CLIENT") for path, text in files.items()}, distro)
+
+
+def _holds_for_both(files: dict[str, str], distro: str) -> None:
     schema = _fast_dds_schema()
     for host in ("control_pc", "vision_pc"):
         # Version 2 has another namespace than the schema, which is that of version 3.
@@ -57,6 +71,41 @@ def test_cyclone_profile_is_what_cyclone_declares(discovery: str, tmp_path: Path
     schema = xmlschema.XMLSchema(UPSTREAM / "xsd" / "cyclonedds.xsd")
     for host in ("control_pc", "vision_pc"):
         schema.validate(files[f"middleware/{host}.cyclonedds.xml"])
+
+
+@pytest.mark.parametrize("distro", ["humble", "kilted"])
+def test_every_host_asks_every_discovery_server(distro: str, tmp_path: Path) -> None:
+    files = emitted(tmp_path, _text("rmw_fastrtps_cpp", SERVERS, distro))
+    for host in ("control_pc", "vision_pc"):
+        tree = ElementTree.fromstring(files[f"middleware/{host}.fastdds.xml"])
+        (discovery,) = tree.iterfind(".//{*}builtin/{*}discovery_config")
+        assert discovery.findtext("{*}discoveryProtocol") == "SUPER_CLIENT"
+        asked = [
+            (one.findtext("{*}address"), one.findtext("{*}port"))
+            for one in discovery.iterfind(".//{*}locator/{*}udpv4")
+        ]
+        assert asked == [("10.10.0.10", "11811"), ("10.10.0.11", "12000")]
+        # rmw_fastrtps of Humble has Fast DDS 2.6, which knows a server by its number (Fast DDS 2.6, ServerAttributes.h:
+        # DEFAULT_ROS2_SERVER_GUIDPREFIX, the third octet of which is the number).
+        prefixes = [one.get("prefix") for one in discovery.iterfind(".//{*}RemoteServer")]
+        known = ["44.53.00.5f.45.50.52.4f.53.49.4d.41", "44.53.01.5f.45.50.52.4f.53.49.4d.41"]
+        assert prefixes == (known if distro == "humble" else [])
+
+
+def test_discovery_server_is_started_on_its_host_where_the_others_ask_it(tmp_path: Path) -> None:
+    files = emitted(tmp_path, _text("rmw_fastrtps_cpp", SERVERS))
+    starts = {path: text.splitlines()[-1] for path, text in files.items() if "discovery_server" in path}
+    assert starts == {
+        "middleware/control_pc.discovery_server_0": "exec fastdds discovery -i 0 -l 10.10.0.10 -p 11811",
+        "middleware/vision_pc.discovery_server_1": "exec fastdds discovery -i 1 -l 10.10.0.11 -p 12000",
+    }
+    for path in starts:
+        assert f"generated/ur5e_pick/{path}" in files["README.md"]
+
+
+def test_cell_without_discovery_server_starts_none(tmp_path: Path) -> None:
+    files = emitted(tmp_path, _text("rmw_fastrtps_cpp", "multicast, servers: [{host: control_pc}]"))
+    assert not any("discovery_server" in path or "discovery_config" in text for path, text in files.items())
 
 
 @pytest.mark.parametrize("rmw", ["rmw_fastrtps_cpp", "rmw_cyclonedds_cpp", "rmw_zenoh_cpp"])
@@ -85,6 +134,8 @@ def test_no_ros_traffic_is_bound_to_the_control_card(rmw: str, discovery: str, t
         ("rmw_fastrtps_cpp", "kilted", "localhost", ['export ROS_AUTOMATIC_DISCOVERY_RANGE="SYSTEM_DEFAULT"']),
         ("rmw_fastrtps_cpp", "humble", "localhost", ['export ROS_LOCALHOST_ONLY="1"']),
         ("rmw_fastrtps_cpp", "humble", "unicast", ['export ROS_LOCALHOST_ONLY="0"']),
+        ("rmw_fastrtps_cpp", "jazzy", SERVERS, ['export ROS_AUTOMATIC_DISCOVERY_RANGE="SYSTEM_DEFAULT"']),
+        ("rmw_fastrtps_cpp", "humble", SERVERS, ['export ROS_LOCALHOST_ONLY="0"']),
     ],
 )
 def test_environment_speaks_the_words_of_the_distribution(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -10,6 +11,7 @@ from cellc.diagnostics import Span
 from cellc.rules.shared_domain import Presence, way_between
 from tests.cli.run import MINIMAL, run
 
+_APART = ("10.1.0.1/24", "10.2.0.1/24")
 _HERE = Span("cell.yaml", 1, 1, 1, 2)
 
 
@@ -19,6 +21,14 @@ def _cell(*cards: str, domain: int = 7, discovery: str = "multicast", peers: tup
 
 def test_one_domain_in_one_subnet_meets_by_multicast() -> None:
     assert way_between(_cell("10.1.0.1/24"), _cell("10.1.0.2/24")) == "by multicast in 10.1.0.0/24"
+
+
+def test_cells_that_ask_one_discovery_server_meet_through_it() -> None:
+    ours, theirs = (replace(_cell(card, discovery="server"), servers=frozenset({"10.1.0.1:11811"})) for card in _APART)
+    assert way_between(ours, theirs) == "through the server 10.1.0.1:11811"
+    other = replace(theirs, servers=frozenset({"10.1.0.1:11812"}))
+    assert way_between(ours, other) is None
+    assert way_between(ours, _cell("10.1.0.2/24")) is None
 
 
 def test_larger_subnet_around_a_smaller_one_meets_it() -> None:

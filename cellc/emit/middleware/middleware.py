@@ -2,7 +2,8 @@
 
 ``<host>.sh`` is sourced before anything of the cell is started. Fast DDS, Cyclone DDS and Zenoh each get the file that
 they read; only that of the pinned implementation is written. Left out: QoS of topics, which belongs to the endpoints,
-and tuning of buffers, which nobody can state without measuring.
+and tuning of buffers, which nobody can state without measuring. ``<host>.discovery_server_N`` starts a discovery server
+of Fast DDS (``fastdds discovery`` of 2.6 to 3.6, tools/fds) where the spec has one there.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ from cellc.formats.xml_text import render
 from cellc.graph.cell_graph import CellGraph
 from cellc.vocabulary import Feature, features
 
-_RANGE = {"multicast": "SUBNET", "unicast": "LOCALHOST", "localhost": "LOCALHOST", "off": "OFF"}
+_RANGE = {"multicast": "SUBNET", "unicast": "LOCALHOST", "localhost": "LOCALHOST", "server": "SUBNET", "off": "OFF"}
 _FAST = ("rmw_fastrtps_cpp", "rmw_fastrtps_dynamic_cpp")
 _VARIABLES = {
     ".cyclonedds.xml": ("CYCLONEDDS_URI",),
@@ -42,7 +43,7 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     """Yield environment and profiles."""
     for binding in bindings(graph):
         profiles = tuple(_profiles(graph, plan.header, binding))
-        names = tuple(artifact.path for artifact in profiles)
+        names = tuple(artifact.path for artifact in profiles if "." + artifact.path.partition(".")[2] in _VARIABLES)
         yield Artifact(f"middleware/{binding.host}.sh", environment(graph.cell, plan.header, binding, names))
         yield from profiles
 
@@ -60,6 +61,15 @@ def _profiles(graph: CellGraph, header: Header, binding: Binding) -> Iterator[Ar
         yield Artifact(f"{stem}.zenoh_session.json5", header.commented("//") + zenoh_session())
     elif rmw in _FAST:
         yield Artifact(f"{stem}.fastdds.xml", render(fast_profile(graph.cell, binding), head))
+        yield from (_discovery_server(header, binding, number) for number in binding.runs)
+
+
+def _discovery_server(header: Header, binding: Binding, number: int) -> Artifact:
+    """Return the program of a discovery server: it runs before anything of the cell, and does not end."""
+    address, port = binding.servers[number]
+    start = f"exec fastdds discovery -i {number} -l {address} -p {port}"
+    text = f"#!/bin/sh\n{header.commented('#')}# network.servers[{number}]\n{start}\n"
+    return Artifact(f"middleware/{binding.host}.discovery_server_{number}", text, executable=True)
 
 
 def environment(cell: Cell, header: Header, binding: Binding, profiles: tuple[str, ...]) -> str:
@@ -87,7 +97,7 @@ def _discovery(cell: Cell, binding: Binding) -> Iterator[tuple[str, str]]:
     if Feature.STATIC_PEERS not in features(cell.distro):  # one switch; peers stand in the profile
         yield "ROS_LOCALHOST_ONLY", "1" if discovery in ("localhost", "off") else "0"
         return
-    if cell.versions.rmw_name in _FAST and discovery in ("unicast", "localhost"):
+    if cell.versions.rmw_name in _FAST and discovery in ("unicast", "server", "localhost"):
         yield "ROS_AUTOMATIC_DISCOVERY_RANGE", "SYSTEM_DEFAULT"  # peers and cards stand in the profile, and no others
         return
     # Without multicast a host finds others by their addresses alone: a static peer reaches out of LOCALHOST too.

@@ -20,6 +20,7 @@ from xml.etree.ElementTree import Element
 from cellc.cell.cell import Cell
 from cellc.formats.xml_text import element
 from cellc.graph.cell_graph import CellGraph
+from cellc.graph.network import Nic
 from cellc.vocabulary import Feature, features
 
 _LOOPBACK = "127.0.0.1"
@@ -44,23 +45,29 @@ class Binding:
     Args:
         addresses: IPv4 addresses of its own cards for ROS, the loopback first.
         peers: addresses of other hosts, for unicast discovery.
+        servers: address and port of each discovery server of the cell, where there are any.
+        runs: numbers of those that run on this host.
     """
 
     host: str
     addresses: tuple[str, ...]
     peers: tuple[str, ...]
+    servers: tuple[tuple[str, int], ...] = ()
+    runs: tuple[int, ...] = ()
 
 
 def bindings(graph: CellGraph) -> tuple[Binding, ...]:
     """Return one binding a host, in the order of the spec."""
     network = graph.cell.network
-    remote = network.discovery in ("multicast", "unicast")
+    remote = network.discovery in ("multicast", "unicast", "server")
+    servers = _servers(graph) if network.discovery == "server" else ()
     found: list[Binding] = []
     for host in graph.cell.hosts:
         own = _cards(graph, host) if remote else ()
         others = [address for other in graph.cell.hosts if other != host for address in _cards(graph, other)]
         peers = (*others, *network.peers) if network.discovery == "unicast" else ()
-        found.append(Binding(host, (_LOOPBACK, *own), tuple(dict.fromkeys(peers))))
+        runs = tuple(number for number, server in enumerate(network.servers) if server.host == host) if servers else ()
+        found.append(Binding(host, (_LOOPBACK, *own), tuple(dict.fromkeys(peers)), servers, runs))
     return tuple(found)
 
 
@@ -69,12 +76,18 @@ def origins(binding: Binding) -> tuple[str, ...]:
     return f"hosts.{binding.host}", "network", "versions.rmw"
 
 
+def _servers(graph: CellGraph) -> tuple[tuple[str, int], ...]:
+    """Return where the servers listen: on a card for ROS, or in their host alone where it has none."""
+    cards = [(graph.network.card_of(server), server.port) for server in graph.cell.network.servers]
+    return tuple((_LOOPBACK if card is None else _address(card), port) for card, port in cards)
+
+
 def _cards(graph: CellGraph, host: str) -> tuple[str, ...]:
-    return tuple(
-        str(nic.interface.ip)
-        for nic in graph.network.nics
-        if nic.host == host and nic.interface is not None and "control" not in nic.carries
-    )
+    return tuple(_address(card) for card in graph.network.ros_cards(host))
+
+
+def _address(card: Nic) -> str:
+    return card.text.partition("/")[0]
 
 
 def cyclone_profile(cell: Cell, binding: Binding) -> Element:
@@ -120,7 +133,8 @@ def fast_profile(cell: Cell, binding: Binding) -> Element:
 def _transports(cell: Cell, binding: Binding) -> Element:
     # interfaceWhiteList is the one list that every supported version reads.
     cards = element("interfaceWhiteList", children=[element("address", text=a) for a in binding.addresses])
-    asked = () if cell.network.discovery == "multicast" else (element("maxInitialPeersRange", text=_MOST_PROCESSES),)
+    searched = cell.network.discovery not in ("multicast", "server")
+    asked = () if not searched else (element("maxInitialPeersRange", text=_MOST_PROCESSES),)
     udp = [element("transport_id", text=_UDP), element("type", text="UDPv4"), *asked, cards]
     shared = [element("transport_id", text=_SHARED), element("type", text="SHM")]
     return element(
@@ -132,7 +146,7 @@ def _transports(cell: Cell, binding: Binding) -> Element:
 def _all(cell: Cell, binding: Binding) -> Element:
     used = [element("transport_id", text=name) for name in (_SHARED, _UDP)]
     rtps = [
-        *_peers(cell, binding),
+        *_found_by(cell, binding),
         element("userTransports", children=used),
         element("useBuiltinTransports", text="false"),
     ]
@@ -143,7 +157,9 @@ def _all(cell: Cell, binding: Binding) -> Element:
     )
 
 
-def _peers(cell: Cell, binding: Binding) -> Iterator[Element]:
+def _found_by(cell: Cell, binding: Binding) -> Iterator[Element]:
+    if binding.servers:
+        yield element("builtin", children=[_of_servers(cell, binding)])
     if cell.network.discovery not in ("unicast", "localhost"):
         return
     locators = [
@@ -153,6 +169,28 @@ def _peers(cell: Cell, binding: Binding) -> Iterator[Element]:
     # One unicast locator, of no address, and no multicast group is joined.
     unicast = element("metatrafficUnicastLocatorList", children=[element("locator", children=[element("udpv4")])])
     yield element("builtin", children=[unicast, element("initialPeersList", children=locators)])
+
+
+def _of_servers(cell: Cell, binding: Binding) -> Element:
+    """Return what makes every participant a super client, which hears of all others: gates list the whole graph."""
+    locators = [_locator(address, port) for address, port in binding.servers]
+    # Fast DDS 2 knows a server by a prefix with its number in the third octet, 3 by its address alone.
+    if Feature.FAST_DDS_3 not in features(cell.distro):
+        locators = [
+            element(
+                "RemoteServer",
+                {"prefix": f"44.53.{number:02x}.5f.45.50.52.4f.53.49.4d.41"},
+                [element("metatrafficUnicastLocatorList", children=[locator])],
+            )
+            for number, locator in enumerate(locators)
+        ]
+    parts = [element("discoveryProtocol", text="SUPER_CLIENT"), element("discoveryServersList", children=locators)]
+    return element("discovery_config", children=parts)
+
+
+def _locator(address: str, port: int) -> Element:
+    parts = [element("address", text=address), element("port", text=str(port))]
+    return element("locator", children=[element("udpv4", children=parts)])
 
 
 def zenoh_router(binding: Binding) -> str:

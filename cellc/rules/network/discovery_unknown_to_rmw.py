@@ -1,6 +1,7 @@
 """The pinned middleware does not know this kind of discovery.
 
-Zenoh discovers through its router and ignores the variables of DDS: the cell is not confined as the spec says.
+Zenoh discovers through its router and ignores the variables of DDS: the cell is not confined as the spec says. A
+discovery server is a program of Fast DDS, and no other middleware asks one.
 
 Example that is reported:
 
@@ -16,10 +17,12 @@ versions: {rmw: rmw_zenoh_cpp 0.2.10}
 network: {discovery: multicast}
 ```
 
-Fix: configure the router and the session of Zenoh instead, and leave `discovery` at its default.
+Fix: leave `discovery` at its default for Zenoh, and list `peers` for Cyclone DDS instead of a server.
 
-Source: https://docs.ros.org/en/jazzy/Tutorials/Advanced/Improved-Dynamic-Discovery.html
-(Jazzy): rmw_zenoh does not support the variables
+Source:
+
+- https://docs.ros.org/en/jazzy/Tutorials/Advanced/Improved-Dynamic-Discovery.html (Jazzy): not supported by rmw_zenoh
+- https://docs.ros.org/en/jazzy/Tutorials/Advanced/Discovery-Server/Discovery-Server.html (Jazzy): of Fast DDS
 """
 
 from __future__ import annotations
@@ -29,9 +32,11 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
-    """Yield a discovery range or peers with a middleware that ignores them."""
-    network = graph.cell.network
-    if not graph.cell.versions.rmw.startswith("rmw_zenoh"):
+    """Yield a discovery range, peers or a server with a middleware that ignores them."""
+    network, rmw = graph.cell.network, graph.cell.versions.rmw_name
+    if rmw == "rmw_cyclonedds_cpp" and network.discovery == "server":
+        yield found(graph, ("network", "discovery"), "Cyclone DDS must have its peers, and asks no discovery server")
+    if not rmw.startswith("rmw_zenoh"):
         return
     if network.discovery != "multicast" or network.peers:
         field = "discovery" if network.discovery != "multicast" else "peers"
