@@ -269,6 +269,15 @@ class ViewFacts(CatalogModel):
     source: Text
 
 
+class ImageFacts(CatalogModel):
+    """The images of a stream as the node of the device is started."""
+
+    width: int = Field(ge=1, le=100_000)
+    height: int = Field(ge=1, le=100_000)
+    bytes_per_pixel: int = Field(ge=1, le=64)
+    source: Text
+
+
 class StreamFacts(CatalogModel):
     """One image stream of a camera; ``frame`` is a link name without prefix."""
 
@@ -280,6 +289,7 @@ class StreamFacts(CatalogModel):
     qos: QosUse
     info_qos: QosUse
     view: ViewFacts | None = None
+    image: ImageFacts | None = None
 
 
 class CameraFacts(CatalogModel):

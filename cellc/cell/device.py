@@ -203,7 +203,10 @@ class FieldOfView:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CameraStream:
-    """One image stream with its camera info; ``frame`` is a prefixed link, ``view`` None where nobody told."""
+    """One image stream with its camera info; ``frame`` is a prefixed link.
+
+    ``view`` and ``image_bytes``, what one image takes, are None where nobody told.
+    """
 
     topic: str
     type: str
@@ -211,6 +214,7 @@ class CameraStream:
     frame: str
     rate_hz: float
     view: FieldOfView | None = None
+    image_bytes: int | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

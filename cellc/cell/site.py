@@ -62,10 +62,14 @@ class HardwareStatement:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NetworkCard:
-    """A card of a host: ``address`` with prefix length as written, ``interface`` as the operating system names it."""
+    """A card of a host: ``address`` with prefix length as written, ``interface`` as the operating system names it.
+
+    ``speed_bps`` is that of its link in bit/s, None where nobody says it.
+    """
 
     address: str
     interface: str | None = None
+    speed_bps: float | None = None
     carries: tuple[str, ...] = ()
 
 

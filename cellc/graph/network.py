@@ -20,6 +20,7 @@ class Nic:
     interface: IPv4Interface | None
     carries: tuple[str, ...]
     path: YamlPath
+    speed_bps: float | None = None
 
     @property
     def full_name(self) -> str:
@@ -69,7 +70,7 @@ class NetworkGraph:
 def build_network(cell: Cell) -> NetworkGraph:
     """Read the addresses of hosts and devices."""
     nics = tuple(
-        Nic(host, name, nic.address, read_interface(nic.address), nic.carries, ("hosts", host, "nics", name))
+        Nic(host, name, nic.address, read_interface(nic.address), nic.carries, _path(host, name), nic.speed_bps)
         for host, computer in cell.hosts.items()
         for name, nic in computer.nics.items()
     )
@@ -81,6 +82,10 @@ def build_network(cell: Cell) -> NetworkGraph:
         if (link := device.connection) is not None
     )
     return NetworkGraph(nics, devices)
+
+
+def _path(host: str, nic: str) -> YamlPath:
+    return ("hosts", host, "nics", nic)
 
 
 def read_interface(text: str) -> IPv4Interface | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
-from cellc.catalog.device_interfaces import ViewFacts
+from cellc.catalog.device_interfaces import ImageFacts, ViewFacts
 from cellc.catalog.device_model import CommissioningStep as CommissioningFacts
 from cellc.catalog.device_model import DeviceModel
 from cellc.catalog.robot_facts import HumanStep
@@ -205,11 +205,16 @@ def _camera(facts: DeviceModel, written: DeviceSpec, known: Placeholders, prefix
                 frame=prefix + stream.frame,
                 rate_hz=stream.rate.si,
                 view=_view(stream.view),
+                image_bytes=_bytes(stream.image),
             )
             for stream in camera.streams.values()
         ),
         exposure_s=0.0 if exposure is None else exposure.si,
     )
+
+
+def _bytes(facts: ImageFacts | None) -> int | None:
+    return None if facts is None else facts.width * facts.height * facts.bytes_per_pixel
 
 
 def _view(facts: ViewFacts | None) -> FieldOfView | None:

@@ -89,7 +89,9 @@ def bind_hosts(spec: CellSpec, places: Places) -> Mapping[str, Host]:
             scheduling=written.scheduling,
             clock=bind_clock(written.clock, written.clock.domain),
             nics={
-                nic: NetworkCard(address=card.address, interface=card.interface, carries=card.carries)
+                nic: NetworkCard(
+                    address=card.address, interface=card.interface, speed_bps=si(card.speed), carries=card.carries
+                )
                 for nic, card in written.nics.items()
             },
         )

@@ -5,7 +5,7 @@ from typing import Literal
 from pydantic import Field
 
 from cellc.spec.base import Name, Pin, SpecModel, Text
-from cellc.spec.quantity import Drift, Duration, TimeShift
+from cellc.spec.quantity import DataRate, Drift, Duration, TimeShift
 
 
 class RollbackSpec(SpecModel):
@@ -45,6 +45,9 @@ class NicSpec(SpecModel):
 
     address: Text = Field(..., description="IPv4 address with prefix length.", examples=["192.168.56.10/24"])
     interface: Text | None = Field(None, description="Name the operating system gives the card.", examples=["enp3s0"])
+    speed: DataRate | None = Field(
+        None, description="Speed of its link; 1 Gbit/s is assumed if absent.", examples=["1 Gbit/s"]
+    )
     carries: tuple[Traffic, ...] = Field(
         (), description="Kinds of traffic on this card; `control` shares a card with nothing.", examples=[["control"]]
     )

@@ -52,6 +52,7 @@ DURATION = _dimension(
     "duration", {"s": "1", "ms": "0.001", "us": "0.000001", "ns": "0.000000001", "min": "60", "h": "3600"}, 4e9
 )
 FREQUENCY = _dimension("frequency", {"Hz": "1", "kHz": "1000", "MHz": "1000000"}, 1e6)
+DATA_RATE = _dimension("data rate", {"bit/s": "1", "kbit/s": "1000", "Mbit/s": "1000000", "Gbit/s": "1000000000"}, 1e13)
 MASS = _dimension("mass", {"kg": "1", "g": "0.001"}, 1e5)
 RATIO = _dimension("ratio", {"%": "0.01"}, 100.0)
 DRIFT = _dimension("clock drift", {"ppm": "0.000001"}, 1.0)
@@ -238,6 +239,7 @@ TimeShift = Annotated[Quantity, QuantityType((DURATION,), "-1.5 ms")]
 Frequency = Annotated[Quantity, QuantityType((FREQUENCY,), "500 Hz", least=SLOWEST_HZ)]
 # ros2_control, controller_manager: an integer in Hz.
 UpdateRate = Annotated[Quantity, QuantityType((FREQUENCY,), "500 Hz", least=1.0)]
+DataRate = Annotated[Quantity, QuantityType((DATA_RATE,), "1 Gbit/s", least=1.0)]
 Mass = Annotated[Quantity, QuantityType((MASS,), "0.9 kg", least=0.0)]
 Ratio = Annotated[Quantity, QuantityType((RATIO,), "50 %")]
 Drift = Annotated[Quantity, QuantityType((DRIFT,), "20 ppm")]
