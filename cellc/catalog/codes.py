@@ -8,7 +8,8 @@ from cellc.diagnostics import Severity
 from cellc.diagnostics.diagnostic import CodePage
 from cellc.limits import DEFAULTS, MIB
 
-# Each is the whole text of a description, in which a test finds it reported at its mark and nowhere else.
+# Each is the whole text of a description, in which a test finds it reported at its mark and nowhere else; or, after
+# `$`, what a shell is told beside a sound `cell.yaml`, where the last command reports it.
 _EXAMPLES: Mapping[str, str] = {
     "urdf-bad-geometry": """
 <robot name="arm">
@@ -53,6 +54,19 @@ _EXAMPLES: Mapping[str, str] = {
   <link name="${prefix}base"/>  <!-- expect -->
 </robot>
 """,
+    "catalogue-entry-invalid": """
+$ mkdir arm
+$ echo 'kind: robot' > arm/device.yaml
+$ sed -i 's#model: .*#model: ./arm#' cell.yaml
+$ cellc check cell.yaml
+""",
+    "xacro-bad-yaml": """
+$ echo 'limits: !python 1' > limits.yaml
+$ echo '<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">' > arm.xacro
+$ echo '<xacro:property name="limits" value="${xacro.load_yaml(&apos;limits.yaml&apos;)}"/>' >> arm.xacro
+$ echo '<link name="base${limits}"/></robot>' >> arm.xacro
+$ cellc check arm.xacro
+""",
     "xacro-failed": """
 <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
   <link name="${prefix}base"/>  <!-- expect -->
@@ -62,6 +76,15 @@ _EXAMPLES: Mapping[str, str] = {
 <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
   <xacro:include filename="gripper.xacro"/>  <!-- expect -->
 </robot>
+""",
+    "xacro-missing-argument": """
+<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <link name="$(arg side)_base"/>  <!-- expect -->
+</robot>
+""",
+    "xacro-not-text": """
+$ printf '<robot name="caf\\351"/>' > arm.xacro
+$ cellc check arm.xacro
 """,
     "xacro-outside-root": """
 <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
@@ -83,6 +106,15 @@ _EXAMPLES: Mapping[str, str] = {
   <link name="$(env USER)_base"/>  <!-- expect -->
 </robot>
 """,
+    "xacro-too-large": """
+$ echo '<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">' > arm.xacro
+$ echo '<xacro:macro name="finger"><xacro:finger/></xacro:macro><xacro:finger/></robot>' >> arm.xacro
+$ cellc check arm.xacro
+""",
+    "xacro-unknown-argument": """
+$ echo '<robot name="arm"><link name="base"/></robot>' > arm.xacro
+$ cellc import arm.xacro side:=left
+""",
     "xacro-warning": """
 <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">  <!-- expect -->
   <xacro:property name="pi" value="3"/>
@@ -96,6 +128,10 @@ _EXAMPLES: Mapping[str, str] = {
 <robot name="arm">
   <link name="base">
 </robot>  <!-- expect -->
+""",
+    "xml-too-deep": """
+$ (echo '<robot name="arm">'; seq -f '<link%.0f>' 100) > arm.urdf
+$ cellc check arm.urdf
 """,
 }
 

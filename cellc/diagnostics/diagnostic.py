@@ -96,7 +96,8 @@ class CodePage:
         title: what is wrong, as a phrase that ends without a full stop.
         why: one paragraph on what would happen if it passed unreported.
         fix: what to do, beginning with a verb; also the help of a finding that knows nothing more precise.
-        example: part of a spec that is reported; empty where none can show it, or where the reason holds it.
+        example: part of a spec or description that is reported, or after `$` the commands of a shell that lead to it;
+            empty where none can show it, or where the reason holds it.
     """
 
     code: str

@@ -9,6 +9,22 @@ from cellc.diagnostics.diagnostic import CodePage
 
 # Each is merged into a complete cell by a test, which finds it reported at its mark and nowhere else.
 _EXAMPLES: Mapping[str, str] = {
+    "ambiguous-node": """
+devices:
+  stage: {model: ./stage, mount: {parent: world, xyz: 0 2 0 m}, revision: A, firmware: stage 1.0.0}
+managers:
+  stages:
+    namespace: /stages
+    update_rate: 100 Hz
+    host: control_pc
+    controllers:
+      joint_states: {type: joint_state_broadcaster}
+      stage_trajectory: {type: joint_trajectory, device: stage, client: task, goal_time: 2 s,
+                         path_tolerance: 0.2 rad 20 mm, goal_tolerance: {stage/turn: 0.1 rad, stage/slide: 5 mm}}
+interfaces:
+  /positions: {topic: sensor_msgs/msg/JointState, from: joint_states, to: {task: {depth: 1}},  # expect at from
+               wants: newest, rate: 100 Hz, max_age: 100 ms, on_stale: reject_goal}
+""",
     "unknown-calibration": """
 frames:
   tcp: {calibration: tcp_new}  # expect at calibration

@@ -2,14 +2,45 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 from cellc.diagnostics import Diagnostic, Related, Severity, Span
 from cellc.diagnostics.diagnostic import CodePage
 
+# What a shell is told beside a sound `cell.yaml`; its last command reports it.
+_EXAMPLES: Mapping[str, str] = {
+    "bad-artifact-path": """
+$ echo 'hosts: {PC: {}, pc: {}}' >> cell.yaml
+$ cellc build cell.yaml
+""",
+    "edited-by-hand": """
+$ cellc build cell.yaml
+$ echo 'mine' >> generated/minimal/README.md
+$ cellc build cell.yaml
+""",
+    "output-blocked": """
+$ mkdir -p generated/minimal
+$ touch generated/minimal/launch
+$ cellc build cell.yaml
+""",
+    "output-shared": """
+$ cp cell.yaml other.yaml
+$ cellc build cell.yaml other.yaml
+""",
+    "output-symlink": """
+$ mkdir generated elsewhere
+$ ln -s ../elsewhere generated/minimal
+$ cellc build cell.yaml
+""",
+    "output-unwritable": """
+$ cellc build cell.yaml --output /proc
+""",
+}
+
 
 def _page(code: str, title: str, why: str, fix: str) -> CodePage:
-    return CodePage(code, Severity.ERROR, title, why, fix)
+    return CodePage(code, Severity.ERROR, title, why, fix, _EXAMPLES.get(code, ""))
 
 
 CODES: tuple[CodePage, ...] = (

@@ -48,7 +48,7 @@ def render_page(page: CodePage) -> str:
     """Write a page as Markdown."""
     title = page.title[0].upper() + page.title[1:]
     shown = _MARK.sub("", page.example).strip()
-    language = "xml" if shown.startswith("<") else "yaml"
+    language = {"<": "xml", "$": "console"}.get(shown[:1], "yaml")
     example = f"\nExample that is reported:\n\n```{language}\n{shown}\n```\n" if shown else ""
     fix = f"\nFix: {page.fix}.\n" if page.fix else ""
     return f"# {page.code} ({page.severity.value})\n\n{title}.\n\n{page.why.strip()}\n{example}{fix}"

@@ -23,6 +23,12 @@ CODES: tuple[CodePage, ...] = (
         "where they are named in one call, such as `cellc check cells/*/cell.yaml`; cells whose hosts share an address "
         "are taken for variants of one cell. A domain is a partition against accidents, no protection.",
         "give each cell a domain id of its own; 0 to 101 are safe on every platform",
+        """
+$ sed 's/^cell: .*/cell: second/' cell.yaml > second.yaml
+$ printf 'network: {discovery: multicast}\\nhosts: {a: {nics: {cell: {address: 10.0.0.1/24}}}}\\n' >> cell.yaml
+$ printf 'network: {discovery: multicast}\\nhosts: {b: {nics: {cell: {address: 10.0.0.2/24}}}}\\n' >> second.yaml
+$ cellc check cell.yaml second.yaml
+""",
     ),
 )
 

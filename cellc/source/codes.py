@@ -8,7 +8,8 @@ from cellc.diagnostics import Diagnostic, Related, Severity, Span, YamlPath
 from cellc.diagnostics.diagnostic import CodePage
 from cellc.limits import DEFAULTS, MIB, option
 
-# Each is the whole text of a file, in which a test finds it reported at its mark and nowhere else.
+# Each is the whole text of a file, in which a test finds it reported at its mark and nowhere else; or, after `$`, what
+# a shell is told beside a sound `cell.yaml`, where the last command reports it.
 _EXAMPLES: Mapping[str, str] = {
     "alias-bomb": """
 a: &a [1, 2, 3, 4, 5, 6, 7, 8, 9, 10]
@@ -32,6 +33,15 @@ hosts:
     "file-not-found": """
 include: hosts.yml  # expect
 """,
+    "file-too-large": """
+$ head -c 3000000 /dev/zero > cell.yaml
+$ cellc check cell.yaml
+""",
+    "file-unreadable": """
+$ rm cell.yaml
+$ ln -s cell.yaml cell.yaml
+$ cellc check cell.yaml
+""",
     "include-cycle": """
 include: cell.yaml  # expect
 """,
@@ -40,6 +50,12 @@ include: ../hosts.yaml  # expect
 """,
     "include-shape": """
 include: {hosts: hosts.yaml}  # expect
+""",
+    "key-collision": """
+$ echo 'include: parts.yaml' > cell.yaml
+$ echo 'hosts: {control_pc: {}}' >> cell.yaml
+$ echo 'hosts: [control_pc]' > parts.yaml
+$ cellc check cell.yaml
 """,
     "merge-key": """
 slow: &slow {velocity: 50 %}
@@ -52,6 +68,10 @@ poses:
 """,
     "not-a-file": """
 include: .  # expect
+""",
+    "not-utf8": """
+$ printf 'summary: caf\\351\\n' > cell.yaml
+$ cellc check cell.yaml
 """,
     "not-yaml": """
 hosts:
@@ -78,6 +98,14 @@ summary: $(command rm)  # expect
     "tab-indentation": """
 hosts:
 \tcontrol_pc: {}  # expect
+""",
+    "too-deep": """
+$ printf '%70s%70s' | sed 's/ /[/1; s/ /[/g' > cell.yaml
+$ cellc check cell.yaml
+""",
+    "too-many-includes": """
+$ for n in $(seq 40); do echo "include: part$((n + 1)).yaml" > part$n.yaml; done
+$ cellc check part1.yaml
 """,
     "unknown-alias": """
 steps: *home  # expect

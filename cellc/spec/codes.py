@@ -9,6 +9,10 @@ from cellc.diagnostics.diagnostic import CodePage
 
 # Each is merged into a complete cell by a test, which finds it reported at its mark and nowhere else.
 _EXAMPLES: Mapping[str, str] = {
+    "empty-value": """
+$ sed -i 's/^summary: .*/summary:/' cell.yaml
+$ cellc check cell.yaml
+""",
     "bad-name": """
 nodes:
   task-2: {run: cell_tasks/pick_place, host: control_pc}  # expect at task-2
