@@ -127,7 +127,7 @@ class Step(Entity):
     """
 
     kind: str
-    command: str | None = None  # open or close, for grip
+    command: str | None = None  # open or close, for grip; together, for groups of a pose that move at once
     state: str | None = None  # for set and sense
     duration_s: float | None = None  # for wait
 

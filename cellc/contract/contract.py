@@ -5,6 +5,7 @@ all, is left out. The mock reads this file, the URDF and controllers.yaml that r
 SRDF, and nothing of the compiler.
 """
 
+from collections.abc import Iterable
 from typing import Literal
 
 from pydantic import Field
@@ -191,6 +192,11 @@ class ContractGripper(ContractModel):
 def hand_group(device: str, kind: str) -> str:
     """Return the group of the SRDF that the fingers of a device are: an arm that has its own has another group too."""
     return f"{device}_gripper" if kind == "arm" else device
+
+
+def several_groups(groups: Iterable[str]) -> str:
+    """Return the group of the SRDF that several groups are, whose poses are reached at once."""
+    return "_and_".join(groups)
 
 
 class ContractCamera(ContractModel):

@@ -16,7 +16,9 @@ class StepEntry(ContractModel):
         description="What the step does."
     )
     target: str = Field(description="Pose, goal, frame, device, service, or who acknowledges.")
-    command: Literal["open", "close"] | None = Field(None, description="What the gripper does.")
+    command: Literal["open", "close", "together"] | None = Field(
+        None, description="What the gripper does; `together` where the groups of a pose move at once."
+    )
     state: str | None = Field(None, description="State that a switched device is set to, or that its sensors tell.")
     duration_s: Seconds | None = Field(None, description="How long a wait lasts.")
 

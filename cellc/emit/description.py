@@ -15,13 +15,13 @@ rooted in the world.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from xml.etree.ElementTree import Element
 
 from cellc.artifact import Artifact
 from cellc.cell.device import Device
 from cellc.cell.motion import NamedPose
-from cellc.contract.contract import hand_group
+from cellc.contract.contract import hand_group, several_groups
 from cellc.deploy.deployment import Deployment
 from cellc.deploy.files import description_file, manager_description_file, semantic_file
 from cellc.feasibility import MARGIN_M, RNG_SEED, disabled_links
@@ -52,6 +52,7 @@ def _semantic(graph: CellGraph) -> Iterator[Element]:
         yield element("group", {"name": group.name}, [chain])
     for pose in cell.poses:
         yield _state(pose)
+    yield from _named_together(cell.poses)
     named = {group.name for group in cell.groups}
     for device in cell.devices:
         if device.gripper is not None and hand_group(device.name, device.kind) not in named:
@@ -67,13 +68,26 @@ def _semantic(graph: CellGraph) -> Iterator[Element]:
         yield element("disable_collisions", names | {"reason": pair.reason.capitalize()})
 
 
+def _named_together(poses: Sequence[NamedPose]) -> Iterator[Element]:
+    """Yield a group of all groups that a pose names, for one request to move_group, and the pose of all of them."""
+    told: set[str] = set()
+    for name in dict.fromkeys(pose.name for pose in poses):
+        parts = [pose for pose in poses if pose.name == name]
+        group = several_groups(pose.group for pose in parts)
+        if len(parts) > 1 and group not in told:
+            yield element("group", {"name": group}, [element("group", {"name": pose.group}) for pose in parts])
+        if len(parts) > 1:
+            yield element("group_state", {"name": name, "group": group}, [one for pose in parts for one in _at(pose)])
+        told.add(group)
+
+
 def _state(pose: NamedPose) -> Element:
-    values = zip(pose.joints, pose.positions, strict=False)
-    return element(
-        "group_state",
-        {"name": pose.name, "group": pose.group},
-        [element("joint", {"name": joint, "value": shortest(value)}) for joint, value in values],
-    )
+    return element("group_state", {"name": pose.name, "group": pose.group}, list(_at(pose)))
+
+
+def _at(pose: NamedPose) -> Iterator[Element]:
+    for joint, value in zip(pose.joints, pose.positions, strict=False):
+        yield element("joint", {"name": joint, "value": shortest(value)})
 
 
 def _gripper(device: Device) -> Iterator[Element]:

@@ -153,7 +153,8 @@ def _step(step: StepSpec, document: SourceDocument, path: YamlPath, names: _Name
     if isinstance(step, MoveStep):
         known = (*names.poses, *names.goals)
         problem = _missing("unknown-goal", step.move, "pose or goal", known, document, (*path, "move"))
-        return Outcome(Step(name=step.move, path=path, span=span, kind="move"), problem)
+        at_once = "together" if step.together else None
+        return Outcome(Step(name=step.move, path=path, span=span, kind="move", command=at_once), problem)
     if isinstance(step, DetectStep):
         frame = names.frames.bind(step.detect, (*path, "detect"))
         return Outcome(Step(name=frame.value or step.detect, path=path, span=span, kind="detect"), frame.diagnostics)

@@ -14,6 +14,9 @@ class MoveStep(SpecModel):
     """Move a group to a named pose or a Cartesian goal."""
 
     move: Name = Field(..., description="Named pose or goal.", examples=["home"])
+    together: bool = Field(
+        False, description="The groups of the pose move at once; one after another if false.", examples=[True]
+    )
 
 
 class DetectStep(SpecModel):

@@ -247,8 +247,10 @@ def _link_of(joint: Element, end: str) -> str:
 def test_named_states_state_every_joint_of_their_group(cell: str, distro: str) -> None:
     semantic, joints = _semantic(cell, distro), _joints(cell, distro)
     parents = {_link_of(one, "child"): one for one in joints.values()}
+    told: dict[str, set[str]] = {}
     for group in semantic.findall("group"):
         names = {joint.attrib["name"] for joint in group.findall("joint")}
+        names = names.union(*(told[part.attrib["name"]] for part in group.findall("group")))
         chain = group.find("chain")
         link = "" if chain is None else chain.attrib["tip_link"]
         while chain is not None and link != chain.attrib["base_link"]:
@@ -256,6 +258,7 @@ def test_named_states_state_every_joint_of_their_group(cell: str, distro: str) -
             names |= {joint.attrib["name"]} if joint.get("type") != "fixed" else set()
             link = _link_of(joint, "parent")
         assert names
+        told[group.attrib["name"]] = names
         for state in semantic.findall("group_state"):
             if state.get("group") == group.get("name"):
                 assert {joint.attrib["name"] for joint in state.findall("joint")} == names

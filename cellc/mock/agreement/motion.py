@@ -5,7 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Literal
 
-from cellc.contract.contract import Contract, ContractController, ContractGripper, ContractJointLimits, hand_group
+from cellc.contract.contract import (
+    Contract,
+    ContractController,
+    ContractGripper,
+    ContractJointLimits,
+    hand_group,
+    several_groups,
+)
 from cellc.contract.quantities import LARGEST
 from cellc.description.xml_tree import XmlElement
 from cellc.mock.agreement.said import Edited, Names, Said, below, differing, parameters, xml
@@ -143,6 +150,8 @@ def _executed_groups(contract: Contract, grippers: Mapping[str, ContractGripper]
     chains: dict[str, Said] = {
         name: [f"chain {group.base_link} {group.tip_frame}"] for name, group in contract.groups.items()
     }
+    several = [[one.group for one in pose] for pose in contract.poses.values() if len(pose) > 1]
+    chains |= {several_groups(names): [f"group {name}" for name in names] for names in several}
     return chains | {name: [f"joint {gripper.joint}"] for name, gripper in grippers.items()}
 
 
@@ -152,6 +161,11 @@ def _executed_states(contract: Contract, grippers: Mapping[str, ContractGripper]
         for one in pose:
             joints = contract.groups[one.group].joints
             states[f"{one.group}.{name}"] = [part for pair in zip(joints, one.positions, strict=True) for part in pair]
+    for name, pose in contract.poses.items():
+        if len(pose) > 1:
+            parts = [states[f"{one.group}.{name}"] for one in pose]
+            together = [said for part in parts if isinstance(part, list) for said in part]
+            states[f"{several_groups(one.group for one in pose)}.{name}"] = together
     for name, gripper in grippers.items():
         states[f"{name}.open"] = [gripper.joint, gripper.open]
         states[f"{name}.closed"] = [gripper.joint, gripper.closed]

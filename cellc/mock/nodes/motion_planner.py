@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from collections import OrderedDict
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
+
+import numpy as np
 
 from cellc.contract.contract import Contract, ContractGroup, ContractJointLimits
 from cellc.description.model import Description
@@ -41,6 +43,8 @@ PLANNING_LATENCY_S = 0.05
 OBJECT_EDGE_M = 0.02
 """Edge of the box that stands for a grasped object in collision checks: the contract states no size."""
 _KEPT_PLANS = 256
+_MEETING_NS = 20_000_000
+"""Motions that begin at once are looked at this often: at 1 m/s, every 20 mm."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -264,6 +268,13 @@ class PlanMemory:
         return answer
 
 
+def _positions_at(motion: TimedTrajectory, at_ns: int) -> Iterator[tuple[str, float]]:
+    """Yield where the joints of a trajectory are, rad or m: on straight lines between its points, then at rest."""
+    times = [point.time_from_start_ns for point in motion.points]
+    for index, joint in enumerate(motion.joints):
+        yield joint, float(np.interp(at_ns, times, [point.positions[index] for point in motion.points]))
+
+
 class MotionPlanner:
     """Plans in a scene that follows what the gripper carries."""
 
@@ -287,6 +298,22 @@ class MotionPlanner:
         others = tuple((name, value) for name, value in self._independent(positions) if name not in joints)
         start = tuple(positions[joint] for joint in joints)
         return self._memory.plan(MotionRequest(group, start, others, self._scene, goal, retreat, self._rng_seed))
+
+    def meeting(self, motions: Sequence[TimedTrajectory], positions: Mapping[str, float]) -> PlanFailure | None:
+        """Tell when motions that begin at once would touch on their way; None where they keep clear of each other.
+
+        Args:
+            positions: of all joints before they begin, rad or m.
+        """
+        standing = dict(self._independent(positions))
+        scene = build_scene(self._model, self._scene, ())
+        for at_ns in range(0, max(motion.duration_ns for motion in motions) + _MEETING_NS, _MEETING_NS):
+            moved = {name: value for motion in motions for name, value in _positions_at(motion, at_ns)}
+            if scene.collides(self._model.robot.configuration(standing | moved)):
+                return PlanFailure(
+                    FailureReason.NO_PATH, f"groups that move at once touch {at_ns / 1e9:g} s on their way"
+                )
+        return None
 
     def attach(self, name: str, link: str, pose_in_link: Pose, positions: Mapping[str, float]) -> None:
         """Let a grasped object move with a link; it may touch the gripper and what carries it now."""

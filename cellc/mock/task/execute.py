@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -37,10 +37,8 @@ def await_response(context: TaskContext, server: str) -> Waiting[None]:
     raise AttemptError(AttemptOutcome.TIMEOUT, f"no answer of {server} within {RESPONSE_S:g} s")
 
 
-def cancel_and_hold(
-    context: TaskContext, attempt: Attempt, controller: str, goal_id: int, joints: tuple[str, ...]
-) -> Waiting[bool]:
-    """Cancel a goal, and wait until its joints stand still or the bound has passed.
+def cancel_and_hold(context: TaskContext, attempt: Attempt, goals: Sequence[SentGoal]) -> Waiting[bool]:
+    """Cancel goals, and wait until their joints stand still or the bound has passed.
 
     The wait goes on whatever else is wrong with the cell: a hold is what every failure has to end in.
 
@@ -49,15 +47,16 @@ def cancel_and_hold(
     """
     plant = context.plant
     requested_ns = plant.now_ns
-    return_code = _cancel(plant, controller, goal_id)
+    return_codes = [_cancel(plant, goal.controller, goal.goal_id) for goal in goals]
+    joints = tuple(joint for goal in goals for joint in goal.joints)
     until_ns = requested_ns + round(cancel_bound_s(plant.contract) * 1e9)
     held_ns = held_since(plant, joints, requested_ns)
     while held_ns is None and plant.now_ns < until_ns:
         yield Wait(min(until_ns, plant.now_ns + _LOOK_NS), (plant.control.changed,))
         held_ns = held_since(plant, joints, requested_ns)
     latency_s = None if held_ns is None else (held_ns - requested_ns) / 1e9
-    attempt.cancel = CancelRecord(requested_ns, held_ns, latency_s, return_code)
-    while (controller, goal_id) not in context.ended and plant.now_ns < until_ns:
+    attempt.cancel = CancelRecord(requested_ns, held_ns, latency_s, return_codes[-1])
+    while any(goal.key not in context.ended for goal in goals) and plant.now_ns < until_ns:
         yield Wait(min(until_ns, plant.now_ns + _LOOK_NS), (plant.control.changed,))
     return held_ns is not None
 
@@ -107,6 +106,11 @@ class SentGoal:
     joints: tuple[str, ...]
     sent_ns: int
 
+    @property
+    def key(self) -> tuple[str, int]:
+        """What its end is kept under."""
+        return self.controller, self.goal_id
+
 
 def execute(
     context: TaskContext,
@@ -128,24 +132,43 @@ def execute(
     Raises:
         AttemptError: the goal was rejected, canceled or not ended in time, or the cell stopped.
     """
+    (ended,) = yield from execute_together(context, attempt, kind, {controller: goal}, timeout_s)
+    return ended
+
+
+def execute_together(
+    context: TaskContext,
+    attempt: Attempt,
+    kind: str,
+    goals: Mapping[str, TrajectoryGoal | GripperGoal],
+    timeout_s: float,
+) -> Waiting[tuple[GoalEnded, ...]]:
+    """Send goals to several controllers at one instant, and wait for all results; one that fails ends them all.
+
+    Arguments, results and errors are those of `execute`, with a goal for each controller.
+    """
     context.check_cell()
-    context.deactivated_ns.pop(controller, None)
-    goal_id = yield from _send(context, attempt, controller, goal)
-    sent = SentGoal(controller, goal_id, _joints(context.plant, controller), context.now_ns)
-    context.node.actions.note_started(controller)
-    context.node.milestones.announce("accepted")
+    sent: list[SentGoal] = []
     try:
-        yield from _result(context, kind, sent, timeout_s)
+        for controller, goal in goals.items():
+            context.deactivated_ns.pop(controller, None)
+            goal_id = yield from _send(context, attempt, controller, goal)
+            sent.append(SentGoal(controller, goal_id, _joints(context.plant, controller), context.now_ns))
+            context.node.actions.note_started(controller)
+        context.node.milestones.announce("accepted")
+        yield from _results(context, kind, sent, timeout_s)
     except AttemptError as failure:
-        held = yield from cancel_and_hold(context, attempt, controller, goal_id, sent.joints)
+        held = not sent or (yield from cancel_and_hold(context, attempt, sent))
         if failure.outcome is AttemptOutcome.CANCELLED and not held:
             raise AttemptError(AttemptOutcome.TIMEOUT, "canceled, and the joints did not stand still in time") from None
         raise
     finally:
-        _note_result(context, attempt, sent)
-        context.node.requests.withdraw_cancel(kind)
-        context.node.actions.note_ended(controller)
-    return context.ended[(controller, goal_id)]
+        for one in sent:
+            _note_result(context, attempt, one)
+            context.node.requests.withdraw_cancel(kind)
+            context.node.actions.note_ended(one.controller)
+    attempt.controller_name = " and ".join(goals)
+    return tuple(context.ended[one.key] for one in sent)
 
 
 def require_success(ended: GoalEnded, context: TaskContext) -> None:
@@ -179,19 +202,22 @@ def _send(context: TaskContext, attempt: Attempt, controller: str, goal: Traject
     return response.goal_id
 
 
-def _result(context: TaskContext, kind: str, goal: SentGoal, timeout_s: float) -> Waiting[None]:
-    """Wait for the result of an accepted goal; raise AttemptError where it has to be canceled instead."""
+def _results(context: TaskContext, kind: str, sent: Sequence[SentGoal], timeout_s: float) -> Waiting[None]:
+    """Wait for the results of accepted goals; raise AttemptError where one has to be canceled instead."""
     until_ns = context.now_ns + round(timeout_s * 1e9)
-    while (goal.controller, goal.goal_id) not in context.ended:
+    while waiting := [goal for goal in sent if goal.key not in context.ended]:
+        for ended in (context.ended[goal.key] for goal in sent if goal not in waiting):
+            require_success(ended, context)
         if context.node.requests.is_cancel_asked(kind):
             raise AttemptError(AttemptOutcome.CANCELLED, f"the {kind} was canceled as asked")
+        names = " and ".join(goal.controller for goal in waiting)
         if context.now_ns >= until_ns:
-            raise AttemptError(AttemptOutcome.TIMEOUT, f"no result of {goal.controller} within {timeout_s:g} s")
-        lost_ns = context.deactivated_ns.get(goal.controller)
-        given_up_ns = until_ns if lost_ns is None else lost_ns + RESULT_GRACE_NS
+            raise AttemptError(AttemptOutcome.TIMEOUT, f"no result of {names} within {timeout_s:g} s")
+        lost = [context.deactivated_ns[one.controller] for one in waiting if one.controller in context.deactivated_ns]
+        given_up_ns = min((lost_ns + RESULT_GRACE_NS for lost_ns in lost), default=until_ns)
         if context.now_ns >= given_up_ns:
-            raise AttemptError(AttemptOutcome.WRONG_OWNER, f"{goal.controller} was deactivated while its goal executed")
-        look_ns = _look_for_motion(context, goal)
+            raise AttemptError(AttemptOutcome.WRONG_OWNER, f"{names} was deactivated while its goal executed")
+        look_ns = min(_look_for_motion(context, goal) for goal in waiting)
         signals = (context.node.requests.changed, context.node.actions.changed)
         yield from context.pause(min(until_ns, given_up_ns, look_ns), *signals)
 

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from cellc.contract.contract import Contract, ContractGoal, ContractPoseTarget
-from cellc.mock.control import TrajectoryGoal, TrajectoryPoint
+from cellc.mock.control import GripperGoal, TrajectoryGoal, TrajectoryPoint
 from cellc.mock.engine.process import Waiting
 from cellc.mock.nodes.motion_planner import PLANNING_LATENCY_S, GoalPose, PlannedMotion
 from cellc.mock.result import PacketStep
 from cellc.mock.task.bounds import goal_timeout_s, planning_server
 from cellc.mock.task.context import Attempt, AttemptError, CurrentState, TaskContext, current_state
-from cellc.mock.task.execute import await_response, execute, require_success
+from cellc.mock.task.execute import await_response, execute_together, require_success
 from cellc.mock.tf.buffer import Transform
 from cellc.planning import PlanFailure, TimedTrajectory
 from cellc.transforms import Pose
@@ -139,10 +140,16 @@ def state_since(context: TaskContext, instant_ns: int) -> Waiting[CurrentState]:
     return state
 
 
-def move(context: TaskContext, attempt: Attempt, target: str) -> Waiting[None]:
-    """Move to a named pose, group after group, or to a goal; raise AttemptError where it does not get there."""
+def move(context: TaskContext, attempt: Attempt, target: str, *, together: bool = False) -> Waiting[None]:
+    """Move to a named pose, group after group or all together, or to a goal.
+
+    Raises:
+        AttemptError: it does not get there.
+    """
     contract = context.contract
-    if target in contract.poses:
+    if target in contract.poses and together:
+        yield from _move_together(context, attempt, contract.poses[target])
+    elif target in contract.poses:
         for pose in contract.poses[target]:
             yield from _move_to_pose(context, attempt, pose)
     elif target in contract.goals:
@@ -157,7 +164,24 @@ def _move_to_pose(context: TaskContext, attempt: Attempt, pose: ContractPoseTarg
     retreat = context.retreats.get(pose.group)
     planned = context.plant.planner.plan(pose.group, state.positions, pose.positions, retreat)
     motion = yield from _planning_time(context, attempt, planned)
-    yield from _drive(context, attempt, pose.group, motion, None)
+    yield from _drive(context, attempt, {pose.group: motion}, None)
+
+
+def _move_together(context: TaskContext, attempt: Attempt, poses: Sequence[ContractPoseTarget]) -> Waiting[None]:
+    """Plan each group alone, hold the motions against each other, and let them begin at one instant."""
+    state = current_state(context.plant)
+    attempt.joint_state_age = state.age_s
+    planner, motions = context.plant.planner, dict[str, PlannedMotion]()
+    for pose in poses:
+        planned = planner.plan(pose.group, state.positions, pose.positions, context.retreats.get(pose.group))
+        if isinstance(planned, PlanFailure):
+            yield from _planning_time(context, attempt, planned)
+        else:
+            motions[pose.group] = planned
+    first = next(iter(motions.values()))
+    meeting = planner.meeting([one.trajectory for one in motions.values()], state.positions)
+    yield from _planning_time(context, attempt, first if meeting is None else meeting)
+    yield from _drive(context, attempt, motions, None)
 
 
 def _move_to_goal(context: TaskContext, attempt: Attempt, name: str) -> Waiting[None]:
@@ -172,7 +196,7 @@ def _move_to_goal(context: TaskContext, attempt: Attempt, name: str) -> Waiting[
     if located.observed_frame is not None:
         stamp_ns = context.observed[located.observed_frame]
         check_observation(context, located.observed_frame, stamp_ns, allowance_s=PLANNING_LATENCY_S)
-    yield from _drive(context, attempt, group, motion, located.observed_frame)
+    yield from _drive(context, attempt, {group: motion}, located.observed_frame)
 
 
 def _planning_time(
@@ -192,23 +216,27 @@ def _planning_time(
 
 
 def _drive(
-    context: TaskContext, attempt: Attempt, group: str, motion: PlannedMotion, observed_frame: str | None
+    context: TaskContext, attempt: Attempt, motions: Mapping[str, PlannedMotion], observed_frame: str | None
 ) -> Waiting[None]:
-    """Check the state once more and execute; the arm stands at a goal afterwards, or no longer at one."""
+    """Check the state once more and execute; each arm stands at a goal afterwards, or no longer at one."""
     current_state(context.plant)
-    controller = context.contract.groups[group].controller
-    if controller is None:
-        raise AttemptError(AttemptOutcome.GOAL_REJECTION, f"no controller moves group {group}")
-    context.retreats.pop(group, None)
+    goals: dict[str, TrajectoryGoal | GripperGoal] = {}
+    timeout_s = 0.0
+    for group, motion in motions.items():
+        controller = context.contract.groups[group].controller
+        if controller is None:
+            raise AttemptError(AttemptOutcome.GOAL_REJECTION, f"no controller moves group {group}")
+        context.retreats.pop(group, None)
+        goals[controller] = _trajectory_goal(motion.trajectory)
+        timeout_s = max(timeout_s, _timeout_s(context, controller, motion.trajectory.duration_ns * 1e-9))
     context.acting_on = observed_frame
-    goal = _trajectory_goal(motion.trajectory)
-    timeout_s = _timeout_s(context, controller, motion.trajectory.duration_ns * 1e-9)
-    ended = yield from execute(context, attempt, "move", controller, goal, timeout_s)
-    require_success(ended, context)
-    state = yield from state_since(context, ended.decided_ns)
-    _require_arrival(state, motion.trajectory)
-    if motion.retreat is not None:
-        context.retreats[group] = motion.retreat
+    for ended in (yield from execute_together(context, attempt, "move", goals, timeout_s)):
+        require_success(ended, context)
+        state = yield from state_since(context, ended.decided_ns)
+    for group, motion in motions.items():
+        _require_arrival(state, motion.trajectory)
+        if motion.retreat is not None:
+            context.retreats[group] = motion.retreat
 
 
 def _require_arrival(state: CurrentState, trajectory: TimedTrajectory) -> None:

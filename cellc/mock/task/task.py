@@ -165,7 +165,7 @@ class Task:
             return
         self._context.check_cell()
         if step.kind == "move":
-            yield from move(self._context, attempt, step.target)
+            yield from move(self._context, attempt, step.target, together=step.command == "together")
         elif step.kind == "detect":
             yield from detect(self._context, attempt, step.target)
         elif step.kind == "grip":
