@@ -302,7 +302,9 @@ What mimics nothing is then a joint of its own, as it is to MoveIt and pinocchio
 """
 
 
-Kind = Literal["arm", "gripper", "camera", "digital"]
+Kind = Literal[
+    "arm", "gripper", "hand", "camera", "sensor", "digital", "io", "axis", "conveyor", "base", "fixture", "plc"
+]
 
 
 def device_kinds() -> tuple[str, ...]:
