@@ -8,7 +8,8 @@ Example that is reported:
 
 ```yaml
 devices:
-  shuttle: {model: ./plain_axis, mount: {parent: world, xyz: 0 2 0 m}, revision: A, firmware: plain 1.0.0}  # expect at shuttle
+  shuttle: {model: ./plain_axis, mount: {parent: world, xyz: 0 2 0 m}, revision: A,  # expect at shuttle
+            firmware: plain 1.0.0}
 control:
   controllers:
     shuttle_trajectory: {type: joint_trajectory, device: shuttle, client: move_group, goal_time: 1 s,
