@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 
+from cellc.cell.cell import Cell
 from cellc.cell.control import AdaptedDevice, Controller, ControllerManager, ControllerSwitch
 from cellc.cell.device import Adapter, Device
 from cellc.cell.interface import Interface, InterfaceKind
@@ -127,6 +129,24 @@ def bind_adapters(
         state = _of_source(interfaces, device, InterfaceKind.TOPIC, JOINT_STATE_TYPE)
         if action is not None and state is not None:
             yield _adapted(device, joints, action, state)
+
+
+def behind_adapters(cell: Cell) -> Cell:
+    """Take away what the driver of ROS has of devices behind an adapter: loaded, it would reach them a second time.
+
+    That is their hardware, what it and its nodes offer, and the fields of records that its controllers would tell.
+    """
+    behind = {adapted.device for adapted in cell.adapters}
+    devices = tuple(_without_driver(one) if one.name in behind else one for one in cell.devices)
+    managers = (
+        replace(one, devices=tuple(name for name in one.devices if name not in behind)) for one in cell.managers
+    )
+    return replace(cell, devices=devices, managers=tuple(managers)) if behind else cell
+
+
+def _without_driver(device: Device) -> Device:
+    told = tuple(source for source in device.record if source.controller_kind is None)
+    return replace(device, hardware=None, offers=(), starts={}, record=told)
 
 
 def _adapted(device: Device, joints: tuple[str, ...], action: Interface, state: Interface) -> AdaptedDevice:

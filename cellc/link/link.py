@@ -15,7 +15,7 @@ from cellc.cell.motion import CartesianGoal, NamedPose, Octomap, Pipeline, Plann
 from cellc.cell.site import Versions
 from cellc.description.model import Description
 from cellc.diagnostics import Diagnostic, Outcome, Severity, Span, did_you_mean
-from cellc.link.control import bind_adapters, link_managers
+from cellc.link.control import behind_adapters, bind_adapters, link_managers
 from cellc.link.controller import ControlContext
 from cellc.link.derived import Derivation, derive_interfaces
 from cellc.link.devices import BoundDevice, link_devices
@@ -129,7 +129,10 @@ def _link_with_devices(
         behaviours={controller.plugin: controller.behaviour for controller in controllers},
     )
     parts = (linked_devices, placed, centers, nodes, managers, interfaces, planned, rehearsals)
-    return Outcome(_with_plans(cell, planned.value), tuple(problem for part in parts for problem in part.diagnostics))
+    return Outcome(
+        behind_adapters(_with_plans(cell, planned.value)),
+        tuple(problem for part in parts for problem in part.diagnostics),
+    )
 
 
 @dataclass(frozen=True, slots=True)

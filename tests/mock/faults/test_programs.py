@@ -15,11 +15,12 @@ import pytest
 
 from cellc.contract.bring_up import Watch
 from cellc.contract.rehearsals import FaultEntry, FaultEvent, RehearsalEntry
-from cellc.mock import MockCell
+from cellc.mock import MockCell, load
 from cellc.mock.cell import cell_of
 from cellc.mock.faults.registry import possible_faults
 from cellc.mock.plant import Plant
-from cellc.vocabulary import BringUpPhase, FaultKind
+from cellc.vocabulary import AttemptOutcome, BringUpPhase, FaultKind
+from tests.cells import ROOT
 from tests.mock.faults.conftest import ACKNOWLEDGE, HOME, Rehearse, Run, during, wait
 
 WRIST = "arm_wrist_3_joint"
@@ -146,3 +147,13 @@ def test_brakes_of_a_robot_with_a_program_stop_that_program_too(run: Rehearse) -
 def test_fault_of_a_phase_begins_before_anything_of_it_is_asked_for(run: Rehearse) -> None:
     done = run(FaultEntry(kind=FaultKind.PROGRAM_STOP, target="arm", phase=BringUpPhase.CLAIM), steps=(HOME,))
     assert done.result.response_s is not None
+
+
+def test_a_robot_without_a_program_gives_its_claim_up_as_its_own_fault_comes() -> None:
+    # ros2_kortex 945324f, hardware_interface.cpp:793: while a fault lasts nothing is sent, and controllers stay active.
+    cell = load(ROOT / "generated/gen3_2f")
+    entry = FaultEntry(kind=FaultKind.STALE_SET_POINTS, target="arm", event=FaultEvent(step=2, when="moving"))
+    changes = {"faults": (entry,), "expect": AttemptOutcome.CLAIM_FAILURE}
+    result = cell.rehearse(cell.entry("rack_to_washer").model_copy(update=changes))
+    assert result.passed
+    assert "arm_trajectory gave up its claim: arm follows no set points" in result.reason
