@@ -125,11 +125,23 @@ class VersionRow(CatalogModel):
     as_of: Date
 
 
+class VendorDescriptionFacts(CatalogModel):
+    """The file in the vendor's package, and the arguments by which it is this model; links have the same names."""
+
+    file: Text
+    arguments: dict[Token, Text] = Field(default_factory=dict)
+    source: Text
+
+
 class DescriptionFacts(CatalogModel):
-    """The model of the device: a file beside ``device.yaml``, and the vendor's package that it stands for."""
+    """The model of the device: a file beside ``device.yaml``, and the vendor's package that it stands for.
+
+    Where that package is at hand, ``vendor`` tells which of its files has the shapes.
+    """
 
     file: Text
     package: Text | None = None
+    vendor: VendorDescriptionFacts | None = None
     arguments: dict[Token, Text] = Field(default_factory=dict)
 
 

@@ -252,6 +252,21 @@ class NetworkNeeds:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class VendorDescription:
+    """The description of the vendor's own package, as far as that is at hand.
+
+    Args:
+        package: its name; ``folder`` is where it was found, empty where it was not.
+        description: prefix applied; None where it is not at hand or cannot be read, and ``refused`` says why.
+    """
+
+    package: str
+    folder: str = ""
+    description: Description | None = None
+    refused: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Packages:
     """Packages or libraries of the vendor as they stand in the version tuple; None where there is none."""
 
@@ -268,6 +283,7 @@ class Device(Entity):
         model, vendor, kind: as the catalog names them; the kind is arm, gripper, camera or digital.
         architecture: who owns the command path: ros2, direct_sdk or hybrid.
         description: links and joints with the prefix applied; frames as URDF.
+        vendor_description: that of the vendor's package, whose shapes the links have; None where none is known.
         root_link: prefixed root link; its pose in ``parent_frame`` is ``transform_root_to_parent``.
         frames: short names of the catalog and local link names → prefixed link names.
         joints: movable joints in the order of the description, mimic joints included.
@@ -304,6 +320,7 @@ class Device(Entity):
     kind: str
     description: Description
     root_link: str
+    vendor_description: VendorDescription | None = None
     prefix: str = ""
     parent_frame: str = WORLD
     transform_root_to_parent: Pose = field(default_factory=identity)

@@ -23,6 +23,7 @@ from cellc.link.ports import port_shifts
 from cellc.link.quantities import pose
 from cellc.link.robot import robot_words, with_robot
 from cellc.link.tool import tool_words, with_tools
+from cellc.link.vendor_description import link_vendor_description, with_vendor_shapes
 from cellc.source.document import SourceDocument
 from cellc.source.text import lies_under
 from cellc.spec.cell_spec import CellSpec
@@ -69,7 +70,13 @@ def link_devices(spec: CellSpec, document: SourceDocument, distro: Distro | None
         # Mounted somewhere even so: what refers to its frames, its node and its joints is right.
         mount = parent.value or WORLD
         bound = _device(name, written, spec, document, entries[name], mount, distro, shifts[name])
-        bound = replace(bound, device=with_kinematics(bound.device, kinematics[name], bound.facts))
+        vendor = link_vendor_description(bound.facts, document, prefix_of(name, written), purse)
+        shaped = replace(
+            bound.device,
+            description=with_vendor_shapes(bound.device.description, vendor),
+            vendor_description=vendor,
+        )
+        bound = replace(bound, device=with_kinematics(shaped, kinematics[name], bound.facts))
         problems += _unknown_simulated_joints(bound.device, document)
         devices.append(bound)
     return Outcome(tuple(devices), tuple(problems))

@@ -24,6 +24,7 @@ from cellc.emit.audit.tables import (
     nodes_section,
     owners_section,
     record_section,
+    shapes_section,
     signals_section,
     tf_section,
 )
@@ -54,6 +55,7 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     sections = {
         "Open questions": _questions_section(graph, plan),
         "Version tuple": _version_section(cell),
+        "Shapes": shapes_section(cell),
         "Command owners": owners_section(graph),
         "Command paths": command_section(graph),
         **({"Digital signals": signals_section(cell)} if any(one.switched for one in cell.devices) else {}),

@@ -64,6 +64,22 @@ def calibration_section(cell: Cell) -> str:
     return table(("calibration", "revision", "measured", "owner", "file", "sha256"), rows)
 
 
+def shapes_section(cell: Cell) -> str:
+    """Write whose shapes the links of each device have, on every target."""
+    return table(("device", "shapes", "because"), ((device.name, *_shapes(device)) for device in cell.devices))
+
+
+def _shapes(device: Device) -> tuple[str, str]:
+    vendor = device.vendor_description
+    if vendor is None:
+        return "those of its description", "the catalog names no file of its vendor that has others"
+    if vendor.description is not None:
+        return "those of its vendor", f"{code(vendor.package)} is at hand, and its kinematics was compared"
+    if vendor.refused:
+        return "boxes and cylinders", f"the description in {code(vendor.package)} cannot be read"
+    return "boxes and cylinders", f"{code(vendor.package)} lies neither beside the spec nor on the package path"
+
+
 def signals_section(cell: Cell) -> str:
     """Write each output and sensor of devices of few states: what drives it, and what a loss of power does."""
     head = ("device", "signal", "interface", "controller", "commanded by", "without power")
