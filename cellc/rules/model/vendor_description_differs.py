@@ -19,8 +19,7 @@ devices:
   side_arm: {model: ./vendored_arm, mount: {parent: world, xyz: 0 2 0 m}, revision: A, firmware: bare 1.0.0}
 ```
 
-Fix: put the release of the package beside the spec that the device is pinned to; where that is so already, tell the
-maintainers of the catalog, or bring the robot as a folder of your own.
+Fix: put the release of the package beside the spec that the device is pinned to, or bring the robot as a folder.
 
 Source: docs/principles.md#robot-descriptions
 """

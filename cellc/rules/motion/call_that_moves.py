@@ -51,7 +51,7 @@ def check(graph: CellGraph) -> Findings:
         for step in rehearsal.steps:
             if step.kind == "call" and step.name in moving:
                 message = f"`{step.name}` moves past every controller: {moving[step.name]}"
-                yield found(graph, (*step.path, "call"), message, "move by a `move` step, or leave it to a gate")
+                yield found(graph, (*step.path, "call"), message)
 
 
 def _moving(cell: Cell) -> Iterator[tuple[str, str]]:
