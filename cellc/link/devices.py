@@ -10,8 +10,9 @@ from pathlib import Path
 from cellc.catalog.device_interfaces import JointInterfaces
 from cellc.catalog.device_model import AccelerationLimit, DeviceModel, JerkLimit
 from cellc.catalog.load import CatalogDevice, device_names, load_device, load_device_folder
-from cellc.cell.device import EVERY_JOINT, Device, DeviceJoint, Kinematics
+from cellc.cell.device import EVERY_JOINT, Device, DeviceJoint
 from cellc.cell.frame import WORLD
+from cellc.cell.kinematics import Kinematics
 from cellc.description.model import Description, Joint
 from cellc.diagnostics import Diagnostic, Outcome, Related, Severity, Span, YamlPath, did_you_mean
 from cellc.limits import Purse, children_seconds, limits

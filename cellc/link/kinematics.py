@@ -9,7 +9,8 @@ from dataclasses import replace
 
 from cellc.catalog.device_model import DeviceModel, KinematicsFacts
 from cellc.catalog.load import CatalogDevice
-from cellc.cell.device import Device, KinematicCalibration, Kinematics
+from cellc.cell.device import Device
+from cellc.cell.kinematics import KinematicCalibration, Kinematics
 from cellc.description.model import Description
 from cellc.diagnostics import Diagnostic, Outcome, Severity, YamlPath
 from cellc.link.names import Placeholders

@@ -129,10 +129,8 @@ def _link_with_devices(
         behaviours={controller.plugin: controller.behaviour for controller in controllers},
     )
     parts = (linked_devices, placed, centers, nodes, managers, interfaces, planned, rehearsals)
-    return Outcome(
-        behind_adapters(_with_plans(cell, planned.value)),
-        tuple(problem for part in parts for problem in part.diagnostics),
-    )
+    linked = behind_adapters(_with_plans(cell, planned.value))
+    return Outcome(linked, tuple(problem for part in parts for problem in part.diagnostics))
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from cellc.catalog.device_model import DeviceModel
-from cellc.cell.device import VendorDescription
+from cellc.cell.kinematics import VendorDescription
 from cellc.description.model import Description, Link
 from cellc.description.packages import find_package, root_of
 from cellc.limits import Purse

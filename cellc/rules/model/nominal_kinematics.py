@@ -29,7 +29,8 @@ from __future__ import annotations
 import datetime
 from collections.abc import Iterator
 
-from cellc.cell.device import Device, KinematicCalibration, Kinematics
+from cellc.cell.device import Device
+from cellc.cell.kinematics import KinematicCalibration, Kinematics
 from cellc.cell.site import UNKNOWN
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
