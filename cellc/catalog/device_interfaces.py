@@ -7,6 +7,7 @@ from typing import Annotated, Literal, Union
 from pydantic import Field
 
 from cellc.catalog.catalog_model import (
+    BareName,
     BehaviourName,
     CatalogModel,
     DistroName,
@@ -26,7 +27,7 @@ from cellc.spec.base import MOST
 from cellc.spec.quantity import Duration, FieldAngle, Frequency, Length
 from cellc.vocabulary import Distro
 
-InterfaceName = Text
+InterfaceName = BareName
 """The part after the slash: ``position``, ``force.x``, ``speed_scaling_factor``."""
 
 
@@ -96,7 +97,7 @@ class HardwareFacts(CatalogModel):
     plugin makes in the manager's process. ``modes`` exclude each other.
     """
 
-    plugin: Text
+    plugin: BareName
     parameters: dict[Text, Text] = Field(default_factory=dict)
     left_out_when_empty: tuple[Text, ...] = ()
     releases: tuple[HardwareRelease, ...] = ()
@@ -161,7 +162,7 @@ class PluginUse(CatalogModel):
     ``claims`` and ``reads`` are what a passive controller of a device takes besides what it takes everywhere.
     """
 
-    type: Text
+    type: BareName
     package: Token
     claims: tuple[Text, ...] = ()
     reads: tuple[Text, ...] = ()

@@ -160,6 +160,28 @@ def test_package_behind_three_slashes_is_the_package(here: Path) -> None:
     assert (here / "odd_arm" / "talos_data" / "a.stl").is_file()
 
 
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("model: odd_arm", "model: odd arm"),
+        ('component: "{device}_hardware"', 'component: "{device} hardware"'),
+        ("state: [position, velocity]", "state: [position, my velocity]"),
+        ("plugin: mock_components/GenericSystem", "plugin: mock components/GenericSystem"),
+        ("tool_frame: c", "tool_frame: the c"),
+    ],
+)
+def test_name_with_a_space_is_refused_at_its_line(old: str, new: str, here: Path) -> None:
+    assert _import(here, _robot(*ARM), "--cell")[0] == 0
+    file = here / "odd_arm" / "device.yaml"
+    text = file.read_text(encoding="utf-8").replace("'{device}_hardware'", '"{device}_hardware"')
+    assert old in text
+    file.write_text(text.replace(old, new), encoding="utf-8")
+    line = text.partition(old)[0].count("\n") + 1
+    out = run("check", "cell.yaml").out
+    assert "error[catalogue-entry-invalid]" in out
+    assert f"odd_arm/device.yaml:{line}:" in out
+
+
 _TURNING = "".join(
     _joint(f"j{number}", f"l{number}", f"l{number + 1}", "fixed" if number % 4 else "revolute")
     for number in range(200)

@@ -37,7 +37,7 @@ from cellc.vocabulary import TRAJECTORIES
 _PARTIAL = "allow_partial_joints_goal"
 
 
-@rule(Severity.ERROR, assumes=("group-without-joints",))
+@rule(Severity.ERROR, assumes=("group-without-joints", "tip-off-the-tool-chain"))
 def check(graph: CellGraph) -> Findings:
     """Yield groups whose controllers want more joints than a plan of the group has."""
     for group in graph.cell.groups:
