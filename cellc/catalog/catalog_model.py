@@ -22,7 +22,7 @@ from cellc.vocabulary import (
 Text = Annotated[str, StringConstraints(min_length=1, max_length=1000)]
 Token = Annotated[str, StringConstraints(pattern=r"^[A-Za-z_][A-Za-z0-9_]*\Z", max_length=100)]
 BareName = Annotated[str, StringConstraints(pattern=r"^\S+\Z", max_length=200)]
-"""A name of an interface or a plugin: pluginlib and ros2_control compare them letter by letter, and none has a space."""
+"""A name of an interface or a plugin: none has a space where it is declared."""
 # What tf2 and MoveIt take for a link or a joint; some vendors number their links `link_3.0`.
 PartName = Annotated[str, StringConstraints(pattern=r"^[A-Za-z_][A-Za-z0-9_.-]*\Z", max_length=100)]
 NodeName = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_{}]+\Z", max_length=100)]

@@ -54,7 +54,7 @@ def import_(
 ) -> None:
     """Make a device folder of ROBOT: a URDF or xacro file, the folder of a ROS package, or an installed Python package.
 
-    NAME:=VALUE are arguments of the xacro. A device.yaml that is there stays as a person left it.
+    NAME:=VALUE are arguments of the xacro. What a person wrote into a device.yaml stays.
     """
     if only_check:
         _tell_changes(Path(robot))
@@ -69,7 +69,10 @@ def import_(
     took = f"{time.monotonic() - begun:.1f} s"
     show(f"wrote {folder.as_posix()}: {written.files} files, {written.size / 1e6:.1f} MB, in {took}")
     if written.kept:
-        show(f"kept {folder.as_posix()}/device.yaml as a person left it")
+        changed = (
+            f"kept, with what the vendor changed: {', '.join(written.changed)}" if written.changed else "as it was"
+        )
+        show(f"{folder.as_posix()}/device.yaml is {changed}")
     if with_cell:
         _write_cell(folder, chain, written.away, ros)
     errors = tuple(one for one in written.checked.diagnostics if one.severity is Severity.ERROR)

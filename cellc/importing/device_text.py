@@ -7,11 +7,10 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import yaml
-
 from cellc.description.model import Description, HardwareComponent, Joint
 from cellc.formats.numbers import shortest
 from cellc.importing.chain import Chain, actuated, home_of
+from cellc.importing.merge import Facts, dumped
 from cellc.importing.source import Robot
 
 DESCRIPTION = "robot.urdf"
@@ -38,16 +37,14 @@ def model_name(robot: Robot) -> str:
     return name if name[:1].isalpha() else f"robot_{name}".rstrip("_")
 
 
-def device_text(robot: Robot, chain: Chain, judged: Judged, day: str) -> str:
+def device_text(robot: Robot, judged: Judged, facts: Facts) -> str:
     """Write the file; the questions stand at its head."""
-    facts = _facts(robot, chain, judged, day)
     head = [
-        "# Made by `cellc import`; a second import leaves it as a person left it.",
+        "# Made by `cellc import`; a second import keeps what a person wrote.",
         "# Open questions:",
     ]
     asked = [f"#   {number}. {question}" for number, question in enumerate(questions(robot, judged), 1)]
-    body = yaml.safe_dump(facts, sort_keys=False, default_flow_style=None, width=120, allow_unicode=True)
-    return "\n".join((*head, *asked)) + "\n" + body
+    return "\n".join((*head, *asked)) + "\n" + dumped(facts)
 
 
 def questions(robot: Robot, judged: Judged) -> Iterator[str]:
@@ -67,9 +64,10 @@ def questions(robot: Robot, judged: Judged) -> Iterator[str]:
         yield f"{len(robot.missing)} meshes of collision shapes, {robot.missing[0]} first, are missing: where are they?"
 
 
-def _facts(robot: Robot, chain: Chain, judged: Judged, day: str) -> dict[str, object]:
+def device_facts(robot: Robot, chain: Chain, judged: Judged, day: str) -> Facts:
+    """Return what the files say of the robot, and what was found once they were checked."""
     description, joints = robot.description, actuated(robot.description)
-    facts: dict[str, object] = {
+    facts: Facts = {
         "format": 1,
         "model": model_name(robot),
         "vendor": "UNKNOWN",

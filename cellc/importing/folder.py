@@ -11,8 +11,9 @@ from pathlib import Path
 from cellc.feasibility import MotionAnswer, motion_answer
 from cellc.importing.cell_text import GROUP, cell_text
 from cellc.importing.chain import Chain, home_of
-from cellc.importing.device_text import DESCRIPTION, Judged, Pairs, device_text
+from cellc.importing.device_text import DESCRIPTION, Judged, Pairs, device_facts, device_text
 from cellc.importing.first_motion import first_goal
+from cellc.importing.merge import Facts, facts_in, merged, rewritten
 from cellc.importing.source import Robot
 from cellc.pipeline import Checked, check
 from cellc.store.swap import write_whole
@@ -35,39 +36,85 @@ class Written:
     """What a run wrote: files and their size in bytes, whether a device.yaml of a person stayed, and what is found.
 
     Attributes:
+        changed: keys of a person's device.yaml whose values the vendor changed.
         away: where the joints of the chain may go first, rad or m.
     """
 
     files: int
     size: int
     kept: bool
+    changed: tuple[str, ...]
     checked: Checked
     away: tuple[float, ...]
 
 
 def write_folder(folder: Path, robot: Robot, chain: Chain, disabled: Pairs, day: str) -> Written:
-    """Write the folder; a ``device.yaml`` that is there stays as a person left it."""
+    """Write the folder; what a person wrote into a ``device.yaml`` that is there stays."""
     files = {DESCRIPTION: robot.text.encode()}
     files |= {_inside(name): path.read_bytes() for name, path in robot.meshes.items()}
     for name, content in files.items():
         target = folder / name
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_bytes(content)
-    lock = {"source": robot.file.name, "files": {name: _hash(content) for name, content in sorted(files.items())}}
-    write_whole(folder / LOCK, json.dumps(lock, indent=2) + "\n")
-    kept = (folder / "device.yaml").exists()
-    if not kept:
-        write_whole(folder / "device.yaml", device_text(robot, chain, Judged(disabled), day))
+    device = _Device(folder, robot, _imported_before(folder), day)
     home = tuple(home_of(joint) for joint in chain.joints)
-    judged, checked = _judged(folder, chain, home, Judged(disabled))
-    for _ in range(0 if kept else _PASSES):
-        write_whole(folder / "device.yaml", device_text(robot, chain, judged, day))
+    judged = Judged(disabled)
+    for _ in range(_PASSES):
+        device.write(chain, judged)
         before, (judged, checked) = judged, _judged(folder, chain, home, judged)
         if judged == before:
             break
+    lock = {
+        "source": robot.file.name,
+        "files": {name: _hash(content) for name, content in sorted(files.items())},
+        "device": device.imported,
+    }
+    write_whole(folder / LOCK, json.dumps(lock, indent=2) + "\n")
     away = first_goal(checked.graph, GROUP, chain)
     judged, checked = _judged(folder, chain, away, judged)
-    return Written(len(files) + 2, sum(map(len, files.values())), kept, checked, away)
+    size = sum(map(len, files.values()))
+    return Written(len(files) + 2, size, device.kept, device.changed, checked, away)
+
+
+class _Device:
+    """The ``device.yaml`` of a folder, which a person may have written into since the last import.
+
+    Attributes:
+        kept: whether there was one.
+        changed: keys whose values the vendor changed since.
+        imported: what this import would have written by itself.
+    """
+
+    def __init__(self, folder: Path, robot: Robot, before: Facts, day: str) -> None:
+        self._file, self._robot, self._day = folder / "device.yaml", robot, day
+        self._before = before
+        self._text = self._file.read_text(encoding="utf-8") if self._file.exists() else ""
+        self._person = facts_in(self._text) if self._text else None
+        self.kept = self._file.exists()
+        self.changed: tuple[str, ...] = ()
+        self.imported: Facts = before
+
+    def write(self, chain: Chain, judged: Judged) -> None:
+        """Write what the files say, and what a person says otherwise."""
+        day = self._before.get("as_of", self._day) if self.kept else self._day
+        facts = device_facts(self._robot, chain, judged, day)
+        if not self.kept:
+            self.imported = facts
+            write_whole(self._file, device_text(self._robot, judged, facts))
+        elif self._person is not None and self._before:  # of one that was not imported nobody knows what is whose
+            self.imported = facts
+            found = merged(self._before, facts, self._person)
+            keys = dict.fromkeys((*self._person, *found))
+            self.changed = tuple(key for key in keys if self._person.get(key) != found.get(key))
+            write_whole(self._file, rewritten(self._text, self._person, found))
+
+
+def _imported_before(folder: Path) -> Facts:
+    """Return what the last import into a folder found; nothing where there was none, or an older one."""
+    if not (folder / LOCK).is_file():
+        return {}
+    found: Facts = json.loads((folder / LOCK).read_text(encoding="utf-8")).get("device", {})
+    return found
 
 
 def changed_files(folder: Path) -> Iterator[str]:

@@ -6,6 +6,7 @@ import json
 from pathlib import Path
 
 import pytest
+import yaml
 
 from tests.cli.run import run
 
@@ -98,9 +99,47 @@ def test_second_import_leaves_what_a_person_wrote_and_tells_what_changed(here: P
     checked = run("import", "--check", "odd_arm")
     assert (checked.code, "changed: robot.urdf" in checked.out) == (1, True)
     code, out = _import(here, _robot(*ARM))
-    assert (code, "kept odd_arm/device.yaml" in out) == (0, True)
+    assert (code, "odd_arm/device.yaml is as it was" in out) == (0, True)
     assert "vendor: Us" in device.read_text(encoding="utf-8")
     assert run("import", "--check", "odd_arm").code == 0
+
+
+def test_second_import_brings_what_the_vendor_changed_and_keeps_what_a_person_wrote(here: Path) -> None:
+    slide = '<limit lower="0" upper="1" velocity="1" effort="10"/>'
+    assert _import(here, _robot(*ARM))[0] == 0
+    device = here / "odd_arm" / "device.yaml"
+    text = device.read_text(encoding="utf-8")
+    text = text.replace("vendor: UNKNOWN", "vendor: Us  # asked on the phone").replace("2 rad/s^2", "7 rad/s^2", 1)
+    device.write_text(text, encoding="utf-8")
+    changed = _robot(_links("a", "b", "c", "d"), *ARM[1:], _joint("j3", "c", "d", "prismatic", slide))
+    code, out = _import(here, changed)
+    assert code == 0, out
+    assert "device.yaml is kept, with what the vendor changed: summary, frames, tool_frame, limits" in out
+    merged = yaml.safe_load(device.read_text(encoding="utf-8"))
+    assert "vendor: Us  # asked on the phone\n" in device.read_text(encoding="utf-8")
+    assert (merged["summary"], merged["tool_frame"]) == ("Odd-Arm, 3 joints", "d")
+    acceleration = {name: one["value"] for name, one in merged["limits"]["acceleration"].items()}
+    assert acceleration == {"*": "7 rad/s^2", "j3": "0.5 m/s^2"}
+    assert "is as it was" in _import(here, changed)[1]
+
+
+def test_pair_that_a_person_took_out_stays_out(here: Path) -> None:
+    near = '<collision><origin xyz="0 0 {}"/><geometry><box size="0.1 0.1 0.1"/></geometry></collision>'
+    shapes = {"a": 0.0, "c": -0.6, "d": -0.9}  # in one place where every joint is at zero
+    links = "".join(
+        f'<link name="{name}">{near.format(shapes[name]) if name in shapes else ""}</link>' for name in "abcd"
+    )
+    robot = _robot(links, *ARM[1:], _joint("j3", "c", "d"))
+    assert _import(here, robot)[0] == 0
+    device = here / "odd_arm" / "device.yaml"
+    facts = yaml.safe_load(device.read_text(encoding="utf-8"))
+    assert [one["links"] for one in facts["allowed_collisions"]] == [["a", "c"], ["a", "d"]]
+    facts["allowed_collisions"] = facts["allowed_collisions"][:1]
+    device.write_text(yaml.safe_dump(facts), encoding="utf-8")
+    code, out = _import(here, robot)
+    assert (code, "pose-in-self-collision" in out or "start-in-collision" in out) == (1, True)
+    facts = yaml.safe_load(device.read_text(encoding="utf-8"))
+    assert [one["links"] for one in facts["allowed_collisions"]] == [["a", "c"]]
 
 
 def test_what_the_files_do_not_say_is_a_question(here: Path) -> None:

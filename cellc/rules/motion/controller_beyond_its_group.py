@@ -1,7 +1,7 @@
 """A trajectory controller drives joints that a planning group lacks.
 
 A plan has the joints of its group. The controller that executes it refuses a goal that leaves joints of its own out,
-unless partial goals are allowed: planning succeeds, and every motion ends as a rejected goal.
+unless it takes partial goals: planning succeeds, and every motion ends as a rejected goal.
 
 Example that is reported:
 
