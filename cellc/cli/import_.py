@@ -20,8 +20,10 @@ from cellc.store.swap import write_whole
 from cellc.vocabulary import Distro
 
 if TYPE_CHECKING:
+    from cellc.importing.cell_text import FirstCell
     from cellc.importing.chain import Chain
     from cellc.importing.device_text import Pairs
+    from cellc.importing.folder import Written
     from cellc.importing.source import Robot
 
 
@@ -35,7 +37,14 @@ if TYPE_CHECKING:
     help="Device folder; ./MODEL if absent.",
 )
 @click.option(
-    "--srdf", type=click.Path(path_type=Path, exists=True, dir_okay=False), help="SRDF whose pairs of links may touch."
+    "--srdf",
+    type=click.Path(path_type=Path, exists=True, dir_okay=False),
+    help="SRDF whose pairs of links may touch; the robot's own beside its description if absent.",
+)
+@click.option(
+    "--controllers",
+    type=click.Path(path_type=Path, exists=True, dir_okay=False),
+    help="Parameters of controllers for the cell; those beside the description if absent.",
 )
 @click.option("--cell", "with_cell", is_flag=True, help="Write a cell.yaml beside the folder too, which moves it.")
 @click.option("--check", "only_check", is_flag=True, help="Tell which files of the imported folder ROBOT changed.")
@@ -48,6 +57,7 @@ def import_(
     arguments: tuple[str, ...],
     output: Path | None,
     srdf: Path | None,
+    controllers: Path | None,
     with_cell: bool,
     only_check: bool,
     ros: str,
@@ -61,25 +71,37 @@ def import_(
         return
     begun = time.monotonic()
     found, chain = _read(robot, dict(map(_argument, arguments)))
+    from cellc.importing.beside import controllers_near, read_controllers, semantic_file
+    from cellc.importing.cell_text import FirstCell
     from cellc.importing.device_text import model_name
     from cellc.importing.folder import write_folder
 
     folder = output or Path(model_name(found))
-    written = write_folder(folder, found, chain, _disabled(srdf, found), date.today().isoformat())
+    semantic = srdf or semantic_file(found.file, found.description.name)
+    joints = [joint.name for joint in chain.joints]
+    moved = controllers_near(found.file, joints) if controllers is None else read_controllers(controllers, joints)
+    if moved is None:
+        raise click.UsageError(f"`{controllers}` has no controller of {', '.join(joints)}.")
+    written = write_folder(folder, found, chain, _disabled(semantic, found), date.today().isoformat())
     took = f"{time.monotonic() - begun:.1f} s"
     show(f"wrote {folder.as_posix()}: {written.files} files, {written.size / 1e6:.1f} MB, in {took}")
-    if written.kept:
-        changed = (
-            f"kept, with what the vendor changed: {', '.join(written.changed)}" if written.changed else "as it was"
-        )
-        show(f"{folder.as_posix()}/device.yaml is {changed}")
+    show(*(f"read {file.as_posix()}" for file in (semantic, moved.file) if file is not None))
+    _tell_kept(folder, written)
     if with_cell:
-        _write_cell(folder, chain, written.away, ros)
+        _write_cell(folder, FirstCell(chain, written.away, moved, ros))
     errors = tuple(one for one in written.checked.diagnostics if one.severity is Severity.ERROR)
     if errors:
         show_findings((replace(written.checked.findings, diagnostics=errors),), "text")
         raise click.exceptions.Exit(1)
     show(f"open questions stand at the head of {folder.as_posix()}/device.yaml")
+
+
+def _tell_kept(folder: Path, written: Written) -> None:
+    if written.kept:
+        changed = (
+            f"kept, with what the vendor changed: {', '.join(written.changed)}" if written.changed else "as it was"
+        )
+        show(f"{folder.as_posix()}/device.yaml is {changed}")
 
 
 def _argument(text: str) -> tuple[str, str]:
@@ -125,7 +147,7 @@ def _tell_changes(folder: Path) -> None:
     show(f"{folder.as_posix()} is as it was imported")
 
 
-def _write_cell(folder: Path, chain: Chain, away: tuple[float, ...], ros: str) -> None:
+def _write_cell(folder: Path, first: FirstCell) -> None:
     """Write the spec beside the folder, unless a person has one there."""
     from cellc.importing.cell_text import cell_text
 
@@ -133,6 +155,6 @@ def _write_cell(folder: Path, chain: Chain, away: tuple[float, ...], ros: str) -
     if file.exists():
         show(f"kept {file.as_posix()} as it was")
     else:
-        write_whole(file, cell_text(name, f"./{folder.name}", chain, away, ros))
+        write_whole(file, cell_text(name, f"./{folder.name}", first))
         show(f"wrote {file.as_posix()}")
     show(f"next: cellc build {shlex.quote(file.as_posix())} && cellc mock generated/{name}")

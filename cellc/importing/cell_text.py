@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
+
 from cellc.description.model import Joint
 from cellc.formats.numbers import shortest
+from cellc.importing.beside import ControllerFacts
 from cellc.importing.chain import Chain, home_of, range_of
 
 _WIDEST = {False: 0.2, True: 0.02}
@@ -13,12 +16,23 @@ _SHARE = 0.25
 """Of a joint's range that a path tolerance is at most."""
 
 
-def cell_text(name: str, folder: str, chain: Chain, away: tuple[float, ...], ros: str) -> str:
-    """Write the spec of a cell whose one device is the folder, named relative to the spec.
+@dataclass(frozen=True, slots=True)
+class FirstCell:
+    """What a first cell is made of.
 
-    Args:
+    Attributes:
         away: where the joints of the chain go, rad or m.
     """
+
+    chain: Chain
+    away: tuple[float, ...]
+    controllers: ControllerFacts = field(default_factory=ControllerFacts)
+    ros: str = "jazzy"
+
+
+def cell_text(name: str, folder: str, first: FirstCell) -> str:
+    """Write the spec of a cell whose one device is the folder, named relative to the spec."""
+    chain, moved = first.chain, first.controllers
     joints = ", ".join(f"arm/{joint.name}" for joint in chain.joints)
     base, tip = f"arm/{chain.base}", f"arm/{chain.tip}"
     return "\n".join(
@@ -26,25 +40,25 @@ def cell_text(name: str, folder: str, chain: Chain, away: tuple[float, ...], ros
             "format: 1",
             f"cell: {name}",
             f"summary: {name} on the mock, as `cellc import` made it",
-            f"versions: {{ros: {ros}}}        # what is missing here is UNKNOWN and blocks the real target",
+            f"versions: {{ros: {first.ros}}}        # what is missing here is UNKNOWN and blocks the real target",
             "devices:",
             f"  arm: {{model: {folder}, mount: {{parent: world}}}}",
             "control:",
-            "  update_rate: 100 Hz",
+            f"  update_rate: {moved.update_rate_hz:g} Hz",
             "  controllers:",
             "    joint_states: {type: joint_state_broadcaster}",
             "    arm_trajectory:",
             "      type: joint_trajectory",
             "      device: arm",
             f"      joints: [{joints}]",
-            "      goal_time: 1 s",
+            f"      goal_time: {moved.goal_time_s:g} s",
             f"      path_tolerance: {_tolerance(chain, 1.0)}",
             f"      goal_tolerance: {_tolerance(chain, 0.1)}",
             "motion:",
             f"  groups: {{{GROUP}: {{base: {base}, tip: {tip}}}}}",
             "  poses:",
             f"    home: {{{GROUP}: {_positions([(joint, home_of(joint)) for joint in chain.joints])}}}",
-            f"    away: {{{GROUP}: {_positions(list(zip(chain.joints, away, strict=True)))}}}",
+            f"    away: {{{GROUP}: {_positions(list(zip(chain.joints, first.away, strict=True)))}}}",
             "rehearsals:",
             "  first_move: {steps: [move: away, move: home]}",
             "",

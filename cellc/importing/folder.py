@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from cellc.feasibility import MotionAnswer, motion_answer
-from cellc.importing.cell_text import GROUP, cell_text
+from cellc.importing.cell_text import GROUP, FirstCell, cell_text
 from cellc.importing.chain import Chain, home_of
 from cellc.importing.device_text import DESCRIPTION, Judged, Pairs, device_facts, device_text
 from cellc.importing.first_motion import first_goal
@@ -138,7 +138,7 @@ def _judged(folder: Path, chain: Chain, away: tuple[float, ...], before: Judged)
     """Check the folder in a cell of its own, and return what of the description has to be taken on trust."""
     spec = folder / ".import.yaml"  # in the folder, so that findings name its files
     try:
-        spec.write_text(cell_text("imported", "./", chain, away, "jazzy"), encoding="utf-8")
+        spec.write_text(cell_text("imported", "./", FirstCell(chain, away)), encoding="utf-8")
         checked = check(spec)
         graph = checked.graph
         excused = {one.code: _EXCUSES[one.code] for one in checked.diagnostics if one.code in _EXCUSES}

@@ -7,12 +7,11 @@ file in which nothing changes stay as they are, to the letter, with their commen
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from itertools import pairwise
 from typing import Any
 
 import yaml
-from yaml.representer import SafeRepresenter
 
 Facts = dict[str, Any]
 """What a ``device.yaml`` holds, as YAML has it."""
@@ -40,12 +39,8 @@ def facts_in(text: str) -> Facts | None:
 
 
 def dumped(facts: Mapping[str, object]) -> str:
-    """Write facts as YAML, in their order: each key begins a line, and what is small stands on it."""
-    node = SafeRepresenter(default_flow_style=None, sort_keys=False).represent_data(dict(facts))
-    assert isinstance(node, yaml.MappingNode)
-    node.flow_style = False
-    text: str = yaml.serialize(node, Dumper=yaml.SafeDumper, width=120, allow_unicode=True)
-    return text
+    """Write facts as YAML, in their order."""
+    return yaml.safe_dump(dict(facts), sort_keys=False, default_flow_style=None, width=120, allow_unicode=True)
 
 
 def merged(before: Facts, now: Facts, person: Facts) -> Facts:
@@ -78,13 +73,15 @@ def _by_pair(pairs: list[Facts]) -> Facts:
 
 def rewritten(text: str, person: Facts, facts: Facts) -> str:
     """Return a file that holds ``person`` with the blocks written anew that are otherwise in ``facts``."""
-    left = {key: value for key, value in facts.items() if key not in person or person[key] != value}
-    starts = [*(match.start() for match in _KEY.finditer(text)), len(text)]
-    blocks = [text[: starts[0]], *(text[begin:end] for begin, end in pairwise(starts))]
-    for number, block in enumerate(blocks):
-        key = _KEY.match(block)
-        if key is not None and key[1] in left:
-            blocks[number] = dumped({key[1]: left.pop(key[1])})
-        elif key is not None and key[1] not in facts:
-            blocks[number] = ""
-    return "".join(blocks) + (dumped(left) if left else "")
+    written = dict(_blocks(dumped(facts)))
+    anew = {key: written[key] for key in facts if key not in person or person[key] != facts[key]}
+    kept = (anew.pop(key, block) for key, block in _blocks(text) if not key or key in facts)
+    return "".join((*kept, *anew.values()))
+
+
+def _blocks(text: str) -> Iterator[tuple[str, str]]:
+    """Yield each key at the left with all up to the next one; what stands above the first is of no key."""
+    starts = [match.start() for match in _KEY.finditer(text)]
+    yield "", text[: starts[0]] if starts else text
+    for begin, end in pairwise((*starts, len(text))):
+        yield text[begin:].partition(":")[0], text[begin:end]

@@ -172,6 +172,30 @@ def test_pairs_of_an_srdf_may_touch_and_say_why(here: Path) -> None:
     assert "is not looked for: arm.srdf says Never" in run("audit", "cell.yaml").out
 
 
+def test_srdf_and_controllers_beside_a_description_are_read_by_themselves(here: Path) -> None:
+    pair = '<disable_collisions link1="a" link2="c" reason="Never"/>'
+    near = {
+        "srdf/arm.srdf": f'<robot name="Odd-Arm">{pair}</robot>',
+        "srdf/other.srdf": f'<robot name="Other">{pair.replace("Never", "Adjacent")}</robot>',
+        "config/other.yaml": "/**: {hand: {ros__parameters: {joints: [j9], constraints: {goal_time: 9.0}}}}",
+        "config/broken.yaml": "a: [",
+        "config/ros2_controllers.yaml": "controller_manager: {ros__parameters: {update_rate: 250}}\n"
+        "arm_controller: {ros__parameters: {joints: [j2, j1], constraints: {goal_time: 0.6}}}\n",
+    }
+    for name, text in near.items():
+        (here / name).parent.mkdir(exist_ok=True)
+        (here / name).write_text(text, encoding="utf-8")
+    (here / "urdf").mkdir()
+    code, out = _import(here, _robot(*ARM), "--cell", name="urdf/arm.urdf")
+    assert code == 0, out
+    assert f"read {here}/srdf/arm.srdf\nread {here}/config/ros2_controllers.yaml\n" in out
+    assert "because: arm.srdf says Never" in (here / "odd_arm" / "device.yaml").read_text(encoding="utf-8")
+    cell = (here / "cell.yaml").read_text(encoding="utf-8")
+    assert ("update_rate: 250 Hz" in cell, "goal_time: 0.6 s" in cell) == (True, True)
+    wrong = _import(here, _robot(*ARM), "--controllers", "config/other.yaml", name="urdf/arm.urdf")
+    assert (wrong[0], "has no controller of j1, j2" in wrong[1]) == (2, True)
+
+
 def test_meshes_of_collision_shapes_come_along_and_no_others(here: Path) -> None:
     package = here / "vendor_description"
     (package / "meshes").mkdir(parents=True)

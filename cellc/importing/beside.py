@@ -1,0 +1,88 @@
+"""What a vendor lays beside a description: an SRDF of the same robot, and parameters of its controllers."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from cellc.limits import limits
+from cellc.store.regular_file import open_regular
+
+_NAMED = re.compile(r"<robot\b[^>]*\bname\s*=\s*[\"']([^\"']*)[\"']")
+_DEFAULT_HZ, _DEFAULT_S = 100.0, 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class ControllerFacts:
+    """What a first cell takes from the parameters of controllers: Hz and s, and the file; none where there is none."""
+
+    update_rate_hz: float = _DEFAULT_HZ
+    goal_time_s: float = _DEFAULT_S
+    file: Path | None = None
+
+
+def semantic_file(description: Path, robot: str) -> Path | None:
+    """Return the one SRDF of a robot near its description; of several that which has the name of the description."""
+    found = {file: _NAMED.search(_text(file)) for file in _near(description, ".srdf")}
+    own = [file for file, name in found.items() if name is not None and name[1] == robot]
+    alike = [file for file in own if file.stem == description.name.partition(".")[0]]
+    return own[0] if len(own) == 1 else alike[0] if len(alike) == 1 else None
+
+
+def controllers_near(description: Path, joints: Sequence[str]) -> ControllerFacts:
+    """Return what the one file near a description says that has a trajectory controller of all of some joints."""
+    found = [facts for file in _near(description, ".yaml") if (facts := read_controllers(file, joints)) is not None]
+    return found[0] if len(found) == 1 else ControllerFacts()
+
+
+def read_controllers(file: Path, joints: Sequence[str]) -> ControllerFacts | None:
+    """Return what a file of parameters says of the controller that moves some joints; None where none does."""
+    try:
+        nodes = dict(_nodes(yaml.safe_load(_text(file))))
+    except (yaml.YAMLError, ValueError, RecursionError):
+        return None
+    moving = (one for one in nodes.values() if set(joints) <= set(_listed(one.get("joints"))))
+    found = next((one for one in moving if "constraints" in one or "command_interfaces" in one), None)
+    if found is None:
+        return None
+    constraints = found.get("constraints")
+    goal_time = constraints.get("goal_time") if isinstance(constraints, dict) else None
+    rate = nodes.get("controller_manager", {}).get("update_rate")
+    return ControllerFacts(_positive(rate, _DEFAULT_HZ), _positive(goal_time, _DEFAULT_S), file)
+
+
+def _near(description: Path, suffix: str) -> Iterator[Path]:
+    """Yield the files beside a description and in the folders next to its own, each once and in one order."""
+    folder = description.absolute().parent
+    yield from sorted({*folder.glob(f"*{suffix}"), *folder.parent.glob(f"*/*{suffix}")})
+
+
+def _text(file: Path) -> str:
+    try:
+        with open_regular(file) as stream:
+            return stream.read(limits().xacro_yaml_bytes).decode("utf-8", "replace")
+    except OSError:
+        return ""
+
+
+def _nodes(data: Any) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Yield each node with its parameters; what stands below a name space or a wildcard too."""
+    for name, value in data.items() if isinstance(data, dict) else ():
+        parameters = value.get("ros__parameters") if isinstance(value, dict) else None
+        if isinstance(parameters, dict):
+            yield str(name).rpartition("/")[2], parameters
+        else:
+            yield from _nodes(value)
+
+
+def _listed(value: Any) -> list[str]:
+    return [one for one in value if isinstance(one, str)] if isinstance(value, list) else []
+
+
+def _positive(value: Any, default: float) -> float:
+    return float(value) if isinstance(value, (int, float)) and 0.0 < value < float("inf") else default
