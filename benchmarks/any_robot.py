@@ -1,6 +1,6 @@
 """Every robot of a folder through import, check, build and mock: one row each, and how many moved.
 
-    python -m benchmarks.any_robot FOLDER [PART-OF-A-NAME …]
+    nice python -m benchmarks.any_robot FOLDER [PART-OF-A-NAME …]
 
 FOLDER holds URDF files somewhere below, such as `share/example-robot-data/robots` of the PyPI package
 `example-robot-data`. Each command is a process of its own, with a bound of time; two robots are done at a time.
@@ -66,7 +66,7 @@ def _runs(folder: Path, file: Path) -> Iterator[subprocess.CompletedProcess[str]
         ("build", "cell.yaml"),
         ("mock", "generated/robot_cell"),
     ):
-        command = ["nice", "-n", "19", sys.executable, "-m", "cellc", *arguments]
+        command = [sys.executable, "-m", "cellc", *arguments]
         try:
             yield subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=_WITHIN_S, check=False)
         except subprocess.TimeoutExpired:
