@@ -27,7 +27,7 @@ _EXCUSES = {
     "missing-joint-limits": _NOT_DRIVEN,
     "missing-velocity-limit": _NOT_DRIVEN,
 }
-_PASSES = 3
+_PASSES = 4
 """A finding may hide others: of geometry, where the limits of a joint are not known."""
 
 
@@ -57,23 +57,29 @@ def write_folder(folder: Path, robot: Robot, chain: Chain, disabled: Pairs, day:
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_bytes(content)
     device = _Device(folder, robot, _imported_before(folder), day)
-    home = tuple(home_of(joint) for joint in chain.joints)
-    judged = Judged(disabled)
-    for _ in range(_PASSES):
-        device.write(chain, judged)
-        before, (judged, checked) = judged, _judged(folder, chain, home, judged)
-        if judged == before:
-            break
+    checked, away = _settled(device, chain, disabled)
     lock = {
         "source": robot.file.name,
         "files": {name: _hash(content) for name, content in sorted(files.items())},
         "device": device.imported,
     }
     write_whole(folder / LOCK, json.dumps(lock, indent=2) + "\n")
-    away = first_goal(checked.graph, GROUP, chain)
-    judged, checked = _judged(folder, chain, away, judged)
     size = sum(map(len, files.values()))
     return Written(len(files) + 2, size, device.kept, device.changed, checked, away)
+
+
+def _settled(device: _Device, chain: Chain, disabled: Pairs) -> tuple[Checked, tuple[float, ...]]:
+    """Write the ``device.yaml`` until a check finds nothing new in it, first at home, then where the robot goes."""
+    judged, away = Judged(disabled), tuple(home_of(joint) for joint in chain.joints)
+    for at_home in (True, False):
+        for _ in range(_PASSES):
+            device.write(chain, judged)
+            before, (judged, checked) = judged, _judged(device.folder, chain, away, judged)
+            if judged == before:
+                break
+        if at_home:
+            away = first_goal(checked.graph, GROUP, chain)
+    return checked, away
 
 
 class _Device:
@@ -86,23 +92,21 @@ class _Device:
     """
 
     def __init__(self, folder: Path, robot: Robot, before: Facts, day: str) -> None:
-        self._file, self._robot, self._day = folder / "device.yaml", robot, day
-        self._before = before
+        self.folder, self._file = folder, folder / "device.yaml"
+        self._robot, self._before, self._day = robot, before, day
         self._text = self._file.read_text(encoding="utf-8") if self._file.exists() else ""
         self._person = facts_in(self._text) if self._text else None
         self.kept = self._file.exists()
         self.changed: tuple[str, ...] = ()
-        self.imported: Facts = before
+        self.imported: Facts = {}
 
     def write(self, chain: Chain, judged: Judged) -> None:
         """Write what the files say, and what a person says otherwise."""
         day = self._before.get("as_of", self._day) if self.kept else self._day
-        facts = device_facts(self._robot, chain, judged, day)
+        self.imported = facts = device_facts(self._robot, chain, judged, day)
         if not self.kept:
-            self.imported = facts
             write_whole(self._file, device_text(self._robot, judged, facts))
         elif self._person is not None and self._before:  # of one that was not imported nobody knows what is whose
-            self.imported = facts
             found = merged(self._before, facts, self._person)
             keys = dict.fromkeys((*self._person, *found))
             self.changed = tuple(key for key in keys if self._person.get(key) != found.get(key))
