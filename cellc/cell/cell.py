@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from cellc.cell.control import AdaptedDevice, Controller, ControllerManager
 from cellc.cell.device import Device
 from cellc.cell.entity import Places
-from cellc.cell.frame import Frame, SceneBox
+from cellc.cell.frame import Frame, SceneBox, SharedArea
 from cellc.cell.interface import ImpliedEndpoints, Interface, Node
 from cellc.cell.motion import CartesianGoal, NamedPose, Octomap, Pipeline, PlanningGroup, Rehearsal, Servo
 from cellc.cell.site import (
@@ -68,6 +68,7 @@ class Cell:
     devices: tuple[Device, ...] = ()
     frames: tuple[Frame, ...] = ()
     scene: tuple[SceneBox, ...] = ()
+    areas: tuple[SharedArea, ...] = ()
     nodes: tuple[Node, ...] = ()
     interfaces: tuple[Interface, ...] = ()
     managers: tuple[ControllerManager, ...] = ()

@@ -59,6 +59,22 @@ class Frame(Entity):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class SharedArea(Entity):
+    """A volume that several arms may stand in: full edge lengths in m, center pose in ``parent``.
+
+    Args:
+        granted_by: who lets one in at a time on the real cell.
+        released: why several may be in it at once; empty where they may not.
+    """
+
+    parent: str
+    transform_to_parent: Pose
+    size: Vector3
+    granted_by: str
+    released: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class SceneBox(Entity):
     """A box that planning avoids: full edge lengths in m, center pose in ``parent``."""
 

@@ -105,6 +105,15 @@ class HoldingAnswer:
 
 
 @dataclass(frozen=True, slots=True)
+class AreaAnswer:
+    """Which links stand in a volume that arms share, in a pose or at a goal; the empty name is the beginning."""
+
+    area: str
+    posture: str
+    links: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class MotionAnswer:
     """All answers of a cell; ``refused`` and ``limit`` as in `DisabledAnswer`.
 
@@ -112,6 +121,7 @@ class MotionAnswer:
         views: where detected objects lie for their cameras.
         rigid: links that touch whatever the joints do, neighbors in the tree apart.
         holding: joints that have a limit of effort, each where gravity takes most of it.
+        areas: volumes that arms share, with what stands in them.
     """
 
     start: tuple[BodyContact, ...] = ()
@@ -122,3 +132,4 @@ class MotionAnswer:
     views: tuple[ViewAnswer, ...] = ()
     rigid: tuple[BodyContact, ...] = ()
     holding: tuple[HoldingAnswer, ...] = ()
+    areas: tuple[AreaAnswer, ...] = ()

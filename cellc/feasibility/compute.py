@@ -10,6 +10,7 @@ from cellc.cell.frame import WORLD
 from cellc.feasibility.answers import (
     MARGIN_M,
     RNG_SEED,
+    AreaAnswer,
     BodyContact,
     DisabledAnswer,
     DisabledLinks,
@@ -22,6 +23,7 @@ from cellc.feasibility.answers import (
 from cellc.feasibility.question import GoalQuestion, GroupQuestion, MotionQuestion, PoseQuestion
 from cellc.limits import Purse, PurseError, limits
 from cellc.planning import (
+    Box,
     CarriedMass,
     CollisionScene,
     DisabledPair,
@@ -111,6 +113,7 @@ def _answer(question: MotionQuestion, mesh_roots: Sequence[Path], purse: Purse) 
         views=_views(question, postures, robot),
         rigid=tuple(BodyContact(*links) for links in rigid),
         holding=_holding(question, postures, robot),
+        areas=_areas(question, postures, scene),
     )
 
 
@@ -175,6 +178,19 @@ def _views(
             camera = robot.link_pose(view.camera_frame, _movable(robot, positions), base_link=WORLD)
             place = (camera.inverse() @ view.place).position
             found.append(ViewAnswer(view.name, view.camera_frame, view.posture, place))
+    return tuple(found)
+
+
+def _areas(
+    question: MotionQuestion, postures: Mapping[str, Mapping[str, float]], scene: CollisionScene
+) -> tuple[AreaAnswer, ...]:
+    """Return what stands in each shared volume, posture by posture."""
+    found = []
+    for area in question.areas:
+        box = Box(f"area {area.name}", area.link, area.size, area.pose)
+        for name, positions in postures.items():
+            links = scene.touching(box, scene.model.configuration(_movable(scene.model, positions)))
+            found.append(AreaAnswer(area.name, name, links))
     return tuple(found)
 
 

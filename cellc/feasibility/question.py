@@ -70,6 +70,16 @@ class CarriedQuestion:
 
 
 @dataclass(frozen=True, slots=True)
+class AreaQuestion:
+    """A volume that arms share: the link that it is fixed to, the pose of its center in it, edge lengths in m."""
+
+    name: str
+    link: str
+    pose: Pose
+    size: Vector3
+
+
+@dataclass(frozen=True, slots=True)
 class MotionQuestion:
     """The whole question; its text is what an answer is kept under. ``held`` are the joints with a limit of effort."""
 
@@ -82,6 +92,7 @@ class MotionQuestion:
     allowed: tuple[tuple[str, str], ...] = ()
     carried: tuple[CarriedQuestion, ...] = ()
     held: tuple[str, ...] = ()
+    areas: tuple[AreaQuestion, ...] = ()
 
 
 def shapes_and_joints(cell: Cell) -> str:
@@ -109,7 +120,14 @@ def motion_question(graph: CellGraph) -> MotionQuestion:
         allowed=tuple(pair for device in cell.devices for pair in device.allowed_collisions),
         carried=tuple(_carried(cell)),
         held=tuple(joint.name for device in cell.devices for joint in device.joints if joint.effort),
+        areas=tuple(_areas(graph)),
     )
+
+
+def _areas(graph: CellGraph) -> Iterator[AreaQuestion]:
+    for area in graph.cell.areas:
+        link, pose = _tip(graph.frames, area.parent)
+        yield AreaQuestion(area.name, link, pose @ area.transform_to_parent, area.size)
 
 
 def _carried(cell: Cell) -> Iterator[CarriedQuestion]:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from cellc.cell.device import Device
-from cellc.cell.frame import WORLD, Frame, FrameKind, SceneBox, SimulatedPose
+from cellc.cell.frame import WORLD, Frame, FrameKind, SceneBox, SharedArea, SimulatedPose
 from cellc.diagnostics import Diagnostic, Outcome, YamlPath
 from cellc.link.names import unknown_name
 from cellc.link.quantities import pose, si, vector
@@ -91,6 +91,29 @@ def link_scene(spec: CellSpec, document: SourceDocument, names: FrameNames) -> O
                 )
             )
     return Outcome(tuple(boxes), tuple(problems))
+
+
+def link_areas(spec: CellSpec, document: SourceDocument, names: FrameNames) -> Outcome[tuple[SharedArea, ...]]:
+    """Bind the volumes that several arms share."""
+    areas: list[SharedArea] = []
+    problems: list[Diagnostic] = []
+    for name, written in spec.areas.items():
+        path = ("areas", name)
+        parent = names.bind(written.parent, (*path, "parent"))
+        problems += parent.diagnostics
+        if parent.value is not None:
+            area = SharedArea(
+                name=name,
+                path=path,
+                span=document.locate(path),
+                parent=parent.value,
+                transform_to_parent=pose(written.xyz, written.rpy),
+                size=vector(written.box),
+                granted_by=written.granted_by,
+                released=written.released or "",
+            )
+            areas.append(area)
+    return Outcome(tuple(areas), tuple(problems))
 
 
 def scene_frames(boxes: Iterable[SceneBox]) -> tuple[Frame, ...]:

@@ -10,7 +10,7 @@ from cellc.catalog.tables import RMWS, Rmw
 from cellc.cell.cell import Cell
 from cellc.cell.device import Device
 from cellc.cell.entity import Places
-from cellc.cell.frame import Frame, SceneBox
+from cellc.cell.frame import Frame, SceneBox, SharedArea
 from cellc.cell.motion import CartesianGoal, NamedPose, Octomap, Pipeline, PlanningGroup, Servo
 from cellc.cell.site import Versions
 from cellc.description.model import Description
@@ -20,7 +20,7 @@ from cellc.link.controller import ControlContext
 from cellc.link.derived import Derivation, derive_interfaces
 from cellc.link.devices import BoundDevice, link_devices
 from cellc.link.endpoints import QosResolver, name_endpoints
-from cellc.link.frames import FrameNames, link_frames, link_scene, name_frames, scene_frames
+from cellc.link.frames import FrameNames, link_areas, link_frames, link_scene, name_frames, scene_frames
 from cellc.link.hand_eye import Measured, link_hand_eye, with_mounts
 from cellc.link.interfaces import link_interfaces
 from cellc.link.motion import Machine, link_goals, link_groups, link_poses
@@ -74,6 +74,7 @@ class _Placement:
     names: FrameNames
     frames: tuple[Frame, ...]
     scene: tuple[SceneBox, ...]
+    areas: tuple[SharedArea, ...]
     measured: Measured
 
 
@@ -84,9 +85,11 @@ def _placed(spec: CellSpec, document: SourceDocument, bound: tuple[BoundDevice, 
     bound = with_mounts(bound, measured)
     scene = link_scene(spec, document, names)
     frames = link_frames(spec, document, tuple(one.device for one in bound), names, measured.frames)
-    boxes = scene.value or ()
-    placement = _Placement(bound, names, (*(frames.value or ()), *scene_frames(boxes)), boxes, measured)
-    return Outcome(placement, (*hand_eye.diagnostics, *scene.diagnostics, *frames.diagnostics))
+    boxes, areas = scene.value or (), link_areas(spec, document, names)
+    placement = _Placement(
+        bound, names, (*(frames.value or ()), *scene_frames(boxes)), boxes, areas.value or (), measured
+    )
+    return Outcome(placement, (*hand_eye.diagnostics, *scene.diagnostics, *areas.diagnostics, *frames.diagnostics))
 
 
 def _link_with_devices(
@@ -121,6 +124,7 @@ def _link_with_devices(
         devices=devices,
         frames=all_frames,
         scene=placed.value.scene,
+        areas=placed.value.areas,
         nodes=all_nodes,
         interfaces=(*written, *derived),
         managers=loops,

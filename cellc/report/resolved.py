@@ -94,6 +94,7 @@ def resolved_tree(cell: Cell) -> dict[str, Tree]:
         "devices": _entities(cell, cell.devices),
         "frames": _entities(cell, cell.frames),
         "scene": _entities(cell, cell.scene),
+        "areas": _entities(cell, cell.areas),
         "nodes": {node.full_name.lstrip("/"): _entity(cell, node) for node in cell.nodes},
         "interfaces": _entities(cell, cell.interfaces),
         "managers": _entities(cell, cell.managers),

@@ -7,7 +7,7 @@ from pydantic import Field, StringConstraints
 from cellc.spec.base import Name, PackageName, SpecModel, Text
 from cellc.spec.control import ManagerSpec, MotionSpec
 from cellc.spec.devices import DeviceSpec
-from cellc.spec.frames import BoxSpec, CalibrationSpec, FrameSpec
+from cellc.spec.frames import AreaSpec, BoxSpec, CalibrationSpec, FrameSpec
 from cellc.spec.hosts import HostSpec, NetworkSpec, VersionsSpec
 from cellc.spec.interfaces import InterfaceSpec, NodeSpec
 from cellc.spec.rehearsals import HardwareStatementSpec, KpisSpec, RecordingSpec, RehearsalSpec, TargetSpec
@@ -51,6 +51,11 @@ class CellSpec(SpecModel):
         default_factory=dict,
         description="Solid things that planning avoids, by name.",
         examples=[{"table": {"parent": "world", "box": "1200 800 40 mm", "xyz": "0 0 780 mm"}}],
+    )
+    areas: dict[Name, AreaSpec] = Field(
+        default_factory=dict,
+        description="Volumes that several arms share, by name.",
+        examples=[{"exchange": {"parent": "world", "box": "400 400 400 mm", "granted_by": "safety_plc"}}],
     )
     nodes: dict[Name, NodeSpec] = Field(
         default_factory=dict,
