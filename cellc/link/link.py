@@ -102,8 +102,7 @@ def _link_with_devices(
     centers = link_centers(spec, devices, names)
     devices = centers.value or devices
     nodes = link_nodes(spec, document, bound)
-    context = ControlContext(spec, document, distro, {one.device.name: one for one in bound})
-    managers = link_managers(context)
+    managers = link_managers(ControlContext(spec, document, distro, {one.device.name: one for one in bound}))
     loops = managers.value or ()
     started = with_programs((*(nodes.value or ()), *standard_nodes(spec, document, loops)), distro)
     all_nodes = tuple(with_octomap(node, spec) for node in started)
@@ -115,8 +114,7 @@ def _link_with_devices(
     machine = Machine(devices, controllers, all_frames, names, placed=linked_devices.ok and placed.ok)
     planned = _planned(spec, document, distro, machine)
     assert planned.value is not None  # what cannot be bound is reported and left out
-    servo = planned.value.servo
-    source = Derivation(spec, document, distro, loops, devices, all_frames, ends, resolver, servo)
+    source = Derivation(spec, document, distro, loops, devices, all_frames, ends, resolver, planned.value.servo)
     derived = derive_interfaces(source, written)
     rehearsals = link_rehearsals(spec, document, devices, loops, (*written, *derived), names)
     cell = replace(
