@@ -9,7 +9,8 @@ cell's controller of that kind on this device, ``{share:PACKAGE}`` the share fol
 it carries beside its tool as one, ``{joint_stiffness}`` and ``{cartesian_stiffness}`` as lists, ``{tool_voltage}``,
 ``{tool_baud_rate}``, ``{tool_parity}``, ``{tool_stop_bits}``, ``{tool_rx_idle_chars}``, ``{tool_tx_idle_chars}``,
 ``{tool_port}`` and ``{tool_tcp_port}`` what the spec says of its tool connector, ``{carrier}`` the robot through whose
-tool connector it has its power. Links, joints, sensors and
+tool connector it has its power, ``{gripper_max_speed}``, ``{gripper_max_force}`` and ``{gripper_closed}`` figures of
+a gripper. Links, joints, sensors and
 gpios are named without prefix.
 """
 

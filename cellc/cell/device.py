@@ -165,10 +165,7 @@ class FieldOfView:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CameraStream:
-    """One image stream with its camera info; ``frame`` is a prefixed link.
-
-    ``view`` and ``image_bytes``, what one image takes, are None where nobody told.
-    """
+    """One image stream; ``frame`` is a prefixed link, ``view`` and ``image_bytes`` of an image None where not told."""
 
     topic: str
     type: str

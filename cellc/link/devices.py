@@ -23,7 +23,7 @@ from cellc.link.names import Placeholders, home_host, placeholders, port_of, unk
 from cellc.link.ports import port_shifts
 from cellc.link.quantities import pose
 from cellc.link.robot import robot_words, with_robot
-from cellc.link.tool import tool_words, with_tools
+from cellc.link.tool import gripper_words, tool_words, with_tools
 from cellc.link.vendor_description import link_vendor_description, with_vendor_shapes
 from cellc.source.document import SourceDocument
 from cellc.source.text import lies_under
@@ -169,7 +169,8 @@ def _device(
     facts = entry.model
     mount = written.mount
     named = placeholders(name, prefix, written, spec, port_shift)
-    known = replace(named, values={**named.values, **dict(robot_words(written)), **dict(tool_words(facts, written))})
+    words = {**dict(robot_words(written)), **dict(tool_words(facts, written)), **gripper_words(facts)}
+    known = replace(named, values={**named.values, **words})
     device = Device(
         name=name,
         path=path,

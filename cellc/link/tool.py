@@ -44,6 +44,15 @@ def _with_parameters(device: Device, told: Mapping[str, str]) -> Device:
     return replace(device, hardware=replace(hardware, parameters={**hardware.parameters, "real": real}))
 
 
+def gripper_words(facts: DeviceModel) -> dict[str, str]:
+    """Return placeholders for what a gripper is, in rad or m, m/s and N, as plugins are told it."""
+    one = facts.gripper
+    if one is None:
+        return {}
+    speed, force, closed = f"{one.max_speed.si:.3f}", f"{one.max_force.si:g}", f"{one.closed.si:g}"
+    return {"gripper_max_speed": speed, "gripper_max_force": force, "gripper_closed": closed}
+
+
 def tool_words(facts: DeviceModel, written: DeviceSpec) -> Iterator[tuple[str, str]]:
     """Yield placeholders for what the spec says of a tool connector, and of the robot whose connector is used."""
     connector, line = written.tool_connector, _line(facts, written)

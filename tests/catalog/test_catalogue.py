@@ -36,6 +36,7 @@ PLACEHOLDERS = {
     *("address", "port", "host_address", "carrier_address"),
     *("played_by", "thresholds", "carrier", "load", "joint_stiffness", "cartesian_stiffness"),
     *("tool_voltage", "tool_baud_rate", "tool_parity", "tool_stop_bits", "tool_port"),
+    *("gripper_max_speed", "gripper_max_force", "gripper_closed"),
     *("tool_rx_idle_chars", "tool_tx_idle_chars", "tool_tcp_port"),
 }
 ARMS = ("franka_fr3", "ur5e", "ur10e", "ur18", "ur30")
@@ -134,8 +135,13 @@ def test_name_that_is_not_listed_is_refused(load: Callable[[str], object], name:
 
 
 def test_device_of_the_user_with_a_wrong_value_is_reported_on_its_line(tmp_path: Path) -> None:
-    text = (CATALOG / "devices/realsense_d435i/device.yaml").read_text(encoding="utf-8")
-    lines = text.replace("rate: 30 Hz\n      qos", "rate: 30 mm\n      qos", 1).splitlines()
+    text = (CATALOG / "devices/realsense/d400.family.yaml").read_text(encoding="utf-8")
+    lines = (
+        ("summary: own\n" + text)
+        .replace('"{model}"', "own")
+        .replace("rate: 30 Hz\n      qos", "rate: 30 mm\n      qos", 1)
+        .splitlines()
+    )
     (tmp_path / "device.yaml").write_text("\n".join(lines), encoding="utf-8")
     (found,) = load_device_folder(tmp_path, tmp_path).diagnostics
     assert found.code == "catalogue-entry-invalid"

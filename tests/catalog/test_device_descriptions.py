@@ -103,6 +103,29 @@ def test_jaws_open_to_the_stroke_and_close(angle: float, gap_mm: float) -> None:
     assert (pads[0] - pads[1]) * 1000 == pytest.approx(gap_mm, abs=0.05)
 
 
+@pytest.mark.parametrize(("angle", "gap_mm"), [(0.0, 128.5), (0.695, 0.8)])
+def test_jaws_of_the_wide_gripper_stay_parallel_and_close(angle: float, gap_mm: float) -> None:
+    # By hand from the origins in the vendor's description: pads of 7.5 mm, whose middles are 136 and 8.3 mm apart.
+    description = _description("robotiq_2f_140")
+    moving = (joint for joint in description.joints if joint.movable)
+    positions = {one.name: angle * (1.0 if one.mimic is None else one.mimic.multiplier) for one in moving}
+    left, right = (
+        transform(description, "base_link", f"{side}_inner_finger_pad", positions) for side in ("left", "right")
+    )
+    np.testing.assert_allclose(left[:3, 2], [1, 0, 0], atol=1e-9)
+    np.testing.assert_allclose(left[1:3, 3], right[1:3, 3], atol=1e-9)
+    assert (left[0, 3] - right[0, 3] - 0.0075) * 1000 == pytest.approx(gap_mm, abs=0.05)
+
+
+@pytest.mark.parametrize(
+    ("name", "second", "color"), [("realsense_d435i", -0.05, 0.015), ("realsense_d455", -0.095, -0.059)]
+)
+def test_imagers_stand_beside_the_first_as_the_vendor_has_them(name: str, second: float, color: float) -> None:
+    # realsense2_description 4.58.2, urdf/_d435i.urdf.xacro and _d455.urdf.xacro.
+    for frame, aside in (("infra2_frame", second), ("color_frame", color)):
+        np.testing.assert_allclose(transform(_description(name), "link", frame, {})[:3, 3], [0, aside, 0], atol=1e-12)
+
+
 @pytest.mark.parametrize("frame", ["color_optical_frame", "depth_optical_frame"])
 def test_optical_frames_look_along_z(frame: str) -> None:
     # REP-103: z forward, x right, y down, seen from a body with x forward, y left, z up.
@@ -196,6 +219,16 @@ def test_gripper_does_not_touch_itself(angle: float) -> None:
     multipliers = {joint.name: joint.mimic for joint in _description("robotiq_2f_85").joints}
     positions = {name: angle * (1.0 if mimic is None else mimic.multiplier) for name, mimic in multipliers.items()}
     assert _touching("robotiq_2f_85", positions) == set()
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.35, 0.695])
+def test_wide_gripper_touches_itself_where_its_loops_close_alone(angle: float) -> None:
+    device = load_device("robotiq_2f_140").value
+    assert device is not None
+    multipliers = {joint.name: joint.mimic for joint in device.description.joints}
+    positions = {name: angle * (1.0 if mimic is None else mimic.multiplier) for name, mimic in multipliers.items()}
+    allowed = {tuple(sorted(pair.links)) for pair in device.model.allowed_collisions}
+    assert _touching("robotiq_2f_140", positions) <= allowed
 
 
 def test_expansion_is_the_same_under_any_hash_seed() -> None:

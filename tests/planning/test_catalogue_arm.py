@@ -26,7 +26,7 @@ from .arm import dh_tool_to_base
 
 DEVICES = Path(__file__).resolve().parents[2] / "cellc" / "catalog" / "devices"
 ARM = DEVICES / "universal_robots" / "ur.urdf.xacro"
-GRIPPER = DEVICES / "robotiq_2f_85" / "robotiq_2f_85.urdf.xacro"
+GRIPPER = DEVICES / "robotiq" / "robotiq_2f_85.urdf.xacro"
 HOME = (0.0, -1.57, 1.57, -1.57, -1.57, 0.0)
 
 
