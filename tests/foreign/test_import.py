@@ -176,7 +176,7 @@ def test_srdf_and_controllers_beside_a_description_are_read_by_themselves(here: 
     pair = '<disable_collisions link1="a" link2="c" reason="Never"/>'
     near = {
         "srdf/arm.srdf": f'<robot name="Odd-Arm">{pair}</robot>',
-        "srdf/other.srdf": f'<robot name="Other">{pair.replace("Never", "Adjacent")}</robot>',
+        "urdf/arm.srdf": f'<robot name="Other">{pair.replace("Never", "Adjacent")}</robot>',
         "config/other.yaml": "/**: {hand: {ros__parameters: {joints: [j9], constraints: {goal_time: 9.0}}}}",
         "config/broken.yaml": "a: [",
         "config/ros2_controllers.yaml": "controller_manager: {ros__parameters: {update_rate: 250}}\n"
@@ -185,7 +185,6 @@ def test_srdf_and_controllers_beside_a_description_are_read_by_themselves(here: 
     for name, text in near.items():
         (here / name).parent.mkdir(exist_ok=True)
         (here / name).write_text(text, encoding="utf-8")
-    (here / "urdf").mkdir()
     code, out = _import(here, _robot(*ARM), "--cell", name="urdf/arm.urdf")
     assert code == 0, out
     assert f"read {here}/srdf/arm.srdf\nread {here}/config/ros2_controllers.yaml\n" in out
