@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 from cellc.catalog.load import CatalogDevice
 from cellc.vocabulary import Behaviour, Distro
 
+_ASIDE_DEG = 20.0
 _UPDATE_RATE = "100 Hz"  # the controller manager's own default, for devices that accept any rate
 
 
@@ -49,7 +50,7 @@ def _device(name: str, entry: CatalogDevice, arms: list[str], devices: Mapping[s
     elif arms:
         of_kind = [other for other, one in devices.items() if one.model.kind == entry.model.kind]
         arm = arms[of_kind.index(name) % len(arms)]
-        aside = ", xyz: 0 -70 30 mm" if entry.model.camera is not None else ""
+        aside = ", xyz: 0 -110 30 mm" if entry.model.camera is not None else ""
         yield f"    mount: {{parent: {arm}/{devices[arm].model.tool_frame or devices[arm].model.base}{aside}}}"
 
 
@@ -65,7 +66,7 @@ def _control(distro: Distro, devices: Mapping[str, CatalogDevice]) -> Iterator[s
     for name, entry in controlled.items():
         if entry.model.gripper is not None:
             yield f"    {name}_action: {{type: parallel_gripper, device: {name}}}"
-        elif entry.model.kind == "arm":
+        if entry.model.kind == "arm":
             yield f"    {name}_trajectory:"
             yield f"      type: {_trajectory_kind(entry, distro)}"
             yield f"      device: {name}"
@@ -101,24 +102,31 @@ def _motion(arms: list[str], devices: Mapping[str, CatalogDevice]) -> Iterator[s
         model = devices[arm].model
         yield f"    {arm}_group: {{base: {arm}/{model.base}, tip: {arm}/{model.tool_frame or model.base}}}"
     yield "  poses:"
-    yield "    home:"
-    for arm in arms:
-        yield f"      {arm}_group: {_home(devices[arm])}"
+    for name, aside in (("home", 0.0), ("aside", _ASIDE_DEG)):
+        yield f"    {name}:"
+        for arm in arms:
+            yield f"      {arm}_group: {_pose(devices[arm], aside)}"
 
 
-def _home(entry: CatalogDevice) -> str:
-    home = entry.model.home or {}
-    actuated = [joint.name for joint in entry.description.joints if joint.movable and joint.mimic is None]
-    degrees = (math.degrees(home[joint].si) if joint in home else 0.0 for joint in actuated)
-    return " ".join(f"{round(value, 6):g}" for value in degrees) + " deg"
+def _pose(entry: CatalogDevice, aside_deg: float) -> str:
+    """Return the home of an arm, turned about its first joint: what stands on that one keeps its shape."""
+    home, fingers = entry.model.home or {}, entry.model.gripper
+    driven = [one for one in entry.description.joints if one.movable and one.mimic is None]
+    joints = [one.name for one in driven if fingers is None or one.name != fingers.joint]
+    degrees = [math.degrees(home[joint].si) if joint in home else 0.0 for joint in joints]
+    turned = (value + (aside_deg if index == 0 else 0.0) for index, value in enumerate(degrees))
+    return " ".join(f"{round(value, 6):g}" for value in turned) + " deg"
 
 
 def _steps(arms: list[str], grippers: list[str]) -> Iterator[str]:
     if arms:
         yield "{move: home}"
+        yield "{move: aside}"
     for gripper in grippers:
         device = f", device: {gripper}" if len(grippers) > 1 else ""
         yield f"{{grip: close{device}}}"
         yield f"{{grip: open{device}}}"
+    if arms:
+        yield "{move: home}"
     if not arms and not grippers:
         yield "{wait: 1 s}"

@@ -158,3 +158,11 @@ def test_first_spec_of_the_arm_commands_what_a_mock_can_follow() -> None:
     assert "type: joint_trajectory\n" in text
     assert "update_rate: 1000 Hz\n" in text
     assert "arm_group: 0 -45 0 -135 0 90 45 deg\n" in text
+
+
+def test_first_spec_of_an_arm_with_fingers_has_a_controller_for_each_and_goes_aside() -> None:
+    text = starter_spec("first", Distro.JAZZY, {"arm": _device("kinova_gen3_2f_85")}, "cell.schema.json")
+    assert "    arm_trajectory:\n" in text
+    assert "    arm_action: {type: parallel_gripper, device: arm}\n" in text
+    assert "    aside:\n      arm_group: 20 14.8969 179.909 -130.061 0 55.0039 89.9544 deg\n" in text
+    assert "{move: home}, {move: aside}, {grip: close}, {grip: open}, {move: home}" in text

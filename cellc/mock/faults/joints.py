@@ -177,12 +177,17 @@ class SkipCycles:
 
     @classmethod
     def cases(cls, contract: Contract) -> Iterator[FaultCase]:
-        """Yield the loops; a cell that does not say how many misses it allows bears these few."""
-        allowed = contract.kpis.missed_cycles
-        entry = FaultEntry(kind=cls.kind, target="", cycles=BEYOND + (allowed or 0))
-        missed = (
-            BORNE if allowed is None else ends_in(AttemptOutcome.MISSED_CYCLE, within_s=Bounds(contract).watched_s())
-        )
+        """Yield the loops; a cell that does not say how many misses it allows bears these few.
+
+        The watchdog of an adapter stops its device where they are longer than it waits.
+        """
+        allowed, within_s = contract.kpis.missed_cycles, Bounds(contract).watched_s()
+        cycles = BEYOND + (allowed or 0)
+        entry = FaultEntry(kind=cls.kind, target="", cycles=cycles)
+        adapters = contract.adapters.values()
+        watched = any((cycles + 1) * one.command_period_s > one.command_timeout_s for one in adapters)
+        stops = (AttemptOutcome.PROTECTIVE_STOP,) if watched else ()
+        missed = BORNE if allowed is None else ends_in(AttemptOutcome.MISSED_CYCLE, *stops, within_s=within_s)
         yield fault_case(entry, contract, lambda step: missed)
 
     def begin(self, ports: FaultPorts) -> None:

@@ -17,7 +17,7 @@ from cellc.mock.control.journal import CommandJournal
 from cellc.mock.faults.registry import possible_faults
 from cellc.mock.plant import Plant
 from cellc.vocabulary import FaultKind
-from tests.cells import CORPUS, build_into
+from tests.cells import CORPUS, ROOT, build_into
 
 SECOND = 1_000_000_000
 REACH = tuple(StepEntry(kind="move", target=pose) for pose in ("home", "aside", "home"))
@@ -227,3 +227,11 @@ def test_every_fault_at_every_step_ends_in_a_named_outcome(cell: MockCell) -> No
             name="reach", steps=REACH, faults=(case.at(2),), expect="succeeded", within_s=None, timeout_s=60.0
         )
         assert cell.rehearse(entry).outcome in outcomes, case.name
+
+
+def test_a_campaign_expects_the_stop_of_a_watchdog_that_waits_less_than_the_missed_cycles_last() -> None:
+    # Five cycles beyond none, of 4 ms: the next command is 24 ms after the last, the watchdog waits 20 ms.
+    loop = load(ROOT / "generated/hybrid_sdk")
+    (case,) = (one for one in possible_faults(loop.contract) if one.entry.kind == "skip_cycles")
+    named = {outcome for ending in case.endings.values() for outcome in ending.outcomes}
+    assert {"missed_cycle", "protective_stop"} <= named
