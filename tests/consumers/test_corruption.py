@@ -129,6 +129,10 @@ _CHECKS: tuple[Callable[[str, str], None], ...] = (
     test_pages.test_audit_expects_the_interfaces_of_the_contract,
     test_pages.test_audit_names_one_owner_for_each_command_interface,
     test_pages.test_audit_has_the_way_back_that_the_catalogue_knows,
+    test_pages.test_audit_says_whose_shapes_each_device_has,
+    test_pages.test_confirmations_say_what_a_person_states_by_them,
+    test_pages.test_every_way_after_a_loss_leads_back_to_a_gate,
+    test_pages.test_gates_have_what_people_do_at_each_device,
     test_pages.test_people_of_the_spec_answer_for_what_it_says,
     test_pages.test_audit_expects_the_nodes_that_are_launched_with_what_they_are_told,
 )

@@ -129,6 +129,53 @@ def test_audit_has_the_way_back_that_the_catalogue_knows(cell: str, distro: str)
     assert all(limit in proof for limit in limits)
 
 
+@every_build
+def test_audit_says_whose_shapes_each_device_has(cell: str, distro: str) -> None:
+    shown = {row[0]: row[1] for row in tables(cell, distro)["Shapes"]}
+    vendors = {
+        device: "vendor" in catalog_facts(one["model"])["description"]
+        for device, one in written(cell)["devices"].items()
+    }
+    # No package of a vendor lies beside the cells of the repository.
+    assert shown == {
+        device: "boxes and cylinders" if known else "those of its description" for device, known in vendors.items()
+    }
+
+
+@every_build
+def test_confirmations_say_what_a_person_states_by_them(cell: str, distro: str) -> None:
+    texts = build(cell, distro).texts
+    said = dict(re.findall(r'name="(confirm_\w+)" description="([^"]*)"', "".join(texts[path] for path in texts)))
+    # Chapter 4, section 11: evidence of the gates before, drives without power at first, an observer at the stop.
+    wanted = {
+        "confirm_real": "releases the real target: gates G0 to G2 have their evidence, drives are disabled.",
+        "confirm_motion": "releases motion on the real target: gates G0 to G6 have their evidence, the observer stands"
+        " at the stop.",
+    }
+    for name, text in said.items():
+        assert text == f"Stated by the person who {wanted[name]}"
+
+
+@every_build
+def test_every_way_after_a_loss_leads_back_to_a_gate(cell: str, distro: str) -> None:
+    text = build(cell, distro).texts["audit.md"].split("\n## After a loss\n")[1].split("\n## ")[0]
+    for way in re.split(r"\n\n(?!1\. )", text.strip()):
+        assert re.search(r"begin again at gate G\d|pass L1 to L5 again", way), way
+        numbers = [int(number) for number in re.findall(r"^(\d+)\. ", way, re.MULTILINE)]
+        assert numbers == [*range(1, len(numbers) + 1)]
+
+
+@every_build
+def test_gates_have_what_people_do_at_each_device(cell: str, distro: str) -> None:
+    texts = build(cell, distro).texts
+    page = (texts["gates/promotion.md"] + texts["gates/network.md"]).replace("\\", "")
+    for device, one in written(cell)["devices"].items():
+        for step in catalog_facts(one["model"]).get("commissioning", ()):
+            here = distro in step.get("only", [distro]) and "{" not in step["does"]
+            if here and step.get("when", ["pendant"]) == ["pendant"]:  # of these cells each is started there
+                assert f"{device}: {step['does']}" in page
+
+
 def _at_pendant(step: str | dict[str, object]) -> bool:
     return isinstance(step, str) or "pendant" in str(step["when"])
 
