@@ -10,6 +10,7 @@ import click
 from cellc.browse.search import Wanted, found, kilograms, listed, metres
 from cellc.catalog.device_model import device_kinds
 from cellc.catalog.load import device_names, load_device
+from cellc.cli.words import complete_model
 from cellc.printing import refuse, show, show_document
 from cellc.store.swap import write_whole
 from cellc.vocabulary import Distro
@@ -30,7 +31,7 @@ class _Figure(click.ParamType[float]):
 
 
 @click.command()
-@click.argument("words", nargs=-1, metavar="[MODEL | WORD...]")
+@click.argument("words", nargs=-1, metavar="[MODEL | WORD...]", shell_complete=complete_model)
 @click.option("--kind", type=click.Choice(device_kinds()), help="Devices of one kind.")
 @click.option("--reach", type=_Figure("LENGTH", metres), help="Arms that reach as far, such as `900 mm`.")
 @click.option("--payload", type=_Figure("MASS", kilograms), help="Arms that carry as much, such as `5 kg`.")

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import click
 
+from cellc.cli.words import complete_code
 from cellc.diagnostics import did_you_mean
 from cellc.printing import show, show_document
 from cellc.report.pages import all_pages, render_handbook, render_page
@@ -13,7 +14,7 @@ from cellc.store.swap import write_whole
 
 
 @click.command()
-@click.argument("code", required=False)
+@click.argument("code", required=False, shell_complete=complete_code)
 @click.option("--all", "everything", is_flag=True, help="Print the page of every code.")
 @click.option(
     "-o",

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import click
 
+from cellc.cli.words import complete_codes
 from cellc.diagnostics import Diagnostic, Severity
 from cellc.diagnostics.diagnostic import Findings
 from cellc.printing import show, show_document
@@ -23,10 +24,18 @@ FORMAT = click.option(
     help="How findings are written.",
 )
 SELECT = click.option(
-    "--select", multiple=True, metavar="CODES", help="Report only these codes or families, such as QOS."
+    "--select",
+    multiple=True,
+    metavar="CODES",
+    shell_complete=complete_codes,
+    help="Report only these codes or families, such as QOS.",
 )
 IGNORE = click.option(
-    "--ignore", multiple=True, metavar="CODES", help="Leave these codes or families out; wins over --select."
+    "--ignore",
+    multiple=True,
+    metavar="CODES",
+    shell_complete=complete_codes,
+    help="Leave these codes or families out; wins over --select.",
 )
 FAIL_ON = click.option(
     "--fail-on",

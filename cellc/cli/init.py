@@ -12,6 +12,7 @@ import click
 
 from cellc.catalog.load import CatalogDevice, device_names, load_device
 from cellc.catalog.starter import starter_spec
+from cellc.cli.words import complete_named_model
 from cellc.diagnostics import did_you_mean
 from cellc.printing import show
 from cellc.store.swap import write_whole
@@ -20,7 +21,7 @@ from cellc.vocabulary import Distro
 
 @click.command()
 @click.argument("name")
-@click.argument("devices", nargs=-1, metavar="[DEVICE=]MODEL...")
+@click.argument("devices", nargs=-1, metavar="[DEVICE=]MODEL...", shell_complete=complete_named_model)
 @click.option(
     "--ros",
     type=click.Choice([distro.value for distro in Distro]),

@@ -5,12 +5,18 @@ from __future__ import annotations
 import click
 
 from cellc.cli.limit_option import limit_option
+from cellc.cli.words import complete_rehearsal
 
 
 @click.command()
 @click.argument("folder", type=click.Path(path_type=str))
 @click.option(
-    "--rehearsal", "names", multiple=True, metavar="NAME", help="Run only this one; may be given several times."
+    "--rehearsal",
+    "names",
+    multiple=True,
+    metavar="NAME",
+    shell_complete=complete_rehearsal,
+    help="Run only this one; may be given several times.",
 )
 @click.option("--campaign", is_flag=True, help="Run every fault at every step, and print the matrix.")
 @click.option("--pairs", default=0, metavar="N", help="With --campaign: N runs more, with two faults each.")

@@ -1,4 +1,4 @@
-"""What a shell completes beside commands and options: codes, models, rehearsals and runs.
+"""What a shell completes beside commands and options: codes, models and rehearsals.
 
 Nothing is printed and nothing raised here: a folder that cannot be read has nothing to complete.
 """
@@ -39,17 +39,13 @@ def _models(_context: click.Context) -> Iterable[tuple[str, str]]:
 
 
 def _rehearsals(context: click.Context) -> Iterable[tuple[str, str]]:
+    # Behind an option without its value click has not told arguments from each other yet.
+    folder = context.params.get("folder") or next(iter(context.args), "")
     try:
-        told = json.loads((Path(str(context.params["folder"])) / "rehearsals.json").read_text(encoding="utf-8"))
+        told = json.loads((Path(str(folder)) / "rehearsals.json").read_text(encoding="utf-8"))
         return [(str(one["name"]), f"expects {one['expect']}") for one in told["rehearsals"]]
     except (KeyError, TypeError, OSError, ValueError):
         return ()
-
-
-def _runs(context: click.Context) -> Iterable[tuple[str, str]]:
-    from cellc.mock.command.options import runs_of
-
-    return ((name, "") for name in runs_of(str(context.params.get("folder"))))
 
 
 complete_code = _complete(_codes)
@@ -57,4 +53,3 @@ complete_codes = _complete(_codes, ",")
 complete_model = _complete(_models)
 complete_named_model = _complete(_models, "=")
 complete_rehearsal = _complete(_rehearsals)
-complete_run = _complete(_runs)
