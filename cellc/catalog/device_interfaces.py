@@ -91,6 +91,7 @@ class CommandModes(CatalogModel):
 class HardwareFacts(CatalogModel):
     """A hardware plugin, the ``<param>`` values that it is given, and what it does in the world.
 
+    ``component`` is what of ros2_control it is: the manager looks for a plugin of that kind alone.
     ``left_out_when_empty`` are parameters that the plugin has a default for: an empty ``<param>`` makes the reader
     of ros2_control complain. ``commands`` is what a kind of controller claims on this hardware. ``command_timeout``
     is the longest silence of the controller manager before the device ends what it does. ``nodes`` are those that the
@@ -98,6 +99,7 @@ class HardwareFacts(CatalogModel):
     """
 
     plugin: BareName
+    component: Literal["system", "sensor", "actuator"] = "system"
     parameters: dict[Text, Text] = Field(default_factory=dict)
     left_out_when_empty: tuple[Text, ...] = ()
     releases: tuple[HardwareRelease, ...] = ()

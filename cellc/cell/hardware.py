@@ -88,6 +88,7 @@ class HardwareComponent:
     """A component of ros2_control; plugins and parameters by target (``mock``, ``real``).
 
     Args:
+        kinds: system, sensor or actuator of ros2_control, by target.
         targets: those on which it becomes a ``<ros2_control>`` tag; on any other the device's driver moves it.
         effects: what the real component does at each moment that the catalog tells of.
         initial_state: the state in which the real one is to come up.
@@ -105,6 +106,7 @@ class HardwareComponent:
     parameters: Mapping[str, Mapping[str, str]]
     sensors: tuple[InterfaceGroup, ...]
     gpios: tuple[InterfaceGroup, ...]
+    kinds: Mapping[str, str] = field(default_factory=dict)
     effects: Mapping[Moment, Effect] = field(default_factory=dict)
     initial_state: str = "active"
     at_once: bool = False

@@ -53,6 +53,7 @@ def hardware_component(
     component = HardwareComponent(
         name=known.fill(control.component),
         targets=tuple(by_target),
+        kinds={target: hardware.component for target, hardware in by_target.items()},
         plugins={target: hardware.plugin for target, hardware in by_target.items()},
         parameters=parameters,
         sensors=_groups(control.sensors, prefix),

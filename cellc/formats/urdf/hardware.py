@@ -30,7 +30,7 @@ def ros2_control(device: Device, hardware: HardwareComponent, target: str, start
     groups = [("sensor", group) for group in hardware.sensors] + [("gpio", group) for group in hardware.gpios]
     return element(
         "ros2_control",
-        {"name": hardware.name, "type": "system"},
+        {"name": hardware.name, "type": hardware.kinds.get(target, "system")},
         [
             _hardware(hardware, target),
             *_joints(device, start),

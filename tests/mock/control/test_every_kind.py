@@ -58,7 +58,11 @@ def _simulated(groups: dict[str, GroupInterfaces]) -> dict[str, GroupInterfaces]
 def _combinations(kind: ControllerKind, device: DeviceModel) -> Iterator[tuple[str, ...]]:
     """Yield the combinations of command interfaces that all joints of a device have and that move them on the mock."""
     control = device.control
-    if control is None or (kind.action is not None and kind.single_joint and device.gripper is None):
+    if (
+        control is None
+        or not control.joints
+        or (kind.action is not None and kind.single_joint and device.gripper is None)
+    ):
         return
     for wanted in kind.command_combinations:
         if wanted in SIMULATED and all(set(wanted) <= set(joint.command) for joint in control.joints.values()):
