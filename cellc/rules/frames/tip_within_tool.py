@@ -30,6 +30,7 @@ import math
 
 from cellc.cell.device import Device
 from cellc.cell.frame import FrameKind
+from cellc.cell.motion import CartesianGoal
 from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 from cellc.transforms import Vector3
 
@@ -41,11 +42,14 @@ _BEYOND_M = 0.3
 
 @rule(Severity.WARNING, assumes=("frame-cycle", "implausible-distance", "tip-off-the-tool-chain"))
 def check(graph: CellGraph) -> Findings:
-    """Yield tips that the spec places less than half way to the fingers of the carried gripper, or far beyond them."""
+    """Yield tips less than half way to the fingers of the carried gripper, or far beyond them.
+
+    A link of the arm may well be a tip, where its goals keep the distance themselves.
+    """
     for group in graph.cell.groups:
         tip = graph.frames.get(group.tip_frame)
         arm = next((one for one in graph.cell.devices if group.base_link in _links(one)), None)
-        if tip is None or tip.kind is not FrameKind.FIXED or arm is None or arm.tool_frame is None:
+        if tip is None or arm is None or arm.tool_frame is None:
             continue
         pose = graph.frames.pose_in(tip.name, arm.tool_frame)
         end = _end(graph, arm)
@@ -55,8 +59,17 @@ def check(graph: CellGraph) -> Findings:
         if not _NEAREST * reach_m <= along_m <= reach_m + _BEYOND_M:
             message = f"tip `{tip.name}` must lie near the end of the tool, {reach_m * 1e3:.0f} mm or more from"
             message += f" `{arm.tool_frame}`, got {along_m * 1e3:.3g} mm towards it"
-            related = (Related("the group", group.span),)
-            yield found(graph, tip.path, message, related=related)
+            if tip.kind is FrameKind.FIXED:
+                yield found(graph, tip.path, message, related=(Related("the group", group.span),))
+            elif tip.name in _links(arm) and (near := _nearest(graph, group.name, _NEAREST * reach_m)) is not None:
+                related = (Related(f"goal `{near.name}` keeps no distance", near.span),)
+                yield found(graph, (*group.path, "tip"), message, related=related)
+
+
+def _nearest(graph: CellGraph, group: str, within_m: float) -> CartesianGoal | None:
+    """Return the first goal of a group that brings its tip nearer to the goal's frame than a distance."""
+    own = (goal for goal in graph.cell.goals if goal.group == group)
+    return next((goal for goal in own if math.hypot(*goal.transform_tip_to_frame.position) < within_m), None)
 
 
 def _links(device: Device) -> set[str]:

@@ -1,6 +1,6 @@
-"""An approach is of length zero or longer than any arm.
+"""An approach is shorter than a millimeter or longer than any arm.
 
-An approach of zero is none, and one of meters is mm read as m.
+One that short is none, most often meters written as mm: the tool comes from the side. One of meters is mm read as m.
 
 Example that is reported:
 
@@ -27,16 +27,18 @@ import math
 
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
+_SHORTEST_M = 0.001
 _LONGEST_M = 1.0
 
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
-    """Yield approaches of no length, and above 1 m."""
+    """Yield approaches below 1 mm, and above 1 m."""
     for goal in graph.cell.goals:
         length = None if goal.approach is None else math.hypot(*goal.approach)
-        if length is not None and not 0.0 < length <= _LONGEST_M:
+        if length is not None and not _SHORTEST_M <= length <= _LONGEST_M:
             message = (
-                f"the approach of goal `{goal.name}` must be above 0 m and at most {_LONGEST_M:g} m, got {length:g} m"
+                f"the approach of goal `{goal.name}` must be from {_SHORTEST_M * 1e3:g} mm to {_LONGEST_M:g} m,"
+                f" got {length * 1e3:g} mm"
             )
             yield found(graph, (*goal.path, "approach"), message)

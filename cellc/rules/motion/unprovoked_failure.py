@@ -1,6 +1,7 @@
 """A rehearsal expects a failure that nothing provokes.
 
-Without an injected fault the run succeeds, or it fails for a reason that nobody intended.
+Without an injected fault the run succeeds, or it fails for a reason that nobody intended. The same holds for a fault
+that comes when the run is over, and for a frozen camera other than the one that the parts are detected with.
 
 Example that is reported:
 
@@ -23,13 +24,34 @@ Source: docs/principles.md#rehearsals
 
 from __future__ import annotations
 
+from cellc.cell.motion import Rehearsal
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-@rule(Severity.WARNING)
+@rule(Severity.WARNING, assumes=("object-under-another-camera",))
 def check(graph: CellGraph) -> Findings:
-    """Yield rehearsals that expect a failure and inject nothing."""
+    """Yield rehearsals that expect a failure and inject nothing, or nothing that can lead to it."""
     for rehearsal in graph.cell.rehearsals:
-        if rehearsal.expect != "succeeded" and not rehearsal.faults:
+        if rehearsal.expect == "succeeded":
+            continue
+        if not rehearsal.faults:
             message = f"`{rehearsal.name}` expects `{rehearsal.expect}`, but nothing provokes it"
             yield found(graph, (*rehearsal.path, "expect"), message)
+        elif all((fault.at_s or 0.0) >= rehearsal.timeout_s for fault in rehearsal.faults):
+            fault = rehearsal.faults[0]
+            message = f"a fault of `{rehearsal.name}` must come before its timeout, {rehearsal.timeout_s:g} s,"
+            yield found(graph, fault.path, f"{message} got {fault.at_s:g} s")
+        elif rehearsal.expect == "stale_state":
+            yield from _other_camera(graph, rehearsal)
+
+
+def _other_camera(graph: CellGraph, rehearsal: Rehearsal) -> Findings:
+    """Yield the only fault where it freezes a camera, and all that is detected is seen by others."""
+    frames = {device.name: set(device.frames.values()) for device in graph.cell.devices if device.camera is not None}
+    seen = [graph.frames.get(step.name) for step in rehearsal.steps if step.kind == "detect"]
+    used = {name for name, own in frames.items() for frame in seen if frame is not None and frame.parent in own}
+    fault = rehearsal.faults[0]
+    alone = len(rehearsal.faults) == 1 and fault.kind == "freeze" and fault.name in frames
+    if alone and used and fault.name not in used:
+        message = f"`{rehearsal.name}` must freeze `{'` or `'.join(sorted(used))}`, by which it detects, got"
+        yield found(graph, fault.path, f"{message} `{fault.name}`")
