@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from cellc.catalog.device_model import VersionRow
 from cellc.catalog.load import load_releases
 from cellc.catalog.tables import ReleaseSet
@@ -22,6 +24,19 @@ def release_sets(distro: str) -> tuple[ReleaseSet, ...]:
 def was_released(distro: str, package: str, text: str) -> bool:
     """Whether a distribution, or a vendor for it, ever released a package in the version of a pin."""
     return any(same_version(text, one.packages[package]) for one in release_sets(distro) if package in one.packages)
+
+
+def were_together(distro: str, pins: Mapping[str, str]) -> ReleaseSet | None:
+    """Return the newest set of a distribution with the packages of some pins as pinned, as far as it has them."""
+    sets = (one for one in release_sets(distro) if not one.built and not one.packages.keys().isdisjoint(pins))
+    return next(
+        (
+            one
+            for one in sets
+            if all(same_version(pins[name], one.packages[name]) for name in pins if name in one.packages)
+        ),
+        None,
+    )
 
 
 def named_row(text: str, part: str, rows: tuple[VersionRow, ...], distro: str) -> VersionRow | None:

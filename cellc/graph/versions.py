@@ -8,12 +8,12 @@ from enum import Enum
 
 from cellc.catalog.device_model import RepositoryPin, VersionRow
 from cellc.catalog.load import load_distros
-from cellc.catalog.tables import DistroFacts
+from cellc.catalog.tables import DistroFacts, ReleaseSet
 from cellc.cell.cell import Cell
 from cellc.cell.device import Device
 from cellc.cell.site import UNKNOWN
 from cellc.diagnostics import YamlPath
-from cellc.graph.releases import PACKAGED, foreign_lines, named_row, own_release, was_released
+from cellc.graph.releases import PACKAGED, foreign_lines, named_row, own_release, were_together
 from cellc.pins import version_number, version_numbers
 
 _DEVICE_PARTS = ("revision", "firmware", *PACKAGED)
@@ -103,22 +103,27 @@ def unreleased(cell: Cell) -> dict[str, RepositoryPin]:
 
 def _of_cell(cell: Cell) -> Iterator[Judgement]:
     facts, table = distribution(cell), load_distros().value
+    together = were_together(cell.distro, {_package(pin): pin.text for pin in cell_pins(cell) if pin.known})
     for pin in cell_pins(cell):
         if not pin.known:
             yield Judgement(pin, Answer.UNKNOWN, "not pinned")
         elif facts is None or table is None:
             yield Judgement(pin, Answer.UNKNOWN, "the catalog has no such distribution")
         else:
-            answer, evidence = _cell_answer(pin, facts, cell.distro)
+            answer, evidence = _cell_answer(pin, facts, together)
             yield Judgement(pin, answer, f"{evidence} (as of {table.as_of})")
 
 
-def _cell_answer(pin: Pin, facts: DistroFacts, distro: str) -> tuple[Answer, str]:
+def _package(pin: Pin) -> str:
+    return pin.text.split()[0] if pin.part == "rmw" else pin.part
+
+
+def _cell_answer(pin: Pin, facts: DistroFacts, together: ReleaseSet | None) -> tuple[Answer, str]:
     if pin.part == "ros":
         return Answer.OK, f"end of life {facts.end_of_life}"
     if pin.part == "os":
         return _os_answer(pin.text.lower(), facts)
-    name = pin.text.split()[0] if pin.part == "rmw" else pin.part
+    name = _package(pin)
     if pin.part == "rmw" and name not in (*facts.rmw, *facts.rmw_unverified):
         return Answer.INCOMPATIBLE, f"{facts.title} has {', '.join(facts.rmw)}"
     released = facts.packages.get(name, "")
@@ -126,8 +131,8 @@ def _cell_answer(pin: Pin, facts: DistroFacts, distro: str) -> tuple[Answer, str
         return Answer.UNKNOWN, "no matrix names it"
     if version_number(pin.text) == version_number(released):
         return Answer.OK, f"{facts.title} releases {released}"
-    if was_released(distro, name, pin.text):
-        return Answer.OK, f"{facts.title} released it before {released}"
+    if together is not None and name in together.packages:
+        return Answer.OK, f"{together.name} had it, with all that is pinned beside it"
     # MoveIt and Zenoh's middleware stay below 3 for years: their second number is what changes with the distribution.
     digits = 2 if name in ("moveit", "rmw_zenoh_cpp") and version_numbers(released)[:1] <= (2,) else 1
     if version_numbers(pin.text)[:digits] != version_numbers(released)[:digits]:
