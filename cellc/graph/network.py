@@ -84,6 +84,12 @@ def build_network(cell: Cell) -> NetworkGraph:
     return NetworkGraph(nics, devices)
 
 
+def running_hosts(cell: Cell) -> dict[str, str]:
+    """Return the host that runs each node and each controller, by its full name; empty where the cell names none."""
+    nodes = {node.full_name: node.host for node in cell.nodes}
+    return nodes | {one.full_name: manager.host for manager in cell.managers for one in manager.controllers}
+
+
 def _path(host: str, nic: str) -> YamlPath:
     return ("hosts", host, "nics", nic)
 

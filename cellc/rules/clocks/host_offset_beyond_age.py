@@ -31,6 +31,7 @@ from dataclasses import dataclass
 
 from cellc.cell.interface import Interface
 from cellc.cell.site import Host
+from cellc.graph.network import running_hosts
 from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 
 
@@ -65,7 +66,7 @@ def check(graph: CellGraph) -> Findings:
 
 def _crossings(graph: CellGraph) -> Iterator[_Crossing]:
     hosts = graph.cell.hosts
-    running = {node.full_name: node.host for node in graph.cell.nodes}
+    running = running_hosts(graph.cell)
     for interface in graph.cell.interfaces:
         ends = ((source, sink) for source in interface.sources for sink in interface.sinks)
         for source, sink in ends if interface.max_age_s is not None else ():

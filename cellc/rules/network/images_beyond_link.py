@@ -31,7 +31,7 @@ from collections import defaultdict
 from collections.abc import Iterator
 
 from cellc.cell.interface import Interface
-from cellc.graph.network import Nic
+from cellc.graph.network import Nic, running_hosts
 from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 
 _ASSUMED_BPS = 1e9
@@ -59,7 +59,7 @@ def check(graph: CellGraph) -> Findings:
 
 def _crossings(graph: CellGraph) -> Iterator[tuple[Nic, Interface, float]]:
     """Yield the card of either end of each stream that is read on another computer, with what it takes there."""
-    running = {node.full_name: node.host for node in graph.cell.nodes}
+    running = running_hosts(graph.cell)
     cameras = {device.name: device for device in graph.cell.devices if device.camera is not None}
     for interface in graph.cell.interfaces:
         camera = next((cameras[one.node] for one in interface.sources if one.node in cameras), None)
