@@ -1,0 +1,91 @@
+"""A camera that stands still looks at nothing of the cell.
+
+Turned by half a turn, or mounted from a calibration that was inverted, it shows the ceiling or the wall. Its images
+arrive, its node detects nothing, and a watcher of the area reports for ever that nobody is there.
+
+Example that is reported:
+
+```yaml
+# a cell of two cameras
+devices: {second: {mount: {rpy: 0 -90 0 deg}}}  # expect at mount
+```
+
+Example that is accepted:
+
+```yaml
+# a cell of two cameras
+devices: {second: {mount: {rpy: 0 90 0 deg}}}
+```
+
+Fix: correct the mount; its z axis is up and x is where the body looks, and the optical frame follows from them.
+
+Source: docs/principles.md#direction-and-scale
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator
+
+from cellc.cell.device import CameraStream, Device
+from cellc.cell.frame import FrameKind, SceneBox
+from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
+from cellc.transforms import Pose, Vector3
+
+_SLACK_RAD = math.radians(15.0)
+"""As much beside its view a thing may stand, whose place stands for all of it."""
+_PLACED = (FrameKind.FIXED, FrameKind.SCENE, FrameKind.DYNAMIC, FrameKind.MOUNT)
+
+
+@rule(Severity.WARNING, assumes=("frame-cycle", "implausible-distance", "detached-mount", "turned-optical-frame"))
+def check(graph: CellGraph) -> Findings:
+    """Yield cameras that no joint moves and that have no frame, box or device of the cell before them."""
+    for device in graph.cell.devices:
+        streams = () if device.camera is None else device.camera.streams
+        eyes = [(stream, graph.frames.in_world(stream.frame)) for stream in streams]
+        things = list(_things(graph, device))
+        known = [(stream, eye) for stream, eye in eyes if eye is not None]
+        if not things or not known or any(_sees(stream, eye, thing) for stream, eye in known for thing in things):
+            continue
+        nearest = min(things, key=lambda thing: _aside(known[0][1], thing))
+        aside_deg = math.degrees(_aside(known[0][1], nearest))
+        message = f"`{device.name}` must look at something of the cell, and the nearest lies {aside_deg:.0f} deg"
+        yield found(graph, (*device.path, "mount"), f"{message} beside its axis")
+
+
+def _things(graph: CellGraph, camera: Device) -> Iterator[Vector3]:
+    """Yield places in the world that a camera may be there for, m: frames, devices and corners of boxes."""
+    for frame in graph.cell.frames:
+        place = graph.frames.in_world(frame.name) if frame.kind in _PLACED and frame.device != camera.name else None
+        if place is not None:
+            yield place.position
+    for box in graph.cell.scene:
+        parent = graph.frames.in_world(box.parent)
+        if parent is not None:
+            yield from _corners(box, parent @ box.transform_to_parent)
+
+
+def _corners(box: SceneBox, place: Pose) -> Iterator[Vector3]:
+    for signs in itertools.product((-0.5, 0.0, 0.5), repeat=3):
+        x, y, z = (sign * length for sign, length in zip(signs, box.size, strict=True))
+        yield (place @ Pose((x, y, z), (0.0, 0.0, 0.0, 1.0))).position
+
+
+def _sees(stream: CameraStream, eye: Pose, thing: Vector3) -> bool:
+    x, y, z = _before(eye, thing)
+    if z <= 0.0 or stream.view is None:
+        return z > 0.0
+    aside, above = math.atan2(abs(x), z), math.atan2(abs(y), z)
+    within = aside <= stream.view.horizontal / 2 + _SLACK_RAD and above <= stream.view.vertical / 2 + _SLACK_RAD
+    return within and math.hypot(x, y, z) <= stream.view.farthest_m
+
+
+def _before(eye: Pose, thing: Vector3) -> Vector3:
+    return (eye.inverse() @ Pose(thing, (0.0, 0.0, 0.0, 1.0))).position
+
+
+def _aside(eye: Pose, thing: Vector3) -> float:
+    """Return the angle between the axis of a camera and a place, rad."""
+    x, y, z = _before(eye, thing)
+    return math.atan2(math.hypot(x, y), z)
