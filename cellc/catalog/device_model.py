@@ -31,7 +31,16 @@ from cellc.catalog.device_interfaces import (
     TopicFacts,
 )
 from cellc.catalog.robot_facts import HumanStep, PlugFacts, RobotControllerFacts, StepCondition
-from cellc.spec.quantity import Force, JointAcceleration, JointJerk, JointPosition, Length, Mass, Velocity
+from cellc.spec.quantity import (
+    Force,
+    JointAcceleration,
+    JointJerk,
+    JointPosition,
+    JointVelocity,
+    Length,
+    Mass,
+    Velocity,
+)
 from cellc.vocabulary import GateCode
 
 
@@ -221,6 +230,13 @@ class PackageFacts(CatalogModel):
     description: Token | None = None
 
 
+class VelocityLimit(CatalogModel):
+    """A velocity that one joint, or every joint (``*``), may have wherever it stands."""
+
+    value: JointVelocity
+    source: Text
+
+
 class AccelerationLimit(CatalogModel):
     """An acceleration that one joint, or every joint (``*``), may have."""
 
@@ -250,12 +266,20 @@ class ReachFigure(CatalogModel):
 
 
 class LimitFacts(CatalogModel):
-    """Limits that URDF cannot hold; keys are joint names or ``*`` for all others."""
+    """Limits that URDF cannot hold; keys are joint names or ``*`` for all others.
 
+    ``velocity_everywhere`` where the device allows less near the ends of a joint than its description says.
+    """
+
+    velocity_everywhere: dict[Text, VelocityLimit] = Field(default_factory=dict)
     acceleration: dict[Text, AccelerationLimit] = Field(default_factory=dict)
     jerk: dict[Text, JerkLimit] = Field(default_factory=dict)
     payload: PayloadLimit | None = None
     reach: ReachFigure | None = None
+
+    def velocity_of(self, joint: str) -> VelocityLimit | None:
+        """Return the velocity that a joint, named without prefix, may have everywhere."""
+        return self.velocity_everywhere.get(joint, self.velocity_everywhere.get("*"))
 
     def acceleration_of(self, joint: str) -> AccelerationLimit | None:
         """Return the limit of a joint, named without prefix."""

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
-from cellc.catalog.device_model import DeviceModel
+from cellc.catalog.device_model import AccelerationLimit, DeviceModel, JerkLimit, VelocityLimit
 from cellc.description.model import Description, Joint, JointLimit
 from cellc.diagnostics import Diagnostic, Severity, YamlPath
 from cellc.source.document import SourceDocument
@@ -40,7 +40,12 @@ def _figures(model: DeviceModel, description: Description) -> Iterator[tuple[Yam
     """Yield each figure with its place and the joints that it is of; `*` is of those that have no key of their own."""
     homes = model.home or {}
     yield from ((("home", one.name), one, homes[one.name]) for one in description.joints if one.name in homes)
-    for key, limits in (("acceleration", model.limits.acceleration), ("jerk", model.limits.jerk)):
+    of_joints: Mapping[str, Mapping[str, VelocityLimit | AccelerationLimit | JerkLimit]] = {
+        "velocity_everywhere": model.limits.velocity_everywhere,
+        "acceleration": model.limits.acceleration,
+        "jerk": model.limits.jerk,
+    }
+    for key, limits in of_joints.items():
         for joint in description.joints:
             name = joint.name if joint.name in limits else "*"
             if name in limits and joint.mimic is None:

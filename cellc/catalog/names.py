@@ -88,6 +88,7 @@ def _of_description(model: DeviceModel, description: Description) -> Iterator[_R
 
 def _joints_named(model: DeviceModel) -> Iterator[tuple[YamlPath, str]]:
     yield from ((("home", joint), joint) for joint in model.home or {})
+    yield from ((("limits", "velocity_everywhere", joint), joint) for joint in model.limits.velocity_everywhere)
     yield from ((("limits", "acceleration", joint), joint) for joint in model.limits.acceleration)
     yield from ((("limits", "jerk", joint), joint) for joint in model.limits.jerk)
     if model.control is not None:

@@ -38,7 +38,8 @@ class DeviceJoint(Entity):
     """A movable joint: ``name`` carries the prefix, ``local_name`` does not.
 
     Limits are the device's own, tightened by the cell; rad and rad/s for revolute, m and m/s for prismatic joints;
-    None where neither the description nor the catalog states one. ``mimics`` names the joint that it follows.
+    None where neither the description nor the catalog states one. ``velocity_everywhere`` is the device's own where it
+    allows less in some positions. ``mimics`` names the joint that it follows.
     """
 
     local_name: str
@@ -46,6 +47,7 @@ class DeviceJoint(Entity):
     lower: float | None
     upper: float | None
     velocity: float | None
+    velocity_everywhere: float | None
     acceleration: float | None
     jerk: float | None
     effort: float | None
@@ -200,10 +202,7 @@ class OfferedInterface:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NetworkNeeds:
-    """What a device asks of its network; ``realtime`` is required, recommended or not_needed.
-
-    ``listens`` are the ports of its host on which its driver listens.
-    """
+    """What a device asks: ``realtime`` is required, recommended or not_needed; its driver ``listens`` on ports."""
 
     dedicated_link: bool
     realtime: str

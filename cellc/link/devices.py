@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from cellc.catalog.device_interfaces import JointInterfaces
-from cellc.catalog.device_model import AccelerationLimit, DeviceModel, JerkLimit
+from cellc.catalog.device_model import AccelerationLimit, DeviceModel, JerkLimit, VelocityLimit
 from cellc.catalog.load import CatalogDevice, device_names, load_device, load_device_folder
 from cellc.cell.device import EVERY_JOINT, Device, DeviceJoint
 from cellc.cell.frame import WORLD
@@ -226,6 +226,7 @@ def _joints(
             lower=None if joint.limit is None else joint.limit.lower,
             upper=None if joint.limit is None else joint.limit.upper,
             velocity=_scaled(None if joint.limit is None else joint.limit.velocity, shares.velocity),
+            velocity_everywhere=_limit(facts.limits.velocity_of(joint.name)),
             acceleration=_scaled(_limit(facts.limits.acceleration_of(joint.name)), shares.acceleration),
             jerk=_limit(facts.limits.jerk_of(joint.name)),
             effort=None if joint.limit is None else joint.limit.effort,
@@ -238,7 +239,7 @@ def _joints(
     )
 
 
-def _limit(limit: AccelerationLimit | JerkLimit | None) -> float | None:
+def _limit(limit: VelocityLimit | AccelerationLimit | JerkLimit | None) -> float | None:
     return None if limit is None else limit.value.si
 
 

@@ -9,7 +9,7 @@ Example that is reported:
 devices:
   side_camera:
     model: ./turned_camera  # expect at model
-    mount: {parent: world, xyz: 1 0 1 m, calibration: side}
+    mount: {parent: world, xyz: 1 0 1 m, rpy: 0 0 180 deg, calibration: side}
     revision: C
     firmware: sensor 5.16.0
     stamp: {source: driver, clock: ros}
@@ -23,7 +23,7 @@ Example that is accepted:
 devices:
   side_camera:
     model: ./demo_camera
-    mount: {parent: world, xyz: 1 0 1 m, calibration: side}
+    mount: {parent: world, xyz: 1 0 1 m, rpy: 0 0 180 deg, calibration: side}
     revision: C
     firmware: sensor 5.16.0
     driver: demo_camera_driver 4.58.3
