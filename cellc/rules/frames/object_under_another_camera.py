@@ -50,5 +50,7 @@ def check(graph: CellGraph) -> Findings:
         if heard and own not in heard:
             other, interface = next(iter(heard.items()))
             message = f"`{frame.name}` hangs on `{own}`, but its publisher `{frame.authority}` hears `{other}` alone"
-            related = (Related("its images", interface.span),)
+            missed = (one for one in graph.cell.interfaces if own in {source.node for source in one.sources})
+            readers = [(interface, "its images"), *((one, f"the images of `{own}`") for one in missed)]
+            related = tuple(Related(label, graph.cell.locate(*one.path, "to")) for one, label in readers)
             yield found(graph, (*frame.path, "parent"), message, related=related)
