@@ -28,25 +28,26 @@ import itertools
 import math
 from collections.abc import Iterator
 
-from cellc.cell.device import CameraStream, Device
+from cellc.cell.device import CameraStream
 from cellc.cell.frame import FrameKind, SceneBox
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 from cellc.transforms import Pose, Vector3
 
 _SLACK_RAD = math.radians(15.0)
 """As much beside its view a thing may stand, whose place stands for all of it."""
-_PLACED = (FrameKind.FIXED, FrameKind.SCENE, FrameKind.DYNAMIC, FrameKind.MOUNT)
+_PLACED = (FrameKind.FIXED, FrameKind.SCENE, FrameKind.DYNAMIC)
 
 
 @rule(Severity.WARNING, assumes=("frame-cycle", "implausible-distance", "detached-mount", "turned-optical-frame"))
 def check(graph: CellGraph) -> Findings:
-    """Yield cameras that no joint moves and that have no frame, box or device of the cell before them."""
+    """Yield cameras that no joint moves and that have no frame, box or device before them, where there are places."""
     for device in graph.cell.devices:
         streams = () if device.camera is None else device.camera.streams
         eyes = [(stream, graph.frames.in_world(stream.frame)) for stream in streams]
-        things = list(_things(graph, device))
+        things = list(_places(graph, _PLACED)) + [corner for box in graph.cell.scene for corner in _corners(graph, box)]
+        seen = [*things, *_places(graph, (FrameKind.MOUNT,), device.name)]
         known = [(stream, eye) for stream, eye in eyes if eye is not None]
-        if not things or not known or any(_sees(stream, eye, thing) for stream, eye in known for thing in things):
+        if not things or not known or any(_sees(stream, eye, thing) for stream, eye in known for thing in seen):
             continue
         nearest = min(things, key=lambda thing: _aside(known[0][1], thing))
         aside_deg = math.degrees(_aside(known[0][1], nearest))
@@ -54,22 +55,23 @@ def check(graph: CellGraph) -> Findings:
         yield found(graph, (*device.path, "mount"), f"{message} beside its axis")
 
 
-def _things(graph: CellGraph, camera: Device) -> Iterator[Vector3]:
-    """Yield places in the world that a camera may be there for, m: frames, devices and corners of boxes."""
+def _places(graph: CellGraph, kinds: tuple[FrameKind, ...], but_of: str = "") -> Iterator[Vector3]:
+    """Yield where frames of some kinds stand in the world, m, as far as no joint moves them."""
     for frame in graph.cell.frames:
-        place = graph.frames.in_world(frame.name) if frame.kind in _PLACED and frame.device != camera.name else None
+        place = graph.frames.in_world(frame.name) if frame.kind in kinds and frame.device != but_of else None
         if place is not None:
             yield place.position
-    for box in graph.cell.scene:
-        parent = graph.frames.in_world(box.parent)
-        if parent is not None:
-            yield from _corners(box, parent @ box.transform_to_parent)
 
 
-def _corners(box: SceneBox, place: Pose) -> Iterator[Vector3]:
+def _corners(graph: CellGraph, box: SceneBox) -> Iterator[Vector3]:
+    """Yield corners, middles of edges and sides, and the center of a box in the world."""
+    parent = graph.frames.in_world(box.parent)
+    if parent is None:
+        return
+    center = parent @ box.transform_to_parent
     for signs in itertools.product((-0.5, 0.0, 0.5), repeat=3):
         x, y, z = (sign * length for sign, length in zip(signs, box.size, strict=True))
-        yield (place @ Pose((x, y, z), (0.0, 0.0, 0.0, 1.0))).position
+        yield (center @ Pose((x, y, z), (0.0, 0.0, 0.0, 1.0))).position
 
 
 def _sees(stream: CameraStream, eye: Pose, thing: Vector3) -> bool:
