@@ -40,7 +40,10 @@ def check(graph: CellGraph) -> Findings:
         if most > _ROUNDING:
             joint = shares[most]
             path = (*device.path, "limits", "velocity")
-            message = f"`{joint.name}` may have {joint.velocity_everywhere:g} rad/s in every position, and is allowed"
+            message = (
+                f"`{joint.name}` must have at most {joint.velocity_everywhere:g} rad/s, which it has in every position,"
+            )
+            message += f" got {joint.velocity:.3g} rad/s"
             written = device.limit_shares.velocity
             advice = f"write at most {written / most * 100:.0f} %"
-            yield found(graph, path, f"{message} {joint.velocity:.3g} rad/s", advice)
+            yield found(graph, path, message, advice)
