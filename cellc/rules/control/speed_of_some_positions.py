@@ -6,13 +6,17 @@ reads the description plans through there at full speed: the robot stops with a 
 Example that is reported:
 
 ```yaml
-devices: {arm: {limits: {velocity: 80 %}}}  # expect at velocity
+devices:
+  stage: {model: ./hasty, mount: {parent: world, xyz: 0 2 0 m}, revision: A, firmware: stage 1.0.0,
+          limits: {velocity: 80 %}}  # expect at velocity
 ```
 
 Example that is accepted:
 
 ```yaml
-devices: {arm: {limits: {velocity: 50 %}}}
+devices:
+  stage: {model: ./hasty, mount: {parent: world, xyz: 0 2 0 m}, revision: A, firmware: stage 1.0.0,
+          limits: {velocity: 50 %}}
 ```
 
 Fix: allow the share that holds everywhere, and more only where each motion is tried.
