@@ -7,6 +7,7 @@ repository is built once per process and never changed.
 from __future__ import annotations
 
 import json
+import os
 import re
 import tempfile
 from dataclasses import dataclass
@@ -30,7 +31,7 @@ ROOT = Path(__file__).resolve().parents[1]
 CORPUS = ROOT / "tests" / "corpus"
 COMPLETE = CORPUS / "valid" / "complete.yaml"
 EVERY_CELL = tuple(sorted(path.parent.name for path in ROOT.glob("cells/*/cell.yaml")))
-CELLS = ("fr3_hand", "minimal", "ur5e_pick")
+CELLS = EVERY_CELL if os.environ.get("CELLC_TEST_CELLS") == "every" else ("fr3_hand", "minimal", "ur5e_pick")
 """Cells that go through every test of each stage, for every distribution; the others go through the whole once."""
 DISTROS = ("humble", "jazzy", "kilted", "lyrical")
 

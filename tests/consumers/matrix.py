@@ -74,5 +74,5 @@ def spec_for(cell: str, distro: str) -> str:
         if re.search(rf"^  {name}: ", text, re.MULTILINE):
             text = re.sub(rf"^(  {name}: ){own}", rf"\g<1>{version}", text, flags=re.MULTILINE)
         pinned = "UNKNOWN" if version == "UNKNOWN" else f"{name} {version}"
-        text = re.sub(rf": {name} \d{own}", f": {pinned}", text, flags=re.MULTILINE)
+        text = re.sub(rf": (&\w+ )?{name} \d{own}", rf": \g<1>{pinned}", text, flags=re.MULTILINE)
     return without_absent(text, distro)
