@@ -10,10 +10,12 @@ from typing import Any
 
 import yaml
 
+from cellc.description.packages import MANIFEST
 from cellc.limits import limits
 from cellc.store.regular_file import open_regular
 
 _NAMED = re.compile(r"<robot\b[^>]*\bname\s*=\s*[\"']([^\"']*)[\"']")
+_PARAMETERS = "ros__parameters"
 _DEFAULT_HZ, _DEFAULT_S = 100.0, 1.0
 
 
@@ -42,8 +44,11 @@ def controllers_near(description: Path, joints: Sequence[str]) -> ControllerFact
 
 def read_controllers(file: Path, joints: Sequence[str]) -> ControllerFacts | None:
     """Return what a file of parameters says of the controller that moves some joints; None where none does."""
+    text = _text(file)
+    if _PARAMETERS not in text:
+        return None
     try:
-        nodes = dict(_nodes(yaml.safe_load(_text(file))))
+        nodes = dict(_nodes(yaml.safe_load(text), set()))
     except (yaml.YAMLError, ValueError, RecursionError):
         return None
     moving = (one for one in nodes.values() if set(joints) <= set(_listed(one.get("joints"))))
@@ -57,9 +62,11 @@ def read_controllers(file: Path, joints: Sequence[str]) -> ControllerFacts | Non
 
 
 def _near(description: Path, suffix: str) -> Iterator[Path]:
-    """Yield the files beside a description and in the folders next to its own, each once and in one order."""
+    """Yield the files beside a description and in the other folders of its package, each once and in one order."""
     folder = description.absolute().parent
-    yield from sorted({*folder.glob(f"*{suffix}"), *folder.parent.glob(f"*/*{suffix}")})
+    # What lies above a package, or above a folder of none, is somebody else's.
+    package = folder.parent.glob(f"*/*{suffix}") if (folder.parent / MANIFEST).is_file() else ()
+    yield from sorted({*folder.glob(f"*{suffix}"), *package})
 
 
 def _text(file: Path) -> str:
@@ -70,14 +77,17 @@ def _text(file: Path) -> str:
         return ""
 
 
-def _nodes(data: Any) -> Iterator[tuple[str, dict[str, Any]]]:
-    """Yield each node with its parameters; what stands below a name space or a wildcard too."""
-    for name, value in data.items() if isinstance(data, dict) else ():
-        parameters = value.get("ros__parameters") if isinstance(value, dict) else None
+def _nodes(data: Any, seen: set[int]) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Yield each node with its parameters; what stands below a name space or a wildcard too, an alias once."""
+    if not isinstance(data, dict) or id(data) in seen:
+        return
+    seen.add(id(data))
+    for name, value in data.items():
+        parameters = value.get(_PARAMETERS) if isinstance(value, dict) else None
         if isinstance(parameters, dict):
             yield str(name).rpartition("/")[2], parameters
         else:
-            yield from _nodes(value)
+            yield from _nodes(value, seen)
 
 
 def _listed(value: Any) -> list[str]:

@@ -175,6 +175,7 @@ def test_pairs_of_an_srdf_may_touch_and_say_why(here: Path) -> None:
 def test_srdf_and_controllers_beside_a_description_are_read_by_themselves(here: Path) -> None:
     pair = '<disable_collisions link1="a" link2="c" reason="Never"/>'
     near = {
+        "package.xml": "<package><name>odd_arm_description</name></package>",
         "srdf/arm.srdf": f'<robot name="Odd-Arm">{pair}</robot>',
         "urdf/arm.srdf": f'<robot name="Other">{pair.replace("Never", "Adjacent")}</robot>',
         "config/other.yaml": "/**: {hand: {ros__parameters: {joints: [j9], constraints: {goal_time: 9.0}}}}",
@@ -193,6 +194,25 @@ def test_srdf_and_controllers_beside_a_description_are_read_by_themselves(here: 
     assert ("update_rate: 250 Hz" in cell, "goal_time: 0.6 s" in cell) == (True, True)
     wrong = _import(here, _robot(*ARM), "--controllers", "config/other.yaml", name="urdf/arm.urdf")
     assert (wrong[0], "has no controller of j1, j2" in wrong[1]) == (2, True)
+
+
+def test_files_of_other_folders_are_nobody_s_where_there_is_no_package(here: Path) -> None:
+    told = "arm_controller: {ros__parameters: {joints: [j2, j1], constraints: {goal_time: 0.6}}}\n"
+    (here / "somebody").mkdir()
+    (here / "somebody" / "controllers.yaml").write_text(told, encoding="utf-8")
+    (here / "urdf").mkdir()
+    code, out = _import(here, _robot(*ARM), "--cell", name="urdf/arm.urdf")
+    assert code == 0, out
+    assert "controllers.yaml" not in out
+    assert "goal_time: 0.6 s" not in (here / "cell.yaml").read_text(encoding="utf-8")
+
+
+def test_aliases_of_a_file_of_parameters_are_followed_once(here: Path) -> None:
+    laughs = "a0: &a0 {x: {y: 1}}\n" + "".join(
+        f"a{n}: &a{n} {{{', '.join(f'k{k}: *a{n - 1}' for k in range(9))}}}\n" for n in range(1, 12)
+    )
+    (here / "laughs.yaml").write_text(f"# ros__parameters\n{laughs}", encoding="utf-8")
+    assert _import(here, _robot(*ARM), "--cell")[0] == 0
 
 
 def test_meshes_of_collision_shapes_come_along_and_no_others(here: Path) -> None:

@@ -25,7 +25,7 @@ def adapted(tmp_path_factory: pytest.TempPathFactory) -> Written:
 def test_goals_and_states_of_the_device_stand_in_the_bag(adapted: Written) -> None:
     assert adapted.results["reach"].passed
     goals = list(received(adapted.bag("reach"), "/cellc/arm/goal"))
-    states = list(received(adapted.bag("reach"), "/arm/joint_states"))
+    states = list(received(adapted.bag("reach"), "/joint_states"))
     assert len(goals) == 2
     aside = goals[-1].message.points[-1].positions.tolist()
     by_name = dict(zip(states[-1].message.name, states[-1].message.position.tolist(), strict=True))
