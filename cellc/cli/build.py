@@ -68,7 +68,7 @@ def build(
 
     \b
     cellc build cells/bench/cell.yaml          writes generated/bench
-    cellc build --check .                      fails where a generated folder is not what its cell makes
+    cellc build --check .                      fails where one is not up to date
     """
     wanted = read_selection(select, ignore)
     files = cell_files(files)

@@ -110,6 +110,7 @@ def test_linking_fills_every_section_that_some_spec_states() -> None:
     for path in (
         COMPLETE,
         spec_of("ur5e_pick"),
+        spec_of("dual_ur"),
         CORPUS / "valid" / "every_target.yaml",
         CORPUS / "valid" / "direct_sdk_arm.yaml",
         CORPUS / "valid" / "more_fields.yaml",

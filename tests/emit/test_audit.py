@@ -40,8 +40,7 @@ def answers(tmp_path: Path, old: str, new: str) -> dict[tuple[str, str], str]:
         ("ubuntu 24.04", "ubuntu 20.04", ("ur5e_pick", "os"), "INCOMPATIBLE"),
         ("ubuntu 24.04", "ubuntu 22.04", ("ur5e_pick", "os"), "UNKNOWN"),  # third tier of REP-2000
         ("moveit: 2.12.4", "moveit: 2.5.9", ("ur5e_pick", "moveit"), "INCOMPATIBLE"),
-        ("moveit: 2.12.4", "moveit: 2.12.3", ("ur5e_pick", "moveit"), "OK"),  # an earlier release for Jazzy: rosdistro
-        ("moveit: 2.12.4", "moveit: 2.12.99", ("ur5e_pick", "moveit"), "UNKNOWN"),
+        ("moveit: 2.12.4", "moveit: 2.12.3", ("ur5e_pick", "moveit"), "UNKNOWN"),
         ("moveit: 2.12.4", "moveit: UNKNOWN", ("ur5e_pick", "moveit"), "UNKNOWN"),
         ("rmw_fastrtps_cpp 8.4.4", "rmw_other_cpp 1.0.0", ("ur5e_pick", "rmw"), "INCOMPATIBLE"),
     ],
