@@ -43,6 +43,10 @@ class Bounds:
         """Return the bound of a refusal: planning, its transforms, and the answer to a goal."""
         return TF_TIMEOUT_S + PLANNING_LATENCY_S + self.hold_s()
 
+    def refused_s(self, step: CellStep) -> float | None:
+        """Return the bound of a refusal in a step: where several groups move in turn, others may have moved before."""
+        return self.asked_s() if len(step.controllers) < 2 else self.execution_s(step)
+
     def joint_state_s(self) -> float:
         """Return the bound of joint states that stay away."""
         return joint_state_age_s(self.contract) + PLANNING_LATENCY_S + self.watched_s()

@@ -216,7 +216,7 @@ def _rejected(bounds: Bounds, name: str, facts: ContractController, step: CellSt
         return ends_in(AttemptOutcome.STALE_STATE, within_s=bounds.joint_state_s())
     if name in step.controllers:
         # A goal that is sent in the very cycle of the switch is accepted, and loses its controller at once.
-        return ends_in(AttemptOutcome.GOAL_REJECTION, AttemptOutcome.WRONG_OWNER, within_s=bounds.asked_s())
+        return ends_in(AttemptOutcome.GOAL_REJECTION, AttemptOutcome.WRONG_OWNER, within_s=bounds.refused_s(step))
     return BORNE
 
 
@@ -224,6 +224,7 @@ def _switched(bounds: Bounds, deactivated: tuple[str, ...], step: CellStep) -> E
     """A switch between two goals, or one that is refused, is borne; after it a goal may meet an inactive controller."""
     if not set(deactivated) & set(step.controllers):
         return BORNE
+    within_s = bounds.refused_s(step)
     return ends_in(
-        AttemptOutcome.WRONG_OWNER, AttemptOutcome.GOAL_REJECTION, AttemptOutcome.SUCCEEDED, within_s=bounds.asked_s()
+        AttemptOutcome.WRONG_OWNER, AttemptOutcome.GOAL_REJECTION, AttemptOutcome.SUCCEEDED, within_s=within_s
     )

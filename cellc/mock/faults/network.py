@@ -221,7 +221,8 @@ def _frameless(bounds: Bounds, step: CellStep) -> Ending:
 def _silent(bounds: Bounds, server: str, plans: bool, step: CellStep) -> Ending:
     """A request is given up soon; a result that stays away at the bound of the action."""
     if plans and step.kind == "move":
-        return ends_in(AttemptOutcome.TIMEOUT, within_s=RESPONSE_S + bounds.asked_s())
+        asked_s = bounds.refused_s(step)
+        return ends_in(AttemptOutcome.TIMEOUT, within_s=None if asked_s is None else RESPONSE_S + asked_s)
     if server not in step.controllers:
         return BORNE
     execution_s = bounds.execution_s(step)

@@ -11,11 +11,13 @@ from typing import Any
 import pytest
 
 from cellc.contract.rehearsals import FaultEntry, FaultEvent, RehearsalEntry, StepEntry
-from cellc.mock import MockCell
+from cellc.mock import MockCell, load
 from cellc.mock.errors import MockError
-from cellc.mock.faults.cases import BORNE, FaultCase, ends_in
+from cellc.mock.faults.cases import BORNE, CellStep, FaultCase, ends_in
+from cellc.mock.faults.endings import Bounds
 from cellc.mock.faults.registry import possible_faults
 from cellc.vocabulary import AttemptOutcome, FaultKind
+from tests.cells import ROOT
 from tests.mock.faults.conftest import Rehearse
 
 
@@ -125,3 +127,15 @@ def test_fault_that_names_what_the_contract_does_not_have_is_refused(
 ) -> None:
     with pytest.raises(MockError, match=f"fault `{kind}` names `{target}`"):
         run(FaultEntry(kind=kind, target=target, at_s=1.0))
+
+
+def test_refusal_of_a_group_that_moves_after_another_may_come_after_its_motion() -> None:
+    bounds = Bounds(load(ROOT / "generated" / "dual_ur").contract)
+    alone = CellStep("move", "home", ("loader_trajectory",))
+    in_turn = CellStep("move", "home", ("loader_trajectory", "unloader_trajectory"))
+    # Each goal of an arm may take what the action that plans and executes allows.
+    (allowed_s,) = {
+        one.timeout_s for one in bounds.contract.interfaces.values() if one.type == "moveit_msgs/action/MoveGroup"
+    }
+    assert bounds.refused_s(alone) == bounds.asked_s()
+    assert bounds.refused_s(in_turn) == pytest.approx(bounds.asked_s() + 2 * allowed_s)
