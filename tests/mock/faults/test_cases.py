@@ -137,5 +137,6 @@ def test_refusal_of_a_group_that_moves_after_another_may_come_after_its_motion()
     (allowed_s,) = {
         one.timeout_s for one in bounds.contract.interfaces.values() if one.type == "moveit_msgs/action/MoveGroup"
     }
+    assert allowed_s is not None
     assert bounds.refused_s(alone) == bounds.asked_s()
     assert bounds.refused_s(in_turn) == pytest.approx(bounds.asked_s() + 2 * allowed_s)
