@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import partial
-from typing import ClassVar
+from typing import ClassVar, TypeVar
 
 from cellc.contract.contract import Contract
 from cellc.contract.rehearsals import FaultEntry
@@ -41,24 +41,32 @@ def _kept(contract: Contract, device: str) -> Need | None:
     return Need.PROGRAM_RUNNING if Need.PROGRAM_RUNNING in needs else next(iter(needs), None)
 
 
-@dataclass(frozen=True, slots=True)
-class ProgramStop:
-    """The program of a robot stops: it stands, tells so, and follows no set points."""
+_ProgramFault = TypeVar("_ProgramFault", bound="_Program")
 
-    kind: ClassVar[FaultKind] = FaultKind.PROGRAM_STOP
+
+@dataclass(frozen=True, slots=True)
+class _Program:
+    """What stops and starts the program of a robot."""
+
     device: str
     need: Need
 
     @classmethod
-    def of(cls, entry: FaultEntry, contract: Contract) -> ProgramStop | None:
+    def of(cls: type[_ProgramFault], entry: FaultEntry, contract: Contract) -> _ProgramFault | None:
         """Return the fault of an entry; None where the set points of its target pass through no program."""
         need = _kept(contract, entry.target)
         return None if need is None else cls(entry.target, need)
 
     @classmethod
     def cases(cls, contract: Contract) -> Iterator[FaultCase]:
-        """Yield nothing: every stop begins the case of stale set points too."""
+        """Yield nothing: every stop begins the case of stale set points too, and a start ends what it began."""
         yield from ()
+
+
+class ProgramStop(_Program):
+    """The program of a robot stops: it stands, tells so, and follows no set points."""
+
+    kind: ClassVar[FaultKind] = FaultKind.PROGRAM_STOP
 
     def begin(self, ports: FaultPorts) -> None:
         """Stop."""
@@ -69,24 +77,10 @@ class ProgramStop:
         ports.effects.met(self.device, self.need)
 
 
-@dataclass(frozen=True, slots=True)
-class ProgramStart:
+class ProgramStart(_Program):
     """Somebody starts the program of a robot, which follows set points from then on."""
 
     kind: ClassVar[FaultKind] = FaultKind.PROGRAM_START
-    device: str
-    need: Need
-
-    @classmethod
-    def of(cls, entry: FaultEntry, contract: Contract) -> ProgramStart | None:
-        """Return the fault of an entry; None where the set points of its target pass through no program."""
-        need = _kept(contract, entry.target)
-        return None if need is None else cls(entry.target, need)
-
-    @classmethod
-    def cases(cls, contract: Contract) -> Iterator[FaultCase]:
-        """Yield nothing: it ends what a stop began."""
-        yield from ()
 
     def begin(self, ports: FaultPorts) -> None:
         """Start."""

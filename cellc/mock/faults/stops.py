@@ -32,61 +32,55 @@ LOOK_S = 0.01
 
 
 @dataclass(frozen=True, slots=True)
-class ProtectiveStop:
+class _SafetyStop:
+    """A device that its safety functions stop; it stays stopped until that is acknowledged.
+
+    Attributes:
+        outcome: how a step ends that the stop hits.
+        state: what the device tells of itself meanwhile.
+    """
+
+    kind: ClassVar[FaultKind]
+    outcome: ClassVar[AttemptOutcome]
+    state: ClassVar[str]
+    component: str
+
+    @classmethod
+    def of(cls, entry: FaultEntry, contract: Contract) -> _SafetyStop | None:
+        """Return the fault of an entry; None where nothing of its target can stop."""
+        component = stoppable(contract).get(entry.target)
+        return None if component is None else cls(component)
+
+    @classmethod
+    def cases(cls, contract: Contract) -> Iterator[FaultCase]:
+        """Yield every device with hardware or an adapter."""
+        for device in stoppable(contract):
+            entry = FaultEntry(kind=cls.kind, target=device)
+            yield fault_case(entry, contract, stopped(Bounds(contract), cls.outcome), at_once=True)
+
+    def begin(self, ports: FaultPorts) -> None:
+        """Stop."""
+        ports.hardware.stop(self.component, self.state)
+
+    def end(self, ports: FaultPorts) -> None:
+        """Let what stopped it be over."""
+        ports.hardware.end_cause(self.component)
+
+
+class ProtectiveStop(_SafetyStop):
     """A device goes into protective stop: its state stays visible, commands are refused."""
 
-    kind: ClassVar[FaultKind] = FaultKind.PROTECTIVE_STOP
-    component: str
-
-    @classmethod
-    def of(cls, entry: FaultEntry, contract: Contract) -> ProtectiveStop | None:
-        """Return the fault of an entry; None where nothing of its target can stop."""
-        component = stoppable(contract).get(entry.target)
-        return None if component is None else cls(component)
-
-    @classmethod
-    def cases(cls, contract: Contract) -> Iterator[FaultCase]:
-        """Yield every device with hardware or an adapter."""
-        for device in stoppable(contract):
-            entry = FaultEntry(kind=cls.kind, target=device)
-            yield fault_case(entry, contract, stopped(Bounds(contract), AttemptOutcome.PROTECTIVE_STOP), at_once=True)
-
-    def begin(self, ports: FaultPorts) -> None:
-        """Stop."""
-        ports.hardware.stop(self.component, PROTECTIVE_STOP)
-
-    def end(self, ports: FaultPorts) -> None:
-        """Let what stopped it be over; it stays stopped until that is acknowledged."""
-        ports.hardware.end_cause(self.component)
+    kind = FaultKind.PROTECTIVE_STOP
+    outcome = AttemptOutcome.PROTECTIVE_STOP
+    state = PROTECTIVE_STOP
 
 
-@dataclass(frozen=True, slots=True)
-class EmergencyStop:
+class EmergencyStop(_SafetyStop):
     """Takes the power from the drives of a device; its own controller stays on, and tells where the joints stand."""
 
-    kind: ClassVar[FaultKind] = FaultKind.EMERGENCY_STOP
-    component: str
-
-    @classmethod
-    def of(cls, entry: FaultEntry, contract: Contract) -> EmergencyStop | None:
-        """Return the fault of an entry; None where nothing of its target can stop."""
-        component = stoppable(contract).get(entry.target)
-        return None if component is None else cls(component)
-
-    @classmethod
-    def cases(cls, contract: Contract) -> Iterator[FaultCase]:
-        """Yield every device with hardware or an adapter."""
-        for device in stoppable(contract):
-            entry = FaultEntry(kind=cls.kind, target=device)
-            yield fault_case(entry, contract, stopped(Bounds(contract), AttemptOutcome.EMERGENCY_STOP), at_once=True)
-
-    def begin(self, ports: FaultPorts) -> None:
-        """Stop."""
-        ports.hardware.stop(self.component, EMERGENCY_STOP)
-
-    def end(self, ports: FaultPorts) -> None:
-        """Let what stopped it be over; it stays stopped until that is acknowledged."""
-        ports.hardware.end_cause(self.component)
+    kind = FaultKind.EMERGENCY_STOP
+    outcome = AttemptOutcome.EMERGENCY_STOP
+    state = EMERGENCY_STOP
 
 
 @dataclass(frozen=True, slots=True)
