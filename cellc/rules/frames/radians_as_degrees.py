@@ -1,7 +1,8 @@
 """An angle is a fraction of pi, written in degrees.
 
 Programs print 1.5708 for a quarter turn. With `deg` behind it the same number is a tilt that nobody sees: a gripper
-that was to point down points forward, a pose that was copied from `/joint_states` stands nearly at zero.
+that was to point down points forward, a pose that was copied from `/joint_states` stands nearly at zero. Such a pose
+is known by its numbers too: printed ones, and none of them beyond a full turn in radians.
 
 Example that is reported:
 
@@ -26,30 +27,41 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
 
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _DEGREES = re.compile(r"[-+0-9.,\s]*\d\s*deg\s*")
-_NUMBER = re.compile(r"\d+\.(\d{3,})")
-_PARTS = tuple(math.pi * numerator / 12 for numerator in (2, 3, 4, 6, 8, 9, 10, 12, 18, 24))
-"""What programs print for 30, 45, 60, 90, 120, 135, 150, 180, 270 and 360 degrees."""
+_NUMBER = re.compile(r"\d+(?:\.(\d*))?")
+_QUARTERS = tuple(math.pi * numerator / 2 for numerator in (1, 2, 3, 4))
+_PARTS = (*_QUARTERS, *(math.pi * numerator / 12 for numerator in (2, 3, 4, 8, 9, 10)))
+"""What programs print for 90, 180, 270 and 360 degrees, and for 30, 45, 60, 120, 135 and 150."""
+_JOINTS = 4
+"""As many positions are those of an arm; a rotation and a translation have three numbers."""
 
 
 @rule(Severity.WARNING)
 def check(graph: CellGraph) -> Findings:
-    """Yield values in degrees with a number that is such a fraction of pi to its last digit."""
+    """Yield values in degrees with a number that is a fraction of pi to its last digit, and arms that hardly turn."""
     for path, text in graph.cell.places.texts.items():
-        number = next(_radians(text), None) if _DEGREES.fullmatch(text) else None
-        if number is not None:
-            degrees = math.degrees(float(number))
-            message = f"`{path[-1]}` must be in degrees, got `{text}`, where {number} is {degrees:.0f} deg in radians"
-            yield found(graph, path, message)
+        why = _why(text) if _DEGREES.fullmatch(text) else None
+        if why is not None:
+            yield found(graph, path, f"`{path[-1]}` must be in degrees, got `{text}`, where {why}")
 
 
-def _radians(text: str) -> Iterator[str]:
-    """Yield the numbers of three decimals or more that are a fraction of pi, rounded or cut at their last digit."""
-    for number in _NUMBER.finditer(text):
-        last_digit = 10.0 ** -len(number[1])
-        if any(abs(float(number[0]) - part) < last_digit for part in _PARTS):
-            yield number[0]
+def _why(text: str) -> str | None:
+    """Return what tells that numbers are radians; None where nothing does."""
+    numbers = [(number[0], len(number[1] or "")) for number in _NUMBER.finditer(text)]
+    for number, decimals in numbers:
+        if _is_fraction(float(number), decimals):
+            return f"{number} is {math.degrees(float(number)):.0f} deg in radians"
+    printed = sum(decimals > 1 for _, decimals in numbers)
+    if len(numbers) >= _JOINTS and printed > 1 and all(float(number) <= math.tau for number, _ in numbers):
+        return f"{len(numbers)} joints stand within {math.tau:.2f} of zero, as positions in radians do"
+    return None
+
+
+def _is_fraction(number: float, decimals: int) -> bool:
+    """Whether a number is a fraction of pi, rounded or cut at its last digit; a quarter turn is known by two."""
+    digit = 10.0**-decimals
+    parts = {2: _QUARTERS}.get(decimals, _PARTS if decimals > 2 else ())
+    return any(-digit / 2 <= part - number < digit for part in parts)

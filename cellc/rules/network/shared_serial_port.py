@@ -1,4 +1,4 @@
-"""Two devices are reached over one serial port.
+"""Two devices are reached over one port, serial or CAN.
 
 The second driver finds the port taken, or both write into it and each reads the answers of the other. A gripper then
 opens when its neighbour was told to.
@@ -19,7 +19,8 @@ devices:
   gripper: {connection: {host: control_pc, port: /dev/ttyUSB0}}
 ```
 
-Fix: write the port of each device, at best by a name that does not change, such as `/dev/serial/by-id/…`.
+Fix: write the port of each device, at best by a name that does not change: `/dev/serial/by-id/…`, or what udev calls a
+CAN bus.
 
 Source: https://man7.org/linux/man-pages/man2/TIOCEXCL.2const.html
 (man-pages 6.9): only a port that was put into exclusive mode refuses a second reader
@@ -50,6 +51,6 @@ def check(graph: CellGraph) -> Findings:
         owner = first.setdefault((link.host, link.port), device)
         if owner is not device:
             path = (*device.path, "connection", "port")
-            message = f"`{device.name}` must have a serial port of its own on `{link.host}`, got that of `{owner.name}`"
+            message = f"`{device.name}` must have a port of its own on `{link.host}`, got `{link.port}` of `{owner.name}`"
             related = (Related("first used here", graph.cell.locate(*owner.path, "connection", "port")),)
             yield found(graph, path, message, related=related)
