@@ -51,6 +51,6 @@ def check(graph: CellGraph) -> Findings:
         owner = first.setdefault((link.host, link.port), device)
         if owner is not device:
             path = (*device.path, "connection", "port")
-            message = f"`{device.name}` must have a port of its own on `{link.host}`, got `{link.port}` of `{owner.name}`"
+            message = f"`{device.name}` must have a port of its own on `{link.host}`, got that of `{owner.name}`"
             related = (Related("first used here", graph.cell.locate(*owner.path, "connection", "port")),)
             yield found(graph, path, message, related=related)
