@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
@@ -95,19 +95,22 @@ def read_device(name: str) -> Outcome[CatalogDevice]:
     return _load(file, f"{shown}/{file.relative_to(devices).as_posix()}", devices, read)
 
 
-def load_device_folder(folder: Path, root: Path, purse: Purse | None = None) -> Outcome[CatalogDevice]:
+def load_device_folder(
+    folder: Path, root: Path, purse: Purse | None = None, packages: Sequence[str] = ()
+) -> Outcome[CatalogDevice]:
     """Load a device that the user wrote: a folder with ``device.yaml`` and its description.
 
     Args:
         folder: the folder, as the user named it.
         root: the folder that the description and all it includes must lie under.
         purse: what expansions of the spec may still take; as much as one may where it is absent.
+        packages: further folders of packages that the spec names.
     """
 
     from cellc.description.read_description import read_description
 
     def read(file: Path, arguments: dict[str, str]) -> Outcome[Description]:
-        return read_description(file, arguments, root, purse)
+        return read_description(file, arguments, root, purse, packages)
 
     file = folder / DEVICE_FILE
     return _load(file, file.as_posix(), root, read)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 from cellc.catalog.load import CatalogDevice
 from cellc.vocabulary import Behaviour, Distro
@@ -12,13 +12,16 @@ _ASIDE_DEG = 20.0
 _UPDATE_RATE = "100 Hz"  # the controller manager's own default, for devices that accept any rate
 
 
-def starter_spec(name: str, distro: Distro, devices: Mapping[str, CatalogDevice], schema: str) -> str:
+def starter_spec(
+    name: str, distro: Distro, devices: Mapping[str, CatalogDevice], schema: str, packages: Sequence[str] = ()
+) -> str:
     """Write a spec that passes every check, in the layout of a hand-written one.
 
     Args:
         name: name of the cell and its package.
         devices: catalog entries by the names they get in the cell; at least one.
         schema: path or address of the JSON schema for the editor's modeline.
+        packages: folders of the repository in which the vendors' packages lie, relative to the spec.
 
     Returns:
         YAML text that ends in a newline.
@@ -31,6 +34,7 @@ def starter_spec(name: str, distro: Distro, devices: Mapping[str, CatalogDevice]
         f"cell: {name}",
         f"summary: {', '.join(entry.model.model for entry in devices.values())}, on the mock",
         f"versions: {{ros: {distro}}}        # what is missing here is UNKNOWN and blocks the real target",
+        *([f"packages: [{', '.join(packages)}]"] if packages else []),
         "devices:",
         *(line for device, entry in devices.items() for line in _device(device, entry, arms, devices)),
         *_control(distro, devices),

@@ -44,6 +44,7 @@ class Cell:
         hardware_packages: packages that the catalog knows to reach hardware.
         implied: what nodes have at the ROS graph by what they are.
         behaviours: controller plugin type string → what it does, for the plugins in use.
+        packages: further folders in which packages lie, as the current folder sees them.
     """
 
     name: str
@@ -82,6 +83,7 @@ class Cell:
     rehearsals: tuple[Rehearsal, ...] = ()
     implied: ImpliedEndpoints = field(default_factory=ImpliedEndpoints)
     behaviours: Mapping[str, Behaviour] = field(default_factory=dict)
+    packages: tuple[str, ...] = ()
 
     def locate(self, *path: str | int) -> Span:
         """Return the place of a YAML path, or of its nearest ancestor that the user wrote.

@@ -75,6 +75,7 @@ def import_(
     from cellc.importing.cell_text import FirstCell
     from cellc.importing.device_text import model_name
     from cellc.importing.folder import write_folder
+    from cellc.importing.source import packages_elsewhere
 
     folder = output or Path(model_name(found))
     semantic = srdf or semantic_file(found.file, found.description.name)
@@ -88,7 +89,8 @@ def import_(
     show(*(f"read {file.as_posix()}" for file in (semantic, moved.file) if file is not None))
     _tell_kept(folder, written)
     if with_cell:
-        _write_cell(folder, FirstCell(chain, written.away, moved, ros))
+        beside = packages_elsewhere(found, folder)
+        _write_cell(folder, FirstCell(chain, written.away, moved, ros, beside))
     errors = tuple(one for one in written.checked.diagnostics if one.severity is Severity.ERROR)
     if errors:
         show_findings((replace(written.checked.findings, diagnostics=errors),), "text")

@@ -13,6 +13,7 @@ import click
 from cellc.catalog.load import CatalogDevice, device_names, load_device
 from cellc.catalog.starter import starter_spec
 from cellc.cli.words import complete_named_model
+from cellc.description.packages import folders_elsewhere
 from cellc.diagnostics import did_you_mean
 from cellc.printing import show
 from cellc.store.swap import write_whole
@@ -50,7 +51,9 @@ def init(name: str, devices: tuple[str, ...], ros: str, output: Path | None, for
         raise click.UsageError(f"{file.as_posix()} exists; give --force to replace it, or -o for another file")
     entries = _named(devices)
     schema = quote(Path(os.path.relpath("schemas/cell.schema.json", file.parent)).as_posix())
-    write_whole(file, starter_spec(name, Distro(ros), entries, schema))
+    named = [one.model.description.package for one in entries.values() if one.model.description.package is not None]
+    beside = folders_elsewhere(named, file.parent.as_posix())
+    write_whole(file, starter_spec(name, Distro(ros), entries, schema, beside))
     show(f"wrote {file.as_posix()}")
     show(f"next: cellc build {shlex.quote(file.as_posix())} && cellc mock generated/{name}")
     if not Path("schemas/cell.schema.json").exists():

@@ -36,6 +36,9 @@ class ContractFiles(ContractModel):
     srdf: str | None = Field(None, description="Pairs of links whose collision is not checked, for planning groups.")
     rehearsals: str = Field(description="What the mock executes.")
     bring_up: str = Field(description="Steps from processes to motion, of the mock and of the real target.")
+    packages: tuple[str, ...] = Field(
+        (), description="Folders beside this one in which packages of meshes lie, relative to that of the spec."
+    )
 
 
 class ContractCalibration(ContractModel):

@@ -1,7 +1,7 @@
 """Where the mesh files of a robot description lie, which of them may be read, and how much of them.
 
-A name leads to a regular file in the folder of the spec or in a package of the package path, and nowhere else. What is
-in the file is read by a child process (`mesh_numbers`); here its bytes are counted and hashed.
+A name leads to a regular file in the folder of the spec, in those of its `packages:`, or on the package path, and
+nowhere else. What is in the file is read by a child process (`mesh_numbers`); here its bytes are counted and hashed.
 """
 
 from __future__ import annotations
@@ -198,7 +198,9 @@ def _find(name: str, roots: Sequence[Path], shelves: Sequence[Path]) -> Path:
     for root, folder in _packages(parts, roots):
         if os.path.lexists(file := folder.joinpath(*parts[1:])):
             return _regular(_within(file, root))
-    places = f"the folder of the spec or in those of {_SHELVES}" if roots else f"folders of {_SHELVES}"
+    places = (
+        f"the folder of the spec, in its `packages:` or in those of {_SHELVES}" if roots else f"folders of {_SHELVES}"
+    )
     raise MeshError(MESH_NOT_FOUND, f"could not be found in {places}")
 
 

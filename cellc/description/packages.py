@@ -1,7 +1,8 @@
 """Where the packages lie that a description names, and whether a file lies under a folder.
 
-Packages come with a spec, under its own folder, or lie in the folders of the package path, which whoever calls cellc
-gives. Variables of the environment count for nothing: the same call gives the same answer in every shell.
+Packages come with a spec, under its own folder or in the folders of its repository that it names, or lie in the folders
+of the package path, which whoever calls cellc gives. Variables of the environment count for nothing: the same call
+gives the same answer in every shell.
 
 The package path belongs to the process, as the limits do: the command line alone sets it, for the time of a command,
 and hands it to the processes that it starts.
@@ -12,7 +13,7 @@ from __future__ import annotations
 import glob
 import os
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -62,9 +63,9 @@ def searched_folders(name: str, root: str) -> tuple[str, ...]:
     return (root, *folders) if os.path.basename(os.path.abspath(root)) == name else folders
 
 
-def find_package(name: str, root: str) -> str | None:
-    """Return the first existing folder of a package, below the root or else on the package path, or None."""
-    places = (folder for place in (root, *package_path()) for folder in package_folders(name, place))
+def find_package(name: str, *roots: str) -> str | None:
+    """Return the first existing folder of a package, below the roots or else on the package path, or None."""
+    places = (folder for place in (*roots, *package_path()) for folder in package_folders(name, place))
     return next((folder for folder in places if os.path.isdir(folder)), None)
 
 
@@ -83,6 +84,23 @@ def package_folders(name: str, root: str) -> Iterator[str]:
     for below in ("", "*", os.path.join("src", "*"), os.path.join("src", "*", "*")):
         manifests = sorted(glob.glob(os.path.join(glob.escape(root), below, MANIFEST)))
         yield from (os.path.dirname(manifest) for manifest in manifests if declared_name(manifest) == name)
+
+
+def folders_elsewhere(names: Iterable[str], folder: str, candidates: Sequence[str] = ()) -> tuple[str, ...]:
+    """Return where packages lie that a folder does not hold, inside its repository and relative to it, each once.
+
+    Args:
+        candidates: folders to be tried before those above the folder.
+    """
+    top, here = repository_of(folder), os.path.realpath(folder)
+    above = [*map(os.path.realpath, candidates), *map(str, Path(here).parents)]
+    inside = [place for place in above if lies_under(place, top) and not lies_under(place, here)]
+    found: dict[str, None] = {}
+    for name in sorted(set(names)):
+        if not any(map(os.path.isdir, package_folders(name, folder))):
+            holding = (place for place in inside if any(map(os.path.isdir, package_folders(name, place))))
+            found |= dict.fromkeys([os.path.relpath(place, here).replace(os.sep, "/") for place in holding][:1])
+    return tuple(found)
 
 
 def root_of(file: Path) -> Path:

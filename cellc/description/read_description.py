@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from cellc.description.model import Description
@@ -14,7 +14,7 @@ from cellc.limits import Purse
 
 
 def read_description(
-    file: Path, arguments: Mapping[str, str], root: Path, purse: Purse | None = None
+    file: Path, arguments: Mapping[str, str], root: Path, purse: Purse | None = None, beside: Sequence[str] = ()
 ) -> Outcome[Description]:
     """Read a description that the user brought: ``.xacro`` is expanded in a child process, all else is URDF.
 
@@ -23,9 +23,10 @@ def read_description(
         arguments: values of ``<xacro:arg>``; a plain URDF takes none.
         root: the folder that the description and all it includes must lie under.
         purse: what expansions of the spec may still take; as much as one may where it is absent.
+        beside: further folders of packages that the spec names.
     """
     if file.suffix == ".xacro":
-        return _read_expanded(file, expand_xacro(file, arguments, root, purse=purse))
+        return _read_expanded(file, expand_xacro(file, arguments, root, purse=purse, beside=beside))
     start = Span(file.as_posix(), 1, 1, 1, 1)
     if arguments:
         message = f"`{file.name}` is URDF and takes no arguments"

@@ -10,7 +10,7 @@ from __future__ import annotations
 import glob
 import os
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any
 from xml.dom import minidom
@@ -32,9 +32,10 @@ _SUBSTITUTION = re.compile(r"\$\((\w+)\s*(.*?)\s*\)", re.DOTALL)
 class Confinement:
     """What xacro calls instead of its own functions during one expansion, and what was seen on the way."""
 
-    def __init__(self, root: str, shown_root: str | None = None) -> None:
+    def __init__(self, root: str, shown_root: str | None = None, beside: Sequence[str] = ()) -> None:
         self.root = root
-        self.files = ConfinedFiles(root, shown_root)
+        self.files = ConfinedFiles(root, shown_root, beside)
+        self._beside = tuple(beside)
         self.warnings: list[str] = []
         self.declared_arguments: set[str] = set()
         self.elements = 0
@@ -151,14 +152,14 @@ class Confinement:
         return arguments[name]
 
     def package(self, name: str) -> str:
-        """Return the folder of a package that lies under the root."""
-        folder = find_package(name, self.root)
+        """Return the folder of a package that lies under the root or beside it."""
+        folder = find_package(name, self.root, *self._beside)
         if folder is None:
             places = ", ".join(f"`{place}`" for place in searched_folders(name, self.root))
             raise XacroRefusedError(
                 "xacro-package-not-found",
                 f"package `{name}` is not found",
-                f"put it in one of {places}, or name its folder with `--package-path`",
+                f"put it in one of {places}, or name its folder in `packages:` of the spec or with `--package-path`",
             )
         self._packages[name] = folder
         return folder

@@ -11,7 +11,7 @@ import json
 import math
 import os
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -37,7 +37,7 @@ class Expansion:
 
 
 def expand_here(
-    file: str, arguments: Mapping[str, str], root: str, shown_root: str | None = None
+    file: str, arguments: Mapping[str, str], root: str, shown_root: str | None = None, beside: Sequence[str] = ()
 ) -> Outcome[Expansion]:
     """Expand a xacro file in this process: for files of the catalog, or inside a limited child process.
 
@@ -46,8 +46,9 @@ def expand_here(
         arguments: values of ``<xacro:arg>``.
         root: the folder that no file may lie outside of.
         shown_root: what stands for ``root`` in messages, where its place on the machine is of no interest.
+        beside: further folders of packages that the spec names.
     """
-    confinement = Confinement(root, shown_root)
+    confinement = Confinement(root, shown_root, beside)
     start = Span(confinement.files.shown(file), 1, 1, 1, 1)
     with confinement.installed():
         try:
@@ -127,7 +128,12 @@ def _one_line(text: str) -> str:
 
 
 def expand_xacro(
-    file: Path, arguments: Mapping[str, str], root: Path, wall_seconds: float = HANG_S, purse: Purse | None = None
+    file: Path,
+    arguments: Mapping[str, str],
+    root: Path,
+    wall_seconds: float = HANG_S,
+    purse: Purse | None = None,
+    beside: Sequence[str] = (),
 ) -> Outcome[Expansion]:
     """Expand a xacro file that the compiler does not vouch for.
 
@@ -137,6 +143,7 @@ def expand_xacro(
         root: the folder that no file may lie outside of.
         wall_seconds: time by the clock after which the expansion hangs.
         purse: processor time of the expansions of the spec; one that ends for its time is the last.
+        beside: further folders of packages that the spec names.
 
     Returns:
         The URDF text with the places of its links and joints, or diagnostics; never an exception.
@@ -145,6 +152,7 @@ def expand_xacro(
         "file": file.as_posix(),
         "arguments": dict(arguments),
         "root": root.as_posix(),
+        "beside": list(beside),
         "folder": os.getcwd(),
         "limits": as_options(limits()),
         "packages": [os.path.abspath(folder) for folder in package_path()],
@@ -204,7 +212,8 @@ def main() -> None:
     use_packages(request["packages"])
     confine_this_process(request["seconds"], limits().xacro_memory, 4 * limits().xml_bytes)
     os.chdir(request["folder"])  # names in diagnostics stay those that the user wrote
-    json.dump(_encoded(expand_here(request["file"], request["arguments"], request["root"])), sys.stdout)
+    expanded = expand_here(request["file"], request["arguments"], request["root"], beside=request["beside"])
+    json.dump(_encoded(expanded), sys.stdout)
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -51,22 +52,28 @@ class XacroRefusedError(XacroError):
 
 
 class ConfinedFiles:
-    """Reads under ``root``; links are resolved before the comparison. ``shown_root`` stands for it in messages."""
+    """Reads under ``root``; links are resolved before the comparison.
 
-    def __init__(self, root: str, shown_root: str | None = None) -> None:
+    ``shown_root`` stands for it in messages, and ``beside`` are further folders of packages that the spec names.
+    """
+
+    def __init__(self, root: str, shown_root: str | None = None, beside: Sequence[str] = ()) -> None:
         self.root = root
+        self._roots = (root, *beside)
         self._within = repository_of(root)
         self._shown_root = shown_root
         self._bytes_read = 0
 
     def holds(self, path: str) -> bool:
-        """Whether a path lies under the root, links followed."""
+        """Whether a path lies under the root or in a folder beside it, links followed."""
         # A path that is written out of the root is out of it; a link may lead to another folder of the repository.
         written = os.path.abspath(path)
         if any(f"{written}{os.sep}".startswith(f"{os.path.abspath(folder)}{os.sep}") for folder in package_path()):
             return True  # whoever calls chose it, and links to a workspace are usual there
-        return lies_under(path, self.root) or (
-            f"{written}{os.sep}".startswith(f"{os.path.abspath(self.root)}{os.sep}") and lies_under(path, self._within)
+        return any(
+            lies_under(path, root)
+            or (f"{written}{os.sep}".startswith(f"{os.path.abspath(root)}{os.sep}") and lies_under(path, self._within))
+            for root in self._roots
         )
 
     def checked(self, path: str) -> str:

@@ -28,9 +28,9 @@ class MeshFault:
 
 
 def mesh_roots(cell: Cell) -> tuple[Path, ...]:
-    """Return the folders under which meshes may lie: those of the files that name the devices."""
+    """Return the folders under which meshes may lie: of the files that name the devices, and those the spec names."""
     places = (cell.locate(*device.path, "model").file for device in cell.devices)
-    return tuple(dict.fromkeys(Path(place).parent for place in places))
+    return tuple(dict.fromkeys((*(Path(place).parent for place in places), *map(Path, cell.packages))))
 
 
 def spec_of(graph: CellGraph) -> Path:

@@ -22,12 +22,14 @@ class FirstCell:
 
     Attributes:
         away: where the joints of the chain go, rad or m.
+        packages: folders of the repository in which packages of the description lie, relative to the spec.
     """
 
     chain: Chain
     away: tuple[float, ...]
     controllers: ControllerFacts = field(default_factory=ControllerFacts)
     ros: str = "jazzy"
+    packages: tuple[str, ...] = ()
 
 
 def cell_text(name: str, folder: str, first: FirstCell) -> str:
@@ -41,6 +43,7 @@ def cell_text(name: str, folder: str, first: FirstCell) -> str:
             f"cell: {name}",
             f"summary: {name} on the mock, as `cellc import` made it",
             f"versions: {{ros: {first.ros}}}        # what is missing here is UNKNOWN and blocks the real target",
+            *([f"packages: [{', '.join(first.packages)}]"] if first.packages else []),
             "devices:",
             f"  arm: {{model: {folder}, mount: {{parent: world}}}}",
             "control:",

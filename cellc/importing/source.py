@@ -11,7 +11,7 @@ from pathlib import Path
 
 from cellc.description.meshes import MeshError, identify
 from cellc.description.model import Description, Mesh
-from cellc.description.packages import MANIFEST, declared_name, root_of
+from cellc.description.packages import MANIFEST, declared_name, folders_elsewhere, root_of
 from cellc.description.urdf_reader import read_urdf
 from cellc.description.xacro_expansion import expand_xacro
 from cellc.diagnostics import Outcome, Span
@@ -144,6 +144,13 @@ def _identified(name: str, root: Path) -> Path | None:
         return Path(identify(name, (root,)).path)
     except MeshError:
         return None
+
+
+def packages_elsewhere(robot: Robot, folder: Path) -> tuple[str, ...]:
+    """Return where the packages lie that a description names and its device folder does not hold, for `packages:`."""
+    named = re.findall(rf"{_PACKAGE}([^/\"']+)/", robot.text)
+    own = (name for name in named if not (folder / name).is_dir())
+    return folders_elsewhere(own, folder.parent.as_posix(), (root_of(robot.file).as_posix(),))
 
 
 def _license(file: Path) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -42,18 +42,21 @@ class BoundDevice:
     names: Placeholders
 
 
-def link_devices(spec: CellSpec, document: SourceDocument, distro: Distro | None) -> Outcome[tuple[BoundDevice, ...]]:
+def link_devices(
+    spec: CellSpec, document: SourceDocument, distro: Distro | None, packages: Sequence[str] = ()
+) -> Outcome[tuple[BoundDevice, ...]]:
     """Bind every device of the spec; parents of mounts are resolved among the devices themselves.
 
     Args:
         distro: the distribution that decides which release of a driver runs; None where the spec names none.
+        packages: further folders of packages that the spec names.
     """
     entries: dict[str, CatalogDevice] = {}
     kinematics: dict[str, Kinematics | None] = {}
     problems: list[Diagnostic] = []
     purse = Purse(limits().xacro_seconds_together, children_seconds)
     for name, written in spec.devices.items():
-        entry = _catalog_entry(name, written, document, purse)
+        entry = _catalog_entry(name, written, document, purse, packages)
         problems += entry.diagnostics
         if entry.value is not None:
             known = placeholders(name, prefix_of(name, written), written, spec)
@@ -71,7 +74,7 @@ def link_devices(spec: CellSpec, document: SourceDocument, distro: Distro | None
         # Mounted somewhere even so: what refers to its frames, its node and its joints is right.
         mount = parent.value or WORLD
         bound = _device(name, written, spec, document, entries[name], mount, distro, shifts[name])
-        vendor = link_vendor_description(bound.facts, document, prefix_of(name, written), purse)
+        vendor = link_vendor_description(bound.facts, document, prefix_of(name, written), purse, packages)
         shaped = replace(
             bound.device,
             description=with_vendor_shapes(bound.device.description, vendor),
@@ -97,10 +100,12 @@ def prefix_of(name: str, written: DeviceSpec) -> str:
     return f"{name}_" if written.prefix is None else written.prefix
 
 
-def _catalog_entry(name: str, written: DeviceSpec, document: SourceDocument, purse: Purse) -> Outcome[CatalogDevice]:
+def _catalog_entry(
+    name: str, written: DeviceSpec, document: SourceDocument, purse: Purse, packages: Sequence[str]
+) -> Outcome[CatalogDevice]:
     path = ("devices", name, "model")
     if "/" in written.model or written.model.startswith("."):
-        return local_device(written.model, document.locate(path), path, purse)
+        return local_device(written.model, document.locate(path), path, purse, packages)
     if written.model not in device_names():
         problem = Diagnostic(
             code="unknown-model",
@@ -257,7 +262,9 @@ def _interfaces(facts: DeviceModel, joint: Joint) -> JointInterfaces:
     return JointInterfaces()
 
 
-def local_device(model: str, place: Span, path: YamlPath, purse: Purse) -> Outcome[CatalogDevice]:
+def local_device(
+    model: str, place: Span, path: YamlPath, purse: Purse, packages: Sequence[str] = ()
+) -> Outcome[CatalogDevice]:
     """Load the device of a folder; what is wrong in it is reported there, with the line of the spec that names it.
 
     Args:
@@ -265,6 +272,7 @@ def local_device(model: str, place: Span, path: YamlPath, purse: Purse) -> Outco
         place: where the spec names it.
         path: the same place in the document.
         purse: what expansions of the spec may still take.
+        packages: further folders of packages that the spec names.
     """
     root = Path(place.file).parent
     folder = root / model
@@ -278,6 +286,6 @@ def local_device(model: str, place: Span, path: YamlPath, purse: Purse) -> Outco
         message = f"`{folder.as_posix()}/device.yaml` leads out of the folder of the spec"
         advice = "move the folder of the device beside the spec"
         return Outcome(None, (Diagnostic("include-escape", Severity.ERROR, message, place, path, advice),))
-    loaded = load_device_folder(folder, root, purse)
+    loaded = load_device_folder(folder, root, purse, packages)
     named = Related("the spec names this folder here", place)
     return Outcome(loaded.value, tuple(replace(one, related=(*one.related, named)) for one in loaded.diagnostics))

@@ -26,6 +26,7 @@ from cellc.link.interfaces import link_interfaces
 from cellc.link.motion import Machine, link_goals, link_groups, link_poses
 from cellc.link.moveit import link_octomap, link_servo, with_octomap
 from cellc.link.nodes import link_nodes, standard_nodes
+from cellc.link.packages import link_packages
 from cellc.link.planners import link_pipelines
 from cellc.link.programs import implied_endpoints, with_programs
 from cellc.link.rehearsals import link_rehearsals
@@ -58,12 +59,16 @@ def link(spec: CellSpec, document: SourceDocument) -> Outcome[Cell]:
         The cell where every reference could be bound; all references that could not, at once.
     """
     distro = _distro(spec, document)
-    devices = link_devices(spec, document, distro.value)
+    packages = link_packages(spec, document)
+    if packages.value is None:
+        return Outcome(None, (*distro.diagnostics, *packages.diagnostics))
+    devices = link_devices(spec, document, distro.value, packages.value)
     if distro.value is None or devices.value is None:
         return Outcome(None, (*distro.diagnostics, *devices.diagnostics))
     switched = link_switched(spec, document, devices.value)
     every = Outcome(switched.value, (*devices.diagnostics, *switched.diagnostics))
-    return _link_with_devices(spec, document, distro.value, every)
+    linked = _link_with_devices(spec, document, distro.value, every)
+    return replace(linked, value=None if linked.value is None else replace(linked.value, packages=packages.value))
 
 
 @dataclass(frozen=True, slots=True)

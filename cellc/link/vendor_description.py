@@ -7,6 +7,7 @@ rules.
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -19,18 +20,19 @@ from cellc.source.document import SourceDocument
 
 
 def link_vendor_description(
-    facts: DeviceModel, document: SourceDocument, prefix: str, purse: Purse
+    facts: DeviceModel, document: SourceDocument, prefix: str, purse: Purse, packages: Sequence[str] = ()
 ) -> VendorDescription | None:
     """Read the vendor's description; None where the catalog names none.
 
     Args:
         prefix: of the device; the vendor's names are taken without any.
         purse: what expansions of the spec may still take.
+        packages: further folders of packages that the spec names.
     """
     package, vendor = facts.description.package, facts.description.vendor
     if package is None or vendor is None:
         return None
-    folder = find_package(package, os.path.dirname(document.file) or ".")
+    folder = find_package(package, os.path.dirname(document.file) or ".", *packages)
     if folder is None:
         return VendorDescription(package=package)
     from cellc.description.read_description import read_description

@@ -19,7 +19,7 @@ from cellc.contract.quantities import LARGEST
 from cellc.contract.reading import FormatError, read_json
 from cellc.contract.rehearsals import RehearsalEntry, Rehearsals
 from cellc.description.model import Description
-from cellc.description.packages import lies_under
+from cellc.description.packages import lies_under, repository_of
 from cellc.description.urdf_reader import read_urdf
 from cellc.description.xml_tree import read_xml
 from cellc.diagnostics.unsafe_text import hidden_in_json, hidden_on_line
@@ -113,14 +113,24 @@ def read_folder(folder: Path, *, edited: bool = False) -> GeneratedFolder:
         notes=notes,
         edits=edits,
         listed=tuple(manifest.files),
-        mesh_roots=_mesh_roots(folder, contract.cell),
+        mesh_roots=_mesh_roots(folder, contract),
     )
 
 
-def _mesh_roots(folder: Path, cell: str) -> tuple[Path, ...]:
-    """Return where the spec lies as a rule: in `cells/NAME` beside `generated`, or beside `generated` itself."""
+def _mesh_roots(folder: Path, contract: Contract) -> tuple[Path, ...]:
+    """Return where the spec lies as a rule, and the folders of packages that it names in its repository.
+
+    That is in `cells/NAME` beside `generated`, or beside `generated` itself.
+    """
     above = Path(os.path.abspath(folder)).parents
-    return tuple(root for base in above[:2] for root in (base / "cells" / cell, base))
+    specs = [root for base in above[:2] for root in (base / "cells" / contract.cell, base)]
+    inside = (
+        spec / beside
+        for spec in specs
+        for beside in contract.files.packages
+        if spec.is_dir() and lies_under((spec / beside).as_posix(), repository_of(spec.as_posix()))
+    )
+    return tuple(dict.fromkeys((*specs, *inside)))
 
 
 def _bring_up(folder: Path, contract: Contract) -> BringUp:

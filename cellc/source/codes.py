@@ -178,10 +178,10 @@ CODES: tuple[CodePage, ...] = (
     ),
     _page(
         "include-escape",
-        "an include, a link or a device leads out of the folder of the spec",
+        "an include, a link, a device or a folder of packages leads out of what belongs to the spec",
         "A spec is reviewed and shipped as one folder. A part from elsewhere on the machine is not under review, "
         "differs between machines, and could pull in a private file. Symbolic links are followed before the "
-        "place is judged.",
+        "place is judged. Folders of `packages:` may lie elsewhere in the repository of the spec.",
         "move the included file into the folder of the root spec and write a relative path",
     ),
     _page(

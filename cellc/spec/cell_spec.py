@@ -13,6 +13,7 @@ from cellc.spec.interfaces import InterfaceSpec, NodeSpec
 from cellc.spec.rehearsals import HardwareStatementSpec, KpisSpec, RecordingSpec, RehearsalSpec, TargetSpec
 from cellc.spec.safety import BringupSpec, OwnersSpec, SafetySpec
 
+PackageFolder = Annotated[str, StringConstraints(min_length=1, max_length=255)]
 TopicName = Annotated[str, StringConstraints(min_length=1, max_length=255)]
 
 
@@ -27,6 +28,13 @@ class CellSpec(SpecModel):
         "", description="One sentence on what the cell does.", examples=["Picks parts from fixture A"], min_length=0
     )
     versions: VersionsSpec = Field(..., description="The pinned version tuple.", examples=[{"ros": "jazzy"}])
+    packages: tuple[PackageFolder, ...] = Field(
+        (),
+        description="Folders in which ROS packages of descriptions and meshes lie, relative to this file and in its "
+        "repository. The folder of the spec is searched before them.",
+        examples=[["../../vendor_ws"]],
+        max_length=100,
+    )
     hosts: dict[Name, HostSpec] = Field(
         default_factory=dict, description="Computers by name.", examples=[{"control_pc": {"scheduling": "preempt_rt"}}]
     )

@@ -7,6 +7,7 @@ parameters and in the SRDF, because the mock reads those; and costs of planning,
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from dataclasses import asdict
 
@@ -80,6 +81,7 @@ def _contract(graph: CellGraph, plan: Deployment) -> Contract:
 
 
 def _files(cell: Cell) -> ContractFiles:
+    beside = os.path.dirname(cell.locate("cell").file) or "."
     return ContractFiles(
         urdf_mock=description_file(cell, "mock"),
         urdf_real=description_file(cell, "real"),
@@ -87,6 +89,7 @@ def _files(cell: Cell) -> ContractFiles:
         srdf=semantic_file(cell) if cell.groups else None,
         rehearsals=REHEARSALS,
         bring_up=BRING_UP,
+        packages=tuple(os.path.relpath(folder, beside).replace(os.sep, "/") for folder in cell.packages),
     )
 
 

@@ -2,7 +2,7 @@
 
 Without the shape nobody checks collisions: poses and goals go unjudged, the semantic description lists neighbors alone,
 and the mock does not plan. A mesh is looked for in the folders of `--package-path`, then as a package in the folder of
-the spec. Shapes to look at (`<visual>`) are not read.
+the spec and in those of its `packages:`. Shapes to look at (`<visual>`) are not read.
 
 Example that is reported:
 
@@ -20,7 +20,7 @@ Example that is accepted:
 </link>
 ```
 
-Fix: name the folder of the package with `--package-path`, put the package beside the spec, or use boxes and cylinders.
+Fix: name the folder of the package in `packages:` of the spec or with `--package-path`, or use boxes and cylinders.
 
 Source: docs/principles.md#how-geometry-is-checked
 """
