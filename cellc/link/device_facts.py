@@ -204,7 +204,7 @@ def _camera(facts: DeviceModel, written: DeviceSpec, known: Placeholders, prefix
                 info_topic=known.fill(stream.info_topic),
                 frame=prefix + stream.frame,
                 rate_hz=stream.rate.si,
-                view=_view(stream.view),
+                view=field_of_view(stream.view),
                 image_bytes=_bytes(stream.image),
             )
             for stream in camera.streams.values()
@@ -217,7 +217,8 @@ def _bytes(facts: ImageFacts | None) -> int | None:
     return None if facts is None else facts.width * facts.height * facts.bytes_per_pixel
 
 
-def _view(facts: ViewFacts | None) -> FieldOfView | None:
+def field_of_view(facts: ViewFacts | None) -> FieldOfView | None:
+    """Return what a stream sees, in SI; None where the catalog does not say."""
     if facts is None:
         return None
     return FieldOfView(

@@ -231,10 +231,17 @@ def load(folder: Path, *, edited: bool = False) -> MockCell:
     Raises:
         MockError: the folder cannot be executed, or an edited file says otherwise than what is; names it and why.
     """
+    return cell_of(read_to_run(folder, edited=edited))
+
+
+def read_to_run(folder: Path, *, edited: bool = False) -> GeneratedFolder:
+    """Read a generated folder as `load` does, with notes on what is odd about it, before any model is built.
+
+    Raises:
+        MockError: as `load`.
+    """
     read = read_folder(folder, edited=edited)
-    if read.edits:
-        read = replace(read, notes=(*read.notes, *refuse_disagreement(folder, read)))
-    return cell_of(read)
+    return replace(read, notes=(*read.notes, *refuse_disagreement(folder, read))) if read.edits else read
 
 
 def cell_of(folder: GeneratedFolder) -> MockCell:

@@ -37,11 +37,16 @@ def svg(width: float, height: float, label: str, *children: Child, class_: str =
     return element
 
 
-def to_page(title: str, style: str, body: Element) -> str:
-    """Return a whole page."""
+def to_page(title: str, style: str, body: Element, *, policy: str = "") -> str:
+    """Return a whole page.
+
+    Args:
+        policy: Content-Security-Policy that the browser holds the page to; none if empty.
+    """
     head = tag(
         "head",
         tag("meta", charset="utf-8"),
+        *([tag("meta", http_equiv="Content-Security-Policy", content=policy)] if policy else []),
         tag("meta", name_="viewport", content="width=device-width, initial-scale=1"),
         tag("meta", name_="color-scheme", content="light dark"),
         tag("title", title),

@@ -208,18 +208,25 @@ def _change(change: StateChange) -> Element:
 
 def fault_times(faults: Sequence[FaultEntry], attempts: Sequence[AttemptRecord]) -> tuple[float, ...]:
     """Return the instants in seconds, rising; a fault whose event never came has none."""
-    return tuple(sorted(_times(faults, attempts))) if attempts else ()
+    return tuple(begun_s for begun_s, _ in begun_faults(faults, attempts))
 
 
-def _times(faults: Sequence[FaultEntry], attempts: Sequence[AttemptRecord]) -> Iterator[float]:
+def begun_faults(
+    faults: Sequence[FaultEntry], attempts: Sequence[AttemptRecord]
+) -> tuple[tuple[float, FaultEntry], ...]:
+    """Return the instant in seconds at which each fault began, rising; one whose event never came is left out."""
+    return tuple(sorted(_begun(faults, attempts), key=lambda begun: begun[0])) if attempts else ()
+
+
+def _begun(faults: Sequence[FaultEntry], attempts: Sequence[AttemptRecord]) -> Iterator[tuple[float, FaultEntry]]:
     begun_ns = attempts[-1].started_ns  # the last record sums up and begins with the first step
     for fault in faults:
         if fault.event is None:
-            yield begun_ns / 1e9 + (fault.at_s or 0.0)
+            yield begun_ns / 1e9 + (fault.at_s or 0.0), fault
             continue
         came_ns = _event_ns(fault.event, attempts[:-1])
         if came_ns is not None:
-            yield came_ns / 1e9 + fault.event.after_s
+            yield came_ns / 1e9 + fault.event.after_s, fault
 
 
 def _event_ns(event: FaultEvent, attempts: Sequence[AttemptRecord]) -> int | None:

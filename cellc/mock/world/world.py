@@ -165,6 +165,10 @@ class World:
         """Return the names of all objects, sorted."""
         return tuple(sorted(self._placements))
 
+    def placements(self, name: str) -> tuple[Placement, ...]:
+        """Return where an object stood from when on, in the order of time."""
+        return tuple(self._placements[name])
+
     def carrier(self, name: str) -> str:
         """Return the link that an object stands on or hangs from now."""
         return self._placements[name][-1].link

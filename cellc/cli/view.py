@@ -1,0 +1,66 @@
+"""``cellc view``: one HTML page of a cell, to be opened from the file system."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from cellc.cli.limit_option import limit_option
+from cellc.cli.words import complete_rehearsal
+from cellc.printing import refuse, show
+
+
+@click.command()
+@click.argument("folder", metavar="CELL", type=click.Path(path_type=str))
+@click.option(
+    "-o", "--output", type=click.Path(path_type=Path, dir_okay=False), help="Page to write; NAME.html if none."
+)
+@click.option(
+    "--rehearsal",
+    "names",
+    multiple=True,
+    metavar="NAME",
+    shell_complete=complete_rehearsal,
+    help="Play back only this one; may be given several times.",
+)
+@click.option("--seed", default=0, show_default=True, help="Seed of planning and of seeded faults.")
+@limit_option
+def view(folder: str, output: Path | None, names: tuple[str, ...], seed: int) -> None:
+    """Write one HTML page of CELL, a spec or a generated folder: 3D, rehearsals played back, findings, gates.
+
+    The page needs nothing else, neither network nor server: it opens from a file, on a phone too, and prints.
+
+    \b
+    cellc view cells/bench/cell.yaml                       writes bench.html
+    cellc view generated/bench --rehearsal pick -o pick.html
+    """
+    # Drawing loads the compiler, and playing back the planning.
+    from cellc.mock.errors import MockError
+    from cellc.store.swap import replace_whole
+    from cellc.view.content import content_of
+    from cellc.view.library import three_js
+    from cellc.view.page import to_html
+    from cellc.view.subject import ViewError, read_subject
+
+    try:
+        if output is not None and not output.absolute().parent.is_dir():
+            raise ViewError(f"{output.as_posix()}: cannot be written: no such folder")
+        subject = read_subject(Path(folder))
+        content = content_of(subject, names, seed)
+    except (ViewError, MockError) as problem:
+        refuse(str(problem))
+        raise click.exceptions.Exit(2) from None
+    library = three_js()
+    page = to_html(content, library).encode()
+    place = output or Path(f"{Path(folder).absolute().parent.name if subject.folder is None else subject.name}.html")
+    try:
+        replace_whole(place, page)
+    except OSError as error:
+        refuse(f"{place.as_posix()}: cannot be written: {(error.strerror or 'unknown reason').lower()}")
+        raise click.exceptions.Exit(2) from None
+    show(f"wrote {place.as_posix()}, {len(page) / 1e6:.1f} MB")
+    if library is None:
+        show("without 3D: the installed trimesh ships no three.js that cellc knows")
+    if subject.folder is None:
+        raise click.exceptions.Exit(1)

@@ -1,0 +1,279 @@
+// The page: the drawing, what is shown in it, and the time line of a rehearsal. Texts of the cell are text content only.
+const data = JSON.parse(document.getElementById("cell-data").textContent);
+const stage = document.getElementById("stage");
+
+function make(tag, text, parent, properties = {}) {
+  const element = Object.assign(document.createElement(tag), properties);
+  element.textContent = text;
+  parent.append(element);
+  return element;
+}
+
+class Labels {
+  constructor(place, camera) {
+    this.place = place;
+    this.camera = camera;
+    this.shown = [];
+  }
+
+  set(objects) {
+    this.place.replaceChildren();
+    this.shown = objects.map((object) => ({ object, element: make("span", object.userData.label, this.place) }));
+    for (const one of this.shown) one.size = [one.element.offsetWidth, one.element.offsetHeight];
+  }
+
+  // Nearer frames first; a label that would lie on another one is left out until the view is turned.
+  update(width, height) {
+    const taken = [];
+    const spot = new THREE.Vector3();
+    const depths = this.shown.map((one) => {
+      one.at = one.object.getWorldPosition(spot).clone().project(this.camera);
+      return one;
+    });
+    for (const one of depths.sort((a, b) => a.at.z - b.at.z)) {
+      const x = ((one.at.x + 1) / 2) * width + 6;
+      const y = ((1 - one.at.y) / 2) * height + 4;
+      const [wide, high] = one.size;
+      const box = [x, y, x + wide, y + high];
+      const hit = taken.some((other) => box[0] < other[2] && box[2] > other[0] && box[1] < other[3] && box[3] > other[1]);
+      const out = one.at.z > 1 || x < 0 || y < 0 || box[2] > width || box[3] > height;
+      one.element.hidden = hit || out;
+      if (one.element.hidden) continue;
+      one.element.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+      taken.push(box);
+    }
+  }
+}
+
+class Drawing {
+  constructor(place) {
+    this.place = place;
+    this.renderer = new THREE.WebGLRenderer({ antialias: true, alpha: true });
+    this.renderer.outputEncoding = THREE.sRGBEncoding;
+    this.canvas = this.renderer.domElement;
+    this.canvas.tabIndex = 0;
+    this.canvas.setAttribute("role", "img");
+    this.canvas.setAttribute("aria-label", "The cell in 3D; arrow keys turn it, + and - go nearer and away");
+    place.prepend(this.canvas);
+    this.scene = new THREE.Scene();
+    this.camera = new THREE.PerspectiveCamera(35, 1, 0.01, 100);
+    this.camera.up.set(0, 0, 1);
+    this.model = new CellModel(data.scene);
+    this.before = data.before ? new CellModel(data.before, { ghost: true }) : null;
+    const light = new THREE.DirectionalLight("#ffffff", 0.55);
+    light.position.set(0.4, 0.8, 1);
+    this.camera.add(light);
+    this.scene.add(this.camera, this.model.root, new THREE.HemisphereLight("#ffffff", "#8d97a3", 0.5));
+    if (this.before) this.scene.add(this.before.root);
+    this.labels = new Labels(place.querySelector(".labels"), this.camera);
+    this.orbit = new Orbit(this.camera, this.canvas, () => this.request());
+    this.floor();
+    this.fit();
+    new ResizeObserver(() => this.resize()).observe(place);
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.floor());
+    this.pick(place.querySelector(".picked"));
+    this.resize();
+  }
+
+  floor() {
+    this.scene.remove(this.grid);
+    const half = Math.max(1, Math.ceil(this.model.sphere.radius * 1.6));
+    const colour = getComputedStyle(document.documentElement).getPropertyValue("--rule").trim();
+    this.grid = new THREE.GridHelper(half * 2, half * 4, colour, colour).rotateX(Math.PI / 2);
+    this.scene.add(this.grid);
+    this.request();
+  }
+
+  // As near as all corners of what stands there are seen.
+  fit() {
+    const { orbit, camera, model: { box, sphere } } = this;
+    orbit.target.copy(sphere.center);
+    orbit.place();
+    const [right, up, back] = [0, 1, 2].map((column) => new THREE.Vector3().setFromMatrixColumn(camera.matrix, column));
+    const tangent = Math.tan((camera.fov * Math.PI) / 360);
+    const aspect = this.place.clientWidth / Math.max(1, this.place.clientHeight);
+    const distances = [0, 1, 2, 3, 4, 5, 6, 7].map((bits) => {
+      const corner = new THREE.Vector3(...["x", "y", "z"].map((axis, bit) => (bits >> bit & 1 ? box.max : box.min)[axis]));
+      corner.sub(sphere.center);
+      const aside = Math.max(Math.abs(corner.dot(right)) / aspect, Math.abs(corner.dot(up)));
+      return aside / tangent + corner.dot(back);
+    });
+    orbit.distance = Math.max(...distances) * 1.12;
+    orbit.place();
+  }
+
+  resize() {
+    const { clientWidth: width, clientHeight: height } = this.place;
+    if (!width || !height) return;
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer.setSize(width, height);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.request();
+  }
+
+  request() {
+    this.due ||= requestAnimationFrame(() => {
+      this.due = 0;
+      this.renderer.render(this.scene, this.camera);
+      this.labels.update(this.place.clientWidth, this.place.clientHeight);
+      document.documentElement.dataset.drawn ||= Math.round(performance.now());
+    });
+  }
+
+  show(layers, named) {
+    const labelled = [];
+    for (const [name, marks] of Object.entries(this.model.layers)) {
+      for (const mark of marks) mark.visible = layers.has(name);
+      if (layers.has(name)) labelled.push(...marks);
+    }
+    if (this.before) this.before.root.visible = layers.has("before");
+    this.labels.set(named ? labelled : []);
+    this.request();
+  }
+
+  pose(name) {
+    for (const model of [this.model, this.before]) {
+      const numbers = model?.postures.get(name);
+      if (numbers) model.stand(numbers);
+    }
+    this.request();
+  }
+
+  pick(words) {
+    const caster = new THREE.Raycaster();
+    let down = null;
+    this.canvas.addEventListener("pointerdown", (event) => { down = [event.clientX, event.clientY]; });
+    this.canvas.addEventListener("pointerup", (event) => {
+      if (!down || Math.hypot(event.clientX - down[0], event.clientY - down[1]) > 4) return;
+      const box = this.canvas.getBoundingClientRect();
+      caster.setFromCamera({ x: ((event.clientX - box.left) / box.width) * 2 - 1,
+        y: 1 - ((event.clientY - box.top) / box.height) * 2 }, this.camera);
+      const hit = caster.intersectObjects(this.model.bodies, false)[0];
+      words.textContent = hit ? hit.object.userData.words : "";
+    });
+  }
+}
+
+class Player {
+  constructor(place, drawing) {
+    this.drawing = drawing;
+    this.line = place.querySelector(".line");
+    this.slider = place.querySelector("input");
+    this.button = place.querySelector("button");
+    this.words = place.querySelector(".told");
+    this.choice = place.querySelector("select");
+    data.runs.forEach((run, number) => make("option", run.name, this.choice, { value: number }));
+    this.choice.addEventListener("change", () => this.choose(Number(this.choice.value)));
+    this.slider.addEventListener("input", () => { this.stop(); this.go(Number(this.slider.value)); });
+    this.button.addEventListener("click", () => (this.playing ? this.stop() : this.play()));
+    for (const link of document.querySelectorAll("[data-run]")) {
+      link.addEventListener("click", () => { this.choose(Number(link.dataset.run)); this.play(); });
+    }
+    this.choose(0, false);
+  }
+
+  choose(number, shown = true) {
+    this.stop();
+    this.run = data.runs[number];
+    this.choice.value = number;
+    this.playback = new Playback(this.run);
+    this.from = this.run.moments.length ? Math.max(0, this.run.moments[0].from_s - 0.2) : 0;
+    Object.assign(this.slider, { min: this.from, max: this.run.end_s, step: 0.01 });
+    this.slider.disabled = this.button.disabled = !this.run.times.length;
+    this.line.replaceChildren();
+    const share = (time) => `${(100 * (time - this.from)) / Math.max(1e-9, this.run.end_s - this.from)}%`;
+    for (const moment of this.run.moments) {
+      const wide = (moment.until_s - moment.from_s) / (this.run.end_s - this.from) > 0.08;
+      const span = make("span", wide ? moment.name : "", this.line);
+      span.className = moment.outcome === "succeeded" ? "step" : "step bad";
+      span.title = `${moment.name}: ${moment.outcome}${moment.reason ? `, ${moment.reason}` : ""}`;
+      span.style.left = share(moment.from_s);
+      span.style.width = `calc(${share(moment.until_s)} - ${share(moment.from_s)})`;
+    }
+    for (const fault of this.run.faults) {
+      const mark = make("i", "", this.line, { className: "fault", title: `${fault.name} at ${fault.at_s.toFixed(2)} s` });
+      mark.style.left = share(Math.max(this.from, fault.at_s));
+    }
+    this.time = this.from;
+    this.slider.value = this.from;
+    if (shown) this.go(this.from);
+    else this.tell();
+  }
+
+  play() {
+    if (!this.run.times.length) return;
+    if (this.time >= this.run.end_s - 0.01) this.time = this.from;
+    this.playing = true;
+    this.button.textContent = "Pause";
+    let last = performance.now();
+    const tick = (now) => {
+      if (!this.playing) return;
+      this.go(Math.min(this.run.end_s, this.time + (now - last) / 1000));
+      last = now;
+      if (this.time >= this.run.end_s) this.stop();
+      else requestAnimationFrame(tick);
+    };
+    requestAnimationFrame(tick);
+  }
+
+  stop() {
+    this.playing = false;
+    this.button.textContent = "Play";
+  }
+
+  go(time) {
+    this.time = time;
+    this.slider.value = time;
+    this.playback.show(this.drawing.model, time);
+    this.drawing.request();
+    this.tell();
+  }
+
+  tell() {
+    const { moments, faults, outcome, reason, end_s: end } = this.run;
+    const parts = [`${this.time.toFixed(2)} s`];
+    const now = moments.findLast((one) => one.from_s <= this.time);
+    if (now) parts.push(`step ${moments.indexOf(now) + 1} of ${moments.length}, ${now.name}`);
+    const begun = faults.filter((one) => one.at_s <= this.time).map((one) => one.name);
+    if (begun.length) parts.push(`fault: ${begun.join(", ")}`);
+    if (this.time >= end - 0.01) parts.push(reason ? `${outcome}: ${reason}` : outcome);
+    this.words.textContent = parts.join(" · ");
+  }
+}
+
+function start() {
+  const drawing = new Drawing(stage.querySelector(".drawing"));
+  const boxes = [...stage.querySelectorAll("[data-layer]")];
+  const show = () => {
+    const layers = new Set(boxes.filter((box) => box.checked).map((box) => box.dataset.layer));
+    drawing.show(layers, layers.has("names"));
+  };
+  boxes.forEach((box) => box.addEventListener("change", show));
+  const looks = { around: [-0.9, 0.45], front: [0, 0], side: [-Math.PI / 2, 0], above: [-Math.PI / 2, 1.55] };
+  for (const button of stage.querySelectorAll("[data-look]")) {
+    button.addEventListener("click", () => {
+      drawing.orbit.look(...looks[button.dataset.look]);
+      drawing.fit();
+    });
+  }
+  const poses = stage.querySelector(".poses");
+  for (const { name } of data.scene.poses) {
+    make("button", name, poses, { type: "button" }).addEventListener("click", () => { player?.stop(); drawing.pose(name); });
+  }
+  const legend = stage.querySelector(".legend");
+  for (const [name, colour] of drawing.model.colours) {
+    const entry = make("span", "", legend);
+    make("i", "", entry).style.background = `#${colour.getHexString()}`;
+    entry.append(name);
+  }
+  const place = stage.querySelector(".player");
+  const player = data.runs.length ? new Player(place, drawing) : null;
+  place.hidden = !player;
+  show();
+}
+
+if (data.scene && window.THREE && document.createElement("canvas").getContext("webgl")) {
+  stage.classList.add("ready");
+  start();
+}

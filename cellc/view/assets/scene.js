@@ -1,0 +1,147 @@
+// What stands in the page's data, as objects of three.js. Every pose is given; nothing is computed but where lines end.
+THREE.ColorManagement.legacyMode = false;
+const POSE = 7;
+const AXES = [[[1, 0, 0], "#d64545"], [[0, 1, 0], "#2f9e5b"], [[0, 0, 1], "#2f6fd6"]];
+const SCENE_COLOUR = "#a9b0b9";
+
+function deviceColour(number) {
+  return new THREE.Color().setHSL(((212 + number * 137.5) % 360) / 360, number ? 0.32 : 0.2, 0.55);
+}
+
+function placeAt(object, numbers, offset = 0) {
+  object.position.fromArray(numbers, offset);
+  object.quaternion.fromArray(numbers, offset + 3).normalize();
+}
+
+const makeGeometry = {
+  box: ([x, y, z]) => new THREE.BoxGeometry(x, y, z),
+  cylinder: ([radius, length]) => new THREE.CylinderGeometry(radius, radius, length, 32).rotateX(Math.PI / 2),
+  sphere: ([radius]) => new THREE.SphereGeometry(radius, 28, 18),
+};
+
+class CellModel {
+  constructor(data, { ghost = false } = {}) {
+    this.root = new THREE.Group();
+    this.groups = data.groups.map(() => new THREE.Group());
+    this.root.add(...this.groups);
+    this.colours = new Map(data.devices.map((name, number) => [name, deviceColour(number)]));
+    this.bodies = [];
+    this.postures = new Map(data.poses.map((pose) => [pose.name, pose.groups]));
+    for (const shape of data.shapes) this.addShape(shape, ghost);
+    if (data.poses.length) this.stand(data.poses[0].groups);
+    this.root.updateMatrixWorld(true);
+    this.box = new THREE.Box3();
+    for (const body of this.bodies) this.box.expandByObject(body);
+    if (this.box.isEmpty()) this.box.setFromCenterAndSize(new THREE.Vector3(), new THREE.Vector3(1, 1, 1));
+    this.sphere = this.box.getBoundingSphere(new THREE.Sphere());
+    this.layers = ghost ? {} : {
+      frames: this.marks(data.frames.filter((one) => one.kind !== "link"), (one) => this.triad(one, 1)),
+      links: this.marks(data.frames.filter((one) => one.kind === "link"), (one) => this.triad(one, 0.7)),
+      goals: this.marks(data.goals, (one) => this.goal(one)),
+      cones: this.marks(data.cones, (one) => this.cone(one)),
+    };
+  }
+
+  addShape(shape, ghost) {
+    const geometry = makeGeometry[shape.kind](shape.size);
+    const colour = ghost ? new THREE.Color("#d0762a") : this.colours.get(shape.owner) || new THREE.Color(SCENE_COLOUR);
+    const body = new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({
+      color: colour, transparent: ghost, opacity: ghost ? 0.28 : 1, depthWrite: !ghost }));
+    const edges = new THREE.LineSegments(new THREE.EdgesGeometry(geometry, 30),
+      new THREE.LineBasicMaterial({ color: colour.clone().multiplyScalar(0.4), transparent: true, opacity: 0.6 }));
+    body.userData.words = shape.owner ? `${shape.owner}: ${shape.link}` : shape.link;
+    body.add(edges);
+    placeAt(body, shape.pose);
+    this.groups[shape.group].add(body);
+    this.bodies.push(body);
+  }
+
+  marks(all, draw) {
+    return all.map((one) => {
+      const mark = draw(one);
+      placeAt(mark, one.pose);
+      mark.userData.label = one.name;
+      this.groups[one.group].add(mark);
+      return mark;
+    });
+  }
+
+  get unit() {
+    return Math.max(0.04, Math.min(0.25, this.sphere.radius * 0.08));
+  }
+
+  triad(one, scale) {
+    const mark = new THREE.Group();
+    const long = this.unit * scale;
+    for (const [axis, colour] of AXES) {
+      const bar = new THREE.Mesh(new THREE.CylinderGeometry(long * 0.035, long * 0.035, long, 8).translate(0, long / 2, 0),
+        new THREE.MeshBasicMaterial({ color: colour, depthTest: false, transparent: true }));
+      bar.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), new THREE.Vector3(...axis));
+      bar.renderOrder = 2;
+      mark.add(bar);
+    }
+    return mark;
+  }
+
+  goal(one) {
+    const mark = this.triad(one, 0.6);
+    if (!one.approach.length) return mark;
+    const from = new THREE.Vector3(...one.approach);
+    const arrow = new THREE.ArrowHelper(from.clone().negate().normalize(), from, from.length(), "#8a4fbf",
+      from.length() * 0.3, from.length() * 0.16);
+    for (const part of [arrow.line, arrow.cone]) Object.assign(part.material, { depthTest: false, transparent: true });
+    for (const part of [arrow.line, arrow.cone]) part.renderOrder = 2;
+    mark.add(arrow);
+    return mark;
+  }
+
+  cone(one) {
+    const [near, far] = [one.depths[0], Math.min(one.depths[1], this.sphere.radius)];
+    const [right, up] = one.angles.map((angle) => Math.tan(angle / 2));
+    const corner = (z, x, y) => [x * right * z, y * up * z, z];
+    const ring = [[-1, -1], [1, -1], [1, 1], [-1, 1]];
+    const lines = [], faces = [];
+    ring.forEach(([x, y], number) => {
+      const [x2, y2] = ring[(number + 1) % 4];
+      lines.push(...corner(near, x, y), ...corner(far, x, y), ...corner(far, x, y), ...corner(far, x2, y2));
+      lines.push(...corner(near, x, y), ...corner(near, x2, y2));
+      faces.push(0, 0, 0, ...corner(far, x, y), ...corner(far, x2, y2));
+    });
+    const buffer = (numbers) => new THREE.BufferGeometry().setAttribute("position", new THREE.Float32BufferAttribute(numbers, 3));
+    const mark = new THREE.Group();
+    mark.add(new THREE.LineSegments(buffer(lines), new THREE.LineBasicMaterial({ color: "#b8860b" })));
+    mark.add(new THREE.Mesh(buffer(faces), new THREE.MeshBasicMaterial({
+      color: "#e0a81f", transparent: true, opacity: 0.1, side: THREE.DoubleSide, depthWrite: false })));
+    return mark;
+  }
+
+  stand(numbers) {
+    this.groups.forEach((group, number) => placeAt(group, numbers, number * POSE));
+  }
+}
+
+// Where every group stood at a time of a run: between two pictures along the straight line and the shorter arc.
+class Playback {
+  constructor(run) {
+    this.run = run;
+  }
+
+  show(model, time) {
+    const { times, base, tracks } = this.run;
+    if (!times.length) return;
+    let after = times.findIndex((one) => one > time);
+    if (after < 0) after = times.length - 1;
+    const before = Math.max(0, after - 1);
+    const span = times[after] - times[before];
+    const share = span > 0 ? Math.min(1, Math.max(0, (time - times[before]) / span)) : 1;
+    model.stand(base);
+    for (const { group, poses } of tracks) {
+      const object = model.groups[group];
+      const end = new THREE.Group();
+      placeAt(object, poses, before * POSE);
+      placeAt(end, poses, after * POSE);
+      object.position.lerp(end.position, share);
+      object.quaternion.slerp(end.quaternion, share);
+    }
+  }
+}

@@ -1,0 +1,181 @@
+"""The whole page as HTML: elements for people, one script for the drawing, and a policy that lets nothing else in."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict
+from importlib.resources import files
+from xml.etree.ElementTree import Element
+
+from cellc.diagnostics import Severity
+from cellc.mock.report_page.html import Child, count, tag, to_page
+from cellc.view.content import Content
+from cellc.view.scene import Scene
+from cellc.view.sections import findings_section, gates_section, interfaces_section, rehearsals_section, section
+
+_SCRIPTS = ("orbit.js", "scene.js", "page.js")
+_LAYERS = (
+    ("frames", "frames of the cell", True),
+    ("links", "frames of links", False),
+    ("names", "names", True),
+    ("goals", "goals", True),
+    ("cones", "fields of view", False),
+)
+_LOOKS = ("around", "front", "side", "above")
+_CAPTIONS = {"graph/responsibility.svg": ("graph", "Who tells what to whom", "The graph of responsibilities")}
+
+
+def to_html(content: Content, library: str | None) -> str:
+    """Return the page; the same content gives the same bytes.
+
+    Args:
+        library: text of three.js; without it the page has pictures and words alone.
+    """
+    style = "".join(_asset(package, name) for package, name in _STYLES)
+    scripts = () if content.scene is None or library is None else (library, _script())
+    main = tag("main", *_parts(content, drawn=bool(scripts)))
+    data = tag("script", id="cell-data", type="application/json")
+    data.text = _json(content)
+    body = tag("body", main, *([data] if scripts else []))
+    for text in scripts:
+        body.append(_with_text("script", text))
+    return to_page(f"{content.subject.name}: the cell", style, body, policy=_policy(style, scripts))
+
+
+_STYLES = (("cellc.mock.report_page", "style.css"), ("cellc.view.assets", "page.css"))
+
+
+def _asset(package: str, name: str) -> str:
+    return (files(package) / name).read_text(encoding="utf-8")
+
+
+def _script() -> str:
+    return '"use strict";\n' + "".join(_asset("cellc.view.assets", name) for name in _SCRIPTS)
+
+
+def _with_text(name: str, text: str) -> Element:
+    element = Element(name)
+    element.text = text
+    return element
+
+
+def _json(content: Content) -> str:
+    """Return what the script reads; no text of the cell ends the element that holds it."""
+    told = {
+        "scene": None if content.scene is None else asdict(content.scene),
+        "runs": [asdict(one) for one in content.runs],
+    }
+    return json.dumps(told, ensure_ascii=True, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
+
+
+def _policy(style: str, scripts: Sequence[str]) -> str:
+    """Return what the browser may load and run: what stands in this page, and nothing from anywhere."""
+    allowed = " ".join(map(_hash, scripts)) or "'none'"
+    sources = f"img-src data:; style-src {_hash(style)}; script-src {allowed}"
+    return f"default-src 'none'; {sources}; base-uri 'none'; form-action 'none'"
+
+
+def _hash(text: str) -> str:
+    return f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'"
+
+
+def _parts(content: Content, *, drawn: bool) -> Iterator[Element]:
+    subject, folder = content.subject, content.subject.folder
+    yield _header(content)
+    if content.scene is not None and drawn:
+        yield _stage(content.scene)
+    if content.runs:
+        yield rehearsals_section(content.runs)
+    if subject.findings is not None:
+        yield findings_section(subject.findings)
+    if folder is not None:
+        yield interfaces_section(folder.contract)
+        yield from _pictures(subject.pictures)
+        yield gates_section(folder.contract)
+
+
+def _header(content: Content) -> Element:
+    subject, folder = content.subject, content.subject.folder
+    contract = None if folder is None else folder.contract
+    facts = [] if contract is None else [("configuration", contract.configuration_id), ("ROS 2", contract.distro.value)]
+    found = [] if subject.findings is None else [one.severity for one in subject.findings.diagnostics]
+    facts += [("findings", ", ".join(_counted(found)) or "none")] if subject.findings is not None else []
+    left_out = content.scene.left_out if content.scene is not None else 0
+    notes = [*(() if folder is None else folder.notes)]
+    notes += [f"{count(left_out, 'mesh')} not drawn: meshes are left out"] if left_out else []
+    notes += (
+        ["an error keeps the package from being made: what is drawn follows once it is mended"]
+        if folder is None
+        else []
+    )
+    return tag(
+        "header",
+        tag("p", "Robot cell", class_="kicker"),
+        tag("h1", subject.name),
+        *([] if contract is None else [tag("p", contract.summary, class_="summary")]),
+        tag("dl", *(tag("div", tag("dt", name), tag("dd", value)) for name, value in facts), class_="facts"),
+        *(tag("p", tag("b", "Note: "), note, class_="note") for note in notes),
+        tag("nav", *(tag("a", words, href=f"#{id_}") for id_, words in _places(content))),
+    )
+
+
+def _counted(found: Sequence[Severity]) -> Iterator[str]:
+    return (count(found.count(one), one.value) for one in Severity if one in found)
+
+
+def _places(content: Content) -> Iterator[tuple[str, str]]:
+    if content.runs:
+        yield "rehearsals", "Rehearsals"
+    if content.subject.findings is not None:
+        yield "findings", "Findings"
+    if content.subject.folder is not None:
+        yield from (("interfaces", "Interfaces"), ("graph", "Graph"), ("gates", "Gates"))
+
+
+def _pictures(pictures: Mapping[str, str]) -> Iterator[Element]:
+    for file, text in pictures.items():
+        id_, title, words = _CAPTIONS[file]
+        # As a picture, nothing in it runs, whoever wrote it.
+        source = f"data:image/svg+xml;base64,{base64.b64encode(text.encode()).decode()}"
+        yield section(id_, title, tag("figure", tag("div", tag("img", src=source, alt=words), class_="wide")))
+
+
+def _stage(scene: Scene) -> Element:
+    drawing = tag("div", tag("div", class_="labels"), tag("p", class_="picked"), class_="drawing")
+    looks = [tag("button", name, type="button", data_look=name) for name in _LOOKS]
+    layers = [_layer(name, words, checked) for name, words, checked in _LAYERS if name in _offered(scene)]
+    controls = tag(
+        "div",
+        *_titled("Look", tag("div", *looks, class_="buttons")),
+        *_titled("Pose", tag("div", class_="buttons poses")),
+        *_titled("Show", tag("div", *layers, class_="layers")),
+        *_titled("Devices", tag("div", class_="swatches legend")),
+        class_="controls",
+    )
+    time = tag(
+        "div", tag("div", class_="line"), tag("input", type="range", aria_label="time of the rehearsal"), class_="time"
+    )
+    choice = tag("select", aria_label="rehearsal")
+    player = tag(
+        "div", choice, tag("button", "Play", type="button"), time, tag("p", class_="told"), class_="player", hidden=""
+    )
+    return tag("div", drawing, controls, player, id="stage")
+
+
+def _offered(scene: Scene) -> set[str]:
+    return {"frames", "links", "names"} | ({"goals"} if scene.goals else set()) | ({"cones"} if scene.cones else set())
+
+
+def _titled(title: str, content: Element) -> tuple[Element, Element]:
+    return tag("h3", title), content
+
+
+def _layer(name: str, words: str, checked: bool) -> Element:
+    box = tag("input", type="checkbox", data_layer=name)
+    if checked:
+        box.set("checked", "")
+    parts: tuple[Child, ...] = (box, words)
+    return tag("label", *parts, class_="layer")

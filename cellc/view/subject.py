@@ -1,0 +1,107 @@
+"""What is viewed: a spec with its findings, or a generated folder; either way the package that the mock reads."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from cellc.catalog.load import device_names, load_device
+from cellc.cell.cell import Cell
+from cellc.cell.device import FieldOfView
+from cellc.contract.contract import Contract
+from cellc.diagnostics.diagnostic import Findings
+from cellc.link.device_facts import field_of_view
+from cellc.mock.cell import read_to_run
+from cellc.mock.errors import MockError
+from cellc.mock.folder import CONTRACT_FILE, GeneratedFolder, read_folder, read_text
+from cellc.output.write import write
+
+SPEC_FILE = "cell.yaml"
+"""What a spec is called where its folder is named."""
+PICTURES = ("graph/responsibility.svg",)
+"""Files of a package that the page shows as pictures."""
+
+
+class ViewError(Exception):
+    """There is nothing to show; the text is one line, lower case."""
+
+
+@dataclass(frozen=True, slots=True)
+class Subject:
+    """What the page is of.
+
+    Attributes:
+        findings: what the check says, with the text of the spec; None for a generated folder.
+        folder: the package; None where an error keeps it from being made.
+        views: what cameras see, by optical frame.
+        pictures: text of the package's pictures, by file.
+    """
+
+    name: str
+    findings: Findings | None
+    folder: GeneratedFolder | None
+    views: Mapping[str, FieldOfView] = field(default_factory=dict)
+    pictures: Mapping[str, str] = field(default_factory=dict)
+
+
+def read_subject(path: Path) -> Subject:
+    """Read a generated folder, or check and compile a spec, also the `cell.yaml` of a folder.
+
+    Raises:
+        ViewError: the folder is none that `cellc build` wrote, or not as it was written beyond what edits explain.
+    """
+    spec = path / SPEC_FILE
+    try:
+        if path.is_dir() and (not spec.is_file() or (path / CONTRACT_FILE).exists()):
+            return _of_folder(path)
+        return _of_spec(spec if path.is_dir() else path)
+    except MockError as problem:
+        raise ViewError(str(problem)) from None
+
+
+def _of_folder(path: Path) -> Subject:
+    folder = read_to_run(path, edited=True)
+    views = dict(_views_by_model(folder.contract))
+    return Subject(folder.contract.cell, None, folder, views, _pictures(path, folder))
+
+
+def _of_spec(path: Path) -> Subject:
+    # A folder is shown without the compiler, which takes a second to load.
+    from cellc.pipeline import check, emit_cell
+
+    checked = check(path)
+    emitted = emit_cell(checked)
+    findings = checked.findings.with_more(emitted.diagnostics)
+    if emitted.value is None or checked.graph is None:
+        return Subject(path.as_posix(), findings, None)
+    cell = checked.graph.cell
+    with tempfile.TemporaryDirectory(prefix="cellc-view-") as place:
+        package = Path(place) / cell.name
+        write(emitted.value, package)
+        folder = replace(read_folder(package), mesh_roots=(path.absolute().parent,))
+        pictures = _pictures(package, folder)
+    return Subject(cell.name, findings, folder, dict(_views(cell)), pictures)
+
+
+def _pictures(path: Path, folder: GeneratedFolder) -> dict[str, str]:
+    return {name: read_text(path, name) for name in PICTURES if name in folder.listed}
+
+
+def _views(cell: Cell) -> Iterator[tuple[str, FieldOfView]]:
+    for device in cell.devices:
+        for stream in () if device.camera is None else device.camera.streams:
+            if stream.view is not None:
+                yield stream.frame, stream.view
+
+
+def _views_by_model(contract: Contract) -> Iterator[tuple[str, FieldOfView]]:
+    """Yield what cameras of the catalog see: a package does not hold it."""
+    for device in contract.devices.values():
+        known = load_device(device.model).value if device.camera and device.model in device_names() else None
+        facts = None if known is None else known.model.camera
+        for stream in () if facts is None else facts.streams.values():
+            view = field_of_view(stream.view)
+            if view is not None:
+                yield f"{device.prefix}{stream.frame}", view

@@ -1,0 +1,157 @@
+"""The page of a cell: it needs nothing from outside, runs nothing of a stranger's, and says what the spec says."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import re
+import shutil
+import subprocess
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from cellc.view.content import Content, content_of
+from cellc.view.library import three_js
+from cellc.view.page import to_html
+from cellc.view.subject import read_subject
+from tests.cells import ROOT
+from tests.cli.run import PICK, run
+from tests.view.page import Page
+
+HOSTILE = "</script><script>alert(1)</script><!--<script>\u2028<img src=x onerror=alert(1)>\"'&lt;"
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the page of a spec, as the command writes it."""
+    place = tmp_path_factory.mktemp("view") / "cell.html"
+    ran = run("view", PICK, "-o", place.as_posix())
+    assert (ran.code, ran.err) == (0, "")
+    assert ran.out.startswith(f"wrote {place.as_posix()}, ")
+    return place
+
+
+@pytest.fixture(scope="module")
+def page(written: Path) -> Page:
+    """Return the same, parsed."""
+    return Page(written.read_text(encoding="utf-8"))
+
+
+@pytest.fixture(scope="module")
+def of_folder() -> Content:
+    """Return what is shown of the generated folder of the same cell."""
+    return content_of(read_subject(ROOT / "generated/ur5e_pick"), (), 0)
+
+
+def test_the_page_loads_nothing_and_names_nothing_to_load(written: Path, page: Page) -> None:
+    loading = ("src", "href", "srcset", "action", "data", "poster", "background")
+    named = {found[key] for _, found in page.elements for key in loading if key in found}
+    assert {one for one in named if not one.startswith(("#", "data:image/svg+xml;base64,"))} == set()
+    assert not any(re.search(r"url\(|@import", style) for style in page.styles)
+    assert written.stat().st_size < 2_000_000
+
+
+def test_the_browser_is_told_to_run_the_scripts_of_the_page_alone(page: Page) -> None:
+    def digest(text: str) -> str:
+        return f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'"
+
+    kinds = [found.get("type") for tag, found in page.elements if tag == "script"]
+    assert kinds == ["application/json", None, None]
+    assert page.policy["default-src"] == ["'none'"]
+    assert page.policy["script-src"] == [digest(text) for text in page.scripts[1:]]
+    assert page.policy["style-src"] == [digest(text) for text in page.styles]
+    # Under that policy neither an attribute of an element may run something, nor style it.
+    assert not [name for _, found in page.elements for name in found if name.startswith("on") or name == "style"]
+
+
+def test_three_js_stands_in_the_page_with_its_license(page: Page) -> None:
+    assert page.scripts[1] == three_js()
+    assert "Three.js Authors" in page.scripts[1][:200]
+    assert "SPDX-License-Identifier: MIT" in page.scripts[1][:200]
+
+
+def test_a_spec_and_its_generated_folder_are_drawn_alike(page: Page, of_folder: Content) -> None:
+    html = to_html(of_folder, three_js())
+    assert Page(html).data == page.data
+    assert to_html(of_folder, three_js()) == html
+
+
+def test_names_of_strangers_are_data(of_folder: Content) -> None:
+    scene, (first, *_) = of_folder.scene, of_folder.runs
+    assert scene is not None
+    assert of_folder.subject.folder is not None
+    contract = of_folder.subject.folder.contract
+    folder = replace(of_folder.subject.folder, contract=contract.model_copy(update={"summary": HOSTILE}))
+    hostile = replace(
+        of_folder,
+        subject=replace(of_folder.subject, name=HOSTILE, folder=folder, pictures={"graph/responsibility.svg": HOSTILE}),
+        scene=replace(scene, frames=tuple(replace(one, name=HOSTILE) for one in scene.frames)),
+        runs=(replace(first, name=HOSTILE, reason=HOSTILE),),
+    )
+    calm, found = Page(to_html(of_folder, three_js())), Page(to_html(hostile, three_js()))
+    assert len(found.scripts) == len(calm.scripts)
+    assert found.scripts[1:] == calm.scripts[1:]
+    assert not [tag for tag, attributes in found.elements if tag == "img" and "onerror" in attributes]
+    assert found.data["scene"]["frames"][0]["name"] == HOSTILE
+    assert found.data["runs"][0]["name"] == HOSTILE
+    assert "<img src=x onerror=alert(1)>" in found.text
+
+
+def test_the_page_says_what_the_spec_says(page: Page) -> None:
+    # Literally from cells/ur5e_pick/cell.yaml: summary, an interface with its bounds, the owner of a gate, a blocker.
+    assert "picks parts from fixture A under a wrist camera" in page.text
+    assert re.search(r"/camera/color/image_raw .* best effort, volatile, last 1 .* at most 0.1 s old", page.text)
+    assert "30 Hz" in page.text
+    assert re.search(r"G3 Network .* network", page.text)
+    assert re.search(r"\d+ \| +firmware: UNKNOWN", page.text)
+
+
+def test_a_spec_with_errors_is_shown_with_its_findings_alone(tmp_path: Path) -> None:
+    spec = tmp_path / "cell.yaml"
+    spec.write_text("format: 1\ncell: bench\nframes: { <b>tip: {}}\n", encoding="utf-8")
+    ran = run("view", spec.as_posix(), "-o", (tmp_path / "x.html").as_posix())
+    found = Page((tmp_path / "x.html").read_text(encoding="utf-8"))
+    assert ran.code == 1
+    assert found.scripts == []
+    assert "3 | frames: { <b>tip" in found.text
+    assert "an error keeps the package from being made" in found.text
+    assert [tag for tag, _ in found.elements].count("b") == 1  # that of the note
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (("generated/ur5e_pick", "--rehearsal", "nope"), "has no rehearsal `nope`"),
+        (("tests/view",), "holds no contract.json"),
+        (("generated/ur5e_pick", "-o", "no/such/folder/x.html"), "cannot be written"),
+    ],
+)
+def test_what_cannot_be_shown_is_told_in_one_line(
+    arguments: tuple[str, ...], told: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(ROOT)
+    ran = run("view", *arguments)
+    assert ran.code == 2
+    assert ran.err.startswith("error: ")
+    assert ran.err.count("\n") == 1
+    assert told in ran.err
+
+
+@pytest.mark.skipif(shutil.which("chromium") is None, reason="no chromium on this machine")
+def test_a_browser_draws_the_page_without_a_word_on_its_console(written: Path) -> None:
+    graphics = ("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+    seen = ("--enable-logging=stderr", "--virtual-time-budget=2000", "--dump-dom")
+    done = subprocess.run(
+        ["chromium", "--headless", "--no-sandbox", *graphics, *seen, written.as_uri()],
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=120,
+    )
+    assert [line for line in done.stderr.splitlines() if "CONSOLE" in line] == []
+    drawn = Page(done.stdout)
+    assert drawn.elements[0][1].keys() >= {"data-drawn"}
+    assert "pick_and_place" in drawn.text
+    assert "fixture_A" in drawn.text
