@@ -18,7 +18,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from cellc.cli.batch import usable_cores
+from cellc.compute.processes import usable_cores
 
 ROOT = Path(__file__).resolve().parents[1]
 TEMPLATES = sorted((ROOT / "cells").glob("*/cell.yaml"))

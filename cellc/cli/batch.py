@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Generator, Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+from contextlib import closing
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Literal
 
+import click
+
 from cellc.artifact import Artifact
-from cellc.description.packages import on_package_path, package_path
+from cellc.compute.processes import processes, usable_cores
+from cellc.compute.work import ComputeError, Work, in_order, stream
+from cellc.description.packages import package_path, use_packages
 from cellc.diagnostics.diagnostic import Findings
-from cellc.limits import Limits, in_force, limits
+from cellc.limits import Limits, limits, use
 from cellc.rules.shared_domain import Presence, presence_of, shared_domains
-from cellc.signals import deaf_children, start_deaf_tracker
 
 Kind = Literal["check", "compile"]
 
@@ -94,9 +98,19 @@ def compute(kind: Kind, file: str) -> CellResult:
     return CellResult(checked.findings.with_more(compiled.diagnostics), presence_of(checked.graph), artifacts)
 
 
-def _compute_within(chosen: Limits, packages: Sequence[str], kind: Kind, file: str) -> CellResult:
-    with in_force(chosen), on_package_path(packages):
-        return compute(kind, file)
+@dataclass(frozen=True, slots=True)
+class _Asked:
+    """What every process of a call is told."""
+
+    kind: Kind
+    limits: Limits
+    packages: tuple[str, ...]
+
+
+def _compute_within(asked: _Asked) -> Callable[[str], CellResult]:
+    use(asked.limits)
+    use_packages(asked.packages)
+    return partial(compute, asked.kind)
 
 
 def number_of_workers(kind: Kind, cells: int, cores: int | None = None) -> int:
@@ -109,33 +123,16 @@ def number_of_workers(kind: Kind, cells: int, cores: int | None = None) -> int:
     return max(1, min(available, cells // _CELLS_THAT_PAY[kind], MOST_WORKERS))
 
 
-def usable_cores() -> int:
-    """Return the number of cores that the system lets this process use."""
-    affinity = getattr(os, "sched_getaffinity", None)
-    return len(affinity(0)) if affinity is not None else os.cpu_count() or 1
-
-
 def in_workers(kind: Kind, files: Sequence[str], number: int) -> Generator[CellResult, None, None]:
     """Yield results in the order of the specs, however many processes compute them; closing it ends them all.
 
     Raises:
+        ClickException: a spec ends every process that computes it.
         Stopped: what had not begun was dropped, and no process is left.
     """
-    # Python's machinery of processes takes longer to load than a small cell to check.
-    from concurrent.futures.process import BrokenProcessPool, ProcessPoolExecutor
-    from multiprocessing import get_context
-
-    start_deaf_tracker()
-    # Spawned on every platform: nothing of this process, its locks and threads above all, is copied into them.
-    pool = ProcessPoolExecutor(number, get_context("spawn"))
-    done = 0
+    work = Work(_compute_within, _Asked(kind, limits(), package_path()))
     try:
-        with deaf_children():
-            computed = pool.map(partial(_compute_within, limits(), package_path(), kind), files)
-        for result in computed:
-            done += 1
-            yield result
-    except BrokenProcessPool:  # the system ended one, for want of memory say
-        yield from (compute(kind, file) for file in files[done:])
-    finally:
-        pool.shutdown(cancel_futures=True)
+        with closing(stream(work, files, processes(number))) as computed:
+            yield from in_order(computed)
+    except ComputeError as problem:
+        raise click.ClickException(str(problem)) from None

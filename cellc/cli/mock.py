@@ -21,6 +21,7 @@ from cellc.cli.words import complete_rehearsal
 @click.option("--campaign", is_flag=True, help="Run every fault at every step, and print the matrix.")
 @click.option("--pairs", default=0, metavar="N", help="With --campaign: N runs more, with two faults each.")
 @click.option("--jobs", type=int, metavar="N", help="With --campaign: processes; as many as cores by default.")
+@click.option("--cluster", metavar="ADDRESS", help="With --campaign: a scheduler of Dask, such as tcp://10.0.0.7:8786.")
 @click.option("--list", "list_only", is_flag=True, help="Print the runs of the campaign, and run none.")
 @click.option(
     "--replay", "replayed", multiple=True, metavar="RUN", help="Run one run of the campaign alone; repeatable."
@@ -40,6 +41,7 @@ def mock(
     campaign: bool,
     pairs: int,
     jobs: int | None,
+    cluster: str | None,
     list_only: bool,
     replayed: tuple[str, ...],
     gates: bool,
@@ -61,6 +63,7 @@ def mock(
         gates=gates,
         pairs=pairs,
         jobs=jobs,
+        cluster=cluster,
         as_json=as_json,
         records=records,
         evidence=evidence,

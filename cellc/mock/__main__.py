@@ -30,6 +30,7 @@ def _arguments() -> _Parser:
     parser.add_argument("--campaign", action="store_true", help="run every fault at every step, and print the matrix")
     parser.add_argument("--pairs", type=int, default=0, metavar="N", help="with --campaign: runs with two faults each")
     parser.add_argument("--jobs", type=int, metavar="N", help="with --campaign: processes, as many as cores by default")
+    parser.add_argument("--cluster", metavar="ADDRESS", help="with --campaign: a scheduler of Dask, tcp://HOST:8786")
     parser.add_argument("--list", action="store_true", help="print the runs of the campaign, and run none")
     parser.add_argument(
         "--replay", action="append", default=[], metavar="RUN", help="run this run of the campaign alone; repeatable"
@@ -70,6 +71,7 @@ def main() -> int:
         gates=given.gates,
         pairs=given.pairs,
         jobs=given.jobs,
+        cluster=given.cluster,
         as_json=given.json,
         records=given.records,
         evidence=given.evidence,

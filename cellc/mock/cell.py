@@ -189,6 +189,11 @@ class MockCell:
         return self._folder.rehearsals
 
     @property
+    def unplanned(self) -> str:
+        """Why nothing can be planned, empty where all can."""
+        return self._memory.model.unplanned
+
+    @property
     def notes(self) -> tuple[str, ...]:
         """How the folder differs from its manifest, one line each."""
         return self._folder.notes

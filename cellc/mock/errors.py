@@ -14,9 +14,12 @@ class MockError(Exception):
     """
 
     def __init__(self, file: str, reason: str) -> None:
-        super().__init__(f"{file}: {reason}" if file else reason)
+        super().__init__(file, reason)  # so that it can be sent between processes
         self.file = file
         self.reason = reason
+
+    def __str__(self) -> str:
+        return f"{self.file}: {self.reason}" if self.file else self.reason
 
 
 class LimitReachedError(Exception):

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import multiprocessing
 import os
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import process
-from concurrent.futures.process import BrokenProcessPool
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import pytest
 
+from cellc.cli import batch
 from cellc.cli.batch import CellResult, cell_files, compute, in_workers, number_of_workers
 from tests.cells import ROOT
 from tests.cli.run import MINIMAL, run
@@ -59,24 +59,19 @@ def test_a_process_bound_to_one_core_starts_no_others() -> None:
         os.sched_setaffinity(0, allowed)
 
 
-class _PoolThatBreaks:
-    """Answers the first question and loses its processes then."""
-
-    def __init__(self, number: int, mp_context: object) -> None:
-        self.is_shut = False
-
-    def map(self, function: Callable[[str], CellResult], files: Sequence[str]) -> Iterator[object]:
-        yield function(files[0])
-        raise BrokenProcessPool
-
-    def shutdown(self, *, cancel_futures: bool) -> None:
-        assert cancel_futures
-
-
-def test_what_a_lost_process_owes_is_computed_here(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(process, "ProcessPoolExecutor", _PoolThatBreaks)
+def test_what_a_lost_process_owes_is_computed_by_another(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    (tmp_path / "fatal").touch()
+    monkeypatch.setattr(batch, "_compute_within", partial(_computed_by_mortals, tmp_path.as_posix()))
     files = [MINIMAL, *FILES[:2]]
     assert list(in_workers("check", files, 2)) == [compute("check", file) for file in files]
+    assert list(tmp_path.iterdir()) == []
+
+
+def _computed_by_mortals(folder: str, _asked: object) -> Callable[[str], CellResult]:
+    for fatal in Path(folder).iterdir():
+        fatal.unlink()
+        os._exit(9)
+    return partial(compute, "check")
 
 
 def test_folder_stands_for_every_spec_below_it(tmp_path: Path) -> None:

@@ -3,15 +3,10 @@
 from __future__ import annotations
 
 import hashlib
-import multiprocessing
-import os
-import signal
-import sys
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from multiprocessing.connection import Connection, wait
-from multiprocessing.process import BaseProcess
 
+from cellc.compute.work import Hire, Work, stream
 from cellc.contract.rehearsals import RehearsalEntry
 from cellc.description.packages import package_path, use_packages
 from cellc.limits import Limits, limits, use
@@ -24,7 +19,6 @@ from cellc.mock.faults.cases import FaultCase
 from cellc.mock.folder import GeneratedFolder
 from cellc.mock.plant import Plant
 from cellc.mock.result import RehearsalResult, RunFailure, to_json_lines
-from cellc.signals import deaf_children, start_deaf_tracker
 
 
 def execute(cell: MockCell, run: CampaignRun, seed: int) -> RunEnd:
@@ -76,111 +70,42 @@ def _digest(result: RehearsalResult, samples: Sequence[CommandSamples], interrup
     return digest.hexdigest()[:16]
 
 
-Numbered = tuple[int, RunEnd]
-
-
 @dataclass(frozen=True, slots=True)
 class Assignment:
-    """What every worker knows before the first run."""
+    """What every worker knows before the first run.
+
+    Attributes:
+        unplanned: why nothing can be planned here, empty where all can; elsewhere meshes may be missing.
+    """
 
     folder: GeneratedFolder
-    runs: tuple[CampaignRun, ...]
     seed: int
     limits: Limits
-    packages: tuple[str, ...] = ()
+    packages: tuple[str, ...]
+    unplanned: str
+
+    @classmethod
+    def of(cls, cell: MockCell, seed: int) -> Assignment:
+        """Return what workers are told of a cell that was loaded here."""
+        return cls(cell.folder, seed, limits(), package_path(), cell.unplanned)
+
+    def cell(self) -> MockCell:
+        """Load the cell in a worker.
+
+        Raises:
+            MockError: its parts do not fit together, or it is another cell here.
+        """
+        use(self.limits)
+        use_packages(self.packages)
+        cell = cell_of(self.folder)
+        if cell.unplanned != self.unplanned:
+            raise MockError("", f"a worker has not what the cell is planned with: {cell.unplanned or self.unplanned}")
+        return cell
 
 
-def usable_cores() -> int:
-    """Return how many cores this process may use."""
-    if sys.platform == "linux":
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
-
-
-def run_here(cell: MockCell, assignment: Assignment) -> Iterator[Numbered]:
-    """Execute the runs in this process, in order."""
-    for number, run in enumerate(assignment.runs):
-        yield number, execute(cell, run, assignment.seed)
-
-
-def run_in_workers(assignment: Assignment, jobs: int) -> Iterator[Numbered]:
-    """Execute the runs in so many processes; yields numbered ends as they come, every run once.
-
-    Each worker is told its next run when it has ended one. Workers end when this generator does, however it does.
-
-    Raises:
-        MockError: a run cannot be executed, or a worker ended by itself.
-    """
-    start_deaf_tracker()
-    workers: list[tuple[BaseProcess, Connection]] = []
-    try:
-        with deaf_children():
-            workers += [_start() for _ in range(min(jobs, len(assignment.runs)))]
-        for _, connection in workers:
-            connection.send(assignment)
-        yield from _deal([connection for _, connection in workers], assignment)
-    finally:
-        for process, connection in workers:
-            connection.close()
-            process.terminate()
-        for process, _ in workers:
-            process.join()
-
-
-def _deal(connections: Sequence[Connection], assignment: Assignment) -> Iterator[Numbered]:
-    busy: dict[Connection, int] = {}
-    waiting = iter(range(len(assignment.runs)))
-    for connection in connections:
-        busy[connection] = next(waiting)
-        connection.send(busy[connection])
-    while busy:
-        for ready in wait(list(busy)):
-            assert isinstance(ready, Connection)  # nothing else is waited for
-            number = busy.pop(ready)
-            end = _received(ready, assignment.runs[number])
-            following = next(waiting, None)
-            if following is not None:
-                busy[ready] = following
-                ready.send(following)
-            yield number, end
-
-
-def _received(connection: Connection, run: CampaignRun) -> RunEnd:
-    try:
-        answer = connection.recv()
-    except (EOFError, OSError):
-        raise MockError("", f"the process that ran `{run.identifier}` ended by itself") from None
-    if isinstance(answer, tuple):
-        raise MockError(*answer)
-    assert isinstance(answer, RunEnd)  # a worker sends one of the two
-    return answer
-
-
-def _start() -> tuple[BaseProcess, Connection]:
-    """Start a worker in a fresh interpreter, so that it has nothing from this one on any platform."""
-    context = multiprocessing.get_context("spawn")
-    here, there = context.Pipe()
-    process = context.Process(target=_work, args=(there,), daemon=True)
-    process.start()
-    there.close()
-    return process, here
-
-
-def _work(connection: Connection) -> None:
-    """Execute the runs whose numbers arrive until the connection closes."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    try:
-        assignment: Assignment = connection.recv()
-        use(assignment.limits)
-        use_packages(assignment.packages)
-        cell = cell_of(assignment.folder)
-        while True:
-            number = connection.recv()
-            connection.send(execute(cell, assignment.runs[number], assignment.seed))
-    except MockError as error:
-        connection.send((error.file, error.reason))
-    except (EOFError, OSError):
-        pass  # nobody listens any more
+def _begin(assignment: Assignment) -> Callable[[CampaignRun], RunEnd]:
+    cell = assignment.cell()
+    return lambda run: execute(cell, run, assignment.seed)
 
 
 Progress = Callable[[int, int, int], None]
@@ -222,6 +147,17 @@ class Campaign:
         return bool(self.ends) and not self.failed
 
 
+def run_all(cell: MockCell, runs: Sequence[CampaignRun], seed: int, hire: Hire | None) -> Iterator[tuple[int, RunEnd]]:
+    """Yield the ends of runs with their numbers, as they come."""
+    if hire is None:
+        return ((number, execute(cell, run, seed)) for number, run in enumerate(runs))
+    return stream(Work(_begin, Assignment.of(cell, seed), _identifier), runs, hire)
+
+
+def _identifier(run: CampaignRun) -> str:
+    return run.identifier
+
+
 def _is_plain(entry: RehearsalEntry) -> bool:
     """Tell whether a rehearsal has no fault of its own; how the real target comes up makes no step another one."""
     return not entry.faults and entry.bring_up == "mock"
@@ -246,19 +182,18 @@ def conduct(
     baselines: tuple[RunEnd, ...],
     *,
     seed: int,
-    jobs: int,
+    hire: Hire | None,
     progress: Progress,
 ) -> Campaign:
-    """Execute runs in ``jobs`` processes; the campaign is the same for any number of them.
+    """Execute runs here, or by a crew; the campaign is the same whoever does.
 
     Raises:
+        ComputeError: nobody can execute a run.
         MockError: a run cannot be executed.
     """
-    assignment = Assignment(cell.folder, tuple(runs), seed, limits(), package_path())
-    arriving = run_here(cell, assignment) if jobs == 1 else run_in_workers(assignment, jobs)
     ends: dict[int, RunEnd] = {}
     failed = 0
-    for number, end in arriving:
+    for number, end in run_all(cell, runs, seed, hire):
         ends[number] = end
         failed += not end.passed
         progress(len(ends), len(runs), failed)

@@ -11,10 +11,11 @@ from itertools import islice
 from pathlib import Path
 from time import perf_counter
 
+from cellc.compute.work import ComputeError
 from cellc.diagnostics import nearest
 from cellc.diagnostics.unsafe_text import harmless_json
 from cellc.limits import limits, option
-from cellc.mock.campaign.campaign import Campaign, conduct, make_plan, usable_cores
+from cellc.mock.campaign.campaign import Campaign, conduct, make_plan
 from cellc.mock.campaign.plan import CampaignPlan, CampaignRun
 from cellc.mock.campaign.summary import campaign_json, campaign_lines, end_lines
 from cellc.mock.cell import MockCell, cell_of, load
@@ -60,7 +61,7 @@ def replay_runs(options: MockOptions) -> int:
 
     try:
         cell = load_checked(options)
-        campaign = _conduct(cell, named_runs, replace(options, jobs=1))
+        campaign = _conduct(cell, named_runs, replace(options, jobs=1, cluster=None))
         if options.evidence is not None:
             _keep_evidence(cell, campaign, Path(options.evidence))
     except MockError as stop:
@@ -145,14 +146,17 @@ def _conduct(cell: MockCell, choose: Choice, options: MockOptions) -> Campaign:
     begun = perf_counter()
     plan, baselines = make_plan(cell, possible_faults(cell.contract), options.seed)
     runs = choose(plan)
-    jobs = usable_cores() if options.jobs is None else options.jobs
+    hire, who = options.crew()
     with progress("campaign") as update:
         told = partial(_tell_progress, update)
-        campaign = conduct(cell, runs, baselines, seed=options.seed, jobs=jobs, progress=told)
+        try:
+            campaign = conduct(cell, runs, baselines, seed=options.seed, hire=hire, progress=told)
+        except ComputeError as problem:
+            raise MockError("", str(problem)) from None
     if options.records is not None:
         attempts = (record for end in campaign.all_ends for record in end.result.attempts)
         write_records(Path(options.records), attempts)
-    remark(f"{len(runs)} runs in {perf_counter() - begun:.1f} s, {jobs} processes")
+    remark(f"{len(runs)} runs in {perf_counter() - begun:.1f} s, {who}")
     return campaign
 
 

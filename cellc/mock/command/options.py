@@ -9,6 +9,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
 
+from cellc.compute.cluster import cluster
+from cellc.compute.processes import processes, usable_cores
+from cellc.compute.work import Hire
 from cellc.mock.errors import MockError
 from cellc.mock.result import AttemptRecord, to_json_lines
 from cellc.printing import refuse
@@ -31,6 +34,7 @@ class MockOptions:
         gates: judge the gates by rehearsals and campaign.
         pairs: number of runs with two faults.
         jobs: processes; None for as many as there are cores.
+        cluster: address of a scheduler of Dask whose workers do it instead.
         records: file that attempt records are written to, as JSON lines.
         evidence: folder that bags, records, figures and a report are written to.
         seed: of everything that is drawn.
@@ -46,6 +50,7 @@ class MockOptions:
     gates: bool = False
     pairs: int = 0
     jobs: int | None = None
+    cluster: str | None = None
     as_json: bool = False
     records: str | None = None
     evidence: str | None = None
@@ -70,14 +75,25 @@ class MockOptions:
             return "--rehearsal does not go with the options of the campaign"
         if len(alone) > 1:
             return f"{alone[0]} does not go with {alone[1]}"
-        if (self.pairs != 0 or self.jobs is not None) and not modes:
-            return f"{'--pairs' if self.pairs else '--jobs'} needs --campaign"
+        fanned = {"--pairs": self.pairs or None, "--jobs": self.jobs, "--cluster": self.cluster}
+        given = [option for option, value in fanned.items() if value is not None]
+        if given and not modes:
+            return f"{given[0]} needs --campaign"
+        if self.jobs is not None and self.cluster is not None:
+            return "--jobs does not go with --cluster, whose workers are all taken"
         paths = {"--evidence": self.evidence, "--records": self.records}
         written = [option for option, path in paths.items() if path is not None]
         if "--list" in alone and written:
             return f"{written[0]} does not go with --list, which runs nothing"
         empty = [option for option in written if paths[option] == ""]
         return f"{empty[0]} cannot be written: its path is empty" if empty else ""
+
+    def crew(self) -> tuple[Hire | None, str]:
+        """Return who executes runs, None for this process alone, and how many they are in words."""
+        if self.cluster is not None:
+            return cluster(self.cluster), f"workers of {self.cluster}"
+        jobs = usable_cores() if self.jobs is None else self.jobs
+        return (processes(jobs) if jobs > 1 else None), f"{jobs} processes"
 
 
 def run_mock(options: MockOptions) -> int:

@@ -1,0 +1,109 @@
+"""A real scheduler of Dask with two workers, each a process of its own, on the loopback interface."""
+
+from __future__ import annotations
+
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from cellc.compute import cluster as of_dask
+from cellc.compute.cluster import cluster
+from cellc.compute.work import ComputeError, Work, stream
+from cellc.mock import load
+from cellc.mock.campaign.campaign import conduct, make_plan
+from cellc.mock.faults.registry import possible_faults
+from tests.cells import generated
+from tests.compute.test_work import _deadly, _squares
+
+pytest.importorskip("distributed")
+
+LOOPBACK = "127.0.0.1"
+
+
+class Dask:
+    """The programs of a cluster, by their own commands."""
+
+    def __init__(self, folder: Path) -> None:
+        with socket.socket() as free:
+            free.bind((LOOPBACK, 0))
+            self.address = f"tcp://{LOOPBACK}:{free.getsockname()[1]}"
+        self._folder = folder
+        self.scheduler = self._start(
+            "scheduler", "--host", LOOPBACK, "--port", self.address.rpartition(":")[2], "--no-dashboard"
+        )
+        self.workers = [
+            self._start("worker", self.address, "--nthreads", "1", "--no-dashboard", "--no-nanny") for _ in range(2)
+        ]
+
+    def _start(self, *words: str) -> subprocess.Popen[bytes]:
+        with (self._folder / f"{len(list(self._folder.iterdir()))}.log").open("wb") as log:
+            command = [sys.executable, "-m", "dask", *words]
+            return subprocess.Popen(command, cwd=self._folder, stdout=log, stderr=log)
+
+    def end(self) -> None:
+        for process in (*self.workers, self.scheduler):
+            process.terminate()
+        for process in (*self.workers, self.scheduler):
+            process.wait()
+
+
+@pytest.fixture(scope="module")
+def dask(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Dask]:
+    started = Dask(tmp_path_factory.mktemp("dask"))
+    yield started
+    started.end()
+
+
+def _slow(_: None) -> Callable[[int], int]:
+    def do(unit: int) -> int:
+        time.sleep(0.05)
+        return -unit
+
+    return do
+
+
+def test_a_campaign_is_the_same_on_a_cluster_as_here(dask: Dask) -> None:
+    cell = load(generated("minimal"))
+    plan, baselines = make_plan(cell, possible_faults(cell.contract), 0)
+    runs = tuple(plan.singles())[::5]
+    here, there = (
+        conduct(cell, runs, baselines, seed=0, hire=hire, progress=lambda *_: None)
+        for hire in (None, cluster(dask.address))
+    )
+    assert there.ends == here.ends
+    assert repr(there.ends) == repr(here.ends)
+    assert len(there.ends) > 20
+
+
+def test_a_worker_of_a_cluster_that_dies_costs_time_alone(dask: Dask, tmp_path: Path) -> None:
+    (tmp_path / "life").touch()
+    found = sorted(stream(Work(_deadly, str(tmp_path)), range(12), cluster(dask.address)))
+    assert found == [(number, number * number) for number in range(12)]
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_worker_with_other_versions_is_refused(dask: Dask, monkeypatch: pytest.MonkeyPatch) -> None:
+    there = dict(of_dask._versions())
+    monkeypatch.setattr(of_dask, "_versions", lambda: there | {"numpy": "1.0.0"})
+    with pytest.raises(ComputeError, match=rf"a worker has numpy {there['numpy']}, here is 1\.0\.0; both must be"):
+        list(stream(Work(_squares, 5), range(3), cluster(dask.address)))
+
+
+def test_a_scheduler_that_goes_ends_the_call_in_one_line(dask: Dask) -> None:
+    answers = stream(Work(_slow, None), range(100_000), cluster(dask.address))
+    first = next(answers)
+    assert first[1] == -first[0]
+    dask.scheduler.kill()
+    with pytest.raises(ComputeError, match=rf"^the scheduler at `{dask.address}` has gone; what was answered is kept$"):
+        list(answers)
+
+
+def test_no_scheduler_at_all_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(of_dask, "_CONNECTS_S", 0.5)
+    with pytest.raises(ComputeError, match="no scheduler of Dask answers at `tcp://127.0.0.1:9`"):
+        list(stream(Work(_squares, 5), range(3), cluster("tcp://127.0.0.1:9")))
