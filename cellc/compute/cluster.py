@@ -11,7 +11,6 @@ A unit takes some 10 ms, and a task costs Dask about 1 ms (docs.dask.org, "Best 
 from __future__ import annotations
 
 import hashlib
-import logging
 from collections.abc import Iterator, Sequence
 from concurrent.futures import BrokenExecutor, CancelledError, Future
 from contextlib import contextmanager, suppress
@@ -41,12 +40,14 @@ def cluster(address: str) -> Hire:
 @contextmanager
 def _crew(address: str, sent: Sent, units: int) -> Iterator[Crew]:
     try:
+        from dask import config
+
+        config.set({"logging": dict.fromkeys(("distributed", "distributed.client"), "critical")})  # it is said here
         from distributed import Client, KilledWorker
     except ModuleNotFoundError as missing:
         if missing.name not in ("distributed", "dask"):
             raise
         raise ComputeError("`--cluster` needs Dask; install it with `pip install 'cellc[cluster]'`") from None
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what is to be said is said here
     try:
         client = Client(address, timeout=_CONNECTS_S, set_as_default=False)
     except (OSError, ValueError, TimeoutError):
