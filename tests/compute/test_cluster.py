@@ -105,5 +105,5 @@ def test_a_scheduler_that_goes_ends_the_call_in_one_line(dask: Dask) -> None:
 
 def test_no_scheduler_at_all_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(of_dask, "_CONNECTS_S", 0.5)
-    with pytest.raises(ComputeError, match="no scheduler of Dask answers at `tcp://127.0.0.1:9`"):
+    with pytest.raises(ComputeError, match=r"no scheduler of Dask answers at `tcp://127\.0\.0\.1:9`"):
         list(stream(Work(_squares, 5), range(3), cluster("tcp://127.0.0.1:9")))
