@@ -44,15 +44,18 @@ class Checked:
         return self.graph is not None and self.findings.ok
 
 
-def check(path: str | Path) -> Checked:
+def check(path: str | Path, edited: Mapping[str, str] | None = None) -> Checked:
     """Read, parse and link a spec, run every rule on its graph, and take out what comments in the spec excuse.
 
     A URDF or xacro file is judged as it is, by the rules on descriptions alone.
+
+    Args:
+        edited: texts that are read in place of files of the spec, by the name that spans carry.
     """
     file = Path(path).as_posix()
     if file.endswith(_DESCRIPTIONS):
         return _check_description(Path(path))
-    source = read(path)
+    source = read(path, edited)
     if source.value is None or not source.ok:
         texts = {} if source.value is None else source.value.texts
         return _checked(file, texts, source.diagnostics)

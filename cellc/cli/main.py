@@ -29,6 +29,7 @@ _COMMANDS = {
     "mock": "Execute the rehearsals of a generated folder.",
     "schema": "Print or write the JSON schemas.",
     "show": "Show a resolved value and where it came from.",
+    "upgrade": "Tell what another distribution of ROS 2 would change.",
     "view": "Write one HTML page of a cell: 3D, rehearsals, findings.",
 }
 

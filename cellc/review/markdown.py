@@ -50,10 +50,10 @@ def _length(lines: Iterable[str]) -> int:
 
 
 def _head(review: Review) -> Iterator[str]:
-    yield f"### {_code(summed_up(review))}"
+    yield f"### {as_code(summed_up(review))}"
     yield ""
-    yield f"{_code(review.before.name)} ({_code(review.before.configuration_id)}) → "
-    yield f"{_code(review.after.name)} ({_code(review.after.configuration_id)})"
+    yield f"{as_code(review.before.name)} ({as_code(review.before.configuration_id)}) → "
+    yield f"{as_code(review.after.name)} ({as_code(review.after.configuration_id)})"
     yield ""
 
 
@@ -65,30 +65,31 @@ def _opening(grade: Grade) -> Iterator[str]:
 
 
 def _row(change: ReviewChange) -> str:
-    what = f"{_code(subjects_of(change))} {_code(change.quantity)}"
+    what = f"{as_code(subjects_of(change))} {as_code(change.quantity)}"
     what += "<br>**breaks consumers**" if change.breaking else ""
-    what += f"<br>{_code(change.why)}" if change.why else ""
-    approval = "" if change.grade is Grade.SAFE else f"{change.approval}: {_code(change.owner or 'nobody')}"
+    what += f"<br>{as_code(change.why)}" if change.why else ""
+    approval = "" if change.grade is Grade.SAFE else f"{change.approval}: {as_code(change.owner or 'nobody')}"
     cells = (change.area, what, _value(change.before), _value(change.after), _value(change.delta), approval)
     return f"| {' | '.join(cells)} |"
 
 
 def _tail(review: Review) -> Iterator[str]:
-    yield from _list("Findings that came", map(_finding, review.new_findings))
-    yield from _list("Findings that went", map(_finding, review.gone_findings))
-    yield from _list("Rehearsals", (_code(outcomes(one)) for one in review.rehearsals))
-    yield from _list("Gates to pass again", (_code(gate_line(gate)) for gate in review.gates))
-    yield from _list("Notes", map(_code, review.notes))
+    yield from folded("Findings that came", map(_finding, review.new_findings))
+    yield from folded("Findings that went", map(_finding, review.gone_findings))
+    yield from folded("Rehearsals", (as_code(outcomes(one)) for one in review.rehearsals))
+    yield from folded("Gates to pass again", (as_code(gate_line(gate)) for gate in review.gates))
+    yield from folded("Notes", map(as_code, review.notes))
 
 
 _MOST = 40
 
 
-def _list(title: str, items: Iterable[str]) -> Iterator[str]:
+def folded(title: str, items: Iterable[str], *, is_open: bool = False) -> Iterator[str]:
+    """Yield a list that folds up under its title and its length; nothing where it is empty."""
     told = list(items)
     if not told:
         return
-    yield f"<details><summary>{title}: {len(told)}</summary>"
+    yield f"<details{' open' if is_open else ''}><summary>{title}: {len(told)}</summary>"
     yield ""
     yield from (f"- {item}" for item in told[:_MOST])
     if len(told) > _MOST:
@@ -99,14 +100,14 @@ def _list(title: str, items: Iterable[str]) -> Iterator[str]:
 
 
 def _finding(found: ReviewFinding) -> str:
-    return f"{found.severity} {_code(found.code)}: {_code(found.message)}"
+    return f"{found.severity} {as_code(found.code)}: {as_code(found.message)}"
 
 
 def _value(text: str | None) -> str:
-    return _code(text) if text else ""
+    return as_code(text) if text else ""
 
 
-def _code(text: str) -> str:
+def as_code(text: str) -> str:
     """Return a text as code in a cell of a table: a bar is its entity's look-alike there, for no escape is shown."""
     short = text if len(text) <= _LONGEST_CELL else f"{text[: _LONGEST_CELL - 3]}..."
     return code(harmless_line(re.sub(r"\|", "¦", short)))

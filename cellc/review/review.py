@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from cellc.contract.review import Review, ReviewChange, ReviewFinding, ReviewGate, ReviewRehearsal, ReviewSide
+from cellc.contract.review import Review, ReviewFinding, ReviewGate, ReviewRehearsal, ReviewSide
 from cellc.deploy.gates import GateText, gate_texts
 from cellc.review.compare import changes_between
 from cellc.review.rules import REPEATED
 from cellc.review.sides import Package
+from cellc.vocabulary import ReviewArea
 
 
 def review(before: Package, after: Package, rehearsals: Sequence[ReviewRehearsal] = ()) -> Review:
@@ -23,7 +24,7 @@ def review(before: Package, after: Package, rehearsals: Sequence[ReviewRehearsal
         new_findings=_more(after.findings, before.findings) if specs else (),
         gone_findings=_more(before.findings, after.findings) if specs else (),
         rehearsals=tuple(rehearsals),
-        gates=gates_again(changes),
+        gates=gates_again(tuple(dict.fromkeys(change.area for change in changes))),
         files=tuple(
             path for path in sorted({*before.files, *after.files}) if before.files.get(path) != after.files.get(path)
         ),
@@ -48,14 +49,13 @@ def _more(one: Sequence[ReviewFinding], other: Sequence[ReviewFinding]) -> tuple
     return tuple(more)
 
 
-def gates_again(changes: Sequence[ReviewChange]) -> tuple[ReviewGate, ...]:
-    """Return the gates to pass again: the first that looks at what changed, and all that rest on it."""
+def gates_again(areas: Sequence[ReviewArea]) -> tuple[ReviewGate, ...]:
+    """Return the gates to pass again: the first that looks at an area that changed, and all that rest on it."""
     texts = gate_texts()
-    return (*_again(texts.promotion, changes), *_again(texts.network, changes))
+    return (*_again(texts.promotion, areas), *_again(texts.network, areas))
 
 
-def _again(texts: Sequence[GateText], changes: Sequence[ReviewChange]) -> Iterator[ReviewGate]:
-    areas = list(dict.fromkeys(change.area for change in changes))
+def _again(texts: Sequence[GateText], areas: Sequence[ReviewArea]) -> Iterator[ReviewGate]:
     begun = False
     for text in texts:
         because = tuple(area for area in areas if text.code in REPEATED[area])

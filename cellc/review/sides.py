@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
+from typing import TYPE_CHECKING
 
 from cellc.contract.manifest import Manifest
 from cellc.contract.reading import FormatError, read_json
@@ -16,6 +17,9 @@ from cellc.mock.errors import MockError
 from cellc.mock.folder import read_text
 from cellc.review.facts import MANIFEST, Facts, FactsError, facts_of
 from cellc.review.revisions import RevisionError, repository_of
+
+if TYPE_CHECKING:
+    from cellc.pipeline import Checked
 
 
 class SideError(Exception):
@@ -155,9 +159,19 @@ def _read(name: str, path: Path, shown: str) -> Package:
 
 def _of_spec(name: str, file: str) -> Package:
     # Folders are compared without the compiler, which takes a second to load.
-    from cellc.pipeline import check, emit_cell
+    from cellc.pipeline import check
 
-    checked = check(file)
+    return package_of(name, check(file))
+
+
+def package_of(name: str, checked: Checked) -> Package:
+    """Return the package of a cell that was checked.
+
+    Raises:
+        SideError: it holds errors, and there is none.
+    """
+    from cellc.pipeline import emit_cell
+
     emitted = emit_cell(checked)
     if emitted.value is None or checked.graph is None:
         found = (*checked.diagnostics, *emitted.diagnostics)
@@ -166,11 +180,12 @@ def _of_spec(name: str, file: str) -> Package:
         first = errors[0]
         raise SideError(f"{name}:{first.span.line}:{first.span.column}: {first.message}{more}; see `cellc check`")
     files = {artifact.path: artifact.text for artifact in emitted.value}
-    told = tuple(_finding(one) for one in checked.diagnostics)
+    told = tuple(as_review_finding(one) for one in checked.diagnostics)
     return Package(name, files, facts_of(files, checked.graph.cell), told, is_spec=True)
 
 
-def _finding(found: Diagnostic) -> ReviewFinding:
+def as_review_finding(found: Diagnostic) -> ReviewFinding:
+    """Return a finding of the check as a review tells it."""
     return ReviewFinding(code=found.code, severity=found.severity.value, message=found.message, place=str(found.span))
 
 

@@ -25,8 +25,8 @@ def render_review(review: Review) -> Iterator[Line]:
         yield (Styled(grade.value, _STYLE[grade]),)
         for change in changes:
             yield from _change(change)
-    yield from _findings("new findings", review.new_findings)
-    yield from _findings("findings that went", review.gone_findings)
+    yield from findings_told("new findings", review.new_findings)
+    yield from findings_told("findings that went", review.gone_findings)
     if review.rehearsals:
         yield ""
         yield "rehearsals"
@@ -91,7 +91,8 @@ def _change(change: ReviewChange) -> Iterator[Line]:
         yield ("      ", Styled(said, Style.DIM))
 
 
-def _findings(title: str, findings: tuple[ReviewFinding, ...]) -> Iterator[Line]:
+def findings_told(title: str, findings: tuple[ReviewFinding, ...]) -> Iterator[Line]:
+    """Yield findings of the check under a title; nothing where there are none."""
     if findings:
         yield ""
         yield title

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from pathlib import Path, PurePosixPath
 
 from cellc.diagnostics import Diagnostic, Outcome, Span
@@ -11,21 +12,22 @@ from cellc.source.codes import finding
 from cellc.source.compose import compose
 from cellc.source.document import Node, SourceDocument
 from cellc.source.include import INCLUDE, IncludeLine, include_lines, merge, resolve_include
-from cellc.source.text import lies_under, read_text
+from cellc.source.text import as_yaml, lies_under, read_text
 
 
-def read(path: str | Path) -> Outcome[SourceDocument]:
+def read(path: str | Path, edited: Mapping[str, str] | None = None) -> Outcome[SourceDocument]:
     """Read a spec, its includes merged in, with the position of every value.
 
     Args:
         path: the root spec; it appears in every message as given here, with forward slashes.
+        edited: texts that are read in place of files, by the name that spans carry: what nobody has saved yet.
 
     Returns:
         A document in every case, so that its texts can be shown with the findings; its data is whole only where the
         outcome is ok.
     """
     name = str(path).replace(os.sep, "/") or "."
-    reader = _Reader(Path(path))
+    reader = _Reader(Path(path), edited or {})
     place = Span(name, 1, 1, 1, 1)
     if os.path.islink(path) and not lies_under(Path(path), Path(path).parent):
         message = f"`{name}` is a link that leads out of its folder"
@@ -45,10 +47,11 @@ def read(path: str | Path) -> Outcome[SourceDocument]:
 class _Reader:
     """The files read so far, and those that are being read."""
 
-    def __init__(self, root: Path) -> None:
+    def __init__(self, root: Path, edited: Mapping[str, str]) -> None:
         self.texts: dict[str, str] = {}
         self.roots: list[Node] = []
         self.findings: list[Diagnostic] = []
+        self._edited = edited
         self._root_folder = _real(root.parent)
         self._names: dict[Path, str] = {}
         self._active: list[Path] = []
@@ -62,7 +65,7 @@ class _Reader:
         """
         real = _real(path)
         self._names[real] = name
-        text = read_text(path, name, place)
+        text = as_yaml(self._edited[name], name) if name in self._edited else read_text(path, name, place)
         self.findings.extend(text.diagnostics)
         if text.value is None:
             return

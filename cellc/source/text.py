@@ -34,6 +34,11 @@ def read_text(path: Path, name: str, place: Span) -> Outcome[str]:
     text = _decode(content, name)
     if isinstance(text, Diagnostic):
         return Outcome(None, (text,))
+    return as_yaml(text, name)
+
+
+def as_yaml(text: str, name: str) -> Outcome[str]:
+    """Return the text of a file, with a finding where it is no YAML."""
     problem = _unlike_yaml(text, name)
     return Outcome(text, () if problem is None else (problem,))
 

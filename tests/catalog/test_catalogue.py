@@ -26,11 +26,10 @@ from cellc.catalog.load import (
     load_releases,
 )
 from cellc.vocabulary import OF_ONE_DEVICE, Distro
+from tests.catalog.declarations import upstream_parameters
 from tests.cells import catalog_facts
-from tests.foreign_yaml import safe_load
-from tests.oracles import UPSTREAM, needs_upstream
+from tests.oracles import needs_upstream
 
-PARAMETERS = UPSTREAM / "parameters"
 PLACEHOLDERS = {
     *("device", "prefix", "bare_prefix", "prefix_namespace", "stem"),
     *("address", "port", "host_address", "carrier_address"),
@@ -40,19 +39,6 @@ PLACEHOLDERS = {
     *("tool_rx_idle_chars", "tool_tx_idle_chars", "tool_tcp_port"),
 }
 ARMS = ("franka_fr3", "ur5e", "ur10e", "ur18", "ur30")
-# Upstream files behind each kind; on humble the gripper comes from another package.
-DECLARATIONS = {
-    "joint_trajectory": "joint_trajectory_controller__joint_trajectory_controller_parameters",
-    "joint_state_broadcaster": "joint_state_broadcaster__joint_state_broadcaster_parameters",
-    "forward_command": "forward_command_controller__forward_command_controller_parameters",
-    "force_torque_sensor_broadcaster": ("force_torque_sensor_broadcaster__force_torque_sensor_broadcaster_parameters"),
-    "gpio_command": "gpio_controllers__gpio_command_controller_parameters",
-    "multi_interface_forward_command": (
-        "forward_command_controller__multi_interface_forward_command_controller_parameters"
-    ),
-    "parallel_gripper": "parallel_gripper_controller__gripper_action_controller_parameters",
-    "pid": "pid_controller__pid_controller",
-}
 
 
 def _device(name: str) -> CatalogDevice:
@@ -221,7 +207,7 @@ def test_reader_of_system_default_is_best_effort_on_fast_dds_alone() -> None:
 @pytest.mark.parametrize("distro", Distro)
 @pytest.mark.parametrize("kind", controller_kinds())
 def test_parameters_are_those_that_upstream_declares(kind: str, distro: Distro) -> None:
-    upstream = _upstream(kind, distro)
+    upstream = upstream_parameters(kind, distro)
     ours = {name: facts for name, facts in _kind(kind).parameters.items() if facts.declared_in(distro)}
     assert set(ours) == set(upstream)
     for name, facts in ours.items():
@@ -238,21 +224,3 @@ def _default(facts: ParameterFacts, distro: Distro) -> Any:
 
 def _comparable(value: Any) -> Any:
     return repr(list(value)) if isinstance(value, (list, tuple)) else repr(value)
-
-
-def _upstream(kind: str, distro: Distro) -> dict[str, dict[str, Any]]:
-    file = DECLARATIONS[kind]
-    if kind == "parallel_gripper" and distro == "humble":
-        file = "gripper_controllers__gripper_action_controller_parameters"
-    document = safe_load((PARAMETERS / distro / f"{file}.yaml").read_text(encoding="utf-8"))
-    return _flat(next(iter(document.values())), ())
-
-
-def _flat(node: dict[str, Any], path: tuple[str, ...]) -> dict[str, dict[str, Any]]:
-    if isinstance(node.get("type"), str):
-        return {".".join(path): node}
-    declared = {}
-    for key, value in node.items():
-        token = re.sub(r"^__map_(\w+)$", lambda match: f"<{'joint' if match[1] == 'joints' else match[1]}>", key)
-        declared.update(_flat(value, (*path, token)))
-    return declared

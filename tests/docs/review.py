@@ -37,6 +37,16 @@ ends with 1 only where a consumer outside of the cell breaks. `--rehearse` runs 
 mock and compares how they end. `--format markdown` is a comment for a pull request of at most 65,000 characters,
 `--format json` the object of `review.schema.json` (`cellc schema review`).
 
+## Another distribution
+
+`cellc upgrade cells/ur5e_pick/cell.yaml --ros kilted` tells what a distribution of ROS 2 would change, an older one
+too: each pin with what the matrix says of it and since when; parameters that appear, vanish or change their default,
+and whether the cell states them; names at the ROS graph that nodes gain and lose; the package, compiled in memory and
+compared as above; and the gates to pass again. A pin that no matrix knows for the distribution becomes UNKNOWN, with a
+question. Where the check refuses the cell there, its errors are told, and no package is compared. `--write` puts the
+new pins into the spec and what it includes, and touches nothing else. It ends with 0 where nothing would change, with
+1 where something would, with 2 where the spec cannot be read or edited.
+
 ## Grades
 
 | grade | meaning |

@@ -1,0 +1,232 @@
+"""A cell on another distribution: what its pins, parameters and package become, compiled in memory."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+from pathlib import Path
+
+from cellc.catalog.load import load_distros
+from cellc.catalog.tables import DistroFacts
+from cellc.cell.cell import Cell
+from cellc.cell.site import UNKNOWN
+from cellc.contract.upgrade import Upgrade, UpgradeInterface, UpgradePin
+from cellc.description.xml_tree import XmlElement, read_xml
+from cellc.diagnostics import Severity
+from cellc.edit.rewrite import Edit, apply_edits, rewrite
+from cellc.pipeline import Checked, check
+from cellc.review.declared import Told, parameter_changes
+from cellc.review.facts import Facts
+from cellc.review.leaves import Leaf
+from cellc.review.review import gates_again, review
+from cellc.review.sides import Package, SideError, as_review_finding, package_of
+from cellc.review.tuples import PinMove, moved_pins
+from cellc.vocabulary import Distro, ReviewArea
+
+_POLICY = "security/policy.xml"
+_SCALAR = re.compile(r"((?:[&!]\S* +)*)(.*)")
+_RIGHTS = ("publish", "subscribe", "reply", "request", "execute", "call")
+
+
+class UpgradeError(Exception):
+    """The spec cannot be moved to another distribution; the text is one line, lower case."""
+
+
+@dataclass(frozen=True, slots=True)
+class Planned:
+    """What an upgrade would change, and the edits of the spec that do it."""
+
+    upgrade: Upgrade
+    edits: tuple[Edit, ...]
+    texts: Mapping[str, str]
+
+    def write(self) -> tuple[Edit, ...]:
+        """Write the edits into the spec and what it includes, each file as a whole or not at all.
+
+        Raises:
+            UpgradeError: a file cannot be written, or is no longer what was read.
+        """
+        for file, edits in groupby(sorted(self.edits, key=lambda one: one.file), key=lambda one: one.file):
+            try:
+                written = rewrite(Path(file), tuple(edits), self.texts[file])
+            except OSError as error:
+                reason = (error.strerror or "unknown reason").lower()
+                raise UpgradeError(f"`{file}` cannot be written: {reason}") from None
+            if not written:
+                raise UpgradeError(f"`{file}` changed while it was read; nothing of it was written")
+        return self.edits
+
+
+def plan_upgrade(file: str, target: Distro) -> Planned:
+    """Return what another distribution makes of a cell.
+
+    Raises:
+        UpgradeError: the spec cannot be edited.
+        SideError: it holds errors as it is.
+    """
+    checked = check(file)
+    before = package_of(f"{file} on {_distro(checked)}", checked)
+    assert checked.graph is not None  # it has a package
+    cell = checked.graph.cell
+    moves = moved_pins(cell, target, _facts(target))
+    edits = tuple(_edits(cell, moves, checked.findings.texts))
+    moved = check(file, _edited(edits, checked.findings.texts)) if edits else checked
+    _hold(moves, moved)
+    try:
+        after = package_of(f"{file} on {target}", moved)
+    except SideError:
+        after = None
+    return Planned(_upgrade(cell, target, moves, before, after, moved), edits, checked.findings.texts)
+
+
+def _distro(checked: Checked) -> str:
+    return "" if checked.graph is None else checked.graph.cell.distro.value
+
+
+def _facts(target: Distro) -> DistroFacts:
+    table = load_distros().value
+    assert table is not None  # package data, held valid by the catalog's tests
+    return next(facts for name, facts in table.distros.items() if name == target)
+
+
+def _edits(cell: Cell, moves: Sequence[PinMove], texts: Mapping[str, str]) -> Iterator[Edit]:
+    """Yield the edit of each pin that the spec writes and that becomes another; an alias may bring one to several."""
+    taken: dict[tuple[str, int, int], str] = {}
+    for move in moves:
+        pin = move.pin
+        if not cell.states(*pin.path) or move.text == pin.text:
+            continue
+        span = cell.locate(*pin.path)
+        place = (span.file, span.line, span.column)
+        if span.line != span.end_line:
+            raise UpgradeError(f"{span}: `{pin.part}` stands over several lines; write it in one")
+        if taken.setdefault(place, move.text) != move.text:
+            raise UpgradeError(f"{span}: one text pins several parts, which become different ones; write each out")
+        written = texts[span.file].split("\n")[span.line - 1][span.column - 1 : span.end_column - 1]
+        said = f"`{pin.part}` of `{pin.holder}`: `{pin.text}` becomes `{move.text}`"
+        yield Edit(*place, span.end_column, _as_yaml(move.text, written), said)
+
+
+def _as_yaml(text: str, written: str) -> str:
+    """Return a scalar in place of another, with its anchor and its quotes; in quotes where it would be a number."""
+    match = _SCALAR.fullmatch(written)
+    before, value = ("", written) if match is None else match.groups()
+    quote = value[:1] if value[:1] in ("'", '"') else ""
+    if not quote and re.fullmatch(r"[-+]?[0-9.]+([eE][-+]?[0-9]+)?", text) and text.count(".") < 2:
+        quote = '"'
+    return f"{before}{quote}{text}{quote}"
+
+
+def _edited(edits: Sequence[Edit], texts: Mapping[str, str]) -> dict[str, str]:
+    files = {edit.file for edit in edits}
+    return {file: apply_edits(texts[file], (edit for edit in edits if edit.file == file)) for file in files}
+
+
+def _hold(moves: Sequence[PinMove], moved: Checked) -> None:
+    """Refuse an edit that says something else than was meant; where nothing is linked, findings say why."""
+    if moved.graph is None:
+        return
+    cell = moved.graph.cell
+    for move in moves:
+        if cell.states(*move.pin.path) and cell.text(*move.pin.path) != move.text:
+            raise UpgradeError(f"{cell.locate(*move.pin.path)}: `{move.pin.part}` cannot be edited by itself")
+
+
+def _upgrade(
+    cell: Cell, target: Distro, moves: Sequence[PinMove], before: Package, after: Package | None, moved: Checked
+) -> Upgrade:
+    compared = None if after is None else review(before, after)
+    parameters = parameter_changes(cell, target, _given(before.facts), _given((after or before).facts))
+    asked = (*(move.question for move in moves), *(one.question for one in parameters), _rollback(cell, moves))
+    errors = (one for one in moved.diagnostics if one.severity is Severity.ERROR)
+    return Upgrade(
+        format=1,
+        cell=cell.name,
+        before=cell.distro.value,
+        after=target.value,
+        facts=tuple(_of_distro(_facts(target))),
+        pins=tuple(_pin(cell, move) for move in moves),
+        parameters=parameters,
+        interfaces=() if after is None else tuple(_interfaces(before.files[_POLICY], after.files[_POLICY])),
+        review=compared,
+        errors=() if after is not None else tuple(map(as_review_finding, errors)),
+        gates=gates_again((ReviewArea.VERSIONS,)) if compared is None else compared.gates,
+        questions=tuple(question for question in asked if question),
+    )
+
+
+def _of_distro(facts: DistroFacts) -> Iterator[str]:
+    support = "with long support" if facts.lts else "without long support"
+    yield f"{facts.title}, released {facts.released}, {support}; its end of life is {facts.end_of_life}"
+    if facts.end_of_life_note is not None:
+        yield facts.end_of_life_note
+    yield f"built for {', '.join(facts.os)}, with Python {facts.python}"
+
+
+def _pin(cell: Cell, move: PinMove) -> UpgradePin:
+    pin = move.pin
+    return UpgradePin(
+        holder=pin.holder,
+        part=pin.part,
+        before=pin.text,
+        after=move.text,
+        place=str(cell.locate(*pin.path)) if cell.states(*pin.path) else "",
+        answer=move.judged.answer.value,
+        evidence=move.judged.evidence,
+        question=move.question,
+    )
+
+
+def _rollback(cell: Cell, moves: Sequence[PinMove]) -> str:
+    """Return what is asked before the first of another tuple runs: what one goes back to."""
+    known = UNKNOWN not in (cell.versions.rollback.image, cell.versions.rollback.configuration)
+    if known or all(move.text == move.pin.text for move in moves):
+        return ""
+    return "`rollback`: which image and configuration does the cell go back to? Those of now are named nowhere"
+
+
+def _given(facts: Facts) -> Told:
+    """Return the parameters of each node of a package, by its full name."""
+    given: dict[str, dict[str, Leaf]] = {}
+    for path, leaf in facts.leaves.items():
+        if path[0] == "parameters" and path[3:4] == ("ros__parameters",):
+            given.setdefault(f"/{path[2].strip('/')}", {})[".".join(path[4:])] = leaf
+    return given
+
+
+def _interfaces(before: str, after: str) -> Iterator[UpgradeInterface]:
+    """Yield the names at the graph that one side's policy grants alone, those of several nodes once."""
+    was, now = _granted(before), _granted(after)
+    changes: dict[tuple[str, str, str], list[str]] = {}
+    for change, some, others in (("gained", now, was), ("lost", was, now)):
+        for node, granted in some.items():
+            for right, name in sorted(granted - others.get(node, frozenset())):
+                changes.setdefault((change, right, name), []).append(node)
+    for (change, right, name), nodes in changes.items():
+        yield UpgradeInterface.model_validate({"nodes": nodes, "right": right, "name": name, "change": change})
+
+
+def _granted(policy: str) -> Mapping[str, frozenset[tuple[str, str]]]:
+    """Return what each node of a policy may do, by its full name."""
+    root = read_xml(policy, _POLICY).value
+    assert root is not None  # our own emitter wrote it
+    found: dict[str, frozenset[tuple[str, str]]] = {}
+    for enclave in _below(root, "enclaves", "enclave"):
+        for profile in _below(enclave, "profiles", "profile"):
+            node = f"{profile.attributes['ns'].rstrip('/')}/{profile.attributes['node']}"
+            found[node] = found.get(node, frozenset()) | frozenset(_rights(profile))
+    return found
+
+
+def _below(element: XmlElement, group: str, tag: str) -> Iterator[XmlElement]:
+    for one in element.all(group):
+        yield from one.all(tag)
+
+
+def _rights(profile: XmlElement) -> Iterator[tuple[str, str]]:
+    for group in profile.children:
+        for right in _RIGHTS:
+            if right in group.attributes:
+                yield from ((right, one.text.strip()) for one in group.children)
