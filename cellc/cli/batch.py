@@ -6,6 +6,7 @@ import os
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
+from fnmatch import fnmatchcase
 from functools import partial
 from typing import Literal
 
@@ -47,16 +48,18 @@ def cell_files(paths: Sequence[str]) -> tuple[str, ...]:
     Folders that begin with a dot and virtual environments are left out, and no link to a folder is followed. A folder
     without a spec stays what it is, so that it is told like any other file that is none.
     """
-    return tuple(spec for path in paths for spec in (_specs_below(path) if os.path.isdir(path) else ()) or (path,))
+    below = ((path, files_below(path, SPEC_FILE) if os.path.isdir(path) else ()) for path in paths)
+    return tuple(spec for path, specs in below for spec in specs or (path,))
 
 
-def _specs_below(folder: str) -> tuple[str, ...]:
+def files_below(folder: str, *patterns: str) -> tuple[str, ...]:
+    """Return the files below a folder with names of some patterns, in alphabetical order, as `cell_files` looks."""
     found: list[str] = []
     for place, folders, files in os.walk(folder):
         kept = (name for name in folders if not name.startswith("."))
         folders[:] = sorted(name for name in kept if not os.path.exists(os.path.join(place, name, "pyvenv.cfg")))
-        if SPEC_FILE in files:
-            found.append(os.path.normpath(os.path.join(place, SPEC_FILE)))
+        named = (file for file in sorted(files) if any(fnmatchcase(file, one) for one in patterns))
+        found += (os.path.normpath(os.path.join(place, file)) for file in named)
     return tuple(found)
 
 

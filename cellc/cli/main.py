@@ -24,6 +24,7 @@ _COMMANDS = {
     "diagnose": "Tell what a symptom may mean, and what to look at.",
     "diff": "Tell what changed in a cell, and what that means.",
     "explain": "Explain a diagnostic code.",
+    "format": "Put files of cells and devices into their canonical form.",
     "import": "Make a device folder of a robot as its vendor ships it.",
     "init": "Write a new cell from device names.",
     "mock": "Execute the rehearsals of a generated folder.",

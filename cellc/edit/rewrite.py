@@ -46,24 +46,57 @@ def apply_edits(content: str, edits: Iterable[Edit]) -> str:
 def rewrite(file: Path, edits: Sequence[Edit], expected: str) -> bool:
     """Apply edits to a file; return False where it is no longer what was checked.
 
-    A reader sees the old or the new file, never a part; permissions stay, and a link keeps leading to its file.
-
     Args:
         expected: the text that was checked, with line breaks as ``\\n`` and without byte order mark.
 
     Raises:
         OSError: the folder cannot be written; the file is as it was.
     """
-    real = file.resolve()
-    content = real.read_bytes().decode("utf-8")
-    if _normalised(content) != expected:
+    content = _content(file, expected)
+    if content is None:
         return False
-    broken = "\r\n" if "\r\n" in content else "\n"
+    broken = _line_break(content)
     own = [Edit(e.file, e.line, e.column, e.end_column, e.text.replace("\n", broken), e.message) for e in edits]
+    _put(file, apply_edits(content, own))
+    return True
+
+
+def replace_text(file: Path, text: str, expected: str) -> bool:
+    """Put a text in the place of a file's; return False where the file is no longer what was read.
+
+    Its line breaks become those of the file, whose byte order mark stays.
+
+    Args:
+        text: with line breaks as ``\\n`` and without byte order mark, as ``expected``.
+
+    Raises:
+        OSError: the folder cannot be written; the file is as it was.
+    """
+    content = _content(file, expected)
+    if content is None:
+        return False
+    mark = _BYTE_ORDER_MARK if content.startswith(_BYTE_ORDER_MARK) else ""
+    _put(file, mark + text.replace("\n", _line_break(content)))
+    return True
+
+
+def _content(file: Path, expected: str) -> str | None:
+    """Return a file's content as stored; None where it is not what is expected."""
+    content = file.read_bytes().decode("utf-8", errors="replace")
+    return content if _normalised(content) == expected else None
+
+
+def _line_break(content: str) -> str:
+    return "\r\n" if "\r\n" in content else "\n"
+
+
+def _put(file: Path, content: str) -> None:
+    """A reader sees the old or the new file, never a part; permissions stay, and a link keeps leading to its file."""
+    real = file.resolve()
     descriptor, name = tempfile.mkstemp(prefix=f".{real.name}.", suffix=".cellc", dir=real.parent)
     try:
         with os.fdopen(descriptor, "wb") as stream:
-            stream.write(apply_edits(content, own).encode("utf-8"))
+            stream.write(content.encode("utf-8"))
             stream.flush()
             os.fsync(stream.fileno())
         shutil.copymode(real, name)
@@ -71,7 +104,6 @@ def rewrite(file: Path, edits: Sequence[Edit], expected: str) -> bool:
     except BaseException:
         Path(name).unlink(missing_ok=True)
         raise
-    return True
 
 
 def _normalised(content: str) -> str:

@@ -29,9 +29,9 @@ def read(path: str | Path, edited: Mapping[str, str] | None = None) -> Outcome[S
     name = str(path).replace(os.sep, "/") or "."
     reader = _Reader(Path(path), edited or {})
     place = Span(name, 1, 1, 1, 1)
-    if os.path.islink(path) and not lies_under(Path(path), Path(path).parent):
-        message = f"`{name}` is a link that leads out of its folder"
-        reader.findings.append(finding("include-escape", message, place, advice="copy the file to this place"))
+    escape = link_out(Path(path), name)
+    if escape is not None:
+        reader.findings.append(escape)
     else:
         reader.read(Path(path), name, place)
     findings = list(reader.findings)
@@ -42,6 +42,14 @@ def read(path: str | Path, edited: Mapping[str, str] | None = None) -> Outcome[S
         root = merged.value or root
     document = SourceDocument(name, reader.texts, root)
     return Outcome(document, tuple(sorted(findings, key=Diagnostic.sort_key)))
+
+
+def link_out(path: Path, name: str) -> Diagnostic | None:
+    """Return that a file is a link that leads out of its folder; None where it is not."""
+    if not os.path.islink(path) or lies_under(path, path.parent):
+        return None
+    message = f"`{name}` is a link that leads out of its folder"
+    return finding("include-escape", message, Span(name, 1, 1, 1, 1), advice="copy the file to this place")
 
 
 class _Reader:

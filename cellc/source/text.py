@@ -29,8 +29,13 @@ def read_text(path: Path, name: str, place: Span) -> Outcome[str]:
         The text wherever there is one, so that a finding in it can be shown; it is no YAML where there is a finding.
     """
     content = _read_bytes(path, name, place)
-    if isinstance(content, Diagnostic):
-        return Outcome(None, (content,))
+    return Outcome(None, (content,)) if isinstance(content, Diagnostic) else text_of(content, name)
+
+
+def text_of(content: bytes, name: str) -> Outcome[str]:
+    """Return the same of what a file holds, or what came in its place."""
+    if len(content) > limits().spec_bytes:
+        return Outcome(None, (_too_large(name, "larger", Span(name, 1, 1, 1, 1)),))
     text = _decode(content, name)
     if isinstance(text, Diagnostic):
         return Outcome(None, (text,))

@@ -7,7 +7,7 @@ A model is built when the first spec is parsed, with those inside it. Files of m
 from __future__ import annotations
 
 import math
-from typing import Annotated, Literal, Union
+from typing import Annotated, ClassVar, Literal, Union
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Discriminator, Field, StringConstraints, Tag
 from pydantic_core import PydanticCustomError
@@ -17,6 +17,9 @@ class SpecModel(BaseModel):
     """A part of the spec as written: shape only, the user's own names and units."""
 
     model_config = ConfigDict(strict=True, frozen=True, extra="forbid", defer_build=True)
+
+    SHARED_AFTER: ClassVar[str] = ""
+    """The own key behind which a file has those that the model shares with its kin; empty where they come first."""
 
 
 NAME_PATTERN = r"^[A-Za-z][A-Za-z0-9_]*$"

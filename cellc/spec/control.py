@@ -42,7 +42,6 @@ class ControllerSpec(SpecModel):
         (), description="Command interfaces; those of the kind if absent.", examples=[["position"]]
     )
     active: bool = Field(True, description="Active after start-up; false for an alternate.", examples=[True])
-    client: Name | None = Field(None, description="The one node that may command it.", examples=["move_group"])
     goal_time: Duration | None = Field(None, description="Time allowed past the end of a trajectory.", examples=["1 s"])
     path_tolerance: Tolerance | None = Field(
         None,
@@ -57,6 +56,7 @@ class ControllerSpec(SpecModel):
     on_violation: Literal["abort_and_hold", "abort_and_decelerate"] = Field(
         "abort_and_hold", description="What happens on a tolerance violation.", examples=["abort_and_hold"]
     )
+    client: Name | None = Field(None, description="The one node that may command it.", examples=["move_group"])
     update_rate: UpdateRate | None = Field(None, description="Slower rate than the manager's.", examples=["100 Hz"])
     parameters: dict[str, ParameterValue] = Field(
         default_factory=dict,
@@ -110,10 +110,10 @@ class GroupSpec(SpecModel):
 class GoalSpec(SpecModel):
     """A Cartesian goal: where the tip of the group goes, in a frame looked up at the observation's stamp."""
 
-    frame: FrameReference = Field(..., description="Frame that the goal is given in.", examples=["object"])
     group: Name | None = Field(None, description="Group that moves; the only one if absent.", examples=["manipulator"])
-    xyz: Position | None = Field(None, description="Tip position in the frame; zero if absent.", examples=["0 0 20 mm"])
+    frame: FrameReference = Field(..., description="Frame that the goal is given in.", examples=["object"])
     rpy: RollPitchYaw | None = Field(None, description="Tip orientation in the frame.", examples=["180 0 0 deg"])
+    xyz: Position | None = Field(None, description="Tip position in the frame; zero if absent.", examples=["0 0 20 mm"])
     approach: Position | None = Field(
         None,
         description="Offset in the tip's own axes of the pose before; the last part is a straight line.",

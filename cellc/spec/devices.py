@@ -169,17 +169,17 @@ class DeviceSpec(SpecModel):
         description="Catalog entry, or a folder beside this file with your own device.yaml.",
         examples=["./my_arm"],
     )
-    mount: PlacementSpec | None = Field(
-        None,
-        description="Where the device's root link sits; `world` origin if absent.",
-        examples=[{"parent": "world", "xyz": "0 0 0.8 m"}],
-    )
     prefix: str | None = Field(
         None,
         description="Put before every joint, link and interface name; `<device>_` if absent, may be empty.",
         pattern=r"^([A-Za-z][A-Za-z0-9_]*)?$",
         max_length=64,
         examples=["left_"],
+    )
+    mount: PlacementSpec | None = Field(
+        None,
+        description="Where the device's root link sits; `world` origin if absent.",
+        examples=[{"parent": "world", "xyz": "0 0 0.8 m"}],
     )
     architecture: Literal["ros2", "direct_sdk", "hybrid"] = Field(
         "ros2", description="Who owns the command path down to the servo loop.", examples=["hybrid"]

@@ -1,6 +1,6 @@
 """What goes wrong in a rehearsal: the kind of a fault is its first key, with what it hits."""
 
-from typing import Annotated, Literal, Union
+from typing import Annotated, ClassVar, Literal, Union
 
 from pydantic import Discriminator, Field, Tag
 
@@ -43,6 +43,8 @@ MomentSpec = Annotated[
 
 class FaultFields(SpecModel):
     """When a fault begins and how long it lasts."""
+
+    SHARED_AFTER: ClassVar[str] = "every other"
 
     at: MomentSpec = Field(
         ...,

@@ -80,11 +80,11 @@ class BoxSpec(SpecModel):
     """A box that planning must avoid; it becomes a link of the URDF."""
 
     parent: FrameReference = Field(..., description="Frame that the box is fixed to.", examples=["world"])
-    box: Position = Field(..., description="Full edge lengths along x, y, z.", examples=["1200 800 40 mm"])
     xyz: Position | None = Field(None, description="Centre of the box in the parent.", examples=["0 0 780 mm"])
     rpy: RollPitchYaw | None = Field(
         None, description="Fixed-axis roll, pitch, yaw in the parent.", examples=["0 0 0 deg"]
     )
+    box: Position = Field(..., description="Full edge lengths along x, y, z.", examples=["1200 800 40 mm"])
     kind: Literal["fixture", "obstacle"] = Field(
         "fixture", description="A fixture belongs to the process, an obstacle stands in the way.", examples=["fixture"]
     )
@@ -94,11 +94,11 @@ class AreaSpec(SpecModel):
     """A volume that several arms may stand in, one at a time unless it is released to more."""
 
     parent: FrameReference = Field(..., description="Frame that the volume is fixed to.", examples=["world"])
-    box: Position = Field(..., description="Full edge lengths along x, y, z.", examples=["400 400 400 mm"])
     xyz: Position | None = Field(None, description="Centre of the volume in the parent.", examples=["0 500 200 mm"])
     rpy: RollPitchYaw | None = Field(
         None, description="Fixed-axis roll, pitch, yaw in the parent.", examples=["0 0 0 deg"]
     )
+    box: Position = Field(..., description="Full edge lengths along x, y, z.", examples=["400 400 400 mm"])
     granted_by: Text = Field(
         ..., description="Who lets one arm in at a time on the real cell.", examples=["safety_plc"]
     )

@@ -1,6 +1,6 @@
 """Nodes, and the topics, services and actions between them."""
 
-from typing import Annotated, Literal, Union
+from typing import Annotated, ClassVar, Literal, Union
 
 from pydantic import Discriminator, Field, Tag
 
@@ -27,8 +27,8 @@ class NodeSpec(SpecModel):
 
     run: Text = Field(..., description="Package and executable.", examples=["cell_perception/detector"])
     namespace: Namespace = Field("", description="Namespace of the node.", examples=["/left"])
-    host: Name | None = Field(None, description="Host that runs it.", examples=["control_pc"])
     lifecycle: bool = Field(False, description="Is a managed node.", examples=[True])
+    host: Name | None = Field(None, description="Host that runs it.", examples=["control_pc"])
     owner: Text = Field("UNKNOWN", description="Who answers for it.", examples=["perception"])
     language: Literal["cpp", "python", "UNKNOWN"] = Field(
         "UNKNOWN", description="What it is written in.", examples=["cpp"]
@@ -104,6 +104,8 @@ class SimulatedNetworkSpec(SpecModel):
 class TopicSpec(InterfaceFields):
     """A stream."""
 
+    SHARED_AFTER: ClassVar[str] = "wants"
+
     topic: InterfaceType = Field(..., description="Message type.", examples=["sensor_msgs/msg/Image"])
     from_: Endpoints = Field(
         ..., alias="from", description="Publisher, or publishers with their QoS.", examples=["camera"]
@@ -124,6 +126,8 @@ class TopicSpec(InterfaceFields):
 class ServiceSpec(InterfaceFields):
     """A bounded request and its response."""
 
+    SHARED_AFTER: ClassVar[str] = "client"
+
     service: InterfaceType = Field(..., description="Service type.", examples=["std_srvs/srv/Trigger"])
     server: NodeReference = Field(..., description="Node that answers.", examples=["perception"])
     client: Endpoints = Field(..., description="Nodes that ask.", examples=["task"])
@@ -134,6 +138,8 @@ class ServiceSpec(InterfaceFields):
 
 class ActionSpec(InterfaceFields):
     """A long-running goal with feedback and cancellation."""
+
+    SHARED_AFTER: ClassVar[str] = "client"
 
     action: InterfaceType = Field(..., description="Action type.", examples=["moveit_msgs/action/MoveGroup"])
     server: NodeReference = Field(..., description="Node or controller that executes.", examples=["move_group"])

@@ -49,7 +49,7 @@ def place_of(location: tuple[str | int, ...], root: type[BaseModel]) -> Place:
         model = model_of(expected)
         field = fields_by_key(model).get(str(part)) if model else None
         models = (*models, (path, model)) if model else models
-        expected = _inner(expected, part)
+        expected = inner(expected, part)
         path = (*path, part)
     return Place(path, is_key, required(expected), models, field)
 
@@ -76,6 +76,15 @@ def branches(annotation: object) -> dict[str, object]:
 def branch(annotation: object, tag: str) -> object:
     """Return one branch of a tagged union; ``object`` for a tag that it does not have."""
     return branches(annotation).get(tag, object)
+
+
+def chosen(annotation: object, data: object) -> object:
+    """Return the annotation that reads ``data``: of a tagged union the branch, of an optional one what is there."""
+    annotation = required(annotation)
+    while is_tagged(annotation):
+        told = next(one for one in get_args(annotation)[1:] if isinstance(one, Discriminator)).discriminator
+        annotation = required(branch(annotation, str(told(data)) if callable(told) else ""))
+    return annotation
 
 
 def bare(annotation: object) -> object:
@@ -109,7 +118,28 @@ def fields_by_key(model: type[BaseModel]) -> dict[str, FieldInfo]:
     return {info.alias or name: info for name, info in model.model_fields.items()}
 
 
-def _inner(annotation: object, part: str | int) -> object:
+@cache
+def keys_in_order(model: type[BaseModel]) -> tuple[str, ...]:
+    """Return the keys of a model in the order in which the reference gives them and ``cellc format`` writes them.
+
+    That is the order of its fields; those that it shares with its kin stand behind the own field that it names.
+    """
+    keys = tuple(fields_by_key(model))
+    after = getattr(model, "SHARED_AFTER", "")
+    if not after:
+        return keys
+    shared = tuple(key for key in keys if any(key in fields_by_key(base) for base in _kin(model)))
+    own = tuple(key for key in keys if key not in shared)
+    at = own.index(after) + 1 if after in own else len(own)
+    return (*own[:at], *shared, *own[at:])
+
+
+def _kin(model: type[BaseModel]) -> tuple[type[BaseModel], ...]:
+    return tuple(base for base in model.__bases__ if issubclass(base, BaseModel))
+
+
+def inner(annotation: object, part: str | int) -> object:
+    """Return the annotation of what stands at a key or an index of a value; ``object`` where there is none."""
     model = model_of(annotation)
     if model is not None:
         return annotations_by_key(model).get(str(part), object)

@@ -201,6 +201,18 @@ class QuantityType:
         return {"what": f"{article} {names}", "units": ", ".join(self.units()), "example": self.example}
 
 
+def spaced(text: str) -> str:
+    """Return a quantity with one space between its numbers and before its unit; each number and unit stays as it is.
+
+    A text that is no quantity stays as a whole.
+    """
+    found = [_NUMBERS_THEN_UNIT.fullmatch(part) for part in _parts(text)] if len(text) <= _MAX_TEXT else []
+    matches = [one for one in found if one is not None and one[2]]
+    if not matches or len(matches) < len(found):
+        return text
+    return " ".join(" ".join((*re.split(r"[\s,]+", one[1]), *one[2].split())) for one in matches)
+
+
 def _parts(text: str) -> list[str]:
     """Split a text of several units into numbers with their unit; it stays whole where it cannot be split."""
     parts: list[str] = []

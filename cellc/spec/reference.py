@@ -12,6 +12,7 @@ import yaml
 from cellc.spec import base
 from cellc.spec.base import SpecModel
 from cellc.spec.cell_spec import CellSpec
+from cellc.spec.place import keys_in_order
 from cellc.spec.schema import cell_schema
 
 _INTRODUCTION = """\
@@ -81,14 +82,15 @@ class _Page:
             return
         self._seen.add(section.model)
         schema = self._schema["$defs"][section.model]
-        example = {key: self._example(section.model, key) for key in schema["properties"]}
+        keys = keys_in_order(self._models[section.model])
+        example = {key: self._example(section.model, key) for key in keys}
         if _title(section.model).lower() != section.path:  # the heading of the key has the same words
             yield f"\n### {_title(section.model)}\n"
         yield f"`{section.path}`: {schema['description']}\n"
         yield f"```yaml\n{_yaml(section.wrap(example))}```\n"
         yield "| key | value | meaning |\n|---|---|---|"
-        yield from (self._row(section.model, key, field) for key, field in schema["properties"].items())
-        for key in schema["properties"]:
+        yield from (self._row(section.model, key, schema["properties"][key]) for key in keys)
+        for key in keys:
             inner = list(self._below(section.model, key, f"{section.path}.", section.wrap))
             if len(inner) > _MANY:
                 yield from self._kinds(key, list({kind.model: kind for kind in inner}.values()))
@@ -100,13 +102,13 @@ class _Page:
         yield f"\n#### Kinds of `{key}`\n\n| example | meaning | further keys |\n|---|---|---|"
         for kind in kinds:
             schema = self._schema["$defs"][kind.model]
-            # `at` comes after the keys that tell the kind of a fault.
-            required = sorted(schema.get("required", []), key=lambda name: name == "at")
-            optional = ", ".join(f"`{name}`" for name in schema["properties"] if name not in required)
+            keys = keys_in_order(self._models[kind.model])
+            required = [name for name in keys if name in schema.get("required", ())]
+            optional = ", ".join(f"`{name}`" for name in keys if name not in required)
             example = _flow({name: self._example(kind.model, name) for name in required})
             yield f"| `{example}` | {schema['description']} | {optional} |"
         for kind in kinds:
-            for name in self._schema["$defs"][kind.model]["properties"]:
+            for name in keys_in_order(self._models[kind.model]):
                 for inner in self._below(kind.model, name, f"{kind.path}.", kind.wrap):
                     yield from self._described(inner)
 

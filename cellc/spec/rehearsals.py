@@ -95,14 +95,14 @@ class RehearsalSpec(SpecModel):
 
     steps: tuple[StepSpec, ...] = Field((), description="Steps in order.", examples=[[{"move": "home"}]])
     use: Name | None = Field(None, description="Rehearsal whose steps are used.", examples=["pick_and_place"])
-    inject: FaultsSpec = Field((), description="One fault or several.", examples=[{"freeze": "camera", "at": "2 s"}])
-    expect: AttemptOutcome = Field(
-        AttemptOutcome.SUCCEEDED, strict=False, description="Outcome that it must end in.", examples=["stale_state"]
-    )
     bring_up: Literal["mock", "real"] = Field(
         "mock",
         description="Steps of the bring-up that are taken; with `real` the devices do what their vendors' drivers do.",
         examples=["real"],
+    )
+    inject: FaultsSpec = Field((), description="One fault or several.", examples=[{"freeze": "camera", "at": "2 s"}])
+    expect: AttemptOutcome = Field(
+        AttemptOutcome.SUCCEEDED, strict=False, description="Outcome that it must end in.", examples=["stale_state"]
     )
     within: Duration | None = Field(
         None, description="Bound from the fault (or its effect's start) to the outcome.", examples=["200 ms"]

@@ -43,7 +43,7 @@ def _commit(folder: Path) -> subprocess.CompletedProcess[str]:
 
 
 def _failing(ran: subprocess.CompletedProcess[str]) -> list[str]:
-    return [one for one in ("cellc-check", "cellc-build-check") if f"hook id: {one}" in ran.stdout]
+    return [one for one in ("cellc-format", "cellc-check", "cellc-build-check") if f"hook id: {one}" in ran.stdout]
 
 
 def test_generated_file_that_was_changed_alone_is_stopped(repository: Path) -> None:
@@ -51,6 +51,15 @@ def test_generated_file_that_was_changed_alone_is_stopped(repository: Path) -> N
     _replace(repository, "generated/line/package.xml", "<version>", "<version>9")
     ran = _commit(repository)
     assert (ran.returncode, _failing(ran)) == (1, ["cellc-build-check"]), ran.stdout + ran.stderr
+
+
+def test_cell_in_another_form_is_stopped_once_and_put_right(repository: Path) -> None:
+    _hooked(repository)
+    form = (repository / "cells/line/cell.yaml").read_text(encoding="utf-8")
+    _replace(repository, "cells/line/cell.yaml", "cell: ", "cell:   ")
+    ran = _commit(repository)
+    assert (ran.returncode, _failing(ran)) == (1, ["cellc-format"]), ran.stdout + ran.stderr
+    assert (repository / "cells/line/cell.yaml").read_text(encoding="utf-8") == form
 
 
 def test_device_that_was_changed_alone_is_stopped_until_its_cell_is_built(repository: Path) -> None:

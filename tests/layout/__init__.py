@@ -1,0 +1,1 @@
+"""Tests of cellc/layout: the canonical form of files."""
