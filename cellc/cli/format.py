@@ -5,16 +5,18 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from cellc.cli.batch import SPEC_FILE, files_below
 from cellc.cli.findings import show_findings
-from cellc.diagnostics import Diagnostic
 from cellc.diagnostics.diagnostic import Findings
 from cellc.printing import Line, Stream, Style, Styled, as_text, refuse, show, show_document
+
+if TYPE_CHECKING:
+    from cellc.layout.files import Taken
 
 _STDIN = "-"
 _DIFF_STYLES = {"+": Style.GREEN, "-": Style.RED, "@": Style.CYAN}
@@ -38,103 +40,77 @@ def format(files: tuple[str, ...], check: bool, diff: bool) -> None:
     """
     if _STDIN in files and len(files) > 1:
         raise click.UsageError("expected `-` alone, or files and folders.")
-    done = [_taken(file, writes=not (check or diff)) for file in _meant(files)]
+    from cellc.layout.files import take_content, take_file
+
+    if _STDIN in files:
+        done = [take_content(sys.stdin.buffer.read(), "<stdin>")]
+    else:
+        done = [take_file(file) for file in _meant(files)]
     refused = [Findings(one.name, {one.name: one.before}, one.findings) for one in done if one.findings]
     if refused:
         show_findings(refused, "text")
-    changed = [one for one in done if one.after != one.before and not one.findings]
+    changed = [one for one in done if one.changes]
     for one in changed if diff else ():
         show(*_difference(one))
-    if _STDIN in files and not (check or diff or refused):
-        _show_formatted(done[0].after)
-    elif _STDIN not in files:
-        _tell(done, changed, would=check or diff)
-    if refused or any(one.failed for one in done) or (check and changed):
+    writes = not (check or diff)
+    if _STDIN in files:
+        failed = writes and not refused and not _shown(done[0].after)
+    else:
+        failed = [_put(one, writes=writes) for one in changed].count(False) > 0
+        _tell_the_others(len(done) - len(changed) - len(refused))
+    if refused or failed or (check and changed):
         raise click.exceptions.Exit(1)
-
-
-@dataclass(frozen=True, slots=True)
-class _Taken:
-    """A file as it was and in its canonical form, with line breaks as ``\\n``."""
-
-    name: str
-    before: str = ""
-    after: str = ""
-    findings: tuple[Diagnostic, ...] = ()
-    failed: bool = False
 
 
 def _meant(files: Sequence[str]) -> Iterator[str]:
     """Yield each file once that arguments stand for."""
     from cellc.catalog.compiled import DEVICE_FILE, FAMILY_FILE
-    from cellc.source import read
+    from cellc.layout.files import with_includes
 
     seen = set[str]()
     for file in files:
         below = files_below(file, SPEC_FILE, DEVICE_FILE, f"*{FAMILY_FILE}") if os.path.isdir(file) else ()
         for name in below or (file,):
-            document = read(name).value if below and os.path.basename(name) == SPEC_FILE else None
-            for one in (name, *(document.texts if document is not None else ())):
+            is_spec = bool(below) and os.path.basename(name) == SPEC_FILE
+            for one in with_includes(name) if is_spec else (name,):
                 if os.path.realpath(one) not in seen:
                     seen.add(os.path.realpath(one))
                     yield one
 
 
-def _taken(file: str, *, writes: bool) -> _Taken:
-    from cellc.diagnostics import Span
-    from cellc.layout.layout import formatted
-    from cellc.source.read import link_out
-    from cellc.source.text import read_text, text_of
-
-    name = "<stdin>" if file == _STDIN else file.replace(os.sep, "/")
-    escape = link_out(Path(file), name)
-    if escape is not None:
-        return _Taken(name, findings=(escape,))
-    place = Span(name, 1, 1, 1, 1)
-    text = text_of(sys.stdin.buffer.read(), name) if file == _STDIN else read_text(Path(file), name, place)
-    if text.value is None or text.diagnostics:
-        return _Taken(name, text.value or "", findings=text.diagnostics)
-    made = formatted(name, text.value)
-    if made.value is None:
-        return _Taken(name, text.value, findings=made.diagnostics)
-    failed = writes and file != _STDIN and made.value != text.value and not _written(file, made.value, text.value)
-    return _Taken(name, text.value, made.value, failed=failed)
-
-
-def _written(file: str, text: str, expected: str) -> bool:
+def _put(one: Taken, *, writes: bool) -> bool:
+    """Write a file in its form and say so on standard error, or say that it would be."""
     from cellc.edit.rewrite import replace_text
 
     try:
-        if replace_text(Path(file), text, expected):
-            return True
-        refuse(f"`{file}` was changed meanwhile")
+        if writes and not replace_text(Path(one.name), one.after, one.before):
+            refuse(f"`{one.name}` was changed meanwhile")
+            return False
     except OSError as error:
-        refuse(f"`{file}` cannot be written: {(error.strerror or 'unknown reason').lower()}")
-    return False
+        refuse(f"`{one.name}` cannot be written: {(error.strerror or 'unknown reason').lower()}")
+        return False
+    show(f"{'formatted' if writes else 'would format'} {one.name}", to=Stream.ERR)
+    return True
 
 
-def _show_formatted(text: str) -> None:
+def _tell_the_others(same: int) -> None:
+    if same:
+        show(f"{same} {'file is' if same == 1 else 'files are'} in canonical form", to=Stream.ERR)
+
+
+def _shown(text: str) -> bool:
     """Write a file to standard output, or nothing where a line of it would not come out as it is."""
     if as_text(text.removesuffix("\n").split("\n"), colour=False) != text:
         refuse("a line reads like a command to a runner of CI; format the file itself")
-        raise click.exceptions.Exit(1)
+        return False
     show_document(text)
+    return True
 
 
-def _difference(one: _Taken) -> Iterator[Line]:
+def _difference(one: Taken) -> Iterator[Line]:
     from difflib import unified_diff
 
     before, after = one.before.split("\n"), one.after.split("\n")
     for line in unified_diff(before, after, one.name, one.name, lineterm=""):
         style = _DIFF_STYLES.get(line[:1])
         yield line if style is None or line[:3] in ("+++", "---") else (Styled(line, style),)
-
-
-def _tell(done: Sequence[_Taken], changed: Sequence[_Taken], *, would: bool) -> None:
-    """Say on standard error what was done, or would be."""
-    for one in changed:
-        if not one.failed:
-            show(f"{'would format' if would else 'formatted'} {one.name}", to=Stream.ERR)
-    same = len(done) - len(changed) - sum(1 for one in done if one.findings)
-    if same:
-        show(f"{same} {'file is' if same == 1 else 'files are'} in canonical form", to=Stream.ERR)

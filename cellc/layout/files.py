@@ -1,0 +1,56 @@
+"""The canonical form of files as a user names them: of a spec with what it includes, of a device, of standard input."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+
+from cellc.diagnostics import Diagnostic, Span
+from cellc.layout.layout import formatted
+from cellc.source.read import link_out, read
+from cellc.source.text import read_text, text_of
+
+
+@dataclass(frozen=True, slots=True)
+class Taken:
+    """A file as it is and in its canonical form, with line breaks as ``\\n``; with findings it has none."""
+
+    name: str
+    before: str = ""
+    after: str = ""
+    findings: tuple[Diagnostic, ...] = ()
+
+    @property
+    def changes(self) -> bool:
+        """Whether the file is not in its form."""
+        return not self.findings and self.before != self.after
+
+
+def take_file(file: str) -> Taken:
+    """Read a file, and bring its text into form."""
+    name = file.replace(os.sep, "/")
+    escape = link_out(Path(file), name)
+    if escape is not None:
+        return Taken(name, findings=(escape,))
+    text = read_text(Path(file), name, Span(name, 1, 1, 1, 1))
+    return _taken(name, text.value, text.diagnostics)
+
+
+def take_content(content: bytes, name: str) -> Taken:
+    """Bring what came in the place of a file into form."""
+    text = text_of(content, name)
+    return _taken(name, text.value, text.diagnostics)
+
+
+def with_includes(spec: str) -> tuple[str, ...]:
+    """Return a spec and every file that it includes; itself alone where it cannot be read."""
+    document = read(spec).value
+    return tuple(dict.fromkeys((spec, *(document.texts if document is not None else ()))))
+
+
+def _taken(name: str, text: str | None, findings: tuple[Diagnostic, ...]) -> Taken:
+    if text is None or findings:
+        return Taken(name, text or "", findings=findings)
+    made = formatted(name, text)
+    return Taken(name, text, made.value or "", made.diagnostics)
