@@ -29,10 +29,15 @@ def _hooked(folder: Path) -> None:
     file.write_text(yaml.safe_dump({"repos": [{"repo": "local", "hooks": hooks}]}), encoding="utf-8")
 
 
-def _commit(folder: Path) -> subprocess.CompletedProcess[str]:
+def _commit(folder: Path, *hook: str) -> subprocess.CompletedProcess[str]:
+    """Run the hooks on everything, or one of them alone."""
     git(folder, "add", "-A")
+    return _ran(folder, "pre_commit", "run", *hook)
+
+
+def _ran(folder: Path, module: str, *words: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
-        (sys.executable, "-m", "pre_commit", "run"),
+        (sys.executable, "-m", module, *words),
         cwd=folder,
         env=environment(PRE_COMMIT_HOME=str(folder.parent / "pre_commit")),
         capture_output=True,
@@ -70,3 +75,15 @@ def test_device_that_was_changed_alone_is_stopped_until_its_cell_is_built(reposi
     build_into(repository / "generated/line", repository / "cells/line/cell.yaml")
     ran = _commit(repository)
     assert (ran.returncode, _failing(ran)) == (0, []), ran.stdout + ran.stderr
+
+
+def test_misspelt_key_is_stopped_at_its_line_until_it_is_fixed(repository: Path) -> None:
+    _hooked(repository)
+    _replace(repository, "cells/line/cell.yaml", "update_rate", "update_rte")
+    ran = _commit(repository, "cellc-check")
+    assert (ran.returncode, _failing(ran)) == (1, ["cellc-check"]), ran.stdout + ran.stderr
+    assert "cells/line/cell.yaml:8:3" in ran.stdout
+    assert _ran(repository, "cellc", "check", "--fix", ".").returncode == 0
+    ran = _commit(repository, "cellc-check")
+    assert (ran.returncode, _failing(ran)) == (0, []), ran.stdout + ran.stderr
+    assert git(repository, "diff", "HEAD", "--", "cells") == ""

@@ -7,8 +7,12 @@ other: they share it because a build takes time.
 
 from __future__ import annotations
 
+import json
+
 import pytest
 
+from cellc.review.compare import changes_between
+from cellc.review.facts import facts_of
 from cellc.review.sides import Package
 from tests.review.revisions import Edit, Repository, changes_of, edited, package_of
 
@@ -265,3 +269,52 @@ def test_an_edit_is_told_by_what_it_means(name: str, repository: Repository, mai
 
 def test_there_are_more_than_thirty_edits() -> None:
     assert sum(len(edits) for edits, _ in GROUPS.values()) >= 30
+
+
+def test_another_claim_another_type_and_one_gate_more_are_told(repository: Repository, main: Package) -> None:
+    standard = "L1, L2, L3, L4, L5, L6, G0, G1, G2, G3, G4, G5, G6, G7"
+    edits = (
+        ("geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/PoseWithCovarianceStamped"),
+        ("    gripper_action: {type", "    fingers: {type"),
+        ("    arm_software: {type: configuration, device: arm}\n", ""),
+        ("to: {perception: {reliability: best_effort,", "to: {perception: {reliability: reliable,"),
+        ("gates: standard ", f"gates: [{standard.replace('G3,', 'G3, cable check,')}] "),
+    )
+    found = changes_of(main, package_of(repository, repository.commit(edited(*edits))))
+    gripper, software = "parallel_gripper_action_controller/GripperActionController", "ur_controllers/URConfiguration"
+    assert [one for one in found if one.split()[1] in ("control", "interfaces", "QoS", "gates", "safety")] == [
+        f"dangerous control | arm_software | controller went | {software}Controller -> None",
+        f"dangerous control | gripper_action | controller went | {gripper} -> None",
+        "dangerous control | gripper_robotiq_85_left_knuckle_joint/position | who claims it | "
+        "gripper_action -> fingers",
+        "dangerous interfaces | /object_pose | type | geometry_msgs/msg/PoseStamped -> "
+        "geometry_msgs/msg/PoseWithCovarianceStamped | breaks",
+        f"review control | fingers | controller came | None -> {gripper}",
+        "review interfaces | /fingers/gripper_cmd | interface came | "
+        "None -> control_msgs/action/ParallelGripperCommand",
+        "review interfaces | /arm_software/get_robot_software_version | interface went | "
+        "ur_msgs/srv/GetRobotSoftwareVersion -> None | breaks",
+        "review interfaces | /gripper_action/gripper_cmd | interface went | "
+        "control_msgs/action/ParallelGripperCommand -> None | breaks",
+        "review QoS | /camera/color/image_raw subscribers perception | quality of service reliability | "
+        "best_effort -> reliable",
+        "review gates | cell | gates | 14 entries -> 15 entries | new cable check",
+    ]
+
+
+def test_ends_that_connect_no_longer_are_dangerous_and_the_reverse_is_safe(main: Package) -> None:
+    # A reader that asks for reliable hears no writer that offers best effort (DDS 1.4, 2.2.3.14).
+    contract = json.loads(main.files["contract.json"])
+    (writer,) = contract["interfaces"]["/object_pose"]["sources"]
+    writer["qos"]["reliability"] = "best_effort"
+    deaf = facts_of({**main.files, "contract.json": json.dumps(contract)})
+    lost, back = (
+        [change for change in changes_between(*sides) if change.quantity == "edge"]
+        for sides in ((main.facts, deaf), (deaf, main.facts))
+    )
+    assert [(*one.subjects, one.before, str(one.grade), one.breaking, one.why) for one in lost] == [
+        ("/object_pose: perception to task", "connected", "dangerous", True, "samples no longer arrive")
+    ]
+    assert [(*one.subjects, one.after, str(one.grade), one.breaking) for one in back] == [
+        ("/object_pose: perception to task", "connected", "safe", False)
+    ]
