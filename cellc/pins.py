@@ -1,7 +1,8 @@
-"""Pins of the version tuple, such as ``driver_package 3.8.0``: the version in them, as a number or as a commit."""
+"""What a spec pins: versions such as ``driver_package 3.8.0``, as a number or as a commit, and days."""
 
 from __future__ import annotations
 
+import datetime
 import re
 
 _NUMBER = re.compile(r"\d+(?:\.\d+)*")
@@ -42,3 +43,14 @@ def older(text: str, minimum: str) -> bool:
     """Whether a pin has a number below a minimum; one without a number is not."""
     ours = version_numbers(text)
     return bool(ours) and ours < version_numbers(minimum)
+
+
+DAY_PATTERN = "[0-9]{4}-[0-9]{2}-[0-9]{2}"
+
+
+def day_of(text: str) -> datetime.date | None:
+    """Return the day of a text YYYY-MM-DD; None of any other, on every Python: newer ones read weeks of a year too."""
+    try:
+        return datetime.date.fromisoformat(text) if re.fullmatch(DAY_PATTERN, text) else None
+    except ValueError:
+        return None

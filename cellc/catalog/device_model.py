@@ -30,7 +30,7 @@ from cellc.catalog.device_interfaces import (
     SpeedScalingFacts,
     TopicFacts,
 )
-from cellc.catalog.robot_facts import HumanStep, PlugFacts, RobotControllerFacts, StepCondition
+from cellc.catalog.robot_facts import HumanStep, MountFacts, PlugFacts, RobotControllerFacts, StepCondition
 from cellc.spec.quantity import (
     Force,
     JointAcceleration,
@@ -368,6 +368,7 @@ class DeviceModel(CatalogModel):
     base: PartName
     frames: dict[PartName, PartName]
     tool_frame: PartName | None = None
+    mounts: tuple[MountFacts, ...] = ()
     optical_frames: tuple[PartName, ...] = ()
     home: dict[PartName, JointPosition] | None = None
     allowed_collisions: tuple[AllowedPair, ...] = ()

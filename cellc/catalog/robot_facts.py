@@ -4,8 +4,8 @@ from typing import Literal, Union
 
 from pydantic import Field
 
-from cellc.catalog.catalog_model import CatalogModel, FileName, NodeName, ParameterFact, Text, Token
-from cellc.spec.quantity import Voltage
+from cellc.catalog.catalog_model import CatalogModel, FileName, NodeName, ParameterFact, PartName, Text, Token
+from cellc.spec.quantity import Position, RollPitchYaw, Voltage
 from cellc.spec.tool import BaudRate, Parity, StopBits
 
 
@@ -31,6 +31,16 @@ class ProgramFacts(CatalogModel):
     def way(self, by: str, mode: str) -> ProgramWay | None:
         """Return the way of ``person`` or ``driver`` in a mode."""
         return next((one for one in self.ways if (one.by, one.mode) == (by, mode)), None)
+
+
+class MountFacts(CatalogModel):
+    """How the vendor hangs the device on an arm: on a frame of a model, by its own name, with a fixed transform."""
+
+    on: Token
+    frame: PartName
+    xyz: Position | None = None
+    rpy: RollPitchYaw | None = None
+    source: Text
 
 
 class CenterFacts(CatalogModel):

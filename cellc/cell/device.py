@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -201,6 +202,15 @@ class OfferedInterface:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class VendorMount:
+    """How the vendor hangs a device on an arm of one model: on its frame of a short name, in this pose."""
+
+    model: str
+    frame: str
+    pose: Pose
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class NetworkNeeds:
     """What a device asks: ``realtime`` is required, recommended or not_needed; its driver ``listens`` on ports."""
 
@@ -229,6 +239,8 @@ class Device(Entity):
         vendor_description: that of the vendor's package, whose shapes the links have; None where none is known.
         root_link: prefixed root link; its pose in ``parent_frame`` is ``transform_root_to_parent``.
         frames: short names of the catalog and local link names → prefixed link names.
+        mounted_on: the day on which it was mounted for the last time; None where the spec does not say.
+        vendor_mounts: how its vendor hangs it on arms, where the catalog tells.
         joints: movable joints in the order of the description, mimic joints included.
         driver: what moves it on the real target where no component of ros2_control does.
         tool_frame: prefixed link where tools mount, for an arm.
@@ -267,6 +279,8 @@ class Device(Entity):
     prefix: str = ""
     parent_frame: str = WORLD
     transform_root_to_parent: Pose = field(default_factory=identity)
+    mounted_on: datetime.date | None = None
+    vendor_mounts: tuple[VendorMount, ...] = ()
     frames: Mapping[str, str] = field(default_factory=dict)
     joints: tuple[DeviceJoint, ...] = ()
     hardware: HardwareComponent | None = None

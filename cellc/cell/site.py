@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, fields
 
 from cellc.cell.entity import Entity
+from cellc.pins import day_of
 from cellc.vocabulary import NETWORK_GATES, PROMOTION_GATES
 
 UNKNOWN = "UNKNOWN"
@@ -53,11 +54,7 @@ class HardwareStatement:
 
     def is_signed(self) -> bool:
         """Whether somebody says, with a date, that it touches no hardware."""
-        try:
-            datetime.date.fromisoformat(self.date)
-        except ValueError:
-            return False
-        return self.touches_no_hardware and self.by.strip() not in ("", UNKNOWN)
+        return self.touches_no_hardware and day_of(self.date) is not None and self.by.strip() not in ("", UNKNOWN)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -34,6 +34,7 @@ _NOT_OF_AN_ENTITY = frozenset(
     {
         *("span", "places", "declared", "owner"),
         *("endpoints", "inside", "version_rows", "commissioning", "mock_cannot_prove"),  # the catalog's
+        "vendor_mounts",  # the catalog's
         "vendor_description",  # its shapes are those of the links
         *("plug", "tool_facts", "load_service", "impedance_facts"),  # what a tool and its connector could be told
     }

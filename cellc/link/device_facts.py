@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
@@ -23,14 +24,16 @@ from cellc.cell.device import (
     Packages,
     SimulatedJoint,
     Stamp,
+    VendorMount,
 )
 from cellc.cell.vendor import CommissioningStep, RecordSource, RecoveryProcedure, SafetyState, VendorSafety
 from cellc.link.hardware import offered_interfaces, run_nodes, started_nodes
 from cellc.link.names import Placeholders
 from cellc.link.ports import listened
-from cellc.link.quantities import joint_figure, si
+from cellc.link.quantities import joint_figure, pose, si
 from cellc.link.robot import conditions
 from cellc.link.site import bind_clock
+from cellc.pins import day_of
 from cellc.source.document import SourceDocument
 from cellc.spec.devices import EVERY_JOINT, DeviceSpec
 from cellc.vocabulary import Distro
@@ -50,6 +53,7 @@ def with_statements(device: Device, written: DeviceSpec, port: str | None, docum
         initial_state=written.initial_state,
         limit_shares=limit_shares(written),
         stamp=_stamp(written),
+        mounted_on=_mounted_on(written),
         adapter=_adapter(written),
         simulated_joints=_simulated_joints(written, device, document),
     )
@@ -65,6 +69,9 @@ def with_catalog(
     return replace(
         device,
         home={prefix + joint: position.si for joint, position in (facts.home or {}).items()},
+        vendor_mounts=tuple(
+            VendorMount(model=one.on, frame=one.frame, pose=pose(one.xyz, one.rpy)) for one in facts.mounts
+        ),
         optical_frames=facts.optical_frames,
         payload_limit_kg=None if limits.payload is None else limits.payload.value.si,
         update_rates_hz=() if control is None else tuple(rate.si for rate in control.update_rates),
@@ -127,6 +134,11 @@ def limit_shares(written: DeviceSpec) -> LimitShares:
     return LimitShares(
         velocity=1.0 if velocity is None else velocity, acceleration=1.0 if acceleration is None else acceleration
     )
+
+
+def _mounted_on(written: DeviceSpec) -> datetime.date | None:
+    since = None if written.mount is None else written.mount.since
+    return None if since is None else day_of(since)
 
 
 def _stamp(written: DeviceSpec) -> Stamp | None:

@@ -5,7 +5,6 @@ Defaults, ``standard`` lists and units are decided here.
 
 from __future__ import annotations
 
-import datetime
 from collections.abc import Iterable, Mapping
 
 from cellc.cell.device import Device
@@ -38,6 +37,7 @@ from cellc.cell.site import (
 )
 from cellc.diagnostics import Span, YamlPath
 from cellc.link.quantities import joint_figure, si
+from cellc.pins import day_of
 from cellc.source.document import Node, SourceDocument
 from cellc.spec.cell_spec import CellSpec
 from cellc.spec.devices import StampSpec
@@ -128,7 +128,7 @@ def bind_calibrations(
             span=places.locate(("calibrations", name)),
             revision=written.revision,
             measured=written.measured,
-            measured_on=_date(written.measured),
+            measured_on=day_of(written.measured),
             method=written.method,
             samples=written.samples,
             residual_m=si(written.residual),
@@ -137,13 +137,6 @@ def bind_calibrations(
         )
         for name, written in spec.calibrations.items()
     }
-
-
-def _date(text: str) -> datetime.date | None:
-    try:
-        return datetime.date.fromisoformat(text)
-    except ValueError:
-        return None
 
 
 def bind_owners(spec: CellSpec) -> Owners:

@@ -9,8 +9,10 @@ from __future__ import annotations
 import math
 from typing import Annotated, ClassVar, Literal, Union
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Discriminator, Field, StringConstraints, Tag
+from pydantic import AfterValidator, BaseModel, ConfigDict, Discriminator, Field, StringConstraints, Tag, WithJsonSchema
 from pydantic_core import PydanticCustomError
+
+from cellc.pins import DAY_PATTERN, day_of
 
 
 class SpecModel(BaseModel):
@@ -60,6 +62,19 @@ def shape_of(value: object) -> str | None:
         return "list"
     return "mapping" if isinstance(value, (dict, SpecModel)) else None
 
+
+def _is_day(text: str) -> str:
+    if day_of(text) is None:
+        raise PydanticCustomError("wrong-type", "a date, such as `2026-07-01`")
+    return text
+
+
+Day = Annotated[
+    str,
+    AfterValidator(_is_day),
+    WithJsonSchema({"type": "string", "pattern": f"^{DAY_PATTERN}$", "maxLength": 10}),
+]
+"""A day as YYYY-MM-DD (ISO 8601-1:2019)."""
 
 StandardOr = Annotated[
     Union[Annotated[Literal["standard"], Tag("text")], Annotated[tuple[Text, ...], Tag("list")]],

@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from cellc.spec.base import FrameReference, Name, Pin, SpecModel, Text
+from cellc.spec.base import Day, FrameReference, Name, Pin, SpecModel, Text
 from cellc.spec.quantity import (
     Drift,
     Duration,
@@ -33,6 +33,16 @@ class PlacementSpec(SpecModel):
     )
     calibration: Name | None = Field(
         None, description="Calibration that measured this transform; absent for a designed one.", examples=["hand_eye"]
+    )
+
+
+class MountSpec(PlacementSpec):
+    """Where a device sits, and since when."""
+
+    since: Day | None = Field(
+        None,
+        description="Day on which it was mounted, or taken off and mounted again, for the last time.",
+        examples=["2026-06-30"],
     )
 
 
@@ -176,7 +186,7 @@ class DeviceSpec(SpecModel):
         max_length=64,
         examples=["left_"],
     )
-    mount: PlacementSpec | None = Field(
+    mount: MountSpec | None = Field(
         None,
         description="Where the device's root link sits; `world` origin if absent.",
         examples=[{"parent": "world", "xyz": "0 0 0.8 m"}],

@@ -1,6 +1,5 @@
 """Frames, their calibrations, and the solid things of the cell."""
 
-import datetime
 from typing import Literal
 
 from pydantic import Field
@@ -31,13 +30,6 @@ class CalibrationSpec(SpecModel):
     child: FrameReference | None = Field(
         None, description="Frame whose pose it has, where it names another.", examples=["camera/color_optical"]
     )
-
-    def measured_on(self) -> datetime.date | None:
-        """Return the date of the measurement, or None where the text is no date."""
-        try:
-            return datetime.date.fromisoformat(self.measured)
-        except ValueError:
-            return None
 
 
 class FrameSpec(SpecModel):

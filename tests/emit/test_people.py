@@ -262,6 +262,15 @@ def test_recording_holds_the_motion_path_with_profiles_that_match_every_publishe
     assert profiles["/tf"]["durability"] == "volatile"
 
 
+def test_recorder_keeps_what_comes_while_it_waits_for_its_disk() -> None:
+    profiles = safe_load(artifacts_of("ur5e_pick")["config/recording_qos.yaml"])
+    # A second of joint states at 500 Hz; one static transform of each of a hundred publishers, as tf2's listeners keep.
+    assert {name: profiles[name]["depth"] for name in ("/joint_states", "/tf_static")} == {
+        "/joint_states": 500,
+        "/tf_static": 100,
+    }
+
+
 def test_sentence_names_everyone_on_the_way_to_the_drives() -> None:
     readme = artifacts_of("ur5e_pick")["README.md"]
     (sentence,) = (line for line in readme.splitlines() if line.startswith("Camera publishes"))

@@ -90,6 +90,18 @@ BOUNDARIES: list[Case] = [
         ("2025-06-29", "2027-07-03", "2019-01-01"),
     ),
     *_spec(
+        "calibration-before-mounting",
+        "devices: {{camera: {{mount: {{since: {value}}}}}}}",
+        ("2026-07-01", "2020-02-29"),
+        ("2026-07-02", "2027-01-01"),
+    ),
+    *_spec(
+        "mounted-against-vendor",
+        "devices: {{gripper: {{mount: {{xyz: 0 0 {value} mm}}}}}}",
+        ("0.9", "-0.9"),
+        ("1.1", "-1.1"),
+    ),
+    *_spec(
         "implausible-center-of-mass",
         "devices: {{arm: {{payload: {{center_of_mass: {value}}}}}}}",
         ("0 0 58 mm", "0 -5 62 mm", "0 0 5 mm"),

@@ -191,3 +191,11 @@ def test_tolerance_has_at_most_one_figure_of_a_kind(tmp_path: Path) -> None:
     (found,) = parsed(HEAD + ARM + control, tmp_path).diagnostics
     message = "expected an angle, a length, or one of each for `control.controllers.moves.path_tolerance`"
     assert (found.code, found.message) == ("not-a-quantity", f"{message}, got the text `0.1 rad 5 deg`")
+
+
+@pytest.mark.parametrize("day", ["2026-02-30", "2026-7-1", "2026-W27-3", "last week"])
+def test_day_of_a_mounting_is_a_date(day: str, tmp_path: Path) -> None:
+    text = f"devices: {{arm: {{model: ur5e, mount: {{parent: world, since: {day}}}}}}}"
+    (found,) = parsed(HEAD + text, tmp_path).diagnostics
+    assert (found.code, found.yaml_path) == ("wrong-type", ("devices", "arm", "mount", "since"))
+    assert found.message.startswith("expected a date, such as `2026-07-01`")

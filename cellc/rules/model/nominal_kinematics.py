@@ -26,12 +26,12 @@ Source: docs/principles.md#calibration
 
 from __future__ import annotations
 
-import datetime
 from collections.abc import Iterator
 
 from cellc.cell.device import Device
 from cellc.cell.kinematics import KinematicCalibration, Kinematics
 from cellc.cell.site import UNKNOWN
+from cellc.pins import day_of
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
@@ -56,13 +56,5 @@ def _unvouched(one: KinematicCalibration, kinematics: Kinematics) -> Iterator[tu
         yield ("file",), f"`{one.name}` holds the kinematics of the type, by its hash `{one.hash}`"
     if one.owner == UNKNOWN:
         yield ("owner",), f"nobody answers for `{one.name}`"
-    if not _is_date(one.measured):
+    if day_of(one.measured) is None:
         yield ("measured",), f"`measured` of `{one.name}` must be a date, got `{one.measured}`"
-
-
-def _is_date(text: str) -> bool:
-    try:
-        datetime.date.fromisoformat(text)
-    except ValueError:
-        return False
-    return True

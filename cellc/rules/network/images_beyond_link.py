@@ -1,7 +1,7 @@
 """The images of the cell fill a link between two computers.
 
-Raw images travel whole, to each computer that reads them. Where they take what the link has, everything beside them
-waits: poses and states come late, and best-effort images with a part lost are thrown away as a whole.
+Raw images travel whole, to each computer that reads or records them. Where they take what the link has, everything
+beside them waits: poses and states come late, and best-effort images with a part lost are thrown away as a whole.
 
 Example that is reported:
 
@@ -19,7 +19,7 @@ hosts:
   control_pc: {nics: {cell: {speed: 1 Gbit/s}}}
 ```
 
-Fix: read the images where the camera is, take smaller ones or fewer, or a faster link.
+Fix: read and record the images where the camera is, take smaller ones or fewer, or a faster link.
 
 Source: https://docs.ros.org/en/jazzy/How-To-Guides/DDS-tuning.html
 (Jazzy): large messages over lossy connections; a fifth of the link is kept free for headers, repeats and all else
@@ -58,8 +58,9 @@ def check(graph: CellGraph) -> Findings:
 
 
 def _crossings(graph: CellGraph) -> Iterator[tuple[Nic, Interface, float]]:
-    """Yield the card of either end of each stream that is read on another computer, with what it takes there."""
+    """Yield the card of either end of each stream that another computer reads or records, with what it takes there."""
     running = running_hosts(graph.cell)
+    recorders = {nic.host for nic in graph.network.nics if "bag" in nic.carries}
     cameras = {device.name: device for device in graph.cell.devices if device.camera is not None}
     for interface in graph.cell.interfaces:
         camera = next((cameras[one.node] for one in interface.sources if one.node in cameras), None)
@@ -68,7 +69,10 @@ def _crossings(graph: CellGraph) -> Iterator[tuple[Nic, Interface, float]]:
         if camera is None or image is None or image.image_bytes is None:
             continue
         rate_bps = image.image_bytes * 8.0 * min(interface.rate_hz or image.rate_hz, image.rate_hz)
-        readers = {running.get(sink.full_name, "") for sink in interface.sinks} - {camera.host, ""}
+        readers = {running.get(sink.full_name, "") for sink in interface.sinks}
+        if interface.name in graph.cell.recording.topics and camera.host not in recorders:
+            readers |= recorders
+        readers -= {camera.host, ""}
         for reader in sorted(readers):
             for nic in _way(graph, camera.host, reader):
                 yield nic, interface, rate_bps
