@@ -21,7 +21,7 @@ devices:
 
 Fix: mount it as the message says; with a plate between, mount it on a frame of the plate.
 
-Source: https://github.com/frankarobotics/franka_description (1.0.1): rpy_ee of robots/fr3/fr3.urdf.xacro
+Source: docs/principles.md#facts-of-the-catalog
 """
 
 from __future__ import annotations
