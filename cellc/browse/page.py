@@ -11,7 +11,7 @@ from cellc.description.model import Joint
 from cellc.description.posture import farthest, posture
 from cellc.formats.escape import code, markdown
 from cellc.formats.markdown_table import TableCell, table
-from cellc.formats.views import Drawing, two_views
+from cellc.formats.views import Part, two_views
 from cellc.transforms import Pose
 
 
@@ -166,7 +166,9 @@ def picture(entry: CatalogDevice) -> str:
     named: Mapping[str, Pose] = {name: poses[link] for name, link in entry.model.frames.items() if link in poses}
     joined = (joint for joint in description.joints if joint.child in poses)
     return two_views(
-        Drawing(
+        Part(
+            entry.model.model,
+            (0.0, 0.0, 0.0),
             tuple((poses[link] @ one.pose, one.geometry) for link, one in shapes),
             tuple((poses[joint.parent].position, poses[joint.child].position) for joint in joined),
             tuple(named.items()),

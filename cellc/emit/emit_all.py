@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from cellc.artifact import Artifact
 from cellc.deploy.deployment import Deployment
 from cellc.emit import (
+    cell_picture,
     description,
     frames,
     gates,
@@ -40,6 +41,7 @@ EMITTERS: tuple[Callable[[CellGraph, Deployment], Iterator[Artifact]], ...] = (
     policy.emit,
     responsibility_graph.emit,
     picture.emit,
+    cell_picture.emit,
     gates.emit,
     audit.emit,
     readme.emit,

@@ -67,6 +67,7 @@ _FILES = (
     (SOURCES, "repositories, at commits, of what the distribution does not release"),
     ("contract.json", "what the interfaces promise: type, QoS, rate, age, owner, failure behavior"),
     ("rehearsals.json", "what the mock executes, and the outcome that each run must end in"),
+    ("graph/cell.svg", "where everything stands, from two sides"),
     ("graph/responsibility.svg", "who tells what to whom, and who answers for it; `.mmd` says the same"),
     ("gates/promotion.md", "gates G0 to G7 as a checklist for one attempt; `gates/network.md` holds L1 to L6"),
     ("audit.md", "open questions, version tuple, every command path, what the running cell must show, owners"),
@@ -94,6 +95,7 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
         markdown(cell.summary),
         f"A ROS 2 package for {cell.distro}; the spec is its only source, so that a change is made there. Which "
         "configuration it is stands in `manifest.json`.",
+        f"![{cell.name} from two sides, with its frames](graph/cell.svg)",
         *_gates(plan),
         "## Every shell, once",
         "From the folder that holds `cells/` and `generated/`, with ROS 2 sourced:",

@@ -25,7 +25,10 @@ _LAYERS = (
     ("cones", "fields of view", False),
 )
 _LOOKS = ("around", "front", "side", "above")
-_CAPTIONS = {"graph/responsibility.svg": ("graph", "Who tells what to whom", "The graph of responsibilities")}
+_CAPTIONS = {
+    "graph/cell.svg": ("sides", "From two sides", "Where everything stands, from two sides"),
+    "graph/responsibility.svg": ("graph", "Who tells what to whom", "Every arrow of the cell with its owner"),
+}
 
 
 def to_html(content: Content, library: str | None) -> str:

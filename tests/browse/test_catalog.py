@@ -73,8 +73,10 @@ def test_wrong_question_is_a_usage_error(wrong: tuple[str, ...]) -> None:
 def test_picture_names_each_frame_in_both_views(name: str) -> None:
     entry = _entry(name)
     root = ElementTree.fromstring(picture(entry))
-    for view in root.findall(f"{_SVG}g"):
-        said = {part.strip() for text in view.findall(f"{_SVG}text") for part in (text.text or "").split(",")}
+    views = root.findall(f"{_SVG}g")
+    assert len(views) == 2
+    for view in views:
+        said = {part.strip() for text in view.iter(f"{_SVG}text") for part in (text.text or "").split(",")}
         assert set(entry.model.frames) <= said
 
 

@@ -1,0 +1,95 @@
+"""Names beside points of a drawing: each at the nearest side that is free, with a line to its point where it is far."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+Point = tuple[float, float]
+_Box = tuple[float, float, float, float]
+
+_LETTER = 0.56
+"""Width of a character over its height, about what sans-serif sets on average."""
+_FAR = 2.0
+"""Letters from the point beyond which a line leads there."""
+
+
+@dataclass(frozen=True, slots=True)
+class Label:
+    """A text for a point; ``key`` tells apart what stands in one place."""
+
+    key: str
+    at: Point
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Placed:
+    """Where a text stands from its point: its base line begins, is centered or ends there.
+
+    Attributes:
+        foot: end of the line that leads to it, where it is far.
+    """
+
+    label: Label
+    offset: Point
+    anchor: str
+    foot: Point
+    far: bool
+
+
+def placed(labels: Iterable[Label], letter: float, bounds: _Box) -> tuple[Placed, ...]:
+    """Return where each text stands; one without room within the bounds stands where it hides least.
+
+    Args:
+        letter: height of letters.
+        bounds: left, top, right, bottom.
+    """
+    ordered = sorted(labels, key=lambda one: (one.at[1], one.at[0], one.key))
+    taken = [_around(one.at, letter * 0.4) for one in ordered]
+    found = []
+    for label in ordered:
+        choices = (
+            (_cost(box, taken, bounds) + distance, number, one, box)
+            for number, (one, box, distance) in enumerate(_choices(label, letter))
+        )
+        _, _, best, box = min(choices, key=lambda choice: choice[:2])
+        taken.append(box)
+        found.append(best)
+    return tuple(found)
+
+
+def _choices(label: Label, letter: float) -> Iterator[tuple[Placed, _Box, float]]:
+    """Yield places around a point, the nearest first, with the box of the text and what its distance costs."""
+    wide = len(label.text) * letter * _LETTER
+    for away in (0.7, 1.6, 2.8, 4.2, 6.0):
+        for side, up in ((1, 0), (-1, 0), (1, 1), (1, -1), (-1, 1), (-1, -1), (0, 1), (0, -1)):
+            # Beside the point or over it; slanted, half as far to each side.
+            x = side * letter * (away if up == 0 else away / 2)
+            y = -up * letter * (away + 0.3) + (letter * 0.35 if up >= 0 else letter * 0.7)
+            left = label.at[0] + x - wide * {1: 0.0, 0: 0.5, -1: 1.0}[side]
+            base = label.at[1] + y
+            box = (left, base - letter * 0.85, left + wide, base + letter * 0.25)
+            anchor = {1: "start", 0: "middle", -1: "end"}[side]
+            foot = (_tidy(x), _tidy(y - letter * 0.3))
+            yield Placed(label, (_tidy(x), _tidy(y)), anchor, foot, away >= _FAR), box, away * letter * letter * 0.5
+
+
+def _tidy(value: float) -> float:
+    return round(value, 1) + 0.0
+
+
+def _around(point: Point, half: float) -> _Box:
+    return (point[0] - half, point[1] - half, point[0] + half, point[1] + half)
+
+
+def _cost(box: _Box, taken: Iterable[_Box], bounds: _Box) -> float:
+    """Return the area that is hidden or lies outside, ten times as dear as distance."""
+    whole = (box[2] - box[0]) * (box[3] - box[1])
+    return 10.0 * (sum(_shared(box, other) for other in taken) + whole - _shared(box, bounds))
+
+
+def _shared(one: _Box, other: _Box) -> float:
+    wide = min(one[2], other[2]) - max(one[0], other[0])
+    high = min(one[3], other[3]) - max(one[1], other[1])
+    return wide * high if wide > 0.0 and high > 0.0 else 0.0
