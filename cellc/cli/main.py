@@ -27,6 +27,7 @@ _COMMANDS = {
     "format": "Put files of cells and devices into their canonical form.",
     "import": "Make a device folder of a robot as its vendor ships it.",
     "init": "Write a new cell from device names.",
+    "lsp": "Answer an editor: the language server of cells and devices.",
     "mock": "Execute the rehearsals of a generated folder.",
     "schema": "Print or write the JSON schemas.",
     "show": "Show a resolved value and where it came from.",

@@ -253,6 +253,24 @@ def _number(value: float) -> str:
     return f"{value + 0.0:.9g}"
 
 
+def resolved_at(tree: Tree, path: YamlPath) -> list[tuple[Tree, str]]:
+    """Return what becomes of a path of the spec, with its dotted names: one key may become several values, or none."""
+    found = [(tree, "")]
+    for part in ("managers", *path) if path[:1] == ("control",) else path:
+        found = [one for inner, name in found for one in _step(inner, name, str(part))]
+    return found
+
+
+def _step(tree: Tree, name: str, part: str) -> Iterator[tuple[Tree, str]]:
+    if isinstance(tree, Leaf) or part in name.split("."):
+        # The rest of the path is part of this value, as `xyz` of a mount, or of its name, as the group of a pose.
+        yield tree, name
+        return
+    for key, value in tree.items():
+        if part in (key, _key(key), _KEYS.get(key), key.partition(".")[0]):
+            yield value, f"{name}.{key}" if name else key
+
+
 def flatten(tree: Tree, prefix: str = "") -> Iterator[tuple[str, Leaf]]:
     """Yield the leaves with their dotted paths, in order."""
     if isinstance(tree, Leaf):

@@ -155,6 +155,12 @@ def apply_ignores(
     return (*(one for one in found if one not in excused), *misused_ignores(ignores, pages), *unused)
 
 
+def may_be_ignored(code: str) -> bool:
+    """Whether a comment may excuse what a rule of this code finds."""
+    rule = _RULES.get(code)
+    return rule is not None and _refusal_of(code, rule.severity) is None
+
+
 def misused_ignores(ignores: tuple[IgnoreComment, ...], pages: Mapping[str, CodePage]) -> tuple[Diagnostic, ...]:
     """Return what is wrong with comments whatever the rules find: no code, no reason, or a code that stays."""
     problems: list[Diagnostic] = []
@@ -173,17 +179,24 @@ def _shape_problems(comment: IgnoreComment) -> Iterator[Diagnostic]:
 
 
 def _refusal(ignored: IgnoredCode, pages: Mapping[str, CodePage]) -> Diagnostic | None:
-    page, rule = pages.get(ignored.code), _RULES.get(ignored.code)
+    page = pages.get(ignored.code)
     if page is None:
         known = did_you_mean(ignored.code, pages, "codes that `cellc explain` lists")
         return _misuse("unknown-ignored-code", f"there is no code `{ignored.code}`", ignored.span, known)
-    if (rule is None or ignored.code in _LINK_CODES) and page.severity is Severity.ERROR:
-        reason = "without it the cell is not known"
-    elif rule is not None and rule.family in _PROTECTED_FAMILIES and rule.severity in _STOPPING:
-        reason = f"it is {_article(rule.severity)} of family {rule.family}"
-    else:
+    reason = _refusal_of(ignored.code, page.severity)
+    if reason is None:
         return None
     return _misuse("ignore-refused", f"`{ignored.code}` cannot be ignored: {reason}", ignored.span)
+
+
+def _refusal_of(code: str, severity: Severity) -> str | None:
+    """Return why nobody may ignore a code; None where a comment may."""
+    rule = _RULES.get(code)
+    if (rule is None or code in _LINK_CODES) and severity is Severity.ERROR:
+        return "without it the cell is not known"
+    if rule is not None and rule.family in _PROTECTED_FAMILIES and rule.severity in _STOPPING:
+        return f"it is {_article(rule.severity)} of family {rule.family}"
+    return None
 
 
 def _article(severity: Severity) -> str:

@@ -116,7 +116,7 @@ class QuantityType:
 
     def __get_pydantic_core_schema__(self, source: object, handler: GetCoreSchemaHandler) -> core_schema.CoreSchema:
         return core_schema.no_info_plain_validator_function(
-            self._read, serialization=core_schema.plain_serializer_function_ser_schema(_written)
+            self.read, serialization=core_schema.plain_serializer_function_ser_schema(_written)
         )
 
     def __get_pydantic_json_schema__(
@@ -141,7 +141,12 @@ class QuantityType:
         """List the units that fit, in the order of the dimensions."""
         return tuple(unit for dimension in self.dimensions for unit, _ in dimension.units)
 
-    def _read(self, value: object) -> Quantity | QuantityVector:
+    def read(self, value: object) -> Quantity | QuantityVector:
+        """Return what a user wrote as a quantity.
+
+        Raises:
+            PydanticCustomError: it is none, or none of this kind.
+        """
         if isinstance(value, (Quantity, QuantityVector)):
             return value
         if isinstance(value, bool) or not isinstance(value, (str, int, float)):

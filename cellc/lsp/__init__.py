@@ -1,0 +1,1 @@
+"""What an editor asks of a cell while it is written, and the language server that answers (``cellc[lsp]``)."""

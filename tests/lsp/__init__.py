@@ -1,0 +1,1 @@
+"""Tests of cellc/lsp: what an editor is told."""
