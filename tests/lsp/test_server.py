@@ -11,10 +11,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import pytest
-from lsprotocol import types as lsp
-from pygls.lsp.client import LanguageClient
 
 from tests.cells import CORPUS, ROOT
+
+pytest.importorskip("pygls", reason="pygls is not installed")
+
+from lsprotocol import types as lsp
+from pygls.lsp.client import LanguageClient
 
 _SPEC = """\
 format: 1
@@ -82,7 +85,7 @@ class Editor:
         told = await self.client.text_document_hover_async(lsp.HoverParams(self.document, self.at(before, after)))
         assert told is not None
         assert isinstance(told.contents, lsp.MarkupContent)
-        return told.contents.value
+        return str(told.contents.value)
 
     async def definition(self, before: str, after: str = "") -> tuple[str, int]:
         place = lsp.DefinitionParams(self.document, self.at(before, after))
