@@ -13,8 +13,6 @@ from typing import Literal
 import click
 
 from cellc.artifact import Artifact
-from cellc.compute.processes import processes, usable_cores
-from cellc.compute.work import ComputeError, Work, in_order, stream
 from cellc.description.packages import package_path, use_packages
 from cellc.diagnostics.diagnostic import Findings
 from cellc.limits import Limits, limits, use
@@ -122,8 +120,13 @@ def number_of_workers(kind: Kind, cells: int, cores: int | None = None) -> int:
     Args:
         cores: as many as the system lets this process use, if None.
     """
-    available = usable_cores() if cores is None else cores
-    return max(1, min(available, cells // _CELLS_THAT_PAY[kind], MOST_WORKERS))
+    paying = min(cells // _CELLS_THAT_PAY[kind], MOST_WORKERS)
+    if paying <= 1:
+        return 1
+    # One cell needs no processes: loading what hires them takes a fiftieth of its check.
+    from cellc.compute.processes import usable_cores
+
+    return max(1, min(usable_cores() if cores is None else cores, paying))
 
 
 def in_workers(kind: Kind, files: Sequence[str], number: int) -> Generator[CellResult, None, None]:
@@ -133,6 +136,9 @@ def in_workers(kind: Kind, files: Sequence[str], number: int) -> Generator[CellR
         ClickException: a spec ends every process that computes it.
         Stopped: what had not begun was dropped, and no process is left.
     """
+    from cellc.compute.processes import processes
+    from cellc.compute.work import ComputeError, Work, in_order, stream
+
     work = Work(_compute_within, _Asked(kind, limits(), package_path()))
     try:
         with closing(stream(work, files, processes(number))) as computed:
