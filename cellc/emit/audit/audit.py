@@ -158,6 +158,8 @@ def _not_provable(cell: Cell) -> Iterator[str]:
     for device in cell.devices:
         of = f"{device.name} ({device.vendor} {device.model})"
         yield from (f"- {markdown(f'{of}: {text}')}" for text in device.mock_cannot_prove)
+    if cell.groups and not cell.scene and cell.octomap is None:
+        yield "- what stands around the devices: `scene` is empty, so that paths are planned through table and fence"
     if cell.octomap is not None:
         yield f"- the occupancy map of {code(cell.octomap.source)}: the mock plans without it"
     if cell.servo is not None:
