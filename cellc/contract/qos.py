@@ -7,7 +7,8 @@ requests what it relies on. History, depth and lifespan are never compared. The 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import math
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -58,6 +59,21 @@ def weakest(offered: Sequence[QosProfile]) -> tuple[str, str]:
     weak = any(profile.reliability == "best_effort" for profile in offered)
     volatile = any(profile.durability == "volatile" for profile in offered) or not offered
     return "best_effort" if weak else "reliable", "volatile" if volatile else "transient_local"
+
+
+_LEAST_OF_A_RECORDER = 100
+"""That of tf2's own listeners: every static transform of a cell may be the one message of another publisher."""
+_PAUSE_S = 1.0
+"""How long a recorder may wait for its disk before a sample is lost."""
+
+
+def recorder_depth(offered_depths: Iterable[int], rate_hz: float | None) -> int:
+    """Return the queue of a recorder, for which every sample of every publisher of a topic counts.
+
+    It has one queue for all of them, and holds in it what comes while it waits for its disk
+    (https://github.com/ros2/rosbag2/pull/1960, 2025-04).
+    """
+    return max(_LEAST_OF_A_RECORDER, math.ceil((rate_hz or 0.0) * _PAUSE_S), sum(offered_depths))
 
 
 def _compare(offered: QosProfile, requested: QosProfile) -> Iterator[Incompatibility]:

@@ -2,19 +2,12 @@
 
 from __future__ import annotations
 
-import math
-
 from cellc.cell.cell import Cell
 from cellc.cell.interface import Interface, InterfaceKind, Qos
-from cellc.contract.qos import weakest
+from cellc.contract.qos import recorder_depth, weakest
 from cellc.deploy.files import RECORDING
 from cellc.formats.escape import shell_word
 from cellc.vocabulary import Feature, features
-
-_LEAST_DEPTH = 100
-"""That of tf2's own listeners: every static transform of a cell may be the one message of another publisher."""
-_PAUSE_S = 1.0
-"""How long the recorder may wait for its disk before a sample is lost."""
 
 
 def record_command(cell: Cell, bag: str) -> tuple[str, ...]:
@@ -50,13 +43,8 @@ def _on_the_path(interface: Interface) -> bool:
 
 
 def _offered(interface: Interface) -> Qos:
-    """Return a profile that every publisher satisfies, the weakest that one of them offers, with a queue for all.
-
-    Of a recording every sample counts: the recorder has one queue for all publishers of a topic, and holds in it what
-    comes while it waits for its disk (https://github.com/ros2/rosbag2/pull/1960, 2025-04).
-    """
+    """Return a profile that every publisher satisfies, the weakest that one of them offers, with a queue for all."""
     offered = [source.qos for source in interface.sources]
     reliability, durability = weakest(offered)
-    arriving = math.ceil((interface.rate_hz or 0.0) * _PAUSE_S)
-    depth = max(_LEAST_DEPTH, arriving, sum(qos.depth for qos in offered))
+    depth = recorder_depth((qos.depth for qos in offered), interface.rate_hz)
     return Qos(reliability=reliability, durability=durability, depth=depth)

@@ -7,7 +7,7 @@ from typing import Literal
 
 from cellc.contract.bring_up import Activation, HardwareActivation, Restart, Target
 from cellc.contract.contract import Contract, ContractInterface, ContractQos
-from cellc.contract.qos import weakest
+from cellc.contract.qos import recorder_depth, weakest
 from cellc.mock.agreement.said import Edited, Names, Said, below, differing, parameters, plain
 
 Side = Literal["publisher", "subscription"]
@@ -128,12 +128,12 @@ def recording(edited: Edited, file: str) -> Iterator[str]:
 
 
 def _recorded(interface: ContractInterface) -> Names:
-    """Return the profile that suits every publisher: the weakest that one of them offers."""
+    """Return the profile that suits every publisher, the weakest that one of them offers, with a queue for all."""
     offered = [end.qos for end in interface.sources]
     reliability, durability = weakest(offered)
     return {
         "history": "keep_last",
-        "depth": max((qos.depth for qos in offered), default=10),
+        "depth": recorder_depth((qos.depth for qos in offered), interface.rate_hz),
         "reliability": reliability,
         "durability": durability,
     }
