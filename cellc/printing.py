@@ -115,6 +115,12 @@ def remark(line: Line) -> None:
         show(line, to=Stream.ERR)
 
 
+def clear() -> None:
+    """Begin at the top of an empty screen, where a person reads the output on a terminal."""
+    if sys.stdout.isatty() and os.environ.get("TERM") != "dumb":
+        _write(sys.stdout, "\x1b[2J\x1b[3J\x1b[H")
+
+
 def columns() -> int:
     """Return how wide the terminal is; 100 columns where nobody says, so that a file is the same everywhere."""
     return shutil.get_terminal_size().columns if sys.stdout.isatty() else 100

@@ -89,8 +89,8 @@ def build(
                     differs = differs or bool(differences)
                     told += _differences(differences, folder)
                 else:
-                    findings, report = _written(findings, result.artifacts, folder, force)
-                    told += [] if report is None else [_told(report, folder)]
+                    findings, report = written(findings, result.artifacts, folder, force)
+                    told += [] if report is None else [told_of(report, folder)]
             built.append(findings)
     shown = [selected_and_errors(one, wanted) for one in built]
     show_findings(shown, output_format, hidden=number_hidden(built, shown), sum_blockers=True)
@@ -112,14 +112,16 @@ def _unless_shared(result: CellResult, places: dict[str, Span]) -> CellResult:
     return replace(result, findings=result.findings.with_more((shared,)), artifacts=None)
 
 
-def _written(
+def written(
     findings: Findings, artifacts: tuple[Artifact, ...], folder: Path, force: bool
 ) -> tuple[Findings, WriteReport | None]:
+    """Write what a cell makes; return its findings with those of writing, and what was written where anything was."""
     outcome = write(artifacts, folder, force=force)
     return findings.with_more(outcome.diagnostics), outcome.value
 
 
-def _told(report: WriteReport, folder: Path) -> str:
+def told_of(report: WriteReport, folder: Path) -> str:
+    """Say how many files of a folder were written, removed and left."""
     parts = [(len(report.written), "written"), (len(report.removed), "removed"), (len(report.unchanged), "unchanged")]
     shown = ", ".join(f"{number} {word}" for number, word in parts if number)
     return f"{folder.as_posix()}: {shown}"

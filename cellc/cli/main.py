@@ -33,6 +33,7 @@ _COMMANDS = {
     "show": "Show a resolved value and where it came from.",
     "upgrade": "Tell what another distribution of ROS 2 would change.",
     "view": "Write one HTML page of a cell: 3D, rehearsals, findings.",
+    "watch": "Check cells, and build them, whenever a file is saved.",
 }
 
 

@@ -1,0 +1,180 @@
+"""``cellc watch``: check cells, and build them, whenever a file of theirs is saved."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from cellc.cli.batch import cell_files
+from cellc.cli.build import told_of, written
+from cellc.cli.findings import IGNORE, SELECT, read_selection, selected, show_findings
+from cellc.cli.limit_option import limit_option
+from cellc.printing import Stream, clear, show
+from cellc.report.selection import Selection
+
+if TYPE_CHECKING:
+    from cellc.pipeline import Checked
+
+_PAUSE_S = 0.1
+_SHARE = 9.0
+"""Looking takes a tenth of the time at most, however many files there are."""
+_SETTLED_S = 0.02
+"""An editor that saves in several steps is done when nothing has changed for so long."""
+
+State = tuple[int, int, int]
+"""When a file was changed in ns, its size and its inode."""
+
+
+@click.command()
+@click.argument("files", nargs=-1, required=True, metavar="FILES...", type=click.Path(path_type=str))
+@click.option("--build", "builds", is_flag=True, help="Build each cell too, once no error is left.")
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path),
+    default=Path("generated"),
+    show_default=True,
+    help="Folder that holds a folder for each cell.",
+)
+@SELECT
+@IGNORE
+@limit_option
+def watch(files: tuple[str, ...], builds: bool, output: Path, select: tuple[str, ...], ignore: tuple[str, ...]) -> None:
+    """Check the cells in FILES, and again each that is changed, until Ctrl-C.
+
+    A folder stands for every cell.yaml below it. All files below the folder of a cell count: included ones, devices,
+    meshes; and those below its `packages`. What cellc generates does not. The compiler stays loaded, so that an answer
+    takes a fraction of a second.
+
+    \b
+    cellc watch cells/bench/cell.yaml          check on save
+    cellc watch . --build                      and write generated/NAME of each
+    """
+    wanted = read_selection(select, ignore)
+    watched = Watched(files, output)
+    before, changed = watched.look(), watched.specs()
+    while True:
+        clear()
+        for spec in changed:
+            watched.packages[spec] = _answer(spec, wanted, output if builds else None)
+        number = len(watched.specs())
+        show(f"watching {number} {'cell' if number == 1 else 'cells'}; Ctrl-C ends it", to=Stream.ERR)
+        # Folders that a cell names only now have no past; what changed meanwhile has one.
+        before, changed = watched.next_change({**watched.look(), **before})
+
+
+def _answer(spec: str, wanted: Selection, output: Path | None) -> tuple[str, ...]:
+    """Show what is found in a cell, and then build it; return the folders of packages that it names."""
+    from cellc.pipeline import check
+
+    checked = check(spec)
+    show_findings([selected(checked.findings, wanted)], "text", sum_blockers=output is not None)
+    if checked.graph is None:
+        return ()
+    if output is not None and checked.ok:
+        _build(checked, output / checked.graph.cell.name)
+    return checked.graph.cell.packages
+
+
+def _build(checked: Checked, folder: Path) -> None:
+    """Write what a cell makes, and show what hinders that."""
+    from cellc.pipeline import compile_cell
+
+    compiled = compile_cell(checked)
+    findings, report = replace(checked.findings, diagnostics=compiled.diagnostics), None
+    if compiled.value is not None and compiled.ok:
+        findings, report = written(findings, compiled.value, folder, force=False)
+    if findings.diagnostics:
+        show_findings([findings], "text")
+    if report is not None:
+        show(told_of(report, folder))
+
+
+class Watched:
+    """The files of some cells, and when they were changed.
+
+    Args:
+        paths: specs and folders as the user named them.
+        output: what cellc generates, which is not looked at.
+    """
+
+    def __init__(self, paths: Sequence[str], output: Path) -> None:
+        self._paths, self._output = tuple(paths), output
+        self.packages: dict[str, tuple[str, ...]] = {}
+        """Of each cell the folders of packages that it names."""
+
+    def specs(self) -> tuple[str, ...]:
+        """Return the cells that there are now."""
+        return cell_files(self._paths)
+
+    def look(self) -> dict[str, State]:
+        """Return the state of every file that counts."""
+        named = (path if os.path.isdir(path) else os.path.dirname(path) or "." for path in self._paths)
+        folders = (*named, *(folder for folders in self.packages.values() for folder in folders))
+        places = dict.fromkeys(map(os.path.abspath, folders))
+        outer = (one for one in places if not any(one != other and _is_below(one, (other,)) for other in places))
+        return states(outer, self._output)
+
+    def next_change(self, before: Mapping[str, State]) -> tuple[dict[str, State], tuple[str, ...]]:
+        """Wait until a cell has changed; return the state of all files then, and the cells."""
+        while True:
+            after = self._settled(before)
+            touched = different(before, after)
+            changed = tuple(spec for spec in self.specs() if any(_is_below(one, self._of(spec)) for one in touched))
+            if changed:
+                return after, changed
+            before = after
+
+    def _of(self, spec: str) -> tuple[str, ...]:
+        return (os.path.dirname(spec) or ".", *self.packages.get(spec, ()))
+
+    def _settled(self, before: Mapping[str, State]) -> dict[str, State]:
+        seen = before
+        while True:
+            began = time.monotonic()
+            now = self.look()
+            if now == seen and now != before:
+                return now
+            seen, took = now, time.monotonic() - began
+            time.sleep(_SETTLED_S if now != before else max(_PAUSE_S, _SHARE * took))
+
+
+def states(places: Iterable[str], output: Path) -> dict[str, State]:
+    """Return the state of every file below folders, but of what is hidden, generated, or a virtual environment."""
+    found: dict[str, State] = {}
+    left = list(places)
+    generated = os.path.abspath(output)
+    while left:
+        try:
+            entries = list(os.scandir(left.pop()))
+        except OSError:
+            continue  # it has gone meanwhile, or nobody may look into it
+        if {"pyvenv.cfg", "manifest.json"} & {entry.name for entry in entries}:
+            continue
+        for entry in entries:
+            if entry.name.startswith("."):
+                continue
+            if entry.is_dir(follow_symlinks=False):
+                left += [] if entry.path == generated else [entry.path]
+                continue
+            try:
+                state = entry.stat()
+            except OSError:
+                continue
+            found[entry.path] = (state.st_mtime_ns, state.st_size, state.st_ino)
+    return found
+
+
+def different(before: Mapping[str, State], after: Mapping[str, State]) -> set[str]:
+    """Return the files that are not as they were, that have gone, or that came."""
+    return {file for file in before.keys() | after.keys() if before.get(file) != after.get(file)}
+
+
+def _is_below(file: str, folders: Iterable[str]) -> bool:
+    return any(file.startswith(os.path.join(os.path.abspath(folder), "")) for folder in folders)
