@@ -25,6 +25,7 @@ from cellc.cell.site import (
     Target,
     Versions,
 )
+from cellc.cell.uncertainty import Uncertainty
 from cellc.cell.vendor import RecordSource
 from cellc.diagnostics import Span
 from cellc.vocabulary import Behaviour, Distro
@@ -37,6 +38,7 @@ class Cell:
     Args:
         places: where the user wrote what.
         distro: the pinned distribution.
+        uncertainty: what sweeps draw; None where the cell says nothing of it.
         mock_plugins: hardware plugin → what the user says of it.
         mock_programs: package and executable of a device's node → what the user says of it.
         harmless_plugins: plugins that the catalog or a signed statement knows to touch no hardware.
@@ -81,6 +83,7 @@ class Cell:
     poses: tuple[NamedPose, ...] = ()
     goals: tuple[CartesianGoal, ...] = ()
     rehearsals: tuple[Rehearsal, ...] = ()
+    uncertainty: Uncertainty | None = None
     implied: ImpliedEndpoints = field(default_factory=ImpliedEndpoints)
     behaviours: Mapping[str, Behaviour] = field(default_factory=dict)
     packages: tuple[str, ...] = ()

@@ -167,6 +167,7 @@ class Rehearsal(Entity):
     """A run of the mock and the outcome that it must end in.
 
     ``bring_up`` is the target whose bring-up is taken; with ``real`` its devices act as their vendors' drivers do.
+    ``success`` is the least share of the runs of a sweep that must succeed, with ``confidence``; None where none must.
     """
 
     steps: tuple[Step, ...]
@@ -175,3 +176,5 @@ class Rehearsal(Entity):
     within_s: float | None
     timeout_s: float
     bring_up: str = "mock"
+    success: float | None = None
+    confidence: float = 0.95

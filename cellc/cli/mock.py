@@ -20,11 +20,21 @@ from cellc.cli.words import complete_rehearsal
 )
 @click.option("--campaign", is_flag=True, help="Run every fault at every step, and print the matrix.")
 @click.option("--pairs", default=0, metavar="N", help="With --campaign: N runs more, with two faults each.")
-@click.option("--jobs", type=int, metavar="N", help="With --campaign: processes; as many as cores by default.")
-@click.option("--cluster", metavar="ADDRESS", help="With --campaign: a scheduler of Dask, such as tcp://10.0.0.7:8786.")
+@click.option("--sweep", default=0, metavar="N", help="Draw what is uncertain in up to N runs: how many succeed?")
+@click.option(
+    "--journal",
+    type=click.Path(path_type=str, dir_okay=False),
+    help="With --sweep: keep each run in this file, and go on from it.",
+)
+@click.option("--jobs", type=int, metavar="N", help="Processes of campaign and sweep; as many as cores by default.")
+@click.option("--cluster", metavar="ADDRESS", help="A scheduler of Dask instead, such as tcp://10.0.0.7:8786.")
 @click.option("--list", "list_only", is_flag=True, help="Print the runs of the campaign, and run none.")
 @click.option(
-    "--replay", "replayed", multiple=True, metavar="RUN", help="Run one run of the campaign alone; repeatable."
+    "--replay",
+    "replayed",
+    multiple=True,
+    metavar="RUN",
+    help="One run alone, of the campaign or `sweep:NUMBER`; repeatable.",
 )
 @click.option("--gates", is_flag=True, help="Run rehearsals and campaign, and judge gates L6, G1, G2 by them.")
 @click.option("--json", "as_json", is_flag=True, help="Write the results as JSON.")
@@ -40,6 +50,8 @@ def mock(
     names: tuple[str, ...],
     campaign: bool,
     pairs: int,
+    sweep: int,
+    journal: str | None,
     jobs: int | None,
     cluster: str | None,
     list_only: bool,
@@ -62,6 +74,8 @@ def mock(
         replay=replayed,
         gates=gates,
         pairs=pairs,
+        sweep=sweep,
+        journal=journal,
         jobs=jobs,
         cluster=cluster,
         as_json=as_json,

@@ -47,6 +47,7 @@ from cellc.link.site import (
     harmless,
 )
 from cellc.link.switched import link_switched
+from cellc.link.uncertainty import link_uncertainty
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
 from cellc.vocabulary import Distro
@@ -122,6 +123,7 @@ def _link_with_devices(
     source = Derivation(spec, document, distro, loops, devices, all_frames, ends, resolver, planned.value.servo)
     derived = derive_interfaces(source, written)
     rehearsals = link_rehearsals(spec, document, devices, loops, (*written, *derived), names)
+    uncertainty = link_uncertainty(spec, document, all_frames)
     cell = replace(
         _surroundings(spec, document, distro, placed.value.measured, devices),
         devices=devices,
@@ -133,9 +135,10 @@ def _link_with_devices(
         managers=loops,
         adapters=tuple(bind_adapters(devices, controllers, (*written, *derived))),
         rehearsals=rehearsals.value or (),
+        uncertainty=uncertainty.value,
         behaviours={controller.plugin: controller.behaviour for controller in controllers},
     )
-    parts = (linked_devices, placed, centers, nodes, managers, interfaces, planned, rehearsals)
+    parts = (linked_devices, placed, centers, nodes, managers, interfaces, planned, rehearsals, uncertainty)
     linked = behind_adapters(_with_plans(cell, planned.value))
     return Outcome(linked, tuple(problem for part in parts for problem in part.diagnostics))
 

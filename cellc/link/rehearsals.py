@@ -103,6 +103,8 @@ def _rehearsal(
         within_s=si(written.within),
         bring_up=written.bring_up,
         timeout_s=DEFAULT_TIMEOUT_S if written.timeout is None else written.timeout.si,
+        success=si(written.success),
+        confidence=0.95 if written.confidence is None else written.confidence.si,
     )
     # A step list shared by `use` is reported where it is written, once.
     step_problems = steps.diagnostics if source.value == name else ()

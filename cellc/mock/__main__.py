@@ -29,12 +29,12 @@ def _arguments() -> _Parser:
     parser.add_argument("folder", help="folder that `cellc build` wrote")
     parser.add_argument("--campaign", action="store_true", help="run every fault at every step, and print the matrix")
     parser.add_argument("--pairs", type=int, default=0, metavar="N", help="with --campaign: runs with two faults each")
-    parser.add_argument("--jobs", type=int, metavar="N", help="with --campaign: processes, as many as cores by default")
-    parser.add_argument("--cluster", metavar="ADDRESS", help="with --campaign: a scheduler of Dask, tcp://HOST:8786")
+    parser.add_argument("--sweep", type=int, default=0, metavar="N", help="draw what is uncertain in up to N runs")
+    parser.add_argument("--journal", metavar="FILE", help="with --sweep: keep each run here, and go on from it")
+    parser.add_argument("--jobs", type=int, metavar="N", help="processes, as many as cores by default")
+    parser.add_argument("--cluster", metavar="ADDRESS", help="a scheduler of Dask instead, tcp://HOST:8786")
     parser.add_argument("--list", action="store_true", help="print the runs of the campaign, and run none")
-    parser.add_argument(
-        "--replay", action="append", default=[], metavar="RUN", help="run this run of the campaign alone; repeatable"
-    )
+    parser.add_argument("--replay", action="append", default=[], metavar="RUN", help="run this run alone; repeatable")
     parser.add_argument("--gates", action="store_true", help="run rehearsals and campaign, and judge gates L6, G1, G2")
     parser.add_argument("--json", action="store_true", help="print a JSON summary")
     parser.add_argument(
@@ -70,6 +70,8 @@ def main() -> int:
         replay=tuple(given.replay),
         gates=given.gates,
         pairs=given.pairs,
+        sweep=given.sweep,
+        journal=given.journal,
         jobs=given.jobs,
         cluster=given.cluster,
         as_json=given.json,

@@ -7,7 +7,7 @@ from functools import partial
 from math import inf
 
 from cellc.contract.bring_up import Target
-from cellc.contract.contract import Contract, ContractEndpoint, ContractFrame, ContractInterface
+from cellc.contract.contract import Contract, ContractClock, ContractEndpoint, ContractFrame, ContractInterface
 from cellc.mock.adapter.server import AdapterServer
 from cellc.mock.bus.network import EdgeName, Network, QosEvent, QosEventKind
 from cellc.mock.bus.qos import hears, middleware_of, task_node
@@ -36,6 +36,7 @@ from cellc.mock.nodes.perception import (
 from cellc.mock.nodes.robot_state_publisher import NODE as ROBOT_STATE_PUBLISHER
 from cellc.mock.nodes.robot_state_publisher import PUBLISH_FREQUENCY_HZ, JointStateFeed, RobotStatePublisher
 from cellc.mock.plant import Plant, TaskNode
+from cellc.mock.reality import AS_STATED, Displacement, Reality
 from cellc.mock.stops import Stops
 from cellc.mock.task_status import ActionStatus, Milestones, TaskRequests
 from cellc.mock.tf.buffer import DEFAULT_BUFFER_S, TransformBuffer
@@ -98,21 +99,25 @@ def stream_edge(contract: Contract, network: Network, topic: str, source: str, s
     return StreamEdge(EdgeName(topic, source, sink), offered, requested, network)
 
 
-def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int, bring_up: Target = "mock") -> Plant:
+def assemble(
+    folder: GeneratedFolder, memory: PlanMemory, seed: int, bring_up: Target = "mock", reality: Reality = AS_STATED
+) -> Plant:
     """Create every node of the cell at time zero; nothing runs yet.
 
     Args:
         bring_up: target whose steps are taken; with ``real`` devices act as those of the robot do when they come up.
+        reality: where the cell differs from what its folder says.
 
     Raises:
         ManagerAbortedError: a controller manager ended while it started.
     """
     contract = folder.contract
     horizon_s = max([DEFAULT_BUFFER_S, *(frame.buffer_s or 0.0 for frame in contract.frames.values())])
-    control = ControlStack(_managers(folder, seed), contract.managers, horizon_s, _adapters(contract))
+    noise = seed if reality.noise is None else reality.noise
+    control = ControlStack(_managers(folder, noise), contract.managers, horizon_s, _adapters(contract))
     simulation = Simulation(control)
-    clocks = build_clocks(contract.clocks, contract.clock_of, lambda: simulation.now_ns)
-    network = Network(contract.interfaces, simulation, seed, middleware_of(contract))
+    clocks = build_clocks(_read(contract.clocks, reality.offsets_s), contract.clock_of, lambda: simulation.now_ns)
+    network = Network(contract.interfaces, simulation, noise, middleware_of(contract))
     task = _task_node(contract, control, network)
     feeds = joint_state_feeds(contract, control, network, ROBOT_STATE_PUBLISHER)
     tf_edge = stream_edge(contract, network, TF, ROBOT_STATE_PUBLISHER, task.name)
@@ -126,7 +131,7 @@ def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int, bring_up: T
         control=control,
         stops=Stops(control),
         effects=Effects(contract, folder.watches, control, simulation),
-        world=World(memory.model.links, control.histories.values()),
+        world=World(memory.model.links.displaced(reality.links), control.histories.values()),
         switches=Switches(contract),
         cameras={},
         perceptions={},
@@ -142,8 +147,22 @@ def assemble(folder: GeneratedFolder, memory: PlanMemory, seed: int, bring_up: T
     tf = TfBroadcast(contract.interfaces.get(TF), task.name, network, simulation)
     for name, frame in contract.frames.items():
         if frame.kind == "dynamic" and frame.simulated_parent is not None:
-            _add_object(plant, name, frame, images, tf)
+            _add_object(plant, name, frame, images, tf, reality.objects.get(name))
     return plant
+
+
+def _turned(pose: Pose, turn: Pose) -> Pose:
+    """Return a pose turned about its own origin, in the axes that it is given in."""
+    return Pose(pose.position, (turn @ Pose((0.0, 0.0, 0.0), pose.quaternion)).quaternion)
+
+
+def _read(clocks: Mapping[str, ContractClock], more_s: Mapping[str, float]) -> Mapping[str, ContractClock]:
+    """Return clocks that read more than is stated of them."""
+    known = {name: more for name, more in more_s.items() if name in clocks}
+    moved = {
+        name: clocks[name].model_copy(update={"offset_s": clocks[name].offset_s + more}) for name, more in known.items()
+    }
+    return {**clocks, **moved}
 
 
 def _task_node(contract: Contract, control: ControlStack, network: Network) -> TaskNode:
@@ -212,12 +231,19 @@ def _add_cameras(plant: Plant) -> dict[str, Topic[Image]]:
 
 
 def _add_object(
-    plant: Plant, name: str, frame: ContractFrame, images: Mapping[str, Topic[Image]], tf: TfBroadcast
+    plant: Plant,
+    name: str,
+    frame: ContractFrame,
+    images: Mapping[str, Topic[Image]],
+    tf: TfBroadcast,
+    displaced: Displacement | None,
 ) -> None:
     """Place the object that a dynamic frame follows, with the node that sees it and the inbox of the task."""
     pose = frame.simulated_pose
     assert frame.simulated_parent is not None  # the caller asked
     position = Pose((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)) if pose is None else Pose(pose.xyz, pose.quaternion)
+    if displaced is not None:
+        position = Pose(displaced.along, (0.0, 0.0, 0.0, 1.0)) @ _turned(position, displaced.turned)
     plant.world.place(name, frame.simulated_parent, position, 0)
     transform = SampledSource(
         frame.parent, name, frame.authority, frame.buffer_s or DEFAULT_BUFFER_S, plant.task.buffer.warnings

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -19,6 +19,7 @@ from cellc.mock.faults.registry import Injection, build_fault
 from cellc.mock.folder import GeneratedFolder, read_folder
 from cellc.mock.nodes.motion_planner import PlanMemory, build_motion_model
 from cellc.mock.plant import Plant
+from cellc.mock.reality import AS_STATED, Reality
 from cellc.mock.result import AttemptRecord, RehearsalResult, RunFailure, StageEvidence
 from cellc.mock.task.context import TaskContext
 from cellc.mock.task.task import Task
@@ -34,28 +35,35 @@ def rehearse(
     rehearsal: RehearsalEntry,
     seed: int,
     watch: Watch | None = None,
+    reality: Reality = AS_STATED,
 ) -> RehearsalResult:
     """Run a rehearsal from a cell that is off to its named end.
 
     Args:
         watch: sees the plant first; it may listen, and must not change anything.
+        reality: where the cell differs from what its folder says.
 
     Raises:
         MockError: a fault names what the contract does not have.
     """
     try:
-        result = _executed(folder, memory, rehearsal, seed, watch)
+        result = _executed(folder, memory, rehearsal, seed, watch, reality)
     except LimitReachedError as error:
         result = _not_run(rehearsal, error)
     return replace(result, edited=folder.edited)
 
 
 def _executed(
-    folder: GeneratedFolder, memory: PlanMemory, rehearsal: RehearsalEntry, seed: int, watch: Watch | None
+    folder: GeneratedFolder,
+    memory: PlanMemory,
+    rehearsal: RehearsalEntry,
+    seed: int,
+    watch: Watch | None,
+    reality: Reality,
 ) -> RehearsalResult:
     injections = [Injection(entry, build_fault(entry, folder.contract)) for entry in rehearsal.faults]
     try:
-        plant = assemble(folder, memory, seed, rehearsal.bring_up)
+        plant = assemble(folder, memory, seed, rehearsal.bring_up, reality)
     except ManagerAbortedError as aborted:
         evidence = StageEvidence("discover", (), (f"the controller manager ended: {aborted.reason}",))
         return _not_up(rehearsal, (evidence,), unmatched_pairs(folder.contract))
@@ -163,10 +171,17 @@ def _findings(plant: Plant) -> tuple[str, ...]:
 class MockCell:
     """A generated folder ready to be executed; every run starts from a cell that is off."""
 
-    def __init__(self, folder: GeneratedFolder, memory: PlanMemory) -> None:
-        """Bind what ``load`` has read."""
+    def __init__(
+        self, folder: GeneratedFolder, memory: PlanMemory, realities: Mapping[str, Reality] | None = None
+    ) -> None:
+        """Bind what ``load`` has read; ``realities`` has what is different in rehearsals of these names."""
         self._folder = folder
         self._memory = memory
+        self._realities = realities or {}
+
+    def with_realities(self, folder: GeneratedFolder, realities: Mapping[str, Reality]) -> MockCell:
+        """Return this cell with other rehearsals, some of which differ from what the folder says."""
+        return MockCell(folder, self._memory, realities)
 
     @property
     def folder(self) -> GeneratedFolder:
@@ -218,13 +233,16 @@ class MockCell:
         """
         return self.rehearse(self.entry(rehearsal), seed=seed)
 
-    def rehearse(self, entry: RehearsalEntry, *, seed: int = 0, watch: Watch | None = None) -> RehearsalResult:
+    def rehearse(
+        self, entry: RehearsalEntry, *, seed: int = 0, watch: Watch | None = None, reality: Reality | None = None
+    ) -> RehearsalResult:
         """Run a rehearsal that need not stand in the folder; ``watch`` sees the plant before anything runs.
 
         Raises:
             MockError: it names what the contract does not have.
         """
-        return rehearse(self._folder, self._memory, entry, seed, watch)
+        known = self._realities.get(entry.name, AS_STATED) if reality is None else reality
+        return rehearse(self._folder, self._memory, entry, seed, watch, known)
 
 
 def load(folder: Path, *, edited: bool = False) -> MockCell:

@@ -18,6 +18,7 @@ from cellc.contract.manifest import Manifest
 from cellc.contract.quantities import LARGEST
 from cellc.contract.reading import FormatError, read_json
 from cellc.contract.rehearsals import RehearsalEntry, Rehearsals
+from cellc.contract.uncertainty import UNCERTAINTY_FILE, Uncertainty
 from cellc.description.model import Description
 from cellc.description.packages import lies_under, repository_of
 from cellc.description.urdf_reader import read_urdf
@@ -47,6 +48,7 @@ class GeneratedFolder:
         notes: how it differs from its manifest, one line each; empty as it was generated.
         edits: paths of the files that differ.
         listed: paths of all files of the manifest.
+        uncertainty: what sweeps draw; None where the cell says nothing of it.
         mesh_roots: folders beside which the packages of meshes may lie, as at the build.
     """
 
@@ -63,6 +65,7 @@ class GeneratedFolder:
     edits: tuple[str, ...]
     listed: tuple[str, ...]
     mesh_roots: tuple[Path, ...] = ()
+    uncertainty: Uncertainty | None = None
 
     @property
     def edited(self) -> bool:
@@ -114,6 +117,7 @@ def read_folder(folder: Path, *, edited: bool = False) -> GeneratedFolder:
         edits=edits,
         listed=tuple(manifest.files),
         mesh_roots=_mesh_roots(folder, contract),
+        uncertainty=_read_model(folder, UNCERTAINTY_FILE, Uncertainty) if UNCERTAINTY_FILE in manifest.files else None,
     )
 
 

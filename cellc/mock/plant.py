@@ -5,7 +5,7 @@ Whoever is handed less does not take a plant: faults get `faults.ports.FaultPort
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from cellc.contract.bring_up import BringUpStep
 from cellc.contract.contract import Contract
@@ -18,6 +18,7 @@ from cellc.mock.nodes.motion_planner import MotionPlanner
 from cellc.mock.nodes.observations import ObservationInbox
 from cellc.mock.nodes.perception import Camera, Perception
 from cellc.mock.nodes.robot_state_publisher import JointStateFeed, RobotStatePublisher
+from cellc.mock.reality import Arrival
 from cellc.mock.stops import Stops
 from cellc.mock.task_status import ActionStatus, Milestones, TaskRequests
 from cellc.mock.tf.buffer import TransformBuffer
@@ -60,6 +61,7 @@ class Plant:
         switches: devices that digital outputs switch.
         cameras: by device.
         perceptions: by the dynamic frame that they publish.
+        arrivals: at goals, with how near each really was.
     """
 
     contract: Contract
@@ -77,6 +79,7 @@ class Plant:
     robot_state_publisher: RobotStatePublisher
     planner: MotionPlanner
     task: TaskNode
+    arrivals: list[Arrival] = field(default_factory=list)
 
     @property
     def now_ns(self) -> int:

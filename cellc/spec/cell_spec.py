@@ -12,6 +12,7 @@ from cellc.spec.hosts import HostSpec, NetworkSpec, VersionsSpec
 from cellc.spec.interfaces import InterfaceSpec, NodeSpec
 from cellc.spec.rehearsals import HardwareStatementSpec, KpisSpec, RecordingSpec, RehearsalSpec, TargetSpec
 from cellc.spec.safety import BringupSpec, OwnersSpec, SafetySpec
+from cellc.spec.uncertainty import RegionSpec, UncertaintySpec
 
 PackageFolder = Annotated[str, StringConstraints(min_length=1, max_length=255)]
 TopicName = Annotated[str, StringConstraints(min_length=1, max_length=255)]
@@ -105,6 +106,16 @@ class CellSpec(SpecModel):
         default_factory=dict,
         description="Runs of the mock by name.",
         examples=[{"wave": {"steps": [{"move": "home"}]}}],
+    )
+    uncertainty: UncertaintySpec | None = Field(
+        None,
+        description="What a sweep draws and judges; without it, or regions, there is none.",
+        examples=[{"tolerances": {"pick": "5 mm"}}],
+    )
+    regions: dict[Name, RegionSpec] = Field(
+        default_factory=dict,
+        description="Dynamic frames by name, with where the object that each follows may lie.",
+        examples=[{"object": {"box": "80 120 0 mm", "yaw": "90 deg"}}],
     )
     kpis: KpisSpec = Field(default_factory=KpisSpec, description="Target figures.", examples=[{"cancel": "200 ms"}])
     recording: RecordingSpec = Field(

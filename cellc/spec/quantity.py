@@ -259,6 +259,8 @@ UpdateRate = Annotated[Quantity, QuantityType((FREQUENCY,), "500 Hz", least=1.0)
 DataRate = Annotated[Quantity, QuantityType((DATA_RATE,), "1 Gbit/s", least=1.0)]
 Mass = Annotated[Quantity, QuantityType((MASS,), "0.9 kg", least=0.0)]
 Ratio = Annotated[Quantity, QuantityType((RATIO,), "50 %")]
+Chance = Annotated[Quantity, QuantityType((RATIO,), "99.5 %", least=0.0, most=1.0)]
+Confidence = Annotated[Quantity, QuantityType((RATIO,), "95 %", least=0.5, most=0.9999)]
 Drift = Annotated[Quantity, QuantityType((DRIFT,), "20 ppm")]
 Force = Annotated[Quantity, QuantityType((FORCE,), "60 N", least=0.0)]
 Velocity = Annotated[Quantity, QuantityType((VELOCITY,), "0.25 m/s", least=0.0)]

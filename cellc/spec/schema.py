@@ -12,6 +12,7 @@ from cellc.contract.contract import Contract
 from cellc.contract.manifest import Manifest
 from cellc.contract.rehearsals import Rehearsals
 from cellc.contract.review import Review
+from cellc.contract.uncertainty import Uncertainty
 from cellc.contract.upgrade import Upgrade
 from cellc.spec.cell_spec import CellSpec
 
@@ -43,6 +44,7 @@ def schema_files() -> Mapping[str, str]:
         ("rehearsals", Rehearsals),
         ("review", Review),
         ("upgrade", Upgrade),
+        ("uncertainty", Uncertainty),
     )
     made: dict[str, dict[str, Json]] = {"cell.schema.json": cell_schema()}
     made |= {f"{name}.schema.json": contract_schema(model) for name, model in contracts}

@@ -137,7 +137,7 @@ def test_schema_is_the_same_in_every_run() -> None:
     assert first == cell_schema()
 
 
-@pytest.mark.parametrize("name", ["contract", "manifest", "rehearsals", "review", "upgrade"])
+@pytest.mark.parametrize("name", ["contract", "manifest", "rehearsals", "review", "uncertainty", "upgrade"])
 def test_field_of_a_generated_file_tells_its_meaning(name: str) -> None:
     schema = json.loads(schema_files()[f"{name}.schema.json"])
     assert [field for field, value in _fields(schema) if not value.get("description", "").endswith(".")] == []

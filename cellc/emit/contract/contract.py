@@ -25,6 +25,7 @@ from cellc.contract.contract import (
     ContractQos,
     ContractSafety,
 )
+from cellc.contract.uncertainty import UNCERTAINTY_FILE
 from cellc.deploy.deployment import Deployment
 from cellc.deploy.files import BRING_UP, REHEARSALS, controllers_file, description_file, semantic_file
 from cellc.emit.contract.clocks import clock_of, clocks
@@ -38,13 +39,18 @@ from cellc.emit.contract.motion import (
     managers,
     poses,
 )
+from cellc.emit.contract.uncertainty import uncertainty
 from cellc.formats.json_text import render
 from cellc.graph.cell_graph import CellGraph
 
 
 def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
-    """Yield the contract."""
-    yield Artifact("contract.json", render(_contract(graph, plan)))
+    """Yield the contract, and what sweeps draw where the cell says something of it."""
+    contract = _contract(graph, plan)
+    yield Artifact("contract.json", render(contract))
+    if graph.cell.uncertainty is not None:
+        drawn = uncertainty(graph.cell, graph.cell.uncertainty, contract.clocks)
+        yield Artifact(UNCERTAINTY_FILE, render(drawn))
 
 
 def _contract(graph: CellGraph, plan: Deployment) -> Contract:

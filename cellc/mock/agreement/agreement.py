@@ -49,6 +49,7 @@ KINDS = (
     Kind(
         "config/recording_qos.yaml", recording, "topics of the contract", "topics of actions: nothing is recorded by it"
     ),
+    Kind("config/uncertainty.json", None, "", "a rehearsal draws nothing; a sweep takes the whole of it"),
     Kind("config/*.real.yaml", real_controllers, "rates, types, joints", "other parameters: real hardware alone"),
     Kind("config/*.yaml", None, "", "a program that the mock does not have reads it: a driver, or a node of yours"),
     Kind("urdf/*", other_description, "links, joints, limits, shapes, joints of hardware", "plugins of real hardware"),

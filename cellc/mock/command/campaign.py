@@ -124,10 +124,13 @@ def load_checked(options: MockOptions) -> MockCell:
     for name, value, least in (
         ("seed", options.seed, 0),
         ("number of pairs", options.pairs, 0),
+        ("number of runs", options.sweep, 0),
         ("number of jobs", options.jobs, 1),
     ):
         if value is not None and value < least:
             raise MockError("", f"the {name} is {value}; it must be {least} or greater")
+    if options.swept and options.seed >= 1 << 64:
+        raise MockError("", f"the seed is {options.seed}; that of a sweep must be below 2^64")
     most = limits().campaign_runs
     for name, value in (("number of pairs", options.pairs), ("number of jobs", options.jobs)):
         if value is not None and value > most:

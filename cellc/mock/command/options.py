@@ -33,6 +33,8 @@ class MockOptions:
         replay: runs of a campaign to run alone.
         gates: judge the gates by rehearsals and campaign.
         pairs: number of runs with two faults.
+        sweep: most runs of a sweep.
+        journal: file that the runs of a sweep are kept in, and taken from.
         jobs: processes; None for as many as there are cores.
         cluster: address of a scheduler of Dask whose workers do it instead.
         records: file that attempt records are written to, as JSON lines.
@@ -49,6 +51,8 @@ class MockOptions:
     replay: tuple[str, ...] = ()
     gates: bool = False
     pairs: int = 0
+    sweep: int = 0
+    journal: str | None = None
     jobs: int | None = None
     cluster: str | None = None
     as_json: bool = False
@@ -64,6 +68,7 @@ class MockOptions:
             "--list": self.list_only,
             "--replay": bool(self.replay),
             "--gates": self.gates,
+            "--sweep": bool(self.sweep),
         }
         return [option for option, asked in given.items() if asked]
 
@@ -71,10 +76,14 @@ class MockOptions:
         """Say which options do not go together; empty where all do."""
         modes = self.modes()
         alone = [option for option in modes if option != "--campaign"]
-        if self.rehearsals and modes:
+        if self.rehearsals and modes and not self.swept:
             return "--rehearsal does not go with the options of the campaign"
         if len(alone) > 1:
             return f"{alone[0]} does not go with {alone[1]}"
+        if self.sweep and (self.campaign or self.pairs or self.records is not None):
+            return "--sweep does not go with --campaign, --pairs or --records"
+        if self.journal is not None and not self.sweep:
+            return "--journal needs --sweep"
         fanned = {"--pairs": self.pairs or None, "--jobs": self.jobs, "--cluster": self.cluster}
         given = [option for option, value in fanned.items() if value is not None]
         if given and not modes:
@@ -87,6 +96,11 @@ class MockOptions:
             return f"{written[0]} does not go with --list, which runs nothing"
         empty = [option for option in written if paths[option] == ""]
         return f"{empty[0]} cannot be written: its path is empty" if empty else ""
+
+    @property
+    def swept(self) -> bool:
+        """Whether it is about the runs of a sweep."""
+        return bool(self.sweep) or any(run.startswith("sweep:") for run in self.replay)
 
     def crew(self) -> tuple[Hire | None, str]:
         """Return who executes runs, None for this process alone, and how many they are in words."""
@@ -119,6 +133,10 @@ def _run(options: MockOptions) -> int:
         from cellc.mock.command.campaign import run_gates
 
         return run_gates(options)
+    if options.swept:
+        from cellc.mock.command.sweep import replay_swept, run_sweep
+
+        return run_sweep(options) if options.sweep else replay_swept(options)
     from cellc.mock.command.campaign import list_runs, replay_runs, run_campaign
 
     if options.list_only:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import OrderedDict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -284,6 +284,11 @@ class MotionPlanner:
         self._model = memory.model
         self._scene = SceneState()
         self._rng_seed = rng_seed
+
+    @property
+    def links(self) -> Collection[str]:
+        """Names of the links that hang from another one."""
+        return self._model.links.joints.keys()
 
     def plan(
         self, group: str, positions: Mapping[str, float], goal: tuple[float, ...] | GoalPose, retreat: Pose | None

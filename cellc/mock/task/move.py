@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -9,6 +10,8 @@ from cellc.contract.contract import Contract, ContractGoal, ContractPoseTarget
 from cellc.mock.control import GripperGoal, TrajectoryGoal, TrajectoryPoint
 from cellc.mock.engine.process import Waiting
 from cellc.mock.nodes.motion_planner import PLANNING_LATENCY_S, GoalPose, PlannedMotion
+from cellc.mock.plant import Plant
+from cellc.mock.reality import Arrival
 from cellc.mock.result import PacketStep
 from cellc.mock.task.bounds import goal_timeout_s, planning_server
 from cellc.mock.task.context import Attempt, AttemptError, CurrentState, TaskContext, current_state
@@ -197,6 +200,28 @@ def _move_to_goal(context: TaskContext, attempt: Attempt, name: str) -> Waiting[
         stamp_ns = context.observed[located.observed_frame]
         check_observation(context, located.observed_frame, stamp_ns, allowance_s=PLANNING_LATENCY_S)
     yield from _drive(context, attempt, {group: motion}, located.observed_frame)
+    _note_arrival(context, name)
+
+
+def _note_arrival(context: TaskContext, name: str) -> None:
+    """Note how far the tip really is from where the goal really is, which no node of the cell knows."""
+    plant, goal = context.plant, context.contract.goals[name]
+    place = _really(plant, goal.frame)
+    tip = _really(plant, context.contract.groups[goal.group].tip_frame)
+    if place is not None and tip is not None:
+        distance_m = math.dist(tip.position, place.apply(goal.pose.xyz))
+        plant.arrivals.append(Arrival(name, plant.now_ns, distance_m))
+
+
+def _really(plant: Plant, frame: str) -> Pose | None:
+    """Return where a frame really is in the root; None where nothing in the world stands for it."""
+    if frame in plant.world.objects():
+        return plant.world.object_pose(frame, plant.now_ns)
+    entry = plant.contract.frames.get(frame)
+    if frame in plant.planner.links or entry is None:
+        return plant.world.link_pose(frame, plant.now_ns)
+    above = None if entry.pose is None else _really(plant, entry.parent)
+    return None if above is None or entry.pose is None else above @ Pose(entry.pose.xyz, entry.pose.quaternion)
 
 
 def _planning_time(

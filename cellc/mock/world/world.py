@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_right
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 from cellc.description.model import Description, Joint
@@ -53,6 +53,13 @@ class LinkTree:
     def __init__(self, joints: Mapping[str, LinkJoint]) -> None:
         self.joints = joints
         self._runs: dict[str, tuple[Pose, tuple[tuple[LinkJoint, Pose], ...]]] = {}
+
+    def displaced(self, by: Mapping[str, Pose]) -> LinkTree:
+        """Return a tree in which some links stand elsewhere, seen from where they stand in this one."""
+        if not by:
+            return self
+        moved = {link: replace(self.joints[link], origin=self.joints[link].origin @ by[link]) for link in by}
+        return LinkTree({**self.joints, **moved})
 
     def chain(self, link: str) -> tuple[LinkJoint, ...]:
         """Return the joints from the root down to a link."""

@@ -1,0 +1,51 @@
+"""``config/uncertainty.json``: what a sweep draws in each run, what it judges, and what must come of it."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from cellc.contract.base import ContractModel
+from cellc.contract.quantities import Magnitude, PositiveMagnitude
+
+UNCERTAINTY_FILE = "config/uncertainty.json"
+"""Beside the contract; a cell that says nothing of uncertainty has none."""
+
+
+Kind = Literal["calibration", "region", "clock"]
+Axis = Literal["x", "y", "z", "rx", "ry", "rz", "offset"]
+
+
+class UncertainQuantity(ContractModel):
+    """One number that each run draws anew.
+
+    ``calibration``: the frame ``target`` really stands displaced along (x, y, z), or turned about (rx, ry, rz), an axis
+    of its own. ``region``: the object that frame ``target`` follows lies displaced along, or is turned about, an axis
+    of the parent of its simulated pose. ``clock``: the clock ``target`` reads so much more.
+    """
+
+    name: str = Field(description="Name in reports.")
+    kind: Kind = Field(description="What it displaces.")
+    target: str = Field(description="Frame or clock.")
+    axis: Axis = Field(description="Axis, or the offset of a clock.")
+    unit: Literal["m", "rad", "s"] = Field(description="Unit of the spread.")
+    distribution: Literal["normal", "uniform"] = Field(description="How it is drawn, about zero.")
+    spread: PositiveMagnitude = Field(description="Standard deviation of a normal, half the range of a uniform one.")
+    source: str = Field(description="Path in the spec of what it is drawn by.")
+
+
+class ExpectedSuccess(ContractModel):
+    """What share of the runs of a rehearsal must succeed, and how sure a verdict must be."""
+
+    success: Magnitude = Field(description="Least share, 0 to 1.", le=1.0)
+    confidence: Magnitude = Field(description="Confidence of the verdict, 0 to 1.", ge=0.5, lt=1.0)
+
+
+class Uncertainty(ContractModel):
+    """Everything that a sweep of a cell needs beside the contract."""
+
+    format: Literal[1] = Field(description="Version of this format.")
+    quantities: tuple[UncertainQuantity, ...] = Field(description="What each run draws.")
+    tolerances: dict[str, PositiveMagnitude] = Field(
+        description="Goal → farthest that the tip may really be from where the goal really is, m."
+    )
+    expected: dict[str, ExpectedSuccess] = Field(description="Rehearsal → what must come of its runs.")

@@ -1,0 +1,86 @@
+"""``config/uncertainty.json``: what a sweep draws, each number with unit, distribution and the statement it rests on.
+
+Format 1, ``cellc.contract.uncertainty``. Read by ``cellc mock --sweep``. A residual is taken for the root of the mean
+square of the distance by which a frame stands elsewhere, the same along each axis: an axis has a third of its square. A
+bound of a clock says no more than that: every offset within it is as likely. Left out: what spec and catalog give no
+figure of, such as the repeatability of an arm, and how a payload differs.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from cellc.cell.cell import Cell
+from cellc.cell.uncertainty import Uncertainty as Stated
+from cellc.contract.contract import ContractClock
+from cellc.contract.uncertainty import Axis, ExpectedSuccess, Kind, UncertainQuantity, Uncertainty
+from cellc.formats.numbers import rounded
+
+_AXES: tuple[Axis, ...] = ("x", "y", "z")
+_TURNS: tuple[Axis, ...] = ("rx", "ry", "rz")
+
+
+def uncertainty(cell: Cell, stated: Stated, clocks: dict[str, ContractClock]) -> Uncertainty:
+    """Return what sweeps of a cell draw and judge."""
+    drawn = (*_calibrations(cell, stated), *_regions(stated), *_clocks(cell, clocks))
+    return Uncertainty(
+        format=1,
+        quantities=tuple(one for one in drawn if one.spread > 0.0),
+        tolerances=dict(stated.tolerances_m),
+        expected={
+            one.name: ExpectedSuccess(success=one.success, confidence=one.confidence)
+            for one in cell.rehearsals
+            if one.success is not None
+        },
+    )
+
+
+def _calibrations(cell: Cell, stated: Stated) -> Iterator[UncertainQuantity]:
+    for frame in cell.frames:
+        calibration = cell.calibrations.get(frame.calibration or "")
+        if calibration is None:
+            continue
+        path = f"calibrations.{calibration.name}.residual"
+        sigma_m = (calibration.residual_m or 0.0) / math.sqrt(3.0)
+        yield from _three("calibration", calibration.name, frame.name, (sigma_m,) * 3, path)
+        sigma_rad = stated.rotations_rad.get(calibration.name, 0.0)
+        path = f"uncertainty.calibrations.{calibration.name}.rotation"
+        yield from _three("calibration", calibration.name, frame.name, (sigma_rad,) * 3, path, turns=True)
+
+
+def _regions(stated: Stated) -> Iterator[UncertainQuantity]:
+    for name, region in stated.regions.items():
+        yield from _three("region", name, name, region.half_m, f"regions.{name}.box")
+        yaw = (0.0, 0.0, region.half_yaw_rad)
+        yield from _three("region", name, name, yaw, f"regions.{name}.yaw", turns=True)
+
+
+def _three(
+    kind: Kind, name: str, target: str, spreads: tuple[float, ...], source: str, *, turns: bool = False
+) -> Iterator[UncertainQuantity]:
+    for axis, spread in zip(_TURNS if turns else _AXES, spreads, strict=True):
+        yield UncertainQuantity.model_construct(
+            name=f"{name} {axis}",
+            kind=kind,
+            target=target,
+            axis=axis,
+            unit="rad" if turns else "m",
+            distribution="normal" if kind == "calibration" else "uniform",
+            spread=rounded(spread),
+            source=source,
+        )
+
+
+def _clocks(cell: Cell, clocks: dict[str, ContractClock]) -> Iterator[UncertainQuantity]:
+    for name, clock in clocks.items():
+        yield UncertainQuantity(
+            name=f"clock {name}",
+            kind="clock",
+            target=name,
+            axis="offset",
+            unit="s",
+            distribution="uniform",
+            spread=clock.max_offset_s or 0.0,
+            source=f"hosts.{name}.clock.max_offset" if name in cell.hosts else f"devices.{name}.stamp.max_offset",
+        )

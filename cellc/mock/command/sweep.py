@@ -1,0 +1,149 @@
+"""The commands behind `--sweep` and `--replay sweep:RUN`."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Sequence
+from contextlib import ExitStack
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from time import perf_counter
+
+from cellc.compute.work import ComputeError
+from cellc.contract.rehearsals import RehearsalEntry
+from cellc.mock.cell import MockCell
+from cellc.mock.command.campaign import load_checked, stopped
+from cellc.mock.command.options import MockOptions
+from cellc.mock.command.rehearsals import begin_evidence
+from cellc.mock.errors import MockError
+from cellc.mock.sweep.figures import interval
+from cellc.mock.sweep.journal import Journal
+from cellc.mock.sweep.summary import run_lines, sweep_json, sweep_lines
+from cellc.mock.sweep.sweep import USUAL_CONFIDENCE, Sweep, SweepRun, execute, reality, sweep, uncertainty_of
+from cellc.printing import progress, remark, show, show_document
+
+SWEPT = "sweep:"
+_EVIDENCE = 5
+"""Failed runs whose evidence is kept; the others are made again by their number."""
+
+
+def run_sweep(options: MockOptions) -> int:
+    """Sweep rehearsals, and print how often they succeed.
+
+    Returns:
+        0 where every expected rate holds, 1 where one does not or is not certain, 2 where the folder or an option is
+        unusable.
+    """
+    try:
+        cell = load_checked(options)
+        uncertainty = uncertainty_of(cell)
+        entries = _entries(cell, options)
+        sweeps = [_sweep(cell, entry, options) for entry in entries]
+        if options.evidence is not None:
+            _keep_evidence(cell, sweeps, options)
+    except MockError as stop:
+        return stopped(stop)
+    if options.as_json:
+        show_document(sweep_json(cell.contract.configuration_id, sweeps, uncertainty, cell.notes))
+    else:
+        lines = (line for each in sweeps for line in sweep_lines(each, uncertainty, partial(_replay, options, each)))
+        show(*(f"note: {note}" for note in cell.notes), *lines)
+    return 0 if all(each.verdict or each.expected is None for each in sweeps) else 1
+
+
+def _entries(cell: MockCell, options: MockOptions) -> Sequence[RehearsalEntry]:
+    """Return the rehearsals that are meant: those named, else those that must succeed often enough, else the first."""
+    names = options.rehearsals or tuple(uncertainty_of(cell).expected) or cell.rehearsals[:1]
+    if not names:
+        raise MockError(cell.contract.files.rehearsals, "has no rehearsal to sweep")
+    if len(names) > 1 and options.journal is not None:
+        raise MockError("", "a journal is of one rehearsal; name it with --rehearsal")
+    return [cell.entry(name) for name in dict.fromkeys(names)]
+
+
+def _sweep(cell: MockCell, entry: RehearsalEntry, options: MockOptions) -> Sweep:
+    begun, done = perf_counter(), 0
+    failed = 0
+    hire, who = options.crew()
+    with progress("sweep") as update, ExitStack() as stack:
+        journal: Journal | None = None
+        if options.journal is not None:
+            identity = cell.contract.configuration_id
+            journal = stack.enter_context(Journal(Path(options.journal), identity, entry.name, options.seed))
+
+        def keep(run: SweepRun) -> None:
+            nonlocal done, failed
+            done += 1
+            failed += not run.passed
+            if journal is not None:
+                journal.keep(run)
+            rate = done / (perf_counter() - begun)
+            left_s = (options.sweep - done) / rate
+            update(f"run {done} of at most {options.sweep}, {failed} failed, {rate:.0f} a second, {left_s:.0f} s left")
+
+        known = {} if journal is None else journal.runs
+        try:
+            found = sweep(cell, entry, seed=options.seed, most=options.sweep, hire=hire, known=known, keep=keep)
+        except ComputeError as problem:
+            raise MockError("", str(problem)) from None
+    remark(f"{done} runs in {perf_counter() - begun:.1f} s, {who}")
+    return found
+
+
+def replay_swept(options: MockOptions) -> int:
+    """Run some runs of a sweep alone; they end as they did in it, to the last bit."""
+    try:
+        cell = load_checked(options)
+        uncertainty = uncertainty_of(cell)
+        (entry,) = _entries(cell, options)[:1]
+        numbers = [_number(text) for text in dict.fromkeys(options.replay)]
+        runs = [execute(cell, entry, uncertainty, options.seed, number) for number in numbers]
+        if options.evidence is not None:
+            _write_evidence(cell, [(entry, run) for run in runs], options)
+    except MockError as stop:
+        return stopped(stop)
+    if options.as_json:
+        rate = interval(sum(run.passed for run in runs), len(runs), USUAL_CONFIDENCE)
+        alone = Sweep(entry.name, options.seed, len(runs), tuple(runs), rate, None, None)
+        show_document(sweep_json(cell.contract.configuration_id, (alone,), uncertainty, cell.notes))
+    else:
+        lines = (line for run in runs for line in run_lines(run, uncertainty, options.seed))
+        show(*(f"note: {note}" for note in cell.notes), *lines)
+    return 0 if all(run.passed for run in runs) else 1
+
+
+def _number(text: str) -> int:
+    number = text.removeprefix(SWEPT)
+    if text == number or not (number.isascii() and number.isdigit()) or len(number) > 18:
+        raise MockError("", f"there is no run `{text}`; a run of a sweep is `{SWEPT}NUMBER`")
+    return int(number)
+
+
+def _replay(options: MockOptions, of: Sweep, number: int) -> str:
+    words = [options.program, shlex.quote(options.folder), "--replay", f"{SWEPT}{number}"]
+    words += ["--rehearsal", shlex.quote(of.rehearsal)]
+    words += ["--seed", str(of.seed)] if of.seed else []
+    return " ".join([*words, "--edited"] if options.edited else words)
+
+
+def _keep_evidence(cell: MockCell, sweeps: Sequence[Sweep], options: MockOptions) -> None:
+    failed = [(cell.entry(each.rehearsal), run) for each in sweeps for run in each.failed[:_EVIDENCE]]
+    if failed:
+        _write_evidence(cell, failed, options)
+
+
+def _write_evidence(cell: MockCell, runs: Sequence[tuple[RehearsalEntry, SweepRun]], options: MockOptions) -> None:
+    """Run the runs once more as rehearsals of the cell, and write what they leave."""
+    assert options.evidence is not None  # asked for
+    uncertainty = uncertainty_of(cell)
+    added = {f"{entry.name}/{SWEPT}{run.number}": (entry, run) for entry, run in runs}
+    entries = tuple(entry.model_copy(update={"name": name}) for name, (entry, _) in added.items())
+    folder = replace(cell.folder, rehearsals=(*cell.folder.rehearsals, *entries))
+    widened = cell.with_realities(
+        folder, {name: reality(uncertainty, options.seed, run.number) for name, (_, run) in added.items()}
+    )
+    with begin_evidence(widened, Path(options.evidence), tuple(added), options.seed) as collector:
+        for name in added:
+            collector.run(name)
+        collector.settle()

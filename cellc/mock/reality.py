@@ -1,0 +1,50 @@
+"""How a run differs from what its folder says: where things really stand, what clocks read, and how near a tip came.
+
+The description, TF and the planner keep what the folder says: that is what a robot believes. The world alone has what
+is really there, so that a wrong calibration moves the robot to a wrong place, as it does in the real cell.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from cellc.transforms import Pose, Vector3
+
+
+@dataclass(frozen=True, slots=True)
+class Displacement:
+    """How far an object lies from where it is said to: m along the parent's axes, and turned about its own origin."""
+
+    along: Vector3
+    turned: Pose
+
+
+@dataclass(frozen=True, slots=True)
+class Reality:
+    """What is different in one run.
+
+    Attributes:
+        links: child frame → where it really is, seen from where the description has it.
+        objects: dynamic frame → how far its object is displaced.
+        offsets_s: clock → how much more it reads.
+        noise: seed of what is drawn again for every sample, by networks and joints; None for that of the run.
+    """
+
+    links: Mapping[str, Pose] = field(default_factory=dict)
+    objects: Mapping[str, Displacement] = field(default_factory=dict)
+    offsets_s: Mapping[str, float] = field(default_factory=dict)
+    noise: int | None = None
+
+
+AS_STATED = Reality()
+"""Everything is where the folder says."""
+
+
+@dataclass(frozen=True, slots=True)
+class Arrival:
+    """A motion to a goal has ended: how far the tip really is from where the goal really is."""
+
+    goal: str
+    stamp_ns: int
+    distance_m: float

@@ -1,0 +1,1 @@
+"""How often a rehearsal succeeds where not everything is known exactly."""

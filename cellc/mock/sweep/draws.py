@@ -1,0 +1,90 @@
+"""What a run draws, by its number alone: any run can be made again without those before it.
+
+The generator is counter-based, Philox4x64-10 (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC 2011),
+with seed and run as its key and a number of the quantity's name as its counter. So a quantity that is added changes no
+other one, and two sweeps of one seed differ by what was changed alone. The raw 64 bits are the same in every numpy,
+which is not promised of its distributions (NEP 19), so these are inverted here.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
+from statistics import NormalDist
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cellc.contract.uncertainty import UncertainQuantity
+from cellc.mock.reality import Displacement, Reality
+from cellc.transforms import Pose, Vector3
+
+_NORMAL = NormalDist()
+_NOISE = "noise of samples"
+
+
+class _Bits:
+    """The generator of one run: 64 bits by a name, whatever was asked before."""
+
+    def __init__(self, seed: int, run: int) -> None:
+        self._philox = np.random.Philox(key=(run << 64) | seed)
+        self._fresh = self._philox.state
+
+    def of(self, name: str) -> int:
+        """Return the bits of a name."""
+        self._philox.state = {**self._fresh, "state": {**self._fresh["state"], "counter": _counter(name)}}
+        return int(self._philox.random_raw())
+
+
+@lru_cache(maxsize=4096)
+def _counter(name: str) -> NDArray[np.uint64]:
+    """Return a number of a name, in the lower three quarters of a counter."""
+    return np.frombuffer(hashlib.sha256(name.encode()).digest()[:24] + bytes(8), dtype="<u8").astype(np.uint64)
+
+
+def draw(quantities: Sequence[UncertainQuantity], seed: int, run: int) -> dict[str, float]:
+    """Return the values of a run by the names of the quantities, SI, about zero."""
+    bits = _Bits(seed, run)
+    return {one.name: _spread(one, (bits.of(one.name) >> 11) + 0.5) for one in quantities}
+
+
+def _spread(one: UncertainQuantity, of_2_to_53: float) -> float:
+    share = of_2_to_53 * 2.0**-53  # between 0 and 1, and neither
+    shape = _NORMAL.inv_cdf(share) if one.distribution == "normal" else 2.0 * share - 1.0
+    return one.spread * shape
+
+
+def reality_of(quantities: Sequence[UncertainQuantity], values: Mapping[str, float], seed: int, run: int) -> Reality:
+    """Return what is different in a run with these values."""
+    parts: dict[tuple[str, str], dict[str, float]] = {}
+    for one in quantities:
+        parts.setdefault((one.kind, one.target), {})[one.axis] = values[one.name]
+    return Reality(
+        links={target: Pose(_along(axes), _turn(axes)) for target, axes in _of("calibration", parts)},
+        objects={
+            target: Displacement(_along(axes), Pose((0.0, 0.0, 0.0), _turn(axes)))
+            for target, axes in _of("region", parts)
+        },
+        offsets_s={target: axes["offset"] for target, axes in _of("clock", parts)},
+        noise=_Bits(seed, run).of(_NOISE) >> 32,
+    )
+
+
+def _of(kind: str, parts: Mapping[tuple[str, str], dict[str, float]]) -> list[tuple[str, dict[str, float]]]:
+    return [(target, axes) for (of, target), axes in parts.items() if of == kind]
+
+
+def _along(axes: Mapping[str, float]) -> Vector3:
+    return axes.get("x", 0.0), axes.get("y", 0.0), axes.get("z", 0.0)
+
+
+def _turn(axes: Mapping[str, float]) -> tuple[float, float, float, float]:
+    """Return the turn whose rotation vector has these components, rad, as a quaternion x, y, z, w."""
+    x, y, z = (axes.get(name, 0.0) for name in ("rx", "ry", "rz"))
+    angle = math.sqrt(x * x + y * y + z * z)
+    if angle == 0.0:
+        return 0.0, 0.0, 0.0, 1.0
+    share = math.sin(angle / 2.0) / angle
+    return x * share, y * share, z * share, math.cos(angle / 2.0)

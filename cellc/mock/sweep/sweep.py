@@ -1,0 +1,209 @@
+"""Many runs of one rehearsal, each with its own draws, until the verdict is certain or their number is reached."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+from contextlib import closing
+from dataclasses import dataclass
+
+from cellc.compute.work import Hire, Work, stream
+from cellc.contract.rehearsals import RehearsalEntry
+from cellc.contract.uncertainty import UNCERTAINTY_FILE, ExpectedSuccess, Uncertainty
+from cellc.mock.campaign.campaign import Assignment
+from cellc.mock.cell import MockCell
+from cellc.mock.errors import MockError
+from cellc.mock.plant import Plant
+from cellc.mock.reality import Reality
+from cellc.mock.result import RunFailure, to_json_lines
+from cellc.mock.sweep.draws import draw, reality_of
+from cellc.mock.sweep.figures import Interval, confidence_of_look, interval, looks
+
+USUAL_CONFIDENCE = 0.95
+"""Of the interval where the cell expects nothing of the rehearsal."""
+
+
+@dataclass(frozen=True, slots=True)
+class SweepRun:
+    """How one run ended.
+
+    Attributes:
+        number: from 0; with the seed it gives all draws.
+        outcome: of the rehearsal, or ``missed GOAL`` where that ended as it should and the tip was too far off.
+        distances_m: goal → farthest that the tip really was from it when it had arrived.
+        oldest_s: age of the oldest transform that a goal was looked up by; None without such a goal.
+        digest: over attempts and arrivals, so that a replay can be compared bit for bit.
+    """
+
+    number: int
+    outcome: str
+    passed: bool
+    distances_m: Mapping[str, float]
+    oldest_s: float | None
+    digest: str
+
+
+@dataclass(frozen=True, slots=True)
+class Sweep:
+    """The runs that the verdict rests on, in order.
+
+    Attributes:
+        asked: most runs that were allowed.
+        rate: interval of the probability of success; its confidence is that of the look that ended the sweep.
+        expected: what must come of it; None where the cell expects nothing.
+        verdict: whether that holds; None where it is not certain, or nothing is expected.
+    """
+
+    rehearsal: str
+    seed: int
+    asked: int
+    runs: tuple[SweepRun, ...]
+    rate: Interval
+    expected: ExpectedSuccess | None
+    verdict: bool | None
+
+    @property
+    def failed(self) -> tuple[SweepRun, ...]:
+        """The runs that did not succeed."""
+        return tuple(run for run in self.runs if not run.passed)
+
+
+def uncertainty_of(cell: MockCell) -> Uncertainty:
+    """Return what a cell draws, every name of it known.
+
+    Raises:
+        MockError: it says nothing of uncertainty, or names what it does not have.
+    """
+    found, contract = cell.folder.uncertainty, cell.contract
+    if found is None:
+        raise MockError("", f"the folder has no `{UNCERTAINTY_FILE}`; write `uncertainty: {{}}` in the spec, and build")
+    known: dict[str, tuple[str, Sequence[str]]] = {
+        "calibration": ("frame of the description", [joint.child for joint in cell.folder.description.joints]),
+        "region": ("dynamic frame", [name for name, one in contract.frames.items() if one.simulated_parent]),
+        "clock": ("clock", list(contract.clocks)),
+    }
+    named = [(one.target, *known[one.kind]) for one in found.quantities]
+    named += [(name, "goal", list(contract.goals)) for name in found.tolerances]
+    named += [(name, "rehearsal", cell.rehearsals) for name in found.expected]
+    for name, kind, names in named:
+        if name not in names:
+            raise MockError(UNCERTAINTY_FILE, f"names {kind} `{name}`, which the folder does not have")
+    if len({one.name for one in found.quantities}) < len(found.quantities):
+        raise MockError(UNCERTAINTY_FILE, "names two quantities alike")
+    return found
+
+
+def reality(uncertainty: Uncertainty, seed: int, number: int) -> Reality:
+    """Return what is different in a run."""
+    return reality_of(uncertainty.quantities, draw(uncertainty.quantities, seed, number), seed, number)
+
+
+def execute(cell: MockCell, entry: RehearsalEntry, uncertainty: Uncertainty, seed: int, number: int) -> SweepRun:
+    """Execute one run; the same cell, rehearsal, seed and number give the same end to the last bit.
+
+    Raises:
+        MockError: a fault of the rehearsal names what the contract does not have.
+    """
+    watched: list[Plant] = []
+    try:
+        drawn = reality(uncertainty, seed, number)
+        result = cell.rehearse(entry, seed=seed, watch=watched.append, reality=drawn)
+    except MockError:
+        raise
+    except Exception as bug:  # a run that breaks the mock must not hide the runs after it
+        return SweepRun(number, RunFailure.CRASHED.value, False, {}, None, type(bug).__name__)
+    arrivals = watched[0].arrivals if watched else []
+    distances: dict[str, float] = {}
+    for each in arrivals:
+        distances[each.goal] = max(distances.get(each.goal, 0.0), each.distance_m)
+    missed = next((goal for goal, most in uncertainty.tolerances.items() if distances.get(goal, 0.0) > most), None)
+    outcome = result.outcome.value if missed is None or not result.passed else f"missed {missed}"
+    ages = [each.tf_lookup_age for each in result.attempts if each.tf_lookup_age is not None]
+    digest = hashlib.sha256((to_json_lines(result.attempts) + repr(arrivals)).encode()).hexdigest()[:16]
+    passed = result.passed and missed is None
+    return SweepRun(number, outcome, passed, distances, max(ages, default=None), digest)
+
+
+@dataclass(frozen=True, slots=True)
+class _Shared:
+    assignment: Assignment
+    entry: RehearsalEntry
+    uncertainty: Uncertainty
+
+
+def _begin(shared: _Shared) -> Callable[[int], SweepRun]:
+    cell = shared.assignment.cell()
+    return lambda number: execute(cell, shared.entry, shared.uncertainty, shared.assignment.seed, number)
+
+
+def _arriving(
+    cell: MockCell,
+    entry: RehearsalEntry,
+    uncertainty: Uncertainty,
+    seed: int,
+    numbers: Sequence[int],
+    hire: Hire | None,
+) -> Generator[SweepRun, None, None]:
+    """Yield the ends of runs as they come."""
+    if hire is None:
+        for number in numbers:
+            yield execute(cell, entry, uncertainty, seed, number)
+        return
+    work = Work(_begin, _Shared(Assignment.of(cell, seed), entry, uncertainty), lambda number: f"sweep:{number}")
+    with closing(stream(work, numbers, hire)) as answers:
+        for _, run in answers:
+            yield run
+
+
+def sweep(
+    cell: MockCell,
+    entry: RehearsalEntry,
+    *,
+    seed: int,
+    most: int,
+    hire: Hire | None,
+    known: Mapping[int, SweepRun],
+    keep: Callable[[SweepRun], None],
+) -> Sweep:
+    """Run until the verdict is certain, or ``most`` runs have ended; the same whoever runs them, and however often.
+
+    Args:
+        known: runs of this sweep that have ended before.
+        keep: called with each run that ends now.
+
+    Raises:
+        ComputeError: nobody can execute a run.
+        MockError: the cell draws nothing, or a run cannot be executed.
+    """
+    uncertainty = uncertainty_of(cell)
+    expected = uncertainty.expected.get(entry.name)
+    ends = dict(known)
+    missing = [number for number in range(most) if number not in ends]
+    with closing(_arriving(cell, entry, uncertainty, seed, missing, hire)) as arriving:
+        for look, wanted in enumerate(looks(most) if expected else (most,), start=1):
+            _gather(ends, wanted, arriving, keep)
+            runs = tuple(ends[number] for number in range(wanted))
+            level = USUAL_CONFIDENCE if expected is None else confidence_of_look(look, expected.confidence)
+            rate = interval(sum(run.passed for run in runs), wanted, level)
+            verdict = None if expected is None else _verdict(rate, expected.success)
+            if verdict is not None or wanted == most:
+                break
+    return Sweep(entry.name, seed, most, runs, rate, expected, verdict)
+
+
+def _gather(
+    ends: dict[int, SweepRun], wanted: int, arriving: Iterator[SweepRun], keep: Callable[[SweepRun], None]
+) -> None:
+    """Take runs as they come until the first so many are there."""
+    missing = {number for number in range(wanted) if number not in ends}
+    while missing:
+        run = next(arriving)
+        ends[run.number] = run
+        missing.discard(run.number)
+        keep(run)
+
+
+def _verdict(rate: Interval, success: float) -> bool | None:
+    if rate.low >= success:
+        return True
+    return False if rate.high < success else None

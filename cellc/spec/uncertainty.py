@@ -1,0 +1,42 @@
+"""What is not known exactly, for sweeps of the mock: beside what calibrations, clocks and interfaces state already."""
+
+from pydantic import Field
+
+from cellc.spec.base import Name, SpecModel
+from cellc.spec.quantity import FieldAngle, Length, Position
+
+
+class CalibrationUncertaintySpec(SpecModel):
+    """What the residual of a calibration does not say."""
+
+    rotation: FieldAngle | None = Field(
+        None, description="Standard deviation about each axis; none is drawn if absent.", examples=["0.1 deg"]
+    )
+
+
+class RegionSpec(SpecModel):
+    """Where an object may lie, about its simulated pose, and how it may be turned; each place is as likely."""
+
+    box: Position = Field(
+        ...,
+        description="Full edge lengths along x, y, z of the parent of its simulated pose.",
+        examples=["80 120 0 mm"],
+    )
+    yaw: FieldAngle | None = Field(
+        None, description="Full range about z of that parent; not turned if absent.", examples=["90 deg"]
+    )
+
+
+class UncertaintySpec(SpecModel):
+    """What a sweep draws and judges; `{}` draws what the cell states elsewhere."""
+
+    calibrations: dict[Name, CalibrationUncertaintySpec] = Field(
+        default_factory=dict,
+        description="Calibrations by name, with what their residual does not say.",
+        examples=[{"hand_eye": {"rotation": "0.1 deg"}}],
+    )
+    tolerances: dict[Name, Length] = Field(
+        default_factory=dict,
+        description="Goals by name, with the farthest that the tip may really be from where the goal really is.",
+        examples=[{"pick": "5 mm"}],
+    )

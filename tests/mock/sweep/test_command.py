@@ -1,0 +1,51 @@
+"""A sweep on the command line: what it prints, writes and refuses."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.cells import generated
+from tests.cli.refused import assert_refused
+from tests.cli.run import run
+
+
+def test_a_sweep_says_rate_margins_draws_and_verdict_and_a_run_is_made_again(nest_folder: Path, tmp_path: Path) -> None:
+    journal = str(tmp_path / "runs.jsonl")
+    ran = run("mock", str(nest_folder), "--sweep", "6", "--jobs", "1", "--journal", journal)
+    lines = ran.out.splitlines()
+    assert ran.code == 1, ran.out
+    assert lines[0] == "put: 6 runs with seed 0, 5 succeeded"
+    assert lines[1].endswith("with 0.975 (Clopper-Pearson)")
+    assert any(
+        line.split() == ["nest", "x", "normal,", "deviation", "0.577", "mm", "calibrations.nest.residual"]
+        for line in lines
+    )
+    assert lines[-1] == "UNKNOWN: 85.0000% of the runs must succeed, with confidence 0.95; 6 runs do not decide it"
+    failed = next(line.split()[1].rstrip(":") for line in lines if line.startswith("FAILED"))
+    told = json.loads(run("mock", str(nest_folder), "--sweep", "6", "--jobs", "1", "--journal", journal, "--json").out)
+    number = int(failed.removeprefix("sweep:"))
+    again = run("mock", str(nest_folder), "--replay", failed)
+    assert again.code == 1
+    assert f"FAILED  {failed}: missed put" in again.out
+    assert f"digest: {told['sweeps'][0]['runs'][number]['digest']}" in again.out
+    assert told["sweeps"][0]["verdict"] is None
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--sweep", "-1"], "the number of runs is -1; it must be 0 or greater"),
+        (["--sweep", "5", "--campaign"], "--sweep does not go with --campaign"),
+        (["--journal", "runs.jsonl"], "--journal needs --sweep"),
+        (["--sweep", "5", "--gates"], "--gates does not go with --sweep"),
+        (["--sweep", "5"], "the folder has no `config/uncertainty.json`; write `uncertainty: {}` in the spec"),
+        (["--replay", "sweep:x"], "the folder has no `config/uncertainty.json`"),
+        (["--sweep", "5", "--seed", str(1 << 64)], "that of a sweep must be below 2^64"),
+        (["--sweep", "5", "--jobs", "2", "--cluster", "tcp://127.0.0.1:1"], "--jobs does not go with --cluster"),
+    ],
+)
+def test_what_cannot_be_swept_is_refused(arguments: list[str], words: str) -> None:
+    assert_refused(run("mock", str(generated("minimal")), *arguments), words)

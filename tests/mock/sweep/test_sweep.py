@@ -1,0 +1,197 @@
+"""How often a rehearsal succeeds where a fixture stands somewhere else than it is said to, against closed forms."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from cellc.compute.processes import processes
+from cellc.contract.uncertainty import UncertainQuantity
+from cellc.mock import MockCell, MockError
+from cellc.mock.sweep.draws import draw
+from cellc.mock.sweep.figures import confidence_of_look, explain, interval
+from cellc.mock.sweep.journal import Journal
+from cellc.mock.sweep.sweep import Sweep, SweepRun, execute, sweep, uncertainty_of
+from tests.mock.sweep.conftest import RESIDUAL_M, TOLERANCE_M
+
+NEST = ("nest x", "nest y", "nest z")
+
+
+def missed_by_hand() -> float:
+    """Return how likely a point is farther off than the tolerance: Maxwell's distribution of its distance."""
+    sigma = RESIDUAL_M / math.sqrt(3.0)
+    far = TOLERANCE_M / sigma
+    return math.erfc(far / math.sqrt(2.0)) + math.sqrt(2.0 / math.pi) * far * math.exp(-(far**2) / 2.0)
+
+
+def swept(cell: MockCell, most: int, *, jobs: int = 1, known: dict[int, SweepRun] | None = None) -> Sweep:
+    hire = processes(jobs) if jobs > 1 else None
+    kept = dict[int, SweepRun]()
+    entry = cell.entry("put")
+    return sweep(
+        cell, entry, seed=0, most=most, hire=hire, known=known or {}, keep=lambda run: kept.update({run.number: run})
+    )
+
+
+@pytest.fixture(scope="session")
+def twelve(nest: MockCell) -> Sweep:
+    return swept(nest, 12)
+
+
+def test_a_tip_is_as_far_from_the_goal_as_the_fixture_was_displaced(nest: MockCell, twelve: Sweep) -> None:
+    quantities = uncertainty_of(nest).quantities
+    for run in twelve.runs:
+        drawn = draw(quantities, 0, run.number)
+        distance = math.sqrt(sum(drawn[name] ** 2 for name in NEST))
+        assert run.distances_m["put"] == pytest.approx(distance, abs=1e-7)
+        assert run.outcome == ("succeeded" if distance <= TOLERANCE_M else "missed put")
+    assert {run.outcome for run in twelve.runs} == {"succeeded", "missed put"}
+
+
+def test_a_run_is_the_same_alone_and_by_any_number_of_processes(nest: MockCell, twelve: Sweep) -> None:
+    uncertainty = uncertainty_of(nest)
+    assert execute(nest, nest.entry("put"), uncertainty, 0, 7) == twelve.runs[7]
+    assert swept(nest, 12, jobs=2) == twelve
+    assert execute(nest, nest.entry("put"), uncertainty, 1, 7).digest != twelve.runs[7].digest
+
+
+def test_what_is_said_of_a_cell_is_drawn_and_nothing_else(nest: MockCell) -> None:
+    found = {one.name: (one.distribution, one.unit, one.spread, one.source) for one in uncertainty_of(nest).quantities}
+    axis = ("normal", "m", pytest.approx(RESIDUAL_M / math.sqrt(3.0), abs=1e-12), "calibrations.nest.residual")
+    assert found == {
+        **dict.fromkeys(NEST, axis),
+        "clock pc": ("uniform", "s", 0.001, "hosts.pc.clock.max_offset"),
+    }
+
+
+def test_the_known_rate_lies_in_the_interval_in_95_of_100_seeds(nest: MockCell) -> None:
+    quantities = [one for one in uncertainty_of(nest).quantities if one.name in NEST]
+    truth = 1.0 - missed_by_hand()
+    assert truth == pytest.approx(0.9197, abs=1e-4)
+    found = 0
+    for seed in range(100):
+        drawn = np.array([list(draw(quantities, seed, run).values()) for run in range(100)])
+        rate = interval(int((np.linalg.norm(drawn, axis=1) <= TOLERANCE_M).sum()), len(drawn), 0.95)
+        found += rate.low <= truth <= rate.high
+    assert found >= 95
+
+
+def test_the_only_cause_is_named_and_what_has_no_effect_is_not(nest: MockCell) -> None:
+    quantities = uncertainty_of(nest).quantities
+    rows = [draw(quantities, 0, run) for run in range(600)]
+    values = {one.name: np.array([row[one.name] for row in rows]) for one in quantities}
+    distance = np.sqrt(sum(values[name] ** 2 for name in NEST))
+    first, *others = explain(quantities, values, distance > TOLERANCE_M)
+    assert (first.name, first.names, first.explains) == ("nest", NEST, True)
+    assert first.statistic == 1.0
+    assert [(one.name, one.explains) for one in others] == [("clock pc", False)]
+    assert first.halved is not None
+    assert first.halved < 1e-3  # Maxwell: 5e-6 at twice the tolerance
+
+
+@pytest.mark.parametrize(
+    ("successes", "runs", "low", "high"),
+    [
+        (0, 10, 0.0, 0.308497),  # 1 - 0.025 ** (1 / 10)
+        (10, 10, 0.691503, 1.0),
+        (5, 10, 0.187086, 0.812914),  # R 4.4, binom.test(5, 10)
+        (196, 200, 0.949588, 0.994524),  # R 4.4, binom.test(196, 200)
+    ],
+)
+def test_interval_is_that_of_clopper_and_pearson(successes: int, runs: int, low: float, high: float) -> None:
+    found = interval(successes, runs, 0.95)
+    assert found.low == pytest.approx(low, abs=2e-6)
+    assert found.high == pytest.approx(high, abs=2e-6)
+
+
+def test_all_looks_together_cost_what_may_be_wrong() -> None:
+    assert sum(1.0 - confidence_of_look(number, 0.95) for number in range(1, 10_000)) == pytest.approx(0.05, abs=1e-5)
+
+
+def test_a_quantity_that_is_added_changes_no_other(nest: MockCell) -> None:
+    quantities = uncertainty_of(nest).quantities
+    added = quantities[0].model_copy(update={"name": "another"})
+    assert draw((added, *quantities), 3, 7).items() >= draw(quantities, 3, 7).items()
+
+
+def test_draws_have_their_distribution() -> None:
+    def one(name: str, distribution: str) -> UncertainQuantity:
+        common = {"kind": "clock", "target": "pc", "axis": "offset", "unit": "s", "spread": 2.0, "source": "by hand"}
+        return UncertainQuantity.model_validate({"name": name, "distribution": distribution, **common})
+
+    rows = [draw((one("n", "normal"), one("u", "uniform")), 0, run) for run in range(2000)]
+    normal, uniform = (np.array([row[name] for row in rows]) for name in ("n", "u"))
+    assert (normal.mean(), normal.std()) == (pytest.approx(0.0, abs=0.1), pytest.approx(2.0, abs=0.1))
+    assert float(np.abs(uniform).max()) < 2.0
+    assert (uniform.mean(), uniform.std()) == (
+        pytest.approx(0.0, abs=0.1),
+        pytest.approx(2.0 / math.sqrt(3.0), abs=0.05),
+    )
+
+
+def test_a_sweep_goes_on_where_its_journal_ends_and_ends_as_it_would_have(
+    nest: MockCell, twelve: Sweep, tmp_path: Path
+) -> None:
+    file = tmp_path / "runs.jsonl"
+    identity = nest.contract.configuration_id
+    with Journal(file, identity, "put", 0) as journal:
+        for run in twelve.runs[2:10]:
+            journal.keep(run)
+    with file.open("ab") as cut:
+        cut.write(b'{"number":10,"outc')
+    again = Journal(file, identity, "put", 0)
+    assert sorted(again.runs.values(), key=lambda run: run.number) == list(twelve.runs[2:10])
+    with again:
+        assert swept(nest, 12, known=again.runs) == twelve
+        again.keep(twelve.runs[11])
+    assert set(Journal(file, identity, "put", 0).runs) == {*range(2, 10), 11}
+    with pytest.raises(MockError, match="is of another sweep"):
+        Journal(file, identity, "put", 1)
+    file.write_text("mine\n", encoding="utf-8")
+    with pytest.raises(MockError, match="is no journal"):
+        Journal(file, identity, "put", 0)
+
+
+def test_a_verdict_comes_as_soon_as_it_is_certain_and_later_runs_change_nothing(nest: MockCell, twelve: Sweep) -> None:
+    def ended(number: int, passed: bool) -> SweepRun:
+        return replace(twelve.runs[0], number=number, passed=passed)
+
+    good = swept(nest, 1000, known={number: ended(number, True) for number in range(1000)})
+    assert (len(good.runs), good.verdict) == (100, True)  # 0.0125 ** (1 / 100) is 0.957
+    bad = swept(nest, 1000, known={number: ended(number, number % 2 == 0) for number in range(1000)})
+    assert (len(bad.runs), bad.verdict) == (100, False)
+    even = swept(nest, 300, known={number: ended(number, number % 100 >= 15) for number in range(300)})
+    assert (len(even.runs), even.verdict) == (300, None)
+
+
+def test_a_folder_that_names_what_it_does_not_have_is_refused(nest: MockCell) -> None:
+    known = uncertainty_of(nest)
+    edited = known.model_copy(update={"tolerances": {"elsewhere": 0.001}})
+    with pytest.raises(MockError, match="names goal `elsewhere`, which the folder does not have"):
+        uncertainty_of(nest.with_realities(replace(nest.folder, uncertainty=edited), {}))
+    with pytest.raises(MockError, match=r"has no `config/uncertainty\.json`; write `uncertainty: \{\}`"):
+        uncertainty_of(nest.with_realities(replace(nest.folder, uncertainty=None), {}))
+
+
+def test_bits_are_those_of_philox_with_seed_and_run_as_key() -> None:
+    """numpy's own constructor is asked; a name's counter is the first 24 bytes of its SHA-256."""
+    one = UncertainQuantity.model_validate(
+        {
+            "name": "x",
+            "kind": "clock",
+            "target": "pc",
+            "axis": "offset",
+            "unit": "s",
+            "distribution": "uniform",
+            "spread": 1.0,
+            "source": "by hand",
+        }
+    )
+    counter = int.from_bytes(hashlib.sha256(b"x").digest()[:24], "little")
+    raw = int(np.random.Philox(key=(77 << 64) | 5, counter=counter).random_raw())
+    assert draw((one,), 5, 77)["x"] == pytest.approx(2.0 * (raw / 2.0**64) - 1.0, abs=1e-15)
