@@ -28,8 +28,12 @@ class UncertainQuantity(ContractModel):
     target: str = Field(description="Frame or clock.")
     axis: Axis = Field(description="Axis, or the offset of a clock.")
     unit: Literal["m", "rad", "s"] = Field(description="Unit of the spread.")
-    distribution: Literal["normal", "uniform"] = Field(description="How it is drawn, about zero.")
-    spread: PositiveMagnitude = Field(description="Standard deviation of a normal, half the range of a uniform one.")
+    distribution: Literal["normal", "isotropic", "uniform"] = Field(
+        description="How it is drawn, about zero; isotropic is normal, and alike along three axes."
+    )
+    spread: PositiveMagnitude = Field(
+        description="Standard deviation, or that of the three axes together; half the range of a uniform one."
+    )
     source: str = Field(description="Path in the spec of what it is drawn by.")
 
 

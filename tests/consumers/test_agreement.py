@@ -281,6 +281,23 @@ def test_contract_has_limits_calibrations_and_pairs_of_the_other_files(cell: str
     assert links - set(publishers) == set()
 
 
+@every_build
+def test_clocks_and_draws_name_what_the_contract_has(cell: str, distro: str) -> None:
+    texts, promised = build(cell, distro).texts, contract(cell, distro)
+    assert set(promised["clock_of"].values()) - set(promised["clocks"]) == set()
+    drawn = json.loads(texts.get("config/uncertainty.json", '{"quantities": [], "tolerances": {}, "expected": {}}'))
+    known = {"clock": promised["clocks"], "calibration": promised["frames"], "region": promised["frames"]}
+    for one in drawn["quantities"]:
+        assert one["target"] in known[one["kind"]], one
+        spec: Any = written(cell)
+        for key in one["source"].split("."):
+            assert key in spec, one
+            spec = spec[key]
+    assert set(drawn["tolerances"]) <= set(promised["goals"])
+    rehearsed = {one["name"] for one in json.loads(texts["rehearsals.json"])["rehearsals"]}
+    assert set(drawn["expected"]) <= rehearsed
+
+
 @every_planning_build
 def test_named_states_are_the_poses_of_the_spec(cell: str, distro: str) -> None:
     semantic = fromstring(build(cell, distro).texts[f"config/moveit/{cell}.srdf"])

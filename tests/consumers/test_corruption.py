@@ -91,6 +91,7 @@ _CHECKS: tuple[Callable[[str, str], None], ...] = (
     test_agreement.test_package_has_every_part,
     test_agreement.test_targets_differ_in_their_hardware_alone,
     test_agreement.test_contract_has_limits_calibrations_and_pairs_of_the_other_files,
+    test_agreement.test_clocks_and_draws_name_what_the_contract_has,
     test_agreement.test_named_states_are_the_poses_of_the_spec,
     test_environment.test_sources_are_fetched_as_vcs_import_reads_them,
     test_environment.test_profiles_reach_the_cards_for_ros_and_no_other,

@@ -11,8 +11,8 @@ from pathlib import Path
 
 from tests.cells import ROOT
 
-# The mock, the format between it and the compiler, and what both use: the reader of URDF, the planner, whole files.
-NEEDED = ("mock", "contract", "planning", "description", "diagnostics", "store", "adapter")
+# The mock, the format between it and the compiler, and what both use: the reader of URDF, planner, files, processes.
+NEEDED = ("mock", "contract", "planning", "description", "diagnostics", "store", "adapter", "compute")
 MODULES = ("__init__.py", "limits.py", "printing.py", "signals.py", "transforms.py", "version.py", "vocabulary.py")
 
 

@@ -8,7 +8,6 @@ figure of, such as the repeatability of an arm, and how a payload differs.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 from cellc.cell.cell import Cell
@@ -42,8 +41,8 @@ def _calibrations(cell: Cell, stated: Stated) -> Iterator[UncertainQuantity]:
         if calibration is None:
             continue
         path = f"calibrations.{calibration.name}.residual"
-        sigma_m = (calibration.residual_m or 0.0) / math.sqrt(3.0)
-        yield from _three("calibration", calibration.name, frame.name, (sigma_m,) * 3, path)
+        residual_m = calibration.residual_m or 0.0
+        yield from _three("calibration", calibration.name, frame.name, (residual_m,) * 3, path)
         sigma_rad = stated.rotations_rad.get(calibration.name, 0.0)
         path = f"uncertainty.calibrations.{calibration.name}.rotation"
         yield from _three("calibration", calibration.name, frame.name, (sigma_rad,) * 3, path, turns=True)
@@ -66,7 +65,7 @@ def _three(
             target=target,
             axis=axis,
             unit="rad" if turns else "m",
-            distribution="normal" if kind == "calibration" else "uniform",
+            distribution="uniform" if kind == "region" else "normal" if turns else "isotropic",
             spread=rounded(spread),
             source=source,
         )

@@ -21,6 +21,7 @@ from cellc.mock.plant import Plant
 from cellc.mock.report_page.page import ReportContent, to_report
 from cellc.mock.report_page.run_section import RunEvidence
 from cellc.mock.result import RehearsalResult, to_json_lines
+from cellc.mock.sweep.sweep import Sweep
 from cellc.mock.task.bounds import joint_state_age_s
 
 REPORT = "report.html"
@@ -80,11 +81,12 @@ class EvidenceCollector:
         self._runs.append(RunEvidence(entry, result, trace, figures, self._tolerances, files))
         return result
 
-    def settle(self, campaign: Campaign | None = None) -> None:
+    def settle(self, campaign: Campaign | None = None, sweeps: Sequence[Sweep] = ()) -> None:
         """Write the report and put everything in its place.
 
         Args:
             campaign: what a campaign found, which the report shows and the gates are judged by too.
+            sweeps: what sweeps found, which the report shows.
 
         Raises:
             MockError: the folder cannot take it.
@@ -94,7 +96,9 @@ class EvidenceCollector:
         if campaign is not None:
             runs = (*runs, *judged_campaign(campaign))
         gates = sign_gates(self._cell.folder, runs, self._seed)
-        content = ReportContent(contract, self._cell.notes, self._seed, tuple(self._runs), gates, campaign)
+        content = ReportContent(
+            contract, self._cell.notes, self._seed, tuple(self._runs), gates, campaign, tuple(sweeps)
+        )
         self._folder.write(REPORT, to_report(content))
         self._folder.settle({"cell": contract.cell, "configuration_id": contract.configuration_id, "seed": self._seed})
 

@@ -37,17 +37,16 @@ def run_sweep(options: MockOptions) -> int:
     """
     try:
         cell = load_checked(options)
-        uncertainty = uncertainty_of(cell)
-        entries = _entries(cell, options)
-        sweeps = [_sweep(cell, entry, options) for entry in entries]
+        sweeps = [_sweep(cell, entry, options) for entry in _entries(cell, options)]
         if options.evidence is not None:
-            _keep_evidence(cell, sweeps, options)
+            failed = [(cell.entry(each.rehearsal), run) for each in sweeps for run in each.failed[:_EVIDENCE]]
+            _write_evidence(cell, failed, options, sweeps)
     except MockError as stop:
         return stopped(stop)
     if options.as_json:
-        show_document(sweep_json(cell.contract.configuration_id, sweeps, uncertainty, cell.notes))
+        show_document(sweep_json(cell.contract.configuration_id, sweeps, cell.notes))
     else:
-        lines = (line for each in sweeps for line in sweep_lines(each, uncertainty, partial(_replay, options, each)))
+        lines = (line for each in sweeps for line in sweep_lines(each, partial(_replay, options, each)))
         show(*(f"note: {note}" for note in cell.notes), *lines)
     return 0 if all(each.verdict or each.expected is None for each in sweeps) else 1
 
@@ -105,8 +104,8 @@ def replay_swept(options: MockOptions) -> int:
         return stopped(stop)
     if options.as_json:
         rate = interval(sum(run.passed for run in runs), len(runs), USUAL_CONFIDENCE)
-        alone = Sweep(entry.name, options.seed, len(runs), tuple(runs), rate, None, None)
-        show_document(sweep_json(cell.contract.configuration_id, (alone,), uncertainty, cell.notes))
+        alone = Sweep(entry.name, options.seed, uncertainty, len(runs), tuple(runs), rate, None, None)
+        show_document(sweep_json(cell.contract.configuration_id, (alone,), cell.notes))
     else:
         lines = (line for run in runs for line in run_lines(run, uncertainty, options.seed))
         show(*(f"note: {note}" for note in cell.notes), *lines)
@@ -127,14 +126,13 @@ def _replay(options: MockOptions, of: Sweep, number: int) -> str:
     return " ".join([*words, "--edited"] if options.edited else words)
 
 
-def _keep_evidence(cell: MockCell, sweeps: Sequence[Sweep], options: MockOptions) -> None:
-    failed = [(cell.entry(each.rehearsal), run) for each in sweeps for run in each.failed[:_EVIDENCE]]
-    if failed:
-        _write_evidence(cell, failed, options)
-
-
-def _write_evidence(cell: MockCell, runs: Sequence[tuple[RehearsalEntry, SweepRun]], options: MockOptions) -> None:
-    """Run the runs once more as rehearsals of the cell, and write what they leave."""
+def _write_evidence(
+    cell: MockCell,
+    runs: Sequence[tuple[RehearsalEntry, SweepRun]],
+    options: MockOptions,
+    sweeps: Sequence[Sweep] = (),
+) -> None:
+    """Run the runs once more as rehearsals of the cell, and write what they leave, with a report over the sweeps."""
     assert options.evidence is not None  # asked for
     uncertainty = uncertainty_of(cell)
     added = {f"{entry.name}/{SWEPT}{run.number}": (entry, run) for entry, run in runs}
@@ -146,4 +144,4 @@ def _write_evidence(cell: MockCell, runs: Sequence[tuple[RehearsalEntry, SweepRu
     with begin_evidence(widened, Path(options.evidence), tuple(added), options.seed) as collector:
         for name in added:
             collector.run(name)
-        collector.settle()
+        collector.settle(sweeps=sweeps)

@@ -15,6 +15,8 @@ from cellc.mock.evidence.kpis import Kpi
 from cellc.mock.gates.gate import GateCheck, GateResult, Verdict
 from cellc.mock.report_page.html import count, plain, seconds, tag, to_page
 from cellc.mock.report_page.run_section import RunEvidence, run_section
+from cellc.mock.sweep.summary import Table, count_lines, tables, verdict_line
+from cellc.mock.sweep.sweep import Sweep
 
 _NAMES = {
     "plan_to_execute_s": "plan to execute",
@@ -52,6 +54,7 @@ class ReportContent:
         notes: what is odd about the generated folder.
         seed: of everything that was drawn.
         campaign: every fault at every step; None where it was not run.
+        sweeps: how often rehearsals succeeded where not everything is known exactly.
     """
 
     contract: Contract
@@ -60,6 +63,7 @@ class ReportContent:
     runs: tuple[RunEvidence, ...]
     gates: tuple[GateResult, ...]
     campaign: Campaign | None = None
+    sweeps: tuple[Sweep, ...] = ()
 
 
 def header(content: ReportContent) -> Element:
@@ -82,10 +86,34 @@ def header(content: ReportContent) -> Element:
         tag("p", "Rehearsed on the mock", class_="kicker"),
         tag("h1", contract.cell),
         tag("p", contract.summary, class_="summary"),
-        verdict,
+        *(_verdict(sweep) for sweep in content.sweeps),
+        *(() if content.sweeps else (verdict,)),
         tag("dl", *pairs, class_="facts"),
         *(tag("p", tag("b", "Note: "), note, class_="note") for note in content.notes),
     )
+
+
+def sweep_section(sweep: Sweep) -> Element:
+    """Return how often a rehearsal succeeded, its margins, what was drawn, and what explains the failures."""
+    hint = (
+        "A run that missed its goal may look as if it had succeeded in its own section below: that is what the robot "
+        "believed. How a part slips or turns between the fingers is not simulated."
+    )
+    lines = [tag("p", line) for line in count_lines(sweep)]
+    found = [tag("div", _plain_table(rows), class_="wide") for rows in tables(sweep)]
+    return tag("section", tag("h2", f"Sweep of {sweep.rehearsal}"), *lines, *found, tag("p", hint, class_="hint"))
+
+
+def _verdict(sweep: Sweep) -> Element:
+    return tag(
+        "p", tag("span", verdict_line(sweep), class_={None: "unknown", True: "good", False: "bad"}[sweep.verdict])
+    )
+
+
+def _plain_table(rows: Table) -> Element:
+    head, *others = rows
+    body = (tag("tr", *(tag("td", cell) for cell in row)) for row in others)
+    return tag("table", tag("thead", tag("tr", *(tag("th", cell) for cell in head))), tag("tbody", *body))
 
 
 def outcomes(content: ReportContent) -> Element:
@@ -271,8 +299,8 @@ def to_report(content: ReportContent) -> str:
     main = tag(
         "main",
         header(content),
-        outcomes(content),
-        key_figures(content),
+        *map(sweep_section, content.sweeps),
+        *((outcomes(content), key_figures(content)) if content.runs or not content.sweeps else ()),
         *campaign_section(content.campaign),
         gate_section(content.gates),
         *runs,

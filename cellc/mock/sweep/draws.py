@@ -52,8 +52,12 @@ def draw(quantities: Sequence[UncertainQuantity], seed: int, run: int) -> dict[s
 
 def _spread(one: UncertainQuantity, of_2_to_53: float) -> float:
     share = of_2_to_53 * 2.0**-53  # between 0 and 1, and neither
-    shape = _NORMAL.inv_cdf(share) if one.distribution == "normal" else 2.0 * share - 1.0
-    return one.spread * shape
+    return scale(one) * (2.0 * share - 1.0 if one.distribution == "uniform" else _NORMAL.inv_cdf(share))
+
+
+def scale(one: UncertainQuantity) -> float:
+    """Return the standard deviation of a quantity, or half the range of a uniform one."""
+    return one.spread / math.sqrt(3.0) if one.distribution == "isotropic" else one.spread
 
 
 def reality_of(quantities: Sequence[UncertainQuantity], values: Mapping[str, float], seed: int, run: int) -> Reality:

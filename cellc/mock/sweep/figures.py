@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cellc.contract.uncertainty import UncertainQuantity
+from cellc.mock.sweep.draws import scale
 
 FIRST_LOOK = 100
 METHOD_INTERVAL = "Clopper-Pearson"
@@ -158,8 +159,8 @@ def _halved(group: Sequence[UncertainQuantity], values: Mapping[str, Array], fai
     """
     weights = np.ones(len(failed))
     for one in group:
-        shape = values[one.name] / one.spread
-        weights *= 2.0 * np.exp(-1.5 * shape**2) if one.distribution == "normal" else 2.0 * (np.abs(shape) <= 0.5)
+        shape = values[one.name] / scale(one)
+        weights *= 2.0 * (np.abs(shape) <= 0.5) if one.distribution == "uniform" else 2.0 * np.exp(-1.5 * shape**2)
     total = float(weights.sum())
     effective = total**2 / float((weights**2).sum()) if total else 0.0
     return float(weights[failed].sum()) / total if effective >= FIRST_LOOK / 2 else None

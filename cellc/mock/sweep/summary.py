@@ -12,32 +12,33 @@ import numpy as np
 from cellc.contract.uncertainty import UncertainQuantity, Uncertainty
 from cellc.diagnostics.unsafe_text import harmless_json
 from cellc.mock.sweep.draws import draw
-from cellc.mock.sweep.figures import METHOD_INTERVAL, METHOD_SENSITIVITY, Array, Explanation, explain
+from cellc.mock.sweep.figures import METHOD_INTERVAL, METHOD_SENSITIVITY, Explanation, explain
 from cellc.mock.sweep.sweep import Sweep, SweepRun
 
 _SHOWN = 5
+_WORDS = {
+    "normal": "normal, deviation",
+    "isotropic": "normal, deviation in space",
+    "uniform": "uniform, within",
+}
 _QUANTILES = (0.05, 0.5, 0.95, 1.0)
 _SHOWN_UNITS: Mapping[str, tuple[str, float]] = {"m": ("mm", 1e3), "rad": ("deg", 180.0 / np.pi), "s": ("ms", 1e3)}
 
 
-def drawn_of(sweep: Sweep, uncertainty: Uncertainty) -> dict[str, Array]:
-    """Return what was drawn, by quantity, in the order of the runs."""
-    values = [draw(uncertainty.quantities, sweep.seed, run.number) for run in sweep.runs]
-    return {one.name: np.array([each[one.name] for each in values]) for one in uncertainty.quantities}
-
-
-def explanations(sweep: Sweep, uncertainty: Uncertainty) -> tuple[Explanation, ...]:
+def explanations(sweep: Sweep) -> tuple[Explanation, ...]:
     """Return what explains the failures, the most first."""
-    failed = np.array([not run.passed for run in sweep.runs], dtype=np.bool_)
-    return explain(uncertainty.quantities, drawn_of(sweep, uncertainty), failed)
+    quantities = sweep.uncertainty.quantities
+    rows = [draw(quantities, sweep.seed, run.number) for run in sweep.runs]
+    values = {one.name: np.array([row[one.name] for row in rows]) for one in quantities}
+    return explain(quantities, values, np.array([not run.passed for run in sweep.runs], dtype=np.bool_))
 
 
-def margins(sweep: Sweep, uncertainty: Uncertainty) -> Iterator[tuple[str, str, Sequence[float], float | None]]:
-    """Yield name and unit of each margin, its quantiles 5 %, 50 %, 95 % and 100 %, and what is allowed."""
+def _margins(sweep: Sweep) -> Iterator[tuple[str, str, Sequence[float], float | None]]:
+    """Yield name and unit of each margin, its quantiles, and what is allowed."""
     goals = sorted({goal for run in sweep.runs for goal in run.distances_m})
     for goal in goals:
         found = [run.distances_m[goal] for run in sweep.runs if goal in run.distances_m]
-        yield f"distance at {goal}", "m", _quantiles(found), uncertainty.tolerances.get(goal)
+        yield f"distance at {goal}", "m", _quantiles(found), sweep.uncertainty.tolerances.get(goal)
     ages = [run.oldest_s for run in sweep.runs if run.oldest_s is not None]
     if ages:
         yield "age of transforms", "s", _quantiles(ages), None
@@ -47,26 +48,41 @@ def _quantiles(values: Sequence[float]) -> list[float]:
     return [float(value) for value in np.quantile(values, _QUANTILES, method="inverted_cdf")]
 
 
-def sweep_lines(sweep: Sweep, uncertainty: Uncertainty, replay: Callable[[int], str]) -> Iterator[str]:
+def sweep_lines(sweep: Sweep, replay: Callable[[int], str]) -> Iterator[str]:
     """Yield the summary for people."""
-    runs, failed = len(sweep.runs), len(sweep.failed)
-    yield f"{sweep.rehearsal}: {runs} runs with seed {sweep.seed}, {runs - failed} succeeded"
-    rate = sweep.rate
-    yield (
-        f"success: {(runs - failed) / runs:.2%}, between {rate.low:.2%} and {rate.high:.2%} "
-        f"with {rate.confidence:.4g} ({METHOD_INTERVAL})"
-    )
-    counted = Counter(run.outcome for run in sweep.runs)
-    yield "outcomes: " + ", ".join(f"{name} {number}" for name, number in counted.most_common())
-    yield from _margin_lines(sweep, uncertainty)
-    yield from _drawn_lines(uncertainty.quantities)
-    yield from _explained_lines(explanations(sweep, uncertainty), failed)
+    yield from count_lines(sweep)
+    for table in tables(sweep):
+        yield from _aligned(table)
     for run in sweep.failed[:_SHOWN]:
         yield f"FAILED  sweep:{run.number}: {run.outcome}"
         yield f"        replay: {replay(run.number)}"
-    if failed > _SHOWN:
-        yield f"        and {failed - _SHOWN} more; --json names all"
+    if len(sweep.failed) > _SHOWN:
+        yield f"        and {len(sweep.failed) - _SHOWN} more; --json names all"
     yield verdict_line(sweep)
+
+
+def count_lines(sweep: Sweep) -> Iterator[str]:
+    """Yield how many runs there were, how many succeeded, and how they ended."""
+    runs, succeeded, rate = len(sweep.runs), len(sweep.runs) - len(sweep.failed), sweep.rate
+    yield f"{sweep.rehearsal}: {runs} runs with seed {sweep.seed}, {succeeded} succeeded"
+    yield (
+        f"success: {succeeded / runs:.2%}, between {rate.low:.2%} and {rate.high:.2%} "
+        f"with confidence {rate.confidence:.4g} ({METHOD_INTERVAL})"
+    )
+    counted = Counter(run.outcome for run in sweep.runs)
+    yield "outcomes: " + ", ".join(f"{name} {number}" for name, number in counted.most_common())
+    if sweep.failed and not any(one.explains for one in explanations(sweep)):
+        yield f"nothing that is drawn explains the failures ({METHOD_SENSITIVITY})"
+
+
+Table = Sequence[tuple[str, ...]]
+"""Rows of texts, of which the first names the columns."""
+
+
+def tables(sweep: Sweep) -> Iterator[Table]:
+    """Yield margins, draws, and what explains failures; none without a row."""
+    every = (_margin_table(sweep), _drawn_table(sweep.uncertainty.quantities), _explained_table(sweep))
+    return (table for table in every if len(table) > 1)
 
 
 def verdict_line(sweep: Sweep) -> str:
@@ -81,39 +97,31 @@ def verdict_line(sweep: Sweep) -> str:
     return f"{'passed' if sweep.verdict else 'FAILED'}: {wanted}; {after}"
 
 
-def _margin_lines(sweep: Sweep, uncertainty: Uncertainty) -> Iterator[str]:
+def _margin_table(sweep: Sweep) -> Table:
     rows: list[tuple[str, ...]] = [("margins", "5 %", "median", "95 %", "most", "allowed")]
-    for name, unit, quantiles, allowed in margins(sweep, uncertainty):
+    for name, unit, quantiles, allowed in _margins(sweep):
         limit = "not stated" if allowed is None else _shown(allowed, unit)
         rows.append((name, *(_shown(value, unit) for value in quantiles), limit))
-    yield from _table(rows)
+    return rows
 
 
-def _drawn_lines(quantities: Sequence[UncertainQuantity]) -> Iterator[str]:
-    rows = [("drawn", "distribution", "by")]
-    for one in quantities:
-        within = "deviation" if one.distribution == "normal" else "within"
-        rows.append((one.name, f"{one.distribution}, {within} {_shown(one.spread, one.unit)}", one.source))
-    yield from _table(rows)
+def _drawn_table(quantities: Sequence[UncertainQuantity]) -> Table:
+    drawn = ((one.name, f"{_WORDS[one.distribution]} {_shown(one.spread, one.unit)}", one.source) for one in quantities)
+    return [("drawn", "distribution", "by"), *drawn]
 
 
-def _explained_lines(found: Sequence[Explanation], failed: int) -> Iterator[str]:
-    causes = [one for one in found if one.explains]
-    if not failed:
-        return
-    if not causes:
-        yield f"nothing that is drawn explains the failures ({METHOD_SENSITIVITY})"
-        return
+def _explained_table(sweep: Sweep) -> Table:
     rows = [("explains failures", "distance", "by chance", "if half as uncertain")]
-    for one in causes:
-        half = "not known" if one.halved is None else f"{one.halved:.2%} fail"
-        rows.append((one.name, f"{one.statistic:.2f}", f"{one.critical:.2f}", half))
-    yield from _table(rows)
+    for one in explanations(sweep) if sweep.failed else ():
+        if one.explains:
+            half = "not known" if one.halved is None else f"{one.halved:.2%} fail"
+            rows.append((one.name, f"{one.statistic:.2f}", f"{one.critical:.2f}", half))
+    return rows
 
 
-def _table(rows: Sequence[tuple[str, ...]]) -> Iterator[str]:
+def _aligned(rows: Table) -> Iterator[str]:
     widths = [max(len(row[place]) for row in rows) for place in range(len(rows[0]))]
-    for row in rows if len(rows) > 1 else ():
+    for row in rows:
         yield "  ".join(text.ljust(width) for text, width in zip(row, widths, strict=True)).rstrip()
 
 
@@ -135,37 +143,33 @@ def run_lines(run: SweepRun, uncertainty: Uncertainty, seed: int) -> Iterator[st
     yield f"        digest: {run.digest}"
 
 
-def sweep_json(configuration_id: str, sweeps: Sequence[Sweep], uncertainty: Uncertainty, notes: Sequence[str]) -> str:
-    """Return sweeps as JSON: rate, margins, draws, explanations, and every run with its digest."""
+def sweep_json(configuration_id: str, sweeps: Sequence[Sweep], notes: Sequence[str]) -> str:
+    """Return sweeps of a cell as JSON: rate, margins, draws, explanations, and every run with its digest."""
     content = {
         "configuration_id": configuration_id,
-        "quantities": [one.model_dump() for one in uncertainty.quantities],
-        "sweeps": [_sweep(each, uncertainty) for each in sweeps],
+        "sweeps": [_sweep(each) for each in sweeps],
         "notes": list(notes),
     }
     return harmless_json(json.dumps(content, ensure_ascii=False, indent=2))
 
 
-def _sweep(sweep: Sweep, uncertainty: Uncertainty) -> dict[str, object]:
+def _sweep(sweep: Sweep) -> dict[str, object]:
+    quantiles = [str(share) for share in _QUANTILES]
     return {
         "rehearsal": sweep.rehearsal,
         "seed": sweep.seed,
         "asked": sweep.asked,
+        "quantities": [one.model_dump() for one in sweep.uncertainty.quantities],
         "runs": [asdict(run) for run in sweep.runs],
         "rate": {"method": METHOD_INTERVAL, **asdict(sweep.rate)},
         "expected": None if sweep.expected is None else sweep.expected.model_dump(),
         "verdict": sweep.verdict,
         "margins": [
-            {
-                "name": name,
-                "unit": unit,
-                "quantiles": dict(zip(map(str, _QUANTILES), values, strict=True)),
-                "allowed": most,
-            }
-            for name, unit, values, most in margins(sweep, uncertainty)
+            {"name": name, "unit": unit, "quantiles": dict(zip(quantiles, values, strict=True)), "allowed": most}
+            for name, unit, values, most in _margins(sweep)
         ],
         "explanations": {
             "method": METHOD_SENSITIVITY,
-            "found": [{**asdict(one), "explains": one.explains} for one in explanations(sweep, uncertainty)],
+            "found": [{**asdict(one), "explains": one.explains} for one in explanations(sweep)],
         },
     }

@@ -15,7 +15,7 @@ from cellc.mock.cell import MockCell
 from cellc.mock.errors import MockError
 from cellc.mock.plant import Plant
 from cellc.mock.reality import Reality
-from cellc.mock.result import RunFailure, to_json_lines
+from cellc.mock.result import RunFailure
 from cellc.mock.sweep.draws import draw, reality_of
 from cellc.mock.sweep.figures import Interval, confidence_of_look, interval, looks
 
@@ -48,6 +48,7 @@ class Sweep:
     """The runs that the verdict rests on, in order.
 
     Attributes:
+        uncertainty: what was drawn and judged.
         asked: most runs that were allowed.
         rate: interval of the probability of success; its confidence is that of the look that ended the sweep.
         expected: what must come of it; None where the cell expects nothing.
@@ -56,6 +57,7 @@ class Sweep:
 
     rehearsal: str
     seed: int
+    uncertainty: Uncertainty
     asked: int
     runs: tuple[SweepRun, ...]
     rate: Interval
@@ -119,7 +121,7 @@ def execute(cell: MockCell, entry: RehearsalEntry, uncertainty: Uncertainty, see
     missed = next((goal for goal, most in uncertainty.tolerances.items() if distances.get(goal, 0.0) > most), None)
     outcome = result.outcome.value if missed is None or not result.passed else f"missed {missed}"
     ages = [each.tf_lookup_age for each in result.attempts if each.tf_lookup_age is not None]
-    digest = hashlib.sha256((to_json_lines(result.attempts) + repr(arrivals)).encode()).hexdigest()[:16]
+    digest = hashlib.sha256(repr((result.attempts, arrivals)).encode()).hexdigest()[:16]
     passed = result.passed and missed is None
     return SweepRun(number, outcome, passed, distances, max(ages, default=None), digest)
 
@@ -188,7 +190,7 @@ def sweep(
             verdict = None if expected is None else _verdict(rate, expected.success)
             if verdict is not None or wanted == most:
                 break
-    return Sweep(entry.name, seed, most, runs, rate, expected, verdict)
+    return Sweep(entry.name, seed, uncertainty, most, runs, rate, expected, verdict)
 
 
 def _gather(

@@ -18,10 +18,9 @@ def test_a_sweep_says_rate_margins_draws_and_verdict_and_a_run_is_made_again(nes
     lines = ran.out.splitlines()
     assert ran.code == 1, ran.out
     assert lines[0] == "put: 6 runs with seed 0, 5 succeeded"
-    assert lines[1].endswith("with 0.975 (Clopper-Pearson)")
+    assert lines[1].endswith("with confidence 0.975 (Clopper-Pearson)")
     assert any(
-        line.split() == ["nest", "x", "normal,", "deviation", "0.577", "mm", "calibrations.nest.residual"]
-        for line in lines
+        line.split() == "nest x normal, deviation in space 1 mm calibrations.nest.residual".split() for line in lines
     )
     assert lines[-1] == "UNKNOWN: 85.0000% of the runs must succeed, with confidence 0.95; 6 runs do not decide it"
     failed = next(line.split()[1].rstrip(":") for line in lines if line.startswith("FAILED"))
@@ -32,6 +31,10 @@ def test_a_sweep_says_rate_margins_draws_and_verdict_and_a_run_is_made_again(nes
     assert f"FAILED  {failed}: missed put" in again.out
     assert f"digest: {told['sweeps'][0]['runs'][number]['digest']}" in again.out
     assert told["sweeps"][0]["verdict"] is None
+    kept = tmp_path / "kept"
+    run("mock", str(nest_folder), "--sweep", "6", "--jobs", "1", "--journal", journal, "--evidence", str(kept))
+    assert [file.name for file in kept.glob("*.mcap")] == [f"put_sweep_{number}.mcap"]  # of failures alone
+    assert "Sweep of put" in (kept / "report.html").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(

@@ -62,7 +62,7 @@ def test_a_run_is_the_same_alone_and_by_any_number_of_processes(nest: MockCell, 
 
 def test_what_is_said_of_a_cell_is_drawn_and_nothing_else(nest: MockCell) -> None:
     found = {one.name: (one.distribution, one.unit, one.spread, one.source) for one in uncertainty_of(nest).quantities}
-    axis = ("normal", "m", pytest.approx(RESIDUAL_M / math.sqrt(3.0), abs=1e-12), "calibrations.nest.residual")
+    axis = ("isotropic", "m", RESIDUAL_M, "calibrations.nest.residual")
     assert found == {
         **dict.fromkeys(NEST, axis),
         "clock pc": ("uniform", "s", 0.001, "hosts.pc.clock.max_offset"),
