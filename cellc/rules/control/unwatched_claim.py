@@ -38,7 +38,7 @@ from __future__ import annotations
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-@rule(Severity.BLOCKER)
+@rule(Severity.BLOCKER, assumes=("shared-prefix",))
 def check(graph: CellGraph) -> Findings:
     """Yield controllers whose claims a real robot keeps over a stop of its program, where nobody hears of the stop."""
     for manager in graph.cell.managers:
