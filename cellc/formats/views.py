@@ -27,7 +27,7 @@ _FILLS = ("#d3dce6", "#e6d8d3", "#d6e3d6", "#e3dcc8")
 _SOLID, _EDGE, _BONE = "#e9e9e7", "#76828f", "#30363d"
 _ROUND = 16
 """Corners of what is round."""
-_MOST_NAMES = 40
+_MOST_NAMES = 20
 """Frames whose names a view has room for; beyond, those of devices alone are written."""
 _SHAPE = 1.5
 """Width over height of the sheet that two views are laid out for."""
@@ -64,10 +64,11 @@ def two_views(drawing: Part, header: str = "") -> str:
     points = [point for part in drawing.all() for point in _points(part)]
     spans = [max(values) - min(values) for values in zip(*points, strict=True)]
     along = 1 if spans[1] > 2.0 * spans[0] else 0
-    step = _round_step(max(*spans, 0.05) * 1000.0 / 8.0)
+    largest = max(*spans, 0.05) * 1000.0
+    scale = _round_step(largest / 44.0), _round_step(largest / 8.0)
     fills = {part.name: _FILLS[number % len(_FILLS)] for number, part in enumerate(_devices(drawing))}
-    first = _View("from the side" if along else "from the front", along, 2, points, step, fills)
-    above = _View("from above", along, 1 - along, points, step, fills)
+    first = _View("from the side" if along else "from the front", along, 2, points, scale, fills)
+    above = _View("from above", along, 1 - along, points, scale, fills)
     return render(_sheet(drawing, (first, above)), header)
 
 
@@ -82,21 +83,31 @@ def _devices(drawing: Part) -> list[Part]:
 
 
 class _View:
-    """A projection to the plane of two axes, in mm with the second one up; bounds are whole steps."""
+    """A projection to the plane of two axes, in mm with the second one up.
+
+    What has no size of its own is drawn in units of the ``scale``, whose second part is the ruler.
+    """
 
     def __init__(
-        self, title: str, right: int, up: int, points: Sequence[Vector3], step: float, fills: dict[str, str]
+        self,
+        title: str,
+        right: int,
+        up: int,
+        points: Sequence[Vector3],
+        scale: tuple[float, float],
+        fills: dict[str, str],
     ) -> None:
         # Seen from above with y to the right, x points down: the eye turns, and nothing is mirrored.
         self._right, self._up, self._sign = right, up, 1.0 if (right, up) == (1, 0) else -1.0
-        self.title, self.step, self.fills = title, step, fills
+        self.title, self.fills = title, fills
+        self.unit, self.ruler = scale
         self.depth = 3 - right - up
         across, down = zip(*map(self.flat, points), strict=True)
-        grid = step / 2.0
-        self.left, self.top = (math.floor(min(values) / grid - 0.6) * grid for values in (across, down))
-        self.width = math.ceil(max(across) / grid + 0.6) * grid - self.left
-        self.height = math.ceil(max(down) / grid + 0.6) * grid - self.top
-        self.digits = 0 if step >= 50.0 else 1
+        grid = 2.0 * self.unit
+        self.left, self.top = (math.floor(min(values) / grid - 1.0) * grid for values in (across, down))
+        self.width = math.ceil(max(across) / grid + 1.0) * grid - self.left
+        self.height = math.ceil(max(down) / grid + 1.0) * grid - self.top
+        self.digits = 0 if self.unit > 10.0 else 1
 
     def flat(self, point: Vector3) -> Point:
         """Return where a point is seen, unrounded."""
@@ -110,7 +121,7 @@ class _View:
 
 def _sheet(drawing: Part, views: Sequence[_View]) -> Element:
     """Return both views beside each other, or one below the other where that fits a sheet better."""
-    gap = views[0].step
+    gap = 2.0 * views[0].unit
     size = max(views[0].width + views[1].width + gap, 1.0), max(view.height for view in views)
     beside = size[0] / size[1] <= 2.0 * _SHAPE and size[0] <= 2.2 * size[1]
     if not beside:
@@ -146,15 +157,15 @@ def _titled(view: _View, x: float, y: float, letter: float) -> Iterator[Element]
     inset = x + letter / 2
     yield element("text", {"x": f"{inset:g}", "y": f"{y:g}", "font-weight": "bold"}, text=view.title)
     start, line = inset + 9.0 * letter, y - letter / 3
-    yield _line((start, line), (start + view.step, line), "#000000", letter / 8)
-    metres = view.step / 1000.0
-    said = f"{shortest(metres)} m" if metres >= 0.1 else f"{shortest(round(view.step, 3))} mm"
-    yield element("text", {"x": f"{start + view.step + letter / 2:g}", "y": f"{y:g}"}, text=said)
+    yield _line((start, line), (start + view.ruler, line), "#000000", letter / 8)
+    metres = view.ruler / 1000.0
+    said = f"{shortest(metres)} m" if metres >= 0.1 else f"{shortest(round(view.ruler, 3))} mm"
+    yield element("text", {"x": f"{start + view.ruler + letter / 2:g}", "y": f"{y:g}"}, text=said)
 
 
 def _moved(view: _View, place: Vector3, origin: Vector3, children: Iterable[Element]) -> Element:
-    """Return a group that stands at a place, to a fortieth of the ruler: a millimetre more moves it seldom."""
-    grid = view.step / 40.0
+    """Return a group that stands at a place, to a tenth of the unit: a millimetre more moves it seldom."""
+    grid = view.unit / 10.0
     x, y = (round(value / grid) * grid for value in view.seen(place, origin))
     return element("g", {"transform": f"translate({x:g} {y:g})"} if (x, y) != (0.0, 0.0) else {}, children)
 
@@ -166,7 +177,7 @@ def _bodies(view: _View, part: Part, origin: Vector3 = (0.0, 0.0, 0.0)) -> Eleme
     ordered = sorted(part.bodies, key=lambda body: round(towards * body[0].position[view.depth], 4))
     drawn = [one for pose, shape in ordered for one in _outline(view, pose, shape, part.origin, fill)]
     drawn += [
-        _line(view.seen(start, part.origin), view.seen(end, part.origin), _BONE, view.step / 80.0)
+        _line(view.seen(start, part.origin), view.seen(end, part.origin), _BONE, view.unit / 20.0)
         for start, end in part.bones
     ]
     inner = sorted(part.parts, key=lambda one: (not one.solid, round(towards * one.origin[view.depth], 4)))
@@ -177,7 +188,7 @@ def _outline(view: _View, pose: Pose, shape: Geometry, origin: Vector3, fill: st
     corners = _hull(view.seen(point, origin) for point in _corners(pose, shape))
     if len(corners) > 2:
         points = " ".join(f"{x:g},{y:g}" for x, y in corners)
-        style = {"fill": fill, "stroke": _EDGE, "stroke-width": f"{view.step / 160.0:g}"}
+        style = {"fill": fill, "stroke": _EDGE, "stroke-width": f"{view.unit / 40.0:g}"}
         yield element("polygon", {"points": points} | style)
 
 
@@ -208,7 +219,7 @@ def _together(view: _View, part: Part) -> list[tuple[Pose, list[str]]]:
 def _coarse(view: _View, point: Vector3) -> Point:
     """Return about where a point is seen: a small change of a place leaves names where they are."""
     x, y = view.flat(point)
-    grid = view.step / 10.0
+    grid = view.unit / 2.5
     return round(round(x, 4) / grid) * grid, round(round(y, 4) / grid) * grid
 
 
@@ -234,10 +245,10 @@ def _named(label: Placed | None, letter: float) -> Iterator[Element]:
 
 
 def _triad(view: _View, pose: Pose) -> Iterator[Element]:
-    reach = view.step * 0.28e-3
+    reach = view.unit * 1.1e-3
     for axis, color in _AXES:
         tip = pose.apply((axis[0] * reach, axis[1] * reach, axis[2] * reach))
-        yield _line((0.0, 0.0), view.seen(tip, pose.position), color, view.step / 50.0)
+        yield _line((0.0, 0.0), view.seen(tip, pose.position), color, view.unit / 12.5)
 
 
 def _line(start: Point, end: Point, color: str, width: float) -> Element:

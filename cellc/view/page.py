@@ -27,7 +27,8 @@ _LAYERS = (
 _LOOKS = ("around", "front", "side", "above")
 _CAPTIONS = {
     "graph/cell.svg": ("sides", "From two sides", "Where everything stands, from two sides"),
-    "graph/responsibility.svg": ("graph", "Who tells what to whom", "Every arrow of the cell with its owner"),
+    "graph/nodes.svg": ("graph", "Who talks to whom", "The graph of nodes, controllers and devices"),
+    "graph/responsibility.svg": ("arrows", "What each arrow promises", "Every arrow of the cell with its owner"),
 }
 
 

@@ -20,7 +20,7 @@ from cellc.output.write import write
 
 SPEC_FILE = "cell.yaml"
 """What a spec is called where its folder is named."""
-PICTURES = ("graph/cell.svg", "graph/responsibility.svg")
+PICTURES = ("graph/cell.svg", "graph/nodes.svg", "graph/responsibility.svg")
 """Files of a package that the page shows as pictures."""
 
 

@@ -98,12 +98,12 @@ def _own(group: Element) -> list[str]:
     return [name.strip() for text in group.findall(f"{_SVG}text") for name in (text.text or "").split(",")]
 
 
-@pytest.mark.parametrize("shift", [0.001, 0.004, 0.007, 0.05])
+@pytest.mark.parametrize("shift", [0.001, 0.004, 0.007, 0.012])
 def test_a_mount_that_moves_changes_at_most_a_line_of_each_view(shift: float) -> None:
     before, after = (two_views(_cell(_arm("arm", x, 0.0), _arm("other", 1.5, 1.0))) for x in (0.0, shift))
     changed = set(after.splitlines()) - set(before.splitlines())
-    # The ruler of this drawing is half a metre, so that groups stand on every 12.5 mm.
-    x = round(shift / 0.0125) * 12.5
+    # The drawing is 1.8 m wide, so that groups stand on every 5 mm.
+    x = round(shift / 0.005) * 5
     assert changed == ({f'      <g transform="translate({x:g} {y})">' for y in (-800, 0)} if x else set())
 
 
