@@ -25,6 +25,8 @@ def _drawn(boxes: list[Box], lines: list[Line]) -> Layout:
             center, high = found.boxes[end]
             assert x in (left, left + _COLUMNS.width)
             assert abs(y - center) <= high / 2
+        onward = [x for x, _ in route]
+        assert onward == sorted(onward, reverse=layers[line.end] < layers[line.start])
         # Between the first and the last point, each second piece is the level one across a layer.
         for (x, y), (x2, y2) in zip(route[1:-1:2], route[2:-1:2], strict=True):
             assert (y, abs(x2 - x)) == (y2, _COLUMNS.width)
