@@ -321,3 +321,38 @@ def test_mock_reads_the_collision_pairs_of_the_semantic_description(cell: str, d
             (Path(folder) / path).parent.mkdir(parents=True, exist_ok=True)
             (Path(folder) / path).write_text(text, encoding="utf-8")
         assert read_folder(Path(folder), edited=True).allowed_collisions == tuple(pairs)
+
+
+@every_build
+def test_steps_of_rehearsals_name_what_the_contract_has(cell: str, distro: str) -> None:
+    texts = build(cell, distro).texts
+    promised = contract_data(texts["contract.json"])
+    known = {
+        "move": {*promised["poses"], *promised["goals"]},
+        "detect": set(promised["frames"]),
+        "grip": set(promised["devices"]),
+        "set": set(promised["devices"]),
+        "sense": set(promised["devices"]),
+        "call": set(promised["interfaces"]),
+        "acknowledge": {promised["safety"]["acknowledge"]},
+    }
+    for rehearsal in json.loads(texts["rehearsals.json"])["rehearsals"]:
+        for step in rehearsal["steps"]:
+            assert step["target"] in known.get(step["kind"], {""}), (rehearsal["name"], step)
+
+
+@every_build
+def test_what_a_person_states_is_asked_for_by_a_gate(cell: str, distro: str) -> None:
+    texts = build(cell, distro).texts
+    pages = " ".join(text for path, text in texts.items() if path.endswith(".md"))
+    launched = [fromstring(text) for path, text in texts.items() if path.startswith("launch/")]
+    stated = {choice.attrib["value"] for root in launched for choice in root.iter("choice")}
+    assert {one for one in stated if re.search(rf":={re.escape(one)}\b", pages) is None and "_" in one} == set()
+
+
+@every_build
+def test_diagram_has_a_box_for_every_node_that_is_launched(cell: str, distro: str) -> None:
+    built = build(cell, distro)
+    boxes = re.findall(r'\["([^"<]+)<br/>([^"<]+)<br/>', built.texts["graph/responsibility.mmd"])
+    nodes = {(one.full_name[1:], f"{one.package}/{one.executable}") for one in built.graph.cell.nodes}
+    assert nodes <= set(boxes)

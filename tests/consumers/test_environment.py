@@ -163,6 +163,8 @@ def test_sources_are_fetched_as_vcs_import_reads_them(cell: str, distro: str) ->
         # vcstool/commands/import_.py: a repository without a type or an address is left out.
         assert set(one) == {"type", "url", "version"}, folder
         assert one["type"] in _CLIENTS
+        # The folder has the name that `git clone` gives it.
+        assert one["url"].rpartition("/")[2] == f"{folder}.git"
         assert re.fullmatch(r"https://[\w.-]+(/[\w.-]+)+\.git", one["url"])
         # A number would be taken for one by YAML, and `git checkout` gets words alone.
         assert isinstance(one["version"], str)

@@ -92,6 +92,7 @@ def test_boxes_hold_their_names_and_arrows_lie_level(cell: str, distro: str) -> 
     assert len({tuple(box.get(one) for one in ("width", "fill", "stroke")) for box in boxes}) == 1
     styles = {tuple(sorted(set(one.attrib) - {"x", "y"})) for one in picture.iter(f"{_SPACE}text")}
     assert styles == {(), ("fill",), ("font-weight",), ("font-size", "font-weight")}
+    assert {one.get("font-weight") for one in picture.iter(f"{_SPACE}text")} == {None, "bold"}
     assert len({one.get("fill") for one in picture.iter(f"{_SPACE}text")} - {None}) == 1
     assert len({place(one, "x") for one in picture.iter(f"{_SPACE}text")}) <= _COLUMNS
 

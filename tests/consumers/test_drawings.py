@@ -1,0 +1,118 @@
+"""Pictures of a build: the graph has each box once and apart and lists every interface, and all is what SVG allows."""
+
+from __future__ import annotations
+
+import re
+from itertools import combinations
+from typing import Any
+from xml.etree.ElementTree import Element, fromstring
+
+from tests.consumers.matrix import build, every_build
+from tests.consumers.test_pictures import contract
+
+_SVG = "{http://www.w3.org/2000/svg}"
+Rect = tuple[float, float, float, float]
+
+_NUMBER = r"-?\d+(\.\d+)?"
+_PLAIN = re.compile(rf"{_NUMBER}|100%|none|auto|#[0-9a-f]{{6}}|( ?{_NUMBER}[ ,]?)+|translate\({_NUMBER} {_NUMBER}\)")
+_PATH = re.compile(rf"( ?[MLHCh]( ?{_NUMBER})+| Z)+")
+_WORDS = {
+    "font-family": {"sans-serif"},
+    "font-weight": {"bold"},
+    "text-anchor": {"start", "middle", "end"},
+    "stroke-linecap": {"round"},
+    "paint-order": {"stroke"},
+    "markerUnits": {"userSpaceOnUse"},
+    "orient": {"auto"},
+}
+_FIGURES = {
+    *("x", "y", "x1", "y1", "x2", "y2", "width", "height", "rx", "points", "transform", "viewBox", "font-size"),
+    *("fill", "stroke", "stroke-width", "stroke-opacity", "stroke-dasharray"),
+    *("refX", "refY", "markerWidth", "markerHeight"),
+}
+
+
+def _picture(cell: str, distro: str) -> Element:
+    return fromstring(build(cell, distro).texts["graph/nodes.svg"])
+
+
+def _allowed(name: str, value: str, marks: set[str]) -> bool:
+    if name in ("id", "marker-end"):
+        return value.removeprefix("url(#").removesuffix(")") in marks
+    if name == "d":
+        return _PATH.fullmatch(value) is not None
+    if name in _WORDS:
+        return value in _WORDS[name]
+    return name in _FIGURES and _PLAIN.fullmatch(value) is not None
+
+
+@every_build
+def test_pictures_have_the_attributes_and_words_of_svg(cell: str, distro: str) -> None:
+    for file in ("cell", "nodes", "responsibility"):
+        root = fromstring(build(cell, distro).texts[f"graph/{file}.svg"])
+        marks = {one.attrib["id"] for one in root.iter(f"{_SVG}marker")}
+        found = [(name, value) for one in root.iter() for name, value in one.attrib.items()]
+        assert [(name, value) for name, value in found if not _allowed(name, value, marks)] == []
+        assert all(0.0 <= float(value) <= 1.0 for name, value in found if name.endswith("opacity"))
+        assert {one.tag.removeprefix(_SVG) for one in root.iter()} <= _DRAWN
+
+
+_DRAWN = {"svg", "defs", "marker", "g", "path", "rect", "polygon", "line", "text"}
+
+
+def _boxes(picture: Element) -> list[tuple[str, Rect]]:
+    """Return the name in each box, with left, top, right, bottom."""
+    (group,) = picture.findall(f"{_SVG}g")
+    found = []
+    for rect in group.findall(f"{_SVG}rect"):
+        x, y, wide, high = (float(rect.attrib[key]) for key in ("x", "y", "width", "height"))
+        lines = [
+            text.text or ""
+            for text in group.findall(f"{_SVG}text")
+            if x < float(text.attrib["x"]) < x + wide and y < float(text.attrib["y"]) < y + high
+        ]
+        found.append(("".join(lines), (x, y, x + wide, y + high)))
+    return found
+
+
+def _ends(contract: Any) -> set[str]:
+    used = [one for one in contract["interfaces"].values() if one["sources"] and one.get("sinks")]
+    return {end["node"] for one in used for end in (*one["sources"], *one["sinks"])}
+
+
+@every_build
+def test_every_end_and_every_device_is_one_box(cell: str, distro: str) -> None:
+    promised = contract(cell, distro)
+    names = [name for name, _ in _boxes(_picture(cell, distro))]
+    assert len(names) == len(set(names))
+    assert _ends(promised) | set(promised["devices"]) | {promised["safety"]["stop_authority"]} <= set(names)
+
+
+@every_build
+def test_boxes_stand_apart_within_the_sheet(cell: str, distro: str) -> None:
+    picture = _picture(cell, distro)
+    width, height = (float(value) for value in picture.attrib["viewBox"].split()[2:])
+    places = [place for _, place in _boxes(picture)]
+    assert all(left >= 0 and right <= width and top >= 0 and bottom <= height for left, top, right, bottom in places)
+    assert not [
+        (a, b) for a, b in combinations(places, 2) if a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]
+    ]
+
+
+@every_build
+def test_the_list_has_every_interface_with_two_ends_and_every_number_is_at_an_arrow(cell: str, distro: str) -> None:
+    promised, picture = contract(cell, distro), _picture(cell, distro)
+    listed = " ".join(text.text or "" for text in picture.findall(f"{_SVG}text"))
+    used = {name for name, one in promised["interfaces"].items() if one["sources"] and one.get("sinks")}
+    assert used <= set(re.split(r"[ ,]+", listed))
+    numbers = {text.text for text in picture.findall(f"{_SVG}text") if (text.text or "").isdigit()}
+    at_arrows = {text.text for text in picture.iter(f"{_SVG}text") if text.get("font-size") == "10"}
+    assert numbers == at_arrows != set()
+
+
+def test_what_commands_goes_from_left_to_right() -> None:
+    # cells/ur5e_pick: the task asks move_group, which asks arm_trajectory, which claims the arm; a PLC stops it.
+    left = {name: place[0] for name, place in _boxes(_picture("ur5e_pick", "jazzy"))}
+    way = [left[name] for name in ("task", "move_group", "arm_trajectory", "arm", "safety_plc")]
+    assert way == sorted(set(way))
+    assert left["perception"] < left["task"]
