@@ -44,6 +44,9 @@ from cellc.cli.words import complete_rehearsal
 )
 @click.option("--seed", default=0, show_default=True, help="Seed of planning, of seeded faults and of pairs.")
 @click.option("--edited", is_flag=True, help="Run a folder that was edited; every result says so, no gate is signed.")
+@click.option("--live", is_flag=True, help="Show the rehearsals in Foxglove, in real time.")
+@click.option("--listen", metavar="HOST:PORT", help="With --live: where Foxglove connects; 127.0.0.1:8765 by default.")
+@click.option("--speed", type=float, metavar="X", help="With --live: X times as fast as real time.")
 @limit_option
 def mock(
     folder: str,
@@ -62,6 +65,9 @@ def mock(
     evidence: str | None,
     seed: int,
     edited: bool,
+    live: bool,
+    listen: str | None,
+    speed: float | None,
 ) -> None:
     """Execute the rehearsals of the generated FOLDER; exit 1 where one does not end as it should."""
     from cellc.mock.command.options import MockOptions, run_mock
@@ -83,6 +89,9 @@ def mock(
         evidence=evidence,
         seed=seed,
         edited=edited,
+        live=live,
+        listen=listen,
+        speed=speed,
     )
     problem = options.contradiction()
     if problem:

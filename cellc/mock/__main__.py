@@ -44,6 +44,9 @@ def _arguments() -> _Parser:
     parser.add_argument("--evidence", metavar="FOLDER", help="write bags, records, key figures and a report")
     parser.add_argument("--seed", type=int, default=0, help="seed of everything drawn (default 0)")
     parser.add_argument("--edited", action="store_true", help="run a folder that was edited; every result says so")
+    parser.add_argument("--live", action="store_true", help="show the rehearsals in Foxglove, in real time")
+    parser.add_argument("--listen", metavar="HOST:PORT", help="with --live: where Foxglove connects")
+    parser.add_argument("--speed", type=float, metavar="X", help="with --live: X times as fast as real time")
     parser.add_argument(
         "--limit", action="append", default=[], metavar="NAME=VALUE", help="raise a limit of docs/limits.md; repeatable"
     )
@@ -79,6 +82,9 @@ def main() -> int:
         evidence=given.evidence,
         seed=given.seed,
         edited=given.edited,
+        live=given.live,
+        listen=given.listen,
+        speed=given.speed,
     )
     problem = options.contradiction()
     if problem:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 from types import TracebackType
+from typing import BinaryIO
 
 from cellc.contract.rehearsals import RehearsalEntry
 from cellc.mock.campaign.campaign import Campaign
@@ -12,6 +13,7 @@ from cellc.mock.cell import MockCell
 from cellc.mock.evidence.bag.bag_file import Bag
 from cellc.mock.evidence.folder import EvidenceFolder, file_names
 from cellc.mock.evidence.kpis import Kpi, kpis, to_kpi_json
+from cellc.mock.evidence.layout import to_layout
 from cellc.mock.evidence.listener import RunListener
 from cellc.mock.evidence.run_bag import RunBag
 from cellc.mock.evidence.run_trace import RunTrace, TraceResult
@@ -25,6 +27,8 @@ from cellc.mock.sweep.sweep import Sweep
 from cellc.mock.task.bounds import joint_state_age_s
 
 REPORT = "report.html"
+LAYOUT = "layout.json"
+"""Foxglove imports it, and shows the bags by it."""
 
 
 class EvidenceCollector:
@@ -41,7 +45,7 @@ class EvidenceCollector:
         self._tolerances = path_tolerances(cell.folder.parameters)
         self._seed = seed
         self._stems = file_names(names)
-        files = [REPORT, *(name for stem in self._stems.values() for name in _files(stem))]
+        files = [REPORT, LAYOUT, *(name for stem in self._stems.values() for name in _files(stem))]
         self._folder = EvidenceFolder(folder, files)
 
     def __enter__(self) -> EvidenceCollector:
@@ -60,20 +64,8 @@ class EvidenceCollector:
         """
         entry = self._cell.entry(name)
         bag_file, records_file, kpis_file = _files(self._stems[entry.name])
-        watched: list[tuple[RunListener, RunTrace, Plant]] = []
         with self._folder.open(bag_file) as file:
-            bag = Bag(file, self._cell.contract.distro, self._identity(entry))
-
-            def watch(plant: Plant) -> None:
-                writer, trace = RunBag(bag, plant), RunTrace(plant)
-                writer.begin(self._cell.folder.urdf)
-                watched.append((RunListener(plant, writer, trace), trace, plant))
-
-            result = self._cell.rehearse(entry, seed=self._seed, watch=watch)
-            for listener, _, _ in watched:
-                listener.end(result.attempts)
-            bag.finish()
-        trace = watched[0][1].result() if watched else None
+            result, trace = recorded(self._cell, entry, file, self._seed)
         figures = () if trace is None else self._figures(result, trace)
         self._folder.write(records_file, to_json_lines(result.attempts))
         self._folder.write(kpis_file, to_kpi_json(entry, result, figures))
@@ -99,6 +91,7 @@ class EvidenceCollector:
         content = ReportContent(
             contract, self._cell.notes, self._seed, tuple(self._runs), gates, campaign, tuple(sweeps)
         )
+        self._folder.write(LAYOUT, to_layout(contract))
         self._folder.write(REPORT, to_report(content))
         self._folder.settle({"cell": contract.cell, "configuration_id": contract.configuration_id, "seed": self._seed})
 
@@ -106,15 +99,39 @@ class EvidenceCollector:
         contract = self._cell.contract
         return kpis(contract.kpis, result, trace, joint_state_age_s(contract))
 
-    def _identity(self, entry: RehearsalEntry) -> dict[str, str]:
-        contract = self._cell.contract
-        return {
-            "cell": contract.cell,
-            "configuration_id": contract.configuration_id,
-            "rehearsal": entry.name,
-            "seed": str(self._seed),
-            **{f"version.{part}": version for part, version in sorted(contract.version_tuple.items())},
-        }
+
+def recorded(
+    cell: MockCell, entry: RehearsalEntry, file: BinaryIO, seed: int
+) -> tuple[RehearsalResult, TraceResult | None]:
+    """Run a rehearsal and write its bag to a file; the trace is None where the cell never came up.
+
+    Raises:
+        MockError: it names what the contract does not have.
+    """
+    watched: list[tuple[RunListener, RunTrace]] = []
+    bag = Bag(file, cell.contract.distro, _identity(cell, entry, seed))
+
+    def watch(plant: Plant) -> None:
+        writer, trace = RunBag(bag, plant), RunTrace(plant)
+        writer.begin(cell.folder.urdf)
+        watched.append((RunListener(plant, writer, trace), trace))
+
+    result = cell.rehearse(entry, seed=seed, watch=watch)
+    for listener, _ in watched:
+        listener.end(result.attempts)
+    bag.finish()
+    return result, watched[0][1].result() if watched else None
+
+
+def _identity(cell: MockCell, entry: RehearsalEntry, seed: int) -> dict[str, str]:
+    contract = cell.contract
+    return {
+        "cell": contract.cell,
+        "configuration_id": contract.configuration_id,
+        "rehearsal": entry.name,
+        "seed": str(seed),
+        **{f"version.{part}": version for part, version in sorted(contract.version_tuple.items())},
+    }
 
 
 def _files(stem: str) -> tuple[str, str, str]:

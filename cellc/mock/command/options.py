@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
@@ -41,6 +41,9 @@ class MockOptions:
         evidence: folder that bags, records, figures and a report are written to.
         seed: of everything that is drawn.
         edited: run a folder that differs from its manifest too.
+        live: show rehearsals in Foxglove.
+        listen: host and port of that; None for this machine alone.
+        speed: how much faster than real time it is shown; None for not at all.
     """
 
     folder: str
@@ -60,6 +63,9 @@ class MockOptions:
     evidence: str | None = None
     seed: int = 0
     edited: bool = False
+    live: bool = False
+    listen: str | None = None
+    speed: float | None = None
 
     def modes(self) -> list[str]:
         """Return the options that ask for something else than rehearsals."""
@@ -92,6 +98,9 @@ class MockOptions:
             return "--jobs does not go with --cluster, whose workers are all taken"
         paths = {"--evidence": self.evidence, "--records": self.records}
         written = [option for option, path in paths.items() if path is not None]
+        live = self._live_contradiction(modes)
+        if live:
+            return live
         if "--list" in alone and written:
             return f"{written[0]} does not go with --list, which runs nothing"
         empty = [option for option in written if paths[option] == ""]
@@ -101,6 +110,17 @@ class MockOptions:
     def swept(self) -> bool:
         """Whether it is about the runs of a sweep."""
         return bool(self.sweep) or any(run.startswith("sweep:") for run in self.replay)
+
+    def _live_contradiction(self, modes: Sequence[str]) -> str:
+        shown = {"--listen": self.listen, "--speed": self.speed}
+        needless = [option for option, value in shown.items() if value is not None]
+        if needless and not self.live:
+            return f"{needless[0]} needs --live"
+        if self.live and (modes or self.evidence is not None):
+            return f"--live does not go with {modes[0] if modes else '--evidence'}"
+        if self.speed is not None and not self.speed > 0.0:
+            return f"--speed must be greater than 0, got {self.speed}"
+        return ""
 
     def crew(self) -> tuple[Hire | None, str]:
         """Return who executes runs, None for this process alone, and how many they are in words."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
@@ -18,6 +19,7 @@ from cellc.printing import progress, refuse, show, show_document
 
 if TYPE_CHECKING:
     from cellc.mock.command.evidence import EvidenceCollector
+    from cellc.mock.command.live import LiveView
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,6 +100,9 @@ def run_rehearsals(options: MockOptions) -> int:
 
 
 def _run(cell: MockCell, names: Sequence[str], options: MockOptions) -> list[TimedResult]:
+    if options.live:
+        with begin_live(options) as view:
+            return _timed(names, lambda name: view.run(cell, name, options.seed))
     if options.evidence is None:
         return _timed(names, lambda name: cell.run(name, seed=options.seed))
     with begin_evidence(cell, Path(options.evidence), names, options.seed) as collector:
@@ -115,6 +120,21 @@ def _timed(names: Sequence[str], run: Callable[[str], RehearsalResult]) -> list[
             result = run(name)
             timed.append(TimedResult(result, perf_counter() - begun))
     return timed
+
+
+def begin_live(options: MockOptions) -> AbstractContextManager[LiveView]:
+    """Return what shows rehearsals in Foxglove while it is open.
+
+    Raises:
+        MockError: a package is missing.
+    """
+    try:
+        from cellc.mock.command.live import live_view
+    except ModuleNotFoundError as error:
+        if (error.name or "").partition(".")[0] not in ("foxglove", "mcap"):
+            raise
+        raise MockError("", "`--live` needs the Foxglove SDK; install it with `pip install 'cellc[live]'`") from None
+    return live_view(options.listen or "127.0.0.1:8765", options.speed or 1.0)
 
 
 def begin_evidence(cell: MockCell, folder: Path, names: Sequence[str], seed: int) -> EvidenceCollector:

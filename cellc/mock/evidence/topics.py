@@ -32,6 +32,8 @@ class BagTopic:
 
 
 ATTEMPTS = BagTopic("/cellc/attempts", STRING, LATCHED.model_copy(update={"history": "keep_all"}))
+LOG = "/cellc/log"
+"""Where `cellc mock --live` tells faults and outcomes in words; no bag has it."""
 DIAGNOSTICS = BagTopic("/diagnostics", DIAGNOSTIC_ARRAY, DEFAULT)
 
 

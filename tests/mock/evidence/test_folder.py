@@ -5,8 +5,10 @@ from __future__ import annotations
 import hashlib
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
+from mcap.reader import make_reader
 
 from cellc.mock import MockCell
 from cellc.mock.errors import MockError
@@ -25,7 +27,7 @@ def test_index_names_every_file_with_its_hash(written: Written) -> None:
     assert index["files"] == {name: hashlib.sha256(data).hexdigest() for name, data in files.items()}
     assert sorted(files) == sorted(
         [f"{name}.{kind}" for name in written.results for kind in ("mcap", "records.jsonl", "kpis.json")]
-        + ["report.html"]
+        + ["report.html", "layout.json"]
     )
 
 
@@ -39,6 +41,7 @@ def test_folder_is_replaced_and_files_of_others_stay(cell: MockCell, tmp_path: P
         "cancelled.mcap",
         "cancelled.records.jsonl",
         "evidence.json",
+        "layout.json",
         "report.html",
         "signed.md",
     ]
@@ -125,3 +128,33 @@ def test_names_of_rehearsals_become_names_of_files_on_every_file_system() -> Non
         assert not stem.startswith(".")
         assert all(char.isascii() and (char.isalnum() or char in "_.-% ") for char in stem)
         assert len(f"{stem}.records.jsonl") < 255
+
+
+def test_layout_for_foxglove_names_topics_of_the_bags_and_panels_that_it_places(written: Written) -> None:
+    layout = json.loads((written.folder / "layout.json").read_text(encoding="utf-8"))
+    with written.bag("cancelled").open("rb") as file:
+        summary = make_reader(file).get_summary()
+    assert summary is not None
+    types = {each.topic: summary.schemas[each.schema_id].name for each in summary.channels.values()}
+    panels = layout["configById"]
+    (scene,) = panels["3D!cell"]["topics"]
+    positions, errors = (panels[f"Plot!{name}"]["paths"][0]["value"] for name in ("positions", "errors"))
+    diagnostics, attempts = (
+        panels["DiagnosticSummary!all"]["topicToRender"],
+        panels["RawMessages!attempts"]["topicPath"],
+    )
+    shown = (scene, positions, errors, diagnostics, attempts)
+    assert [types[topic.split(".")[0]] for topic in shown] == [
+        "std_msgs/msg/String",
+        "sensor_msgs/msg/JointState",
+        "control_msgs/msg/JointTrajectoryControllerState",
+        "diagnostic_msgs/msg/DiagnosticArray",
+        "std_msgs/msg/String",
+    ]
+    assert positions.endswith(".position[:]")
+    assert errors.endswith(".error.positions[:]")
+    assert sorted(_leaves(layout["layout"])) == sorted(panels)
+
+
+def _leaves(node: Any) -> list[str]:
+    return [node] if isinstance(node, str) else [*_leaves(node["first"]), *_leaves(node["second"])]
