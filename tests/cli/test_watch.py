@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 from pathlib import Path
 
 import pytest
@@ -40,6 +41,18 @@ def cells(tmp_path: Path) -> Path:
         (folder / "parts" / "hosts.yaml").write_text("hosts:\n  pc: {scheduling: generic}\n")
         (folder / "cell.yaml").write_text(_CELL.replace("line", name))
     return tmp_path
+
+
+@pytest.fixture(autouse=True)
+def _no_wait_without_end(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A change that is not seen is waited for by nobody."""
+    turns = iter(range(50))
+
+    def sleep(seconds: float) -> None:
+        assert seconds > 0
+        assert next(turns, None) is not None, "no change is seen"
+
+    monkeypatch.setattr(time, "sleep", sleep)
 
 
 def _touch(file: Path) -> None:

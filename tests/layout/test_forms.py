@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from cellc.layout import layout
 from cellc.layout.layout import formatted
 
 FORMS = {
@@ -101,7 +102,7 @@ FORMS = {
         "frames:\n  a: &a\n    parent: world\n    rpy: &r 0 0 0 deg\n  b: {parent: world, rpy: *r}\n",
     ),
     "keys stay in order where one takes what another gives": (
-        "frames:\n  a: {rpy: &r 0 0 0 deg, parent: *r}\n",
+        "frames:\n  a: {rpy: &r 0 0 0 deg,  parent: *r}\n",
         "frames:\n  a: {rpy: &r 0 0 0 deg, parent: *r}\n",
     ),
     "the file of a device keeps its order": (
@@ -134,6 +135,12 @@ def test_form(form: str) -> None:
 )
 def test_form_that_nobody_writes_by_hand_stays(text: str) -> None:
     assert formatted("cell.yaml", text).value == text
+
+
+@pytest.mark.parametrize("spoilt", ["cell: y # c\n", "cell: x\n", "cell: [x # c\n"])
+def test_text_that_would_be_spoilt_stays(spoilt: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(layout, "write_written", lambda written: spoilt)
+    assert formatted("cell.yaml", "cell:   x # c\n").value == "cell:   x # c\n"
 
 
 @pytest.mark.parametrize("text", ["a: {b: 1\n", "a: 1\na: 2\n", "a: !!str 1\n", "\tcell: x\n", "a: 1\n---\nb: 2\n"])

@@ -87,6 +87,10 @@ class Editor:
         assert isinstance(told.contents, lsp.MarkupContent)
         return str(told.contents.value)
 
+    async def hover_range(self, before: str, after: str = "") -> lsp.Range | None:
+        told = await self.client.text_document_hover_async(lsp.HoverParams(self.document, self.at(before, after)))
+        return None if told is None else told.range
+
     async def definition(self, before: str, after: str = "") -> tuple[str, int]:
         place = lsp.DefinitionParams(self.document, self.at(before, after))
         told = await self.client.text_document_definition_async(place)
@@ -121,6 +125,7 @@ class Session:
     completions: dict[str, list[str]] = field(default_factory=dict)
     symbols: list[str] = field(default_factory=list)
     formatted: str = ""
+    range: lsp.Range | None = None
     code: int | None = None
 
 
@@ -160,6 +165,7 @@ async def _ask(editor: Editor, done: Session) -> None:
         "key": await editor.hover("goal_", "time"),
         "model": await editor.hover("stage: {mod", "el"),
     }
+    done.range = await editor.hover_range("on a ", "stage")
     done.definitions = {
         "device": await editor.definition("device: st", "age"),
         "link": await editor.definition("parent: sta", "ge/carriage"),
@@ -237,6 +243,11 @@ def test_hover_tells_meaning_si_value_what_is_used_and_its_origin(session: Sessi
     assert "Catalog entry, or a folder beside this file" in session.hovers["model"]
 
 
+def test_places_count_utf_16_units_as_the_protocol_does(session: Session) -> None:
+    # A robot's face is one character and two units: UTF-16, LSP 3.17, "Position".
+    assert session.range == lsp.Range(lsp.Position(2, 9), lsp.Position(2, 9 + 2 + len(" on a stage")))
+
+
 def test_definition_leads_to_where_a_thing_is_written(session: Session) -> None:
     spec = (session.folder / "cell.yaml").as_uri()
     assert session.definitions["device"] == (spec, _SPEC[: _SPEC.index("  stage: {")].count("\n"))
@@ -267,7 +278,8 @@ def test_quick_fixes_are_those_of_check_fix_and_mend_the_text(session: Session) 
 def test_what_may_be_excused_is_offered_a_comment_that_waits_for_its_reason(session: Session) -> None:
     offered = {edit.new_text for edit in _edits(session.excuses)}
     assert "  # cellc: ignore missing-rollback " in offered
-    assert not any("uncalibrated-frame" in text for text in offered), "nobody may ignore a frame without a place"
+    assert "unknown-stop-authority" in {one.code for one in session.found}
+    assert not any("unknown-stop-authority" in text for text in offered), "nobody may excuse a stop without an owner"
 
 
 def test_form_and_outline_are_told(session: Session) -> None:
