@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import click
@@ -24,9 +25,10 @@ from cellc.printing import refuse, show
     shell_complete=complete_rehearsal,
     help="Play back only this one; may be given several times.",
 )
+@click.option("--against", metavar="OTHER", help="Draw where things stood in this spec, folder or git revision too.")
 @click.option("--seed", default=0, show_default=True, help="Seed of planning and of seeded faults.")
 @limit_option
-def view(folder: str, output: Path | None, names: tuple[str, ...], seed: int) -> None:
+def view(folder: str, output: Path | None, names: tuple[str, ...], against: str | None, seed: int) -> None:
     """Write one HTML page of CELL, a spec or a generated folder: 3D, rehearsals played back, findings, gates.
 
     The page needs nothing else, neither network nor server: it opens from a file, on a phone too, and prints.
@@ -34,11 +36,13 @@ def view(folder: str, output: Path | None, names: tuple[str, ...], seed: int) ->
     \b
     cellc view cells/bench/cell.yaml                       writes bench.html
     cellc view generated/bench --rehearsal pick -o pick.html
+    cellc view cells/bench/cell.yaml --against main        what a change moves
     """
     # Drawing loads the compiler, and playing back the planning.
     from cellc.mock.errors import MockError
+    from cellc.review.sides import SideError
     from cellc.store.swap import replace_whole
-    from cellc.view.content import content_of
+    from cellc.view.content import before_of, content_of
     from cellc.view.library import three_js
     from cellc.view.page import to_html
     from cellc.view.subject import ViewError, read_subject
@@ -48,7 +52,9 @@ def view(folder: str, output: Path | None, names: tuple[str, ...], seed: int) ->
             raise ViewError(f"{output.as_posix()}: cannot be written: no such folder")
         subject = read_subject(Path(folder))
         content = content_of(subject, names, seed)
-    except (ViewError, MockError) as problem:
+        if against is not None and content.scene is not None:
+            content = replace(content, before=before_of(against, folder))
+    except (ViewError, MockError, SideError) as problem:
         refuse(str(problem))
         raise click.exceptions.Exit(2) from None
     library = three_js()

@@ -5,11 +5,21 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from cellc.contract.review import Review
+from cellc.mock.folder import GeneratedFolder
 from cellc.printing import progress
 from cellc.view.playback import Run
 from cellc.view.scene import Scene, scene_of
 from cellc.view.skeleton import Skeleton
-from cellc.view.subject import Subject
+from cellc.view.subject import Subject, read_subject
+
+
+@dataclass(frozen=True, slots=True)
+class Before:
+    """Another state of the cell that this one is put against, and what changed since."""
+
+    scene: Scene
+    review: Review
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,6 +29,7 @@ class Content:
     subject: Subject
     scene: Scene | None
     runs: tuple[Run, ...]
+    before: Before | None = None
 
 
 def content_of(subject: Subject, rehearsals: Sequence[str], seed: int) -> Content:
@@ -36,12 +47,33 @@ def content_of(subject: Subject, rehearsals: Sequence[str], seed: int) -> Conten
     from cellc.mock.cell import cell_of
     from cellc.view.playback import play
 
-    contract, description = subject.folder.contract, subject.folder.description
-    skeleton = Skeleton(contract, description)
+    scene, skeleton = _drawn(subject.folder, subject)
     cell = cell_of(subject.folder)
     runs = []
     with progress("view") as update:
         for name in dict.fromkeys(rehearsals) or cell.rehearsals:
             update(f"rehearsal {name}")
             runs.append(play(cell, name, skeleton, seed))
-    return Content(subject, scene_of(contract, description, subject.views, skeleton), tuple(runs))
+    return Content(subject, scene, tuple(runs))
+
+
+def before_of(other: str, path: str) -> Before:
+    """Return the state of the cell that another spec, folder or git revision of it has, and what changed since.
+
+    Raises:
+        SideError: a side cannot be compared, or holds errors.
+    """
+    # Comparing loads the compiler.
+    from cellc.review.review import review
+    from cellc.review.sides import SideError, packages, sides
+
+    with packages(*sides((other, path))) as ((before, place), (after, _)):
+        subject = read_subject(place)
+        if subject.folder is None:
+            raise SideError(f"{other}: an error keeps the package from being made")
+        return Before(_drawn(subject.folder, subject)[0], review(before, after))
+
+
+def _drawn(folder: GeneratedFolder, subject: Subject) -> tuple[Scene, Skeleton]:
+    skeleton = Skeleton(folder.contract, folder.description)
+    return scene_of(folder.contract, folder.description, subject.views, skeleton), skeleton

@@ -14,7 +14,14 @@ from cellc.diagnostics import Severity
 from cellc.mock.report_page.html import Child, count, tag, to_page
 from cellc.view.content import Content
 from cellc.view.scene import Scene
-from cellc.view.sections import findings_section, gates_section, interfaces_section, rehearsals_section, section
+from cellc.view.sections import (
+    changes_section,
+    findings_section,
+    gates_section,
+    interfaces_section,
+    rehearsals_section,
+    section,
+)
 
 _SCRIPTS = ("orbit.js", "scene.js", "page.js")
 _LAYERS = (
@@ -23,6 +30,7 @@ _LAYERS = (
     ("names", "names", True),
     ("goals", "goals", True),
     ("cones", "fields of view", False),
+    ("before", "where it stood before", True),
 )
 _LOOKS = ("around", "front", "side", "above")
 _CAPTIONS = {
@@ -70,6 +78,7 @@ def _json(content: Content) -> str:
     """Return what the script reads; no text of the cell ends the element that holds it."""
     told = {
         "scene": None if content.scene is None else asdict(content.scene),
+        "before": None if content.before is None else asdict(content.before.scene),
         "runs": [asdict(one) for one in content.runs],
     }
     return json.dumps(told, ensure_ascii=True, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
@@ -90,7 +99,9 @@ def _parts(content: Content, *, drawn: bool) -> Iterator[Element]:
     subject, folder = content.subject, content.subject.folder
     yield _header(content)
     if content.scene is not None and drawn:
-        yield _stage(content.scene)
+        yield _stage(content.scene, compared=content.before is not None)
+    if content.before is not None:
+        yield changes_section(content.before.review)
     if content.runs:
         yield rehearsals_section(content.runs)
     if subject.findings is not None:
@@ -131,6 +142,8 @@ def _counted(found: Sequence[Severity]) -> Iterator[str]:
 
 
 def _places(content: Content) -> Iterator[tuple[str, str]]:
+    if content.before is not None:
+        yield "changes", "Changes"
     if content.runs:
         yield "rehearsals", "Rehearsals"
     if content.subject.findings is not None:
@@ -147,10 +160,10 @@ def _pictures(pictures: Mapping[str, str]) -> Iterator[Element]:
         yield section(id_, title, tag("figure", tag("div", tag("img", src=source, alt=words), class_="wide")))
 
 
-def _stage(scene: Scene) -> Element:
+def _stage(scene: Scene, *, compared: bool) -> Element:
     drawing = tag("div", tag("div", class_="labels"), tag("p", class_="picked"), class_="drawing")
     looks = [tag("button", name, type="button", data_look=name) for name in _LOOKS]
-    layers = [_layer(name, words, checked) for name, words, checked in _LAYERS if name in _offered(scene)]
+    layers = [_layer(name, words, checked) for name, words, checked in _LAYERS if name in _offered(scene, compared)]
     controls = tag(
         "div",
         *_titled("Look", tag("div", *looks, class_="buttons")),
@@ -169,8 +182,14 @@ def _stage(scene: Scene) -> Element:
     return tag("div", drawing, controls, player, id="stage")
 
 
-def _offered(scene: Scene) -> set[str]:
-    return {"frames", "links", "names"} | ({"goals"} if scene.goals else set()) | ({"cones"} if scene.cones else set())
+def _offered(scene: Scene, compared: bool) -> set[str]:
+    before = {"before"} if compared else set()
+    return (
+        {"frames", "links", "names"}
+        | before
+        | ({"goals"} if scene.goals else set())
+        | ({"cones"} if scene.cones else set())
+    )
 
 
 def _titled(title: str, content: Element) -> tuple[Element, Element]:

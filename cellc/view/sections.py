@@ -7,6 +7,7 @@ from itertools import groupby
 from xml.etree.ElementTree import Element
 
 from cellc.contract.contract import Contract, ContractEndpoint, ContractInterface
+from cellc.contract.review import Review
 from cellc.deploy.gates import GateText, gate_texts
 from cellc.diagnostics import Diagnostic, Severity, Span
 from cellc.diagnostics.diagnostic import Findings
@@ -14,6 +15,7 @@ from cellc.mock.bus.qos import unmatched_pairs
 from cellc.mock.report_page.html import Child, count, tag
 from cellc.report.snippet import excerpt
 from cellc.view.playback import Run
+from cellc.vocabulary import Grade
 
 _OPEN = (Severity.ERROR, Severity.WARNING)
 """Severities whose findings are shown at once; the others are one click away."""
@@ -79,6 +81,28 @@ def _snippet(span: Span, texts: Mapping[str, str]) -> Iterator[Element]:
     # Cells of the terminal and characters are one where nothing is wide.
     before, rest = shown.text[: shown.marked_from], shown.text[shown.marked_from :]
     yield tag("pre", f"{span.line} | {before}", tag("mark", rest[: shown.marked_cells]), rest[shown.marked_cells :])
+
+
+def changes_section(review: Review) -> Element:
+    """Return what changed since the other state, as `cellc diff` grades it, and the gates that must be passed again."""
+    names = ("grade", "what", "before", "after", "difference", "why")
+    rows = [
+        (
+            tag("span", one.grade.value, class_=_GRADES[one.grade]),
+            tag("span", tag("b", ", ".join(one.subjects)), f" {one.quantity}", tag("small", one.area.value)),
+            one.before or "–",
+            one.after or "–",
+            one.delta or "–",
+            one.why or "–",
+        )
+        for one in review.changes
+    ]
+    told = f"{review.before.name} → {review.after.name}. Gates to pass again: "
+    gates = ", ".join(gate.code.value for gate in review.gates) or "none"
+    return section("changes", "What changed", tag("p", told, gates, class_="hint"), table(names, rows))
+
+
+_GRADES = {Grade.SAFE: "good", Grade.REVIEW: "unknown", Grade.DANGEROUS: "bad"}
 
 
 def rehearsals_section(runs: Sequence[Run]) -> Element:

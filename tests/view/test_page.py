@@ -9,10 +9,11 @@ import shutil
 import subprocess
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from cellc.view.content import Content, content_of
+from cellc.view.content import Content, before_of, content_of
 from cellc.view.library import three_js
 from cellc.view.page import to_html
 from cellc.view.subject import read_subject
@@ -106,6 +107,32 @@ def test_the_page_says_what_the_spec_says(page: Page) -> None:
     assert "30 Hz" in page.text
     assert re.search(r"G3 Network .* network", page.text)
     assert re.search(r"\d+ \| +firmware: UNKNOWN", page.text)
+
+
+def test_the_page_of_a_change_draws_where_things_stood_and_lists_what_moved(tmp_path: Path, of_folder: Content) -> None:
+    before = tmp_path / "before"
+    shutil.copytree(ROOT / "generated/ur5e_pick", before)
+    for target in ("mock", "real"):
+        urdf = before / f"urdf/ur5e_pick.{target}.urdf"
+        text = urdf.read_text(encoding="utf-8")
+        assert text.count('<origin xyz="0 0 0.8"/>') == 1
+        urdf.write_text(text.replace('<origin xyz="0 0 0.8"/>', '<origin xyz="0 0.25 0.8"/>'), encoding="utf-8")
+    compared = replace(of_folder, before=before_of(before.as_posix(), (ROOT / "generated/ur5e_pick").as_posix()))
+    found = Page(to_html(compared, three_js()))
+    home = {when: _home(found.data[when]) for when in ("before", "scene")}
+    shoulder = found.data["scene"]["groups"].index("arm_shoulder_link")
+    assert home["before"][7 * shoulder + 1] - home["scene"][7 * shoulder + 1] == pytest.approx(0.25)
+    assert re.search(r"What changed .* arm_base_link pose in its parent .* 0 250 800 mm", found.text)
+    assert "before" in [attributes.get("data-layer") for _, attributes in found.elements]
+    assert "before" not in [
+        attributes.get("data-layer") for _, attributes in Page(to_html(of_folder, three_js())).elements
+    ]
+
+
+def _home(scene: dict[str, Any]) -> list[float]:
+    (numbers,) = (pose["groups"] for pose in scene["poses"] if pose["name"] == "home")
+    assert isinstance(numbers, list)
+    return numbers
 
 
 def test_a_spec_with_errors_is_shown_with_its_findings_alone(tmp_path: Path) -> None:

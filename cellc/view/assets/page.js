@@ -64,7 +64,10 @@ class Drawing {
     light.position.set(0.4, 0.8, 1);
     this.camera.add(light);
     this.scene.add(this.camera, this.model.root, new THREE.HemisphereLight("#ffffff", "#8d97a3", 0.5));
-    if (this.before) this.scene.add(this.before.root);
+    if (this.before) {
+      this.scene.add(this.before.root);
+      this.before.hideSame(this.model);
+    }
     this.labels = new Labels(place.querySelector(".labels"), this.camera);
     this.orbit = new Orbit(this.camera, this.canvas, () => this.request());
     this.floor();
@@ -137,6 +140,7 @@ class Drawing {
       const numbers = model?.postures.get(name);
       if (numbers) model.stand(numbers);
     }
+    this.before?.hideSame(this.model);
     this.request();
   }
 

@@ -115,6 +115,24 @@ class CellModel {
     return mark;
   }
 
+  // Of what stood before, only what stands elsewhere now is shown.
+  hideSame(other) {
+    const key = (body, number) => `${body.userData.words} ${number}`;
+    const known = new Map(other.bodies.map((body, number) => [key(body, number - other.firstOf(body)), body]));
+    const [spot, place] = [new THREE.Vector3(), new THREE.Vector3()];
+    const [turn, way] = [new THREE.Quaternion(), new THREE.Quaternion()];
+    for (const model of [this, other]) model.root.updateMatrixWorld(true);
+    this.bodies.forEach((body, number) => {
+      const now = known.get(key(body, number - this.firstOf(body)));
+      body.visible = !now || body.getWorldPosition(spot).distanceTo(now.getWorldPosition(place)) > 2e-4
+        || body.getWorldQuaternion(turn).angleTo(now.getWorldQuaternion(way)) > 2e-3;
+    });
+  }
+
+  firstOf(body) {
+    return this.bodies.findIndex((one) => one.userData.words === body.userData.words);
+  }
+
   stand(numbers) {
     this.groups.forEach((group, number) => placeAt(group, numbers, number * POSE));
   }
