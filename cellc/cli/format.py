@@ -33,7 +33,7 @@ def format(files: tuple[str, ...], check: bool, diff: bool) -> None:
     and writes standard output. Every comment stays with what it belongs to, and no value changes.
 
     \b
-    cellc format .                             every cell and device of a repository
+    cellc format .                             every cell and device below
     cellc format cells/bench/cell.yaml         one file
     cellc format . --check --diff              what a pull request would change
     cellc format - < cell.yaml                 for an editor

@@ -71,7 +71,7 @@ def test_comments_at_any_place_stay() -> None:
     drawn = random.Random(14)
     texts = [spec_of(cell).read_text() for cell in EVERY_CELL]
     tried = 0
-    for _ in range(150):
+    for _ in range(60):
         lines = drawn.choice(texts).split("\n")
         begin = drawn.randrange(len(lines))
         text = _disturbed(lines[begin : begin + drawn.randrange(3, 20)], drawn)
@@ -83,7 +83,7 @@ def test_comments_at_any_place_stay() -> None:
         assert made is not None
         assert _comments(made) == _comments(text), text
         assert layout.formatted("x", made).value == made, text
-    assert tried > 50
+    assert tried > 20
 
 
 def _disturbed(lines: list[str], drawn: random.Random) -> str:
@@ -115,7 +115,7 @@ def test_resolved_cells_are_what_they_were(tmp_path: Path) -> None:
         name for name in specs if (tmp_path / "after" / name).read_bytes() != (tmp_path / "before" / name).read_bytes()
     ]
     assert len(changed) > 5
-    for name in changed[::4]:
+    for name in changed[::10]:
         assert _resolved(tmp_path / "after" / name) == _resolved(tmp_path / "before" / name), name
 
 
