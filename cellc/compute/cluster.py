@@ -100,7 +100,7 @@ def _in_words(address: str, killed: type[Exception]) -> Iterator[None]:
 
 
 def _lost(address: str) -> ComputeError:
-    return ComputeError(f"the scheduler at `{address}` has gone; what was answered is kept")
+    return ComputeError(f"the scheduler at `{address}` has gone")
 
 
 def _same(sent: Sent) -> Sent:

@@ -7,16 +7,16 @@ import os
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import BinaryIO
+from typing import TYPE_CHECKING, BinaryIO
 
-from cellc.compute.cluster import cluster
-from cellc.compute.processes import processes, usable_cores
-from cellc.compute.work import Hire
 from cellc.mock.errors import MockError
 from cellc.mock.result import AttemptRecord, to_json_lines
 from cellc.printing import refuse
 from cellc.store.regular_file import open_regular
 from cellc.store.swap import replace_whole
+
+if TYPE_CHECKING:
+    from cellc.compute.work import Hire
 
 _LONGEST_RECORD = 1 << 20
 
@@ -124,7 +124,12 @@ class MockOptions:
 
     def crew(self) -> tuple[Hire | None, str]:
         """Return who executes runs, None for this process alone, and how many they are in words."""
+        # What hires takes longer to load than a rehearsal to be read.
+        from cellc.compute.processes import processes, usable_cores
+
         if self.cluster is not None:
+            from cellc.compute.cluster import cluster
+
             return cluster(self.cluster), f"workers of {self.cluster}"
         jobs = usable_cores() if self.jobs is None else self.jobs
         return (processes(jobs) if jobs > 1 else None), f"{jobs} processes"
