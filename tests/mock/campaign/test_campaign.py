@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import pickle
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import pytest
 
 from cellc.compute.processes import processes
-from cellc.mock import MockCell, load
+from cellc.mock import MockCell, MockError, load
 from cellc.mock.campaign.campaign import Campaign, conduct, make_plan
 from cellc.mock.campaign.plan import CampaignPlan, CampaignRun
 from cellc.mock.faults.registry import possible_faults
@@ -145,3 +146,9 @@ def test_every_run_is_found_by_its_identifier(cells: dict[str, MockCell]) -> Non
         assert plan.find(run.identifier.partition("/")[2]) == run  # there is one rehearsal without faults
     assert plan.find("pick_and_place/stick:nothing@1") is None
     assert plan.find("other/skip_cycles@1") is None
+
+
+def test_refusal_of_a_worker_arrives_as_it_was_said() -> None:
+    refusal = MockError("contract.json", "names nothing")
+    arrived = pickle.loads(pickle.dumps(refusal))
+    assert (str(arrived), arrived.file, arrived.reason) == (str(refusal), "contract.json", "names nothing")

@@ -143,7 +143,7 @@ def test_a_sweep_goes_on_where_its_journal_ends_and_ends_as_it_would_have(
         for run in twelve.runs[2:10]:
             journal.keep(run)
     with file.open("ab") as cut:
-        cut.write(b'{"number":10,"outc')
+        cut.write(b'{"number":10,"outcome":"' + 1000 * b"x")
     again = Journal(file, identity, "put", 0)
     assert sorted(again.runs.values(), key=lambda run: run.number) == list(twelve.runs[2:10])
     with again:
