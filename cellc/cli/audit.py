@@ -18,6 +18,9 @@ def audit(file: str) -> None:
 
     The exact version tuple with what is known of it, what is expected of the running cell, every command path, and
     the blockers as questions to their owner or supplier.
+
+    \b
+    cellc audit cells/bench/cell.yaml
     """
     checked = check(file)
     if checked.graph is None:

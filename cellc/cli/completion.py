@@ -12,7 +12,12 @@ from cellc.printing import show_document
 @click.argument("shell", type=click.Choice(["bash", "zsh", "fish"]))
 @click.pass_context
 def completion(context: click.Context, shell: str) -> None:
-    """Print the completion script of SHELL; add `eval "$(cellc completion bash)"` to its start-up file."""
+    """Print the completion script of SHELL; add `eval "$(cellc completion bash)"` to its start-up file.
+
+    \b
+    cellc completion bash
+    cellc completion fish > ~/.config/fish/completions/cellc.fish
+    """
     complete = get_completion_class(shell)
     assert complete is not None
     show_document(complete(context.find_root().command, {}, "cellc", "_CELLC_COMPLETE").source())

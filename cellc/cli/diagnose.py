@@ -20,6 +20,10 @@ def diagnose(symptom: str | None, file: str | None) -> None:
     Without it, every symptom that is known is listed. With FILE, a cell spec, the commands name its own controllers,
     topics and frames. Nothing is executed, and nothing that is told bypasses a protection. Exit code 1 where no known
     symptom fits; the nearest are named.
+
+    \b
+    cellc diagnose "arm sags when it is enabled"
+    cellc diagnose "goal was rejected" cells/bench/cell.yaml
     """
     from cellc.diagnose.diagnose import diagnose as suspicions_of
     from cellc.diagnose.diagnose import near

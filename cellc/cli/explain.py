@@ -23,7 +23,12 @@ from cellc.store.swap import write_whole
     help="With --all, write all pages to a folder: an index, and one file for each family.",
 )
 def explain(code: str | None, everything: bool, output: Path | None) -> None:
-    """Explain CODE, or list all codes."""
+    """Explain CODE, or list all codes.
+
+    \b
+    cellc explain                              all codes, a line each
+    cellc explain frame-cycle
+    """
     pages = all_pages()
     if output is not None:
         if not everything:

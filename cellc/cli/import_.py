@@ -65,6 +65,10 @@ def import_(
     """Make a device folder of ROBOT: a URDF or xacro file, the folder of a ROS package, or an installed Python package.
 
     NAME:=VALUE are arguments of the xacro. What a person wrote into a device.yaml stays.
+
+    \b
+    cellc import my_robot.urdf -o devices/my_robot --cell
+    cellc import my_robot_description robot:=large
     """
     if only_check:
         _tell_changes(Path(robot))

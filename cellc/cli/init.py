@@ -41,6 +41,11 @@ def init(name: str, devices: tuple[str, ...], ros: str, output: Path | None, for
     """Write a cell NAME with the given devices, such as `cellc init bench MODEL MODEL`; without models they are listed.
 
     A device is called after its kind (arm, gripper, camera) unless DEVICE= names it.
+
+    \b
+    cellc init bench                           the models
+    cellc init bench MODEL MODEL --ros jazzy
+    cellc init bench left=MODEL right=MODEL
     """
     if not re.fullmatch(r"[a-z][a-z0-9_]+", name) or "__" in name:
         raise click.UsageError(f"`{name}` is no package name: use lower case letters, digits and single underscores")

@@ -69,7 +69,14 @@ def mock(
     listen: str | None,
     speed: float | None,
 ) -> None:
-    """Execute the rehearsals of the generated FOLDER; exit 1 where one does not end as it should."""
+    """Execute the rehearsals of the generated FOLDER; exit 1 where one does not end as it should.
+
+    \b
+    cellc mock generated/bench                 every rehearsal
+    cellc mock generated/bench --rehearsal pick --evidence evidence/1
+    cellc mock generated/bench --campaign      every fault at every step
+    cellc mock generated/bench --live          in Foxglove
+    """
     from cellc.mock.command.options import MockOptions, run_mock
 
     options = MockOptions(

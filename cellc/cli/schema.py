@@ -22,6 +22,10 @@ def schema(name: str | None, output: Path | None, reference: bool) -> None:
 
     Editors complete and explain a cell through the first line
     `# yaml-language-server: $schema=PATH/cell.schema.json`.
+
+    \b
+    cellc schema > cell.schema.json
+    cellc schema -o schemas                    all of them
     """
     if reference:
         show_document(spec_reference())

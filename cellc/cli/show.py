@@ -21,6 +21,10 @@ def show(file: str, path: str) -> None:
     """Show the resolved value at PATH of the cell in FILE, such as `devices.arm.joints`, and where it came from.
 
     Without PATH the sections are listed.
+
+    \b
+    cellc show cells/bench/cell.yaml devices.arm.joints
+    cellc show cells/bench/cell.yaml control.controllers
     """
     path = path.rstrip(".")
     checked = check(file)

@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import errno
 import json
+import re
+import shlex
 import subprocess
 import sys
 from pathlib import Path
 
+import click
 import pytest
 
+from cellc.cli.main import cellc
+from cellc.mock.command.campaign import pace
 from tests.cells import ROOT
 from tests.cli.run import MINIMAL, PICK, run
 
@@ -158,3 +163,27 @@ def test_program_without_docstrings_loads_no_rule() -> None:
     ran = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     assert ran.returncode == 1
     assert ran.stderr.strip().endswith("must have a docstring, its page; `python -OO` leaves none")
+
+
+@pytest.mark.parametrize("name", cellc.list_commands(click.Context(cellc)))
+def test_help_shows_a_call_that_the_command_takes(name: str) -> None:
+    examples = re.findall(rf"^ +cellc {name}\b.*", run(name, "--help").out, re.MULTILINE)
+    assert examples
+    command = cellc.get_command(click.Context(cellc), name)
+    assert command is not None
+    for example in examples:
+        # What it does stands behind two blanks, where it goes behind an arrow.
+        call = re.split(r" {2,}| > ", example.strip())[0]
+        command.make_context(name, shlex.split(call)[2:])
+
+
+@pytest.mark.parametrize(
+    ("done", "seconds", "told"),
+    [
+        (50, 10.0, "run 50 of 200, 1 failed, 5 a second, 30 s left"),
+        (50, 100.0, "run 50 of 200, 1 failed, 0 a second, 5 min left"),
+        (200, 0.0, "run 200 of 200, 1 failed, 200000 a second, 0 s left"),
+    ],
+)
+def test_progress_of_many_runs_has_their_rate_and_what_is_left(done: int, seconds: float, told: str) -> None:
+    assert pace(f"{done} of 200", 200, done, 1, seconds) == told

@@ -28,6 +28,8 @@ from cellc.mock.gates.runs import judged_campaign, judged_rehearsals
 from cellc.mock.gates.sign import sign_gates
 from cellc.printing import progress, refuse, remark, show, show_document
 
+_MINUTES_FROM_S = 120.0
+
 Choice = Callable[[CampaignPlan], Sequence[CampaignRun]]
 
 
@@ -151,7 +153,10 @@ def _conduct(cell: MockCell, choose: Choice, options: MockOptions) -> Campaign:
     runs = choose(plan)
     hire, who = options.crew()
     with progress("campaign") as update:
-        told = partial(_tell_progress, update)
+
+        def told(done: int, total: int, failed: int) -> None:
+            update(pace(f"{done} of {total}", total, done, failed, perf_counter() - begun))
+
         try:
             campaign = conduct(cell, runs, baselines, seed=options.seed, hire=hire, progress=told)
         except ComputeError as problem:
@@ -179,8 +184,17 @@ def _replay_command(options: MockOptions, identifier: str) -> str:
     return f"{options.program} {shlex.quote(options.folder)} --replay {shlex.quote(identifier)}{seed}"
 
 
-def _tell_progress(update: Callable[[str], None], done: int, total: int, failed: int) -> None:
-    update(f"run {done} of {total}" + (f", {failed} failed" if failed else ""))
+def pace(run: str, total: int, done: int, failed: int, seconds: float) -> str:
+    """Return how far runs have come, how fast they are, and how long the rest takes.
+
+    Args:
+        run: the number of the present one, and how many there are at most, in words.
+        done: in ``seconds``.
+    """
+    rate = done / max(seconds, 1e-3)
+    left_s = (total - done) / rate
+    left = f"{left_s / 60:.0f} min" if left_s >= _MINUTES_FROM_S else f"{left_s:.0f} s"
+    return f"run {run}, {failed} failed, {rate:.0f} a second, {left} left"
 
 
 def stopped(stop: MockError) -> int:

@@ -13,7 +13,7 @@ from time import perf_counter
 from cellc.compute.work import ComputeError
 from cellc.contract.rehearsals import RehearsalEntry
 from cellc.mock.cell import MockCell
-from cellc.mock.command.campaign import load_checked, stopped
+from cellc.mock.command.campaign import load_checked, pace, stopped
 from cellc.mock.command.options import MockOptions
 from cellc.mock.command.rehearsals import begin_evidence
 from cellc.mock.errors import MockError
@@ -77,9 +77,8 @@ def _sweep(cell: MockCell, entry: RehearsalEntry, options: MockOptions) -> Sweep
             failed += not run.passed
             if journal is not None:
                 journal.keep(run)
-            rate = done / (perf_counter() - begun)
-            left_s = (options.sweep - done) / rate
-            update(f"run {done} of at most {options.sweep}, {failed} failed, {rate:.0f} a second, {left_s:.0f} s left")
+            said = f"{done} of at most {options.sweep}"
+            update(pace(said, options.sweep, done, failed, perf_counter() - begun))
 
         known = {} if journal is None else journal.runs
         try:
