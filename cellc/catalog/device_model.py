@@ -30,7 +30,7 @@ from cellc.catalog.device_interfaces import (
     SpeedScalingFacts,
     TopicFacts,
 )
-from cellc.catalog.robot_facts import HumanStep, MountFacts, PlugFacts, RobotControllerFacts, StepCondition
+from cellc.catalog.robot_facts import DrivenBy, HumanStep, MountFacts, PlugFacts, RobotControllerFacts, StepCondition
 from cellc.spec.quantity import (
     Force,
     JointAcceleration,
@@ -84,9 +84,10 @@ class StateTopicFacts(CatalogModel):
 
 
 class RecoveryFacts(CatalogModel):
-    """The way out of one state: steps in order, the human ones first."""
+    """The way out of one state: steps in order, the human ones first; ``by`` where it is that of one driver alone."""
 
     state: Token
+    by: DrivenBy | None = None
     steps: tuple[HumanStep, ...] = Field(min_length=1)
 
 
@@ -161,7 +162,7 @@ class CommissioningStep(CatalogModel):
     ``shows`` where it is what must be seen once the release of that gate has been made, ``powers`` where drives have
     power by it, so that the stop can be tried. ``log`` where it stands in the driver's log: what the lines hold of
     which the newest counts. ``run`` are commands that read; ``{address}`` in them is a word of the shell. ``when``
-    where it is only done if one of these is so.
+    where it is only done if one of these is so, ``by`` where by one driver alone.
     """
 
     gate: GateName
@@ -172,6 +173,7 @@ class CommissioningStep(CatalogModel):
     powers: bool = False
     only: tuple[DistroName, ...] = ()
     when: tuple[StepCondition, ...] = ()
+    by: DrivenBy | None = None
     source: Text
 
 

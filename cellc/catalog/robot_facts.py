@@ -165,6 +165,10 @@ StepCondition = Literal[
 """What a spec may say of a device, so that people do one thing or the other."""
 
 
+DrivenBy = Literal["driver", "adapter"]
+"""What reaches a device: the driver of ROS, or an adapter on the library of its vendor."""
+
+
 class GuardedStep(CatalogModel):
     """What people do only where one of these is so of the device."""
 

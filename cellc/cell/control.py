@@ -151,11 +151,13 @@ class AdaptedDevice:
     Args:
         action: full name of the action that takes them.
         state_topic: full name of the topic of its stamped state.
+        node: full name of its own node.
         client: the one node that may command it.
         path_tolerance: distance of a joint from its command that ends a goal, rad or m.
     """
 
     device: str
+    node: str
     joints: tuple[str, ...]
     action: str
     state_topic: str

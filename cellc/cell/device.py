@@ -359,6 +359,11 @@ class Device(Entity):
         return self.switched is not None and self.hardware is None and self.driver is None
 
     @property
+    def is_driven(self) -> bool:
+        """Whether hardware of ros2_control or a node of its own reaches its drives, which the stop cuts off."""
+        return self.hardware is not None or self.driver is not None
+
+    @property
     def actuated_joints(self) -> tuple[DeviceJoint, ...]:
         """Joints with a command interface."""
         return tuple(joint for joint in self.joints if joint.command_interfaces)

@@ -19,10 +19,11 @@ class SafetyState:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RecoveryProcedure:
-    """The way out of one state: steps in order, the human ones first."""
+    """The way out of one state: steps in order, the human ones first; ``by`` as of a step of commissioning."""
 
     state: str
     steps: tuple[str, ...]
+    by: str | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -55,7 +56,8 @@ class CommissioningStep:
 
     ``shows`` where it is what must be seen once the release of that gate has been made, ``powers`` where drives have
     power by it, so that the stop can be tried. ``log`` where it stands in the driver's log: what the lines hold of
-    which the newest counts. ``run`` are commands that read; ``{address}`` in them is that of the device.
+    which the newest counts. ``run`` are commands that read; ``{address}`` in them is that of the device. ``by`` is the
+    ``driver`` or the ``adapter`` where it belongs to one of both alone.
     """
 
     gate: GateCode
@@ -64,6 +66,7 @@ class CommissioningStep:
     powers: bool = False
     log: tuple[str, ...] = ()
     run: tuple[str, ...] = ()
+    by: str | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from cellc.cell.cell import Cell
-from cellc.cell.control import Controller, ControllerManager
+from cellc.cell.control import AdaptedDevice, Controller, ControllerManager
 from cellc.cell.interface import TARGETS, Node, NodeSource
+from cellc.diagnostics import YamlPath
 
 REHEARSALS = "rehearsals.json"
 """What the mock executes."""
@@ -100,14 +101,22 @@ def moveit_controllers_file(cell: Cell, target: str) -> str:
     return CONTROLLERS.replace(".yaml", f".{target}.yaml") if differs else CONTROLLERS
 
 
-def executes_plans(cell: Cell, controller: Controller) -> bool:
-    """Tell whether MoveIt may send a controller goals: one that names a client is commanded by that node alone.
+def executes_plans(cell: Cell, one: Controller | AdaptedDevice) -> bool:
+    """Tell whether MoveIt may send goals to a controller or an adapter: one with a client is that node's alone.
 
     move_group makes a client of each that it is told of as it starts, which shows as a second commander, and which an
     enforced policy refuses.
     """
     planners = {node.name for node in cell.nodes if is_planner(node)}
-    return controller.active and (controller.client is None or controller.client in planners)
+    runs = one.active if isinstance(one, Controller) else True
+    return runs and (one.client is None or one.client in planners)
+
+
+def control_path(cell: Cell) -> YamlPath:
+    """Return where the spec has the controllers of the cell: those of several managers stand below each of them."""
+    if len(cell.managers) == 1:
+        return ("control", "controllers")
+    return ("managers",) if cell.managers else ("interfaces",)
 
 
 def semantic_file(cell: Cell) -> str:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from cellc.cell.cell import Cell
-from cellc.cell.control import Controller
 from cellc.deploy.files import BRING_UP_PROGRAM, FIRST_GOAL_PROGRAM, REQUIRED_PROGRAM, VERSIONS_PROGRAM
 from cellc.deploy.processes import motion_clients
 from cellc.link.hardware import JOINT_STATES
@@ -22,8 +22,8 @@ class FirstGoal:
     """What the program of the first goal is told.
 
     Args:
-        controller: that of the joint, on the real target.
-        action: its action.
+        action: that of the controller or adapter of the joint, on the real target.
+        joints: what its goals name.
         topic: where states of its joints arrive.
         joint: the one that moves, by its name in the description.
         delta: by how much, rad or m, with its sign.
@@ -32,8 +32,8 @@ class FirstGoal:
         absent: full names of nodes that ask for motion, none of which may be there.
     """
 
-    controller: Controller
     action: str
+    joints: tuple[str, ...]
     topic: str
     joint: str
     delta: float
@@ -43,7 +43,7 @@ class FirstGoal:
 
 
 def first_goal(cell: Cell) -> FirstGoal | None:
-    """Return the goal, for a first motion whose joint a trajectory controller of the real target moves.
+    """Return the goal, for a first motion whose joint a trajectory controller or an adapter of the real target moves.
 
     It is sent behind the proof that everything waits for that asks for motion, so that a cell without that has none.
     """
@@ -53,19 +53,13 @@ def first_goal(cell: Cell) -> FirstGoal | None:
     device, _, local = first.joint.partition("/")
     joint = next((one.name for one in cell.device(device).joints if one.local_name == local), local)
     sign = -1.0 if first.direction == "-" else 1.0
-    for one in cell.controllers:
-        if (
-            one.behaviour in TRAJECTORIES
-            and one.active
-            and "real" in one.targets
-            and joint in one.joints
-            and one.action
-        ):
+    for action, joints, topic in _takers(cell):
+        if joint in joints:
             fastest_s = _PEAK * first.max_delta.value / first.velocity.value
             return FirstGoal(
-                controller=one,
-                action=one.action,
-                topic=JOINT_STATES,
+                action=action,
+                joints=joints,
+                topic=topic,
                 joint=joint,
                 delta=sign * first.max_delta.value,
                 duration_s=max(fastest_s, first.timeout_s / 2.0),
@@ -73,6 +67,15 @@ def first_goal(cell: Cell) -> FirstGoal | None:
                 absent=tuple(node.full_name for node in motion_clients(cell)),
             )
     return None
+
+
+def _takers(cell: Cell) -> Iterator[tuple[str, tuple[str, ...], str]]:
+    """Yield what takes trajectories on the real target: its action, its joints, and where their states arrive."""
+    for one in cell.controllers:
+        if one.behaviour in TRAJECTORIES and one.active and "real" in one.targets and one.action:
+            yield one.action, one.joints, JOINT_STATES
+    for adapted in cell.adapters:
+        yield adapted.action, adapted.joints, adapted.state_topic
 
 
 def programs(cell: Cell) -> tuple[str, ...]:

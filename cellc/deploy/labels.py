@@ -160,9 +160,18 @@ def driver_facts(cell: Cell, device: Device, driver: DeviceDriver) -> Iterator[s
     goals = ", ".join(action for action, _ in driver.actions.values()) or "none declared"
     yield f"{driver.program}, on real hardware; no controller claims anything there"
     yield f"goals: {goals}; frame joints, on request, time of the driver"
-    watched = device.safety.watchdog or _NOT_STATED
+    watched = watched_stream(cell, device) or device.safety.watchdog or _NOT_STATED
     yield f"owner {cell.owners.responsibilities.vendor_safety}; watchdog: {watched}"
     yield f"architecture: {device.architecture}"
+
+
+def watched_stream(cell: Cell, device: Device) -> str | None:
+    """Return what an adapter does where the commands to its device stay away; None for a device without an adapter."""
+    adapted = next((one for one in cell.adapters if one.device == device.name), None)
+    if adapted is None:
+        return None
+    silence, stop = shortest(adapted.command_timeout_s), shortest(adapted.stop_time_s)
+    return f"{silence} s of silence end in a stop, at a standstill within {stop} s"
 
 
 def stop_facts(cell: Cell) -> Iterator[str]:

@@ -18,19 +18,28 @@ from cellc.cell.frame import WORLD
 from cellc.cell.interface import TARGETS, ParameterValue
 from cellc.cell.motion import POINT_CLOUD, Octomap, Pipeline, Servo
 from cellc.deploy.deployment import Deployment
-from cellc.deploy.files import JOINT_LIMITS, SENSORS, SERVO, executes_plans, is_planner, moveit_controllers_file, plans
+from cellc.deploy.files import (
+    JOINT_LIMITS,
+    SENSORS,
+    SERVO,
+    control_path,
+    executes_plans,
+    is_planner,
+    moveit_controllers_file,
+    plans,
+)
 from cellc.diagnostics import YamlPath
 from cellc.formats.header import Header
 from cellc.formats.parameter_file import ANY_NODE, NodeParameters, parameter_file
 from cellc.formats.yaml_text import Tree, render
 from cellc.graph.cell_graph import CellGraph
+from cellc.link.control import TRAJECTORY_ACTION
 from cellc.link.hardware import JOINT_STATES
 from cellc.vocabulary import Feature, features
 
 Parameters = Mapping[str, ParameterValue]
 
 _GROUPS: YamlPath = ("motion", "groups")
-_CONTROL: YamlPath = ("control", "controllers")
 _MANAGER = "moveit_simple_controller_manager"
 _TYPES = ("FollowJointTrajectory", "GripperCommand", "ParallelGripperCommand")
 # For a request that states none: MoveIt's own default, so that nobody gets full speed who did not ask for it.
@@ -80,7 +89,7 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
         ("kinematics", _GROUPS, _kinematics(cell)),
         ("cartesian_limits", ("motion",), _cartesian_limits()),
         ("planning_pipelines", _GROUPS, _planning_pipelines(cell)),
-        ("trajectory_execution", _CONTROL, _trajectory_execution(cell)),
+        ("trajectory_execution", control_path(cell), _trajectory_execution(cell)),
         ("planning_scene", ("scene",), _planning_scene()),
     ):
         section = NodeParameters(ANY_NODE, origin, parameters)
@@ -92,7 +101,7 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
         section = NodeParameters(ANY_NODE, ("motion", "servo"), _servo(cell, cell.servo))
         yield Artifact(SERVO, parameter_file(plan.header, [section]))
     for file, target in {moveit_controllers_file(cell, target): target for target in TARGETS}.items():
-        section = NodeParameters(ANY_NODE, _CONTROL, _controllers(cell, target))
+        section = NodeParameters(ANY_NODE, control_path(cell), _controllers(cell, target))
         yield Artifact(file, parameter_file(plan.header, [section]))
 
 
@@ -200,7 +209,7 @@ def _config(planner: str) -> str:
 
 
 def _controllers(cell: Cell, target: str) -> Parameters:
-    """Return what executes plans on a target: controllers with an action that MoveIt knows, and what stands in."""
+    """Return what executes plans on a target: controllers with an action that MoveIt knows, adapters, stand-ins."""
     called = {_name(cell, one): one for one in _called(cell, target) if _short(one.type) in _TYPES}
     parameters: dict[str, ParameterValue] = {
         "moveit_controller_manager": f"{_MANAGER}/MoveItSimpleControllerManager",
@@ -333,6 +342,9 @@ def _called(cell: Cell, target: str) -> Iterator[_Called]:
             yield _Called(one.action, one.action_type or "", one.joints)
         elif target == "real" and one.stand_in is not None:
             yield _Called(one.stand_in.action, one.stand_in.action_type, one.joints)
+    for adapted in cell.adapters:
+        if executes_plans(cell, adapted):
+            yield _Called(adapted.action, TRAJECTORY_ACTION, adapted.joints)
 
 
 def _name(cell: Cell, called: _Called) -> str:

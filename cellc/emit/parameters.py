@@ -21,7 +21,7 @@ from cellc.cell.cell import Cell
 from cellc.cell.control import Controller, ControllerManager
 from cellc.cell.interface import TARGETS, NodeSource, ParameterValue, Qos
 from cellc.deploy.deployment import Deployment
-from cellc.deploy.files import QOS_OVERRIDES, RECORDING, controllers_file, node_file
+from cellc.deploy.files import QOS_OVERRIDES, RECORDING, control_path, controllers_file, node_file
 from cellc.deploy.recording import record_command
 from cellc.formats.header import Header
 from cellc.formats.parameter_file import NodeParameters, parameter_file, qos_parameters
@@ -92,7 +92,8 @@ def _recording(graph: CellGraph, plan: Deployment) -> Artifact:
     # left at their defaults, which match any publisher.
     command = "# " + " \\\n#   ".join(record_command(graph.cell, "bag")) + "\n\n"
     text = render({name: _profile(qos) for name, qos in plan.recorded.items()})
-    origin = "# interfaces, control.controllers, recording.topics\n"
+    places = dict.fromkeys(("interfaces", ".".join(map(str, control_path(graph.cell))), "recording.topics"))
+    origin = f"# {', '.join(places)}\n"
     return Artifact(RECORDING, plan.header.commented("#") + command + origin + text)
 
 

@@ -113,7 +113,7 @@ def _drivers(cell: Cell) -> Iterator[Row]:
 
 
 def _stops(cell: Cell) -> Iterator[Row]:
-    devices = tuple(device.name for device in cell.devices if device.hardware is not None)
+    devices = tuple(device.name for device in cell.devices if device.is_driven)
     if devices:
         yield Row((cell.safety.stop.authority,), "stops, whatever software says", tuple(stop_facts(cell)), devices)
 

@@ -280,7 +280,7 @@ def _managers(cell: Cell) -> Iterator[str]:
 
 def _drives(cell: Cell) -> Iterator[str]:
     for device in cell.devices:
-        if device.hardware is not None:
+        if device.is_driven:
             yield f"the vendor controller of {device.name} decides what reaches the drives"
 
 

@@ -78,7 +78,7 @@ def _physical_safety(cell: Cell) -> Iterator[str]:
     yield f"  {_box('stop', stop.authority, f'path {stop.path}', f'owner {owner}')}"
     yield "end"
     for device in cell.devices:
-        if device.hardware is not None:
+        if device.is_driven:
             label = _text("stops, whatever software says", *stop_facts(cell))
             yield f'{_id("stop", stop.authority)} == "{label}" ==> {_id("device", device.name)}'
 

@@ -8,8 +8,9 @@ from dataclasses import replace
 
 from cellc.cell.cell import Cell
 from cellc.cell.control import AdaptedDevice, Controller, ControllerManager, ControllerSwitch
-from cellc.cell.device import Adapter, Device
-from cellc.cell.interface import Interface, InterfaceKind
+from cellc.cell.device import Adapter, Device, DeviceDriver
+from cellc.cell.hardware import Effect
+from cellc.cell.interface import Endpoint, Interface, InterfaceKind, Node, ParameterValue
 from cellc.diagnostics import Diagnostic, Outcome, YamlPath
 from cellc.link.controller import ControlContext, ControllerPlace, link_controller
 from cellc.link.derived import JOINT_STATE_TYPE
@@ -17,6 +18,7 @@ from cellc.link.names import home_host, unknown_name
 from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
 from cellc.spec.control import ManagerSpec
+from cellc.vocabulary import Behaviour, CommandAuthority, ManagerLock, Motion
 
 
 def link_managers(context: ControlContext) -> Outcome[tuple[ControllerManager, ...]]:
@@ -116,6 +118,20 @@ DEFAULT_PATH_TOLERANCE = 0.05
 """rad or m by which a joint may be away from its command, where the adapter states nothing."""
 
 
+_CONNECTS = Effect(
+    motion=Motion.NONE,
+    authority=CommandAuthority.UNCHANGED,
+    lock=ManagerLock.NONE,
+    needs={},
+    drops_part=False,
+    leaves=None,
+    does="connects and reads; nothing moves, and no command is taken",
+)
+"""What an adapter does as it starts: `DeviceAdapter.connect`, which its conformance holds."""
+
+_NOT_ON_THE_MOCK = "its adapter - no launch file starts it on the mock, and what asks it there is not answered"
+
+
 def bind_adapters(
     devices: Iterable[Device], controllers: Iterable[Controller], interfaces: tuple[Interface, ...]
 ) -> Iterator[AdaptedDevice]:
@@ -131,22 +147,63 @@ def bind_adapters(
             yield _adapted(device, joints, action, state)
 
 
-def behind_adapters(cell: Cell) -> Cell:
-    """Take away what the driver of ROS has of devices behind an adapter: loaded, it would reach them a second time.
+def as_driven(cell: Cell) -> Cell:
+    """Return a cell whose devices have what drives them, and the procedures of their vendors that fit it.
 
-    That is their hardware, what it and its nodes offer, and the fields of records that its controllers would tell.
+    The driver of ROS would reach a device behind an adapter a second time. What is taken away is its hardware, its
+    nodes, what both offer, and the fields of records that its controllers would tell.
     """
-    behind = {adapted.device for adapted in cell.adapters}
-    devices = tuple(_without_driver(one) if one.name in behind else one for one in cell.devices)
+    behind = {adapted.device: adapted for adapted in cell.adapters}
+    nodes = tuple(_told(one, behind[one.device]) if one.device in behind else one for one in cell.nodes)
+    ours = tuple(one for one in nodes if one.device not in behind or one.full_name == behind[one.device].node)
+    devices = (_adapted_device(one, behind[one.name], ours) if one.name in behind else one for one in cell.devices)
     managers = (
         replace(one, devices=tuple(name for name in one.devices if name not in behind)) for one in cell.managers
     )
-    return replace(cell, devices=devices, managers=tuple(managers)) if behind else cell
+    return replace(
+        cell,
+        devices=tuple(_with_procedures(one, "adapter" if one.name in behind else "driver") for one in devices),
+        nodes=ours,
+        managers=tuple(managers),
+    )
 
 
-def _without_driver(device: Device) -> Device:
+def _told(node: Node, adapted: AdaptedDevice) -> Node:
+    """Return the node of an adapter with the parameters that it may declare: what the spec says of it, in SI."""
+    told: dict[str, ParameterValue] = {
+        "joints": adapted.joints,
+        "command_timeout": adapted.command_timeout_s,
+        "stop_time": adapted.stop_time_s,
+        "goal_time": adapted.goal_time_s,
+        "path_tolerance": adapted.path_tolerance,
+    }
+    return replace(node, parameters={**node.parameters, **told})
+
+
+def _adapted_device(device: Device, adapted: AdaptedDevice, nodes: Iterable[Node]) -> Device:
     told = tuple(source for source in device.record if source.controller_kind is None)
-    return replace(device, hardware=None, offers=(), starts={}, record=told)
+    limits = (*device.mock_cannot_prove, _NOT_ON_THE_MOCK)
+    bare = replace(device, hardware=None, driver=None, offers=(), starts={}, record=told, mock_cannot_prove=limits)
+    node = next((one for one in nodes if one.full_name == adapted.node), None)
+    if node is None:
+        return bare
+    driver = DeviceDriver(
+        node=adapted.node,
+        program=f"{node.package}/{node.executable}",
+        joint_states=adapted.state_topic,
+        actions={Behaviour.JOINT_TRAJECTORY.value: (adapted.action, TRAJECTORY_ACTION)},
+    )
+    return replace(bare, driver=driver, starts={adapted.node: _CONNECTS})
+
+
+def _with_procedures(device: Device, driven_by: str) -> Device:
+    fits = (None, driven_by)
+    recovery = tuple(one for one in device.safety.recovery if one.by in fits)
+    return replace(
+        device,
+        safety=replace(device.safety, recovery=recovery),
+        commissioning=tuple(step for step in device.commissioning if step.by in fits),
+    )
 
 
 def _adapted(device: Device, joints: tuple[str, ...], action: Interface, state: Interface) -> AdaptedDevice:
@@ -154,6 +211,7 @@ def _adapted(device: Device, joints: tuple[str, ...], action: Interface, state: 
     period_s = 1.0 / (state.rate_hz or DEFAULT_RATE_HZ)
     return AdaptedDevice(
         device=device.name,
+        node=_end_of(action, device).full_name,
         joints=joints,
         action=action.name,
         state_topic=state.name,
@@ -164,6 +222,10 @@ def _adapted(device: Device, joints: tuple[str, ...], action: Interface, state: 
         goal_time_s=_or(stated.goal_time_s, DEFAULT_GOAL_TIME_S),
         path_tolerance=DEFAULT_PATH_TOLERANCE if stated.path_tolerance is None else stated.path_tolerance.value,
     )
+
+
+def _end_of(interface: Interface, device: Device) -> Endpoint:
+    return next(source for source in interface.sources if source.node == device.name)
 
 
 def _or(stated: float | None, default: float) -> float:

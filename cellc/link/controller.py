@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from cellc.catalog.controller_kind import ControllerKind
@@ -227,11 +227,20 @@ def _on_real(
 
 
 def _targets(chosen: _Chosen, interfaces: _Interfaces, context: ControlContext) -> tuple[str, ...]:
-    """Return the targets whose hardware has what the controller takes."""
-    device, own = chosen.device, chosen.own
-    have = TARGETS if device is None or device.hardware is None else device.hardware.targets
+    """Return the targets whose hardware has what the controller takes, of each device whose joints it has."""
+    own = chosen.own
+    components = [device.hardware for device in _taken_from(chosen, interfaces, context) if device.hardware is not None]
+    have = tuple(target for target in TARGETS if all(target in component.targets for component in components))
     lacks = (own is not None and own.real_only) or _beyond_the_mock(interfaces, context)
     return tuple(target for target in have if target == "real" or not (lacks and "real" in have))
+
+
+def _taken_from(chosen: _Chosen, interfaces: _Interfaces, context: ControlContext) -> Iterator[Device]:
+    if chosen.device is not None:
+        yield chosen.device
+    for bound in context.devices.values():
+        if any(joint.name in interfaces.joints for joint in bound.device.joints):
+            yield bound.device
 
 
 def _beyond_the_mock(interfaces: _Interfaces, context: ControlContext) -> bool:

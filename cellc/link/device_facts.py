@@ -259,6 +259,7 @@ def _step(facts: CommissioningFacts, known: Placeholders) -> CommissioningStep:
         powers=facts.powers,
         log=facts.log,
         run=facts.run,
+        by=facts.by,
     )
 
 
@@ -288,7 +289,7 @@ def _vendor_safety(facts: DeviceModel, known: Placeholders, holding: frozenset[s
         ending=told(safety.ending),
         ended=told(safety.ended),
         modes=safety.modes,
-        recovery=tuple(RecoveryProcedure(state=one.state, steps=told(one.steps)) for one in safety.recovery),
+        recovery=tuple(RecoveryProcedure(state=one.state, steps=told(one.steps), by=one.by) for one in safety.recovery),
         watchdog=safety.watchdog,
     )
 

@@ -159,7 +159,9 @@ def _shared(controllers: tuple[Controller, ...]) -> dict[str, tuple[str, ...]]:
 
 def _of_device(bound: BoundDevice, nodes: tuple[Node, ...], spec: CellSpec, resolver: QosResolver) -> EndName:
     device = bound.device
-    own = next((node.full_name for node in nodes if node.device == device.name), f"/{device.name}")
+    alone = device.architecture == "direct_sdk" and bool(device.actuated_joints)  # its adapter has its name
+    names = () if alone else (node.full_name for node in nodes if node.device == device.name)
+    own = next(iter(names), f"/{device.name}")
     return EndName(
         node=device.name,
         full_name=own,

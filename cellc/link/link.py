@@ -15,7 +15,7 @@ from cellc.cell.motion import CartesianGoal, NamedPose, Octomap, Pipeline, Plann
 from cellc.cell.site import Versions
 from cellc.description.model import Description
 from cellc.diagnostics import Diagnostic, Outcome, Severity, Span, did_you_mean
-from cellc.link.control import behind_adapters, bind_adapters, link_managers
+from cellc.link.control import as_driven, bind_adapters, link_managers
 from cellc.link.controller import ControlContext
 from cellc.link.derived import Derivation, derive_interfaces
 from cellc.link.devices import BoundDevice, link_devices
@@ -139,7 +139,7 @@ def _link_with_devices(
         behaviours={controller.plugin: controller.behaviour for controller in controllers},
     )
     parts = (linked_devices, placed, centers, nodes, managers, interfaces, planned, rehearsals, uncertainty)
-    linked = behind_adapters(_with_plans(cell, planned.value))
+    linked = as_driven(_with_plans(cell, planned.value))
     return Outcome(linked, tuple(problem for part in parts for problem in part.diagnostics))
 
 

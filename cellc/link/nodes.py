@@ -7,7 +7,9 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from cellc.cell.control import ControllerManager
-from cellc.cell.interface import Node, NodeSource
+from cellc.cell.device import Device
+from cellc.cell.interface import Node, NodeSource, ParameterValue
+from cellc.cell.site import UNKNOWN
 from cellc.diagnostics import Diagnostic, Outcome, Severity, Span, YamlPath
 from cellc.link.devices import BoundDevice
 from cellc.link.frames import ROBOT_STATE_PUBLISHER
@@ -28,12 +30,10 @@ _RUN = re.compile(r"[A-Za-z][A-Za-z0-9_-]*/[A-Za-z0-9_][A-Za-z0-9_.+-]*")
 def link_nodes(spec: CellSpec, document: SourceDocument, devices: tuple[BoundDevice, ...]) -> Outcome[tuple[Node, ...]]:
     """Bind the nodes of the spec to their hosts, and add the drivers that the catalog names."""
     nodes: list[Node] = []
-    problems: list[Diagnostic] = []
+    problems = [_not_a_run(run, document, path) for run, path in _runs(spec) if not _RUN.fullmatch(run)]
     for name, written in spec.nodes.items():
         path = ("nodes", name)
         package, _, executable = written.run.partition("/")
-        if not _RUN.fullmatch(written.run):
-            problems.append(_not_a_run(written.run, document, (*path, "run")))
         if written.host is not None and written.host not in spec.hosts:
             problems.append(unknown_name("unknown-host", written.host, "host", spec.hosts, document, (*path, "host")))
         nodes.append(
@@ -54,7 +54,16 @@ def link_nodes(spec: CellSpec, document: SourceDocument, devices: tuple[BoundDev
                 parameters=dict(written.parameters),
             )
         )
-    return Outcome((*nodes, *_driver_nodes(spec, devices)), tuple(problems))
+    return Outcome((*nodes, *_adapter_nodes(spec, devices), *_driver_nodes(spec, devices)), tuple(problems))
+
+
+def _runs(spec: CellSpec) -> Iterator[tuple[str, tuple[str, ...]]]:
+    """Yield the programs that the spec names, each with its place."""
+    for name, node in spec.nodes.items():
+        yield node.run, ("nodes", name, "run")
+    for name, device in spec.devices.items():
+        if device.adapter is not None and device.adapter.run != UNKNOWN:
+            yield device.adapter.run, ("devices", name, "adapter", "run")
 
 
 def standard_nodes(
@@ -120,6 +129,34 @@ def _description_publisher(spec: CellSpec, name: str, path: YamlPath, span: Span
         language="cpp",
         parameters={},
     )
+
+
+def _adapter_nodes(spec: CellSpec, devices: tuple[BoundDevice, ...]) -> Iterator[Node]:
+    """Yield the programs that reach a device by the library of its vendor: never beside the mock, whatever they are."""
+    for device in (bound.device for bound in devices):
+        adapter = spec.devices[device.name].adapter
+        if device.architecture == "direct_sdk" and adapter is not None and adapter.run != UNKNOWN:
+            package, _, executable = adapter.run.partition("/")
+            yield Node(
+                name=device.name,
+                path=(*device.path, "adapter"),
+                span=device.span,
+                source=NodeSource.DEVICE,
+                package=package,
+                executable=executable,
+                host=device.host or home_host(spec),
+                owner=spec.owners.responsibilities.vendor_safety,
+                real_only=True,
+                device=device.name,
+                parameters=_reached(device),
+            )
+
+
+def _reached(device: Device) -> dict[str, ParameterValue]:
+    way = device.connection
+    if way is None or (way.address or way.port) is None:
+        return {}
+    return {"address": way.address} if way.address is not None else {"port": way.port or UNKNOWN}
 
 
 def _driver_nodes(spec: CellSpec, devices: tuple[BoundDevice, ...]) -> Iterator[Node]:

@@ -203,8 +203,9 @@ def _commanding(cell: Cell) -> Iterator[Controller]:
 
 
 def _driven(cell: Cell) -> Iterator[Device]:
-    """Yield the devices that a node of their own moves on real hardware."""
-    return (device for device in _moving(cell) if device.driver is not None)
+    """Yield the devices that a node of their vendor moves on real hardware."""
+    adapted = {one.device for one in cell.adapters}
+    return (device for device in _moving(cell) if device.driver is not None and device.name not in adapted)
 
 
 def _directly(cell: Cell) -> Iterator[Device]:

@@ -111,8 +111,14 @@ class KinematicsSpec(SpecModel):
 
 
 class AdapterSpec(SpecModel):
-    """What guards the commands of a direct SDK: its adapter's own contract."""
+    """The adapter of a direct SDK: the program that it is, and what guards its commands."""
 
+    run: Pin = Field(
+        "UNKNOWN",
+        description="Package and executable of its node, which has the name of the device; it runs on the real target "
+        "alone, with the parameters `address` or `port`, and in rad, m and s `joints` and the four that stand here.",
+        examples=["my_arm_adapter/adapter"],
+    )
     command_timeout: TimeShift | None = Field(
         None, description="Watchdog: silence after which the device stops.", examples=["20 ms"]
     )
@@ -195,7 +201,9 @@ class DeviceSpec(SpecModel):
         "ros2", description="Who owns the command path down to the servo loop.", examples=["hybrid"]
     )
     adapter: AdapterSpec | None = Field(
-        None, description="Watchdog of a direct SDK.", examples=[{"command_timeout": "20 ms", "stop_time": "100 ms"}]
+        None,
+        description="Program and watchdog of a direct SDK.",
+        examples=[{"run": "my_arm_adapter/adapter", "command_timeout": "20 ms", "stop_time": "100 ms"}],
     )
     simulated_joints: dict[Text, SimulatedJointSpec] = Field(
         default_factory=dict,

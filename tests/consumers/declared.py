@@ -37,7 +37,8 @@ _TEXT: Mapping[str, Any] = {"type": "string", "default_value": ""}
 _NAME: Mapping[str, Any] = {"type": "string", "default_value": "", "validation": {"not_empty<>": None}}
 # State alone, with few parameters: Universal_Robots_ROS2_Driver 3.8.0 ur_controllers/src/*_parameters.yaml,
 # ros2_controllers 4.36.0 pose_broadcaster_parameters.yaml, franka_ros2 2.5.0
-# franka_robot_state_broadcaster_parameters.yaml.
+# franka_robot_state_broadcaster_parameters.yaml, picknik_controllers c605b68 picknik_reset_fault_controller.cpp, which
+# declares none.
 _BROADCASTERS: Mapping[str, Mapping[str, Any]] = {
     "ur_controllers/SpeedScalingStateBroadcaster": {
         "tf_prefix": _TEXT,
@@ -54,6 +55,7 @@ _BROADCASTERS: Mapping[str, Mapping[str, Any]] = {
         "arm_prefix": _TEXT,
         "convenience_publish_rate": {"type": "int", "default_value": 1000},
     },
+    "picknik_reset_fault_controller/PicknikResetFaultController": {},
 }
 # Of older declarations the default is empty, and the code that reads it refuses that.
 _TRAJECTORY = ("joints", "command_interfaces", "state_interfaces")

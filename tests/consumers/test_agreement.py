@@ -16,6 +16,7 @@ import pytest
 from cellc.mock.folder import read_folder
 from tests.consumers.matrix import PLANNING, build, every_build, every_planning_build, spec_for
 from tests.consumers.parameter_files import sections, told
+from tests.consumers.refused_parameters import claimed, interfaces
 from tests.consumers.starting import node_name, processes, written, written_managers
 from tests.emit.cells import contract_data
 from tests.foreign_yaml import safe_load
@@ -122,21 +123,38 @@ def test_contract_has_the_controllers_of_the_parameter_files(cell: str, distro: 
                 assert one["state_interfaces"] == [f"{joint}/{kind}" for joint in joints for kind in kinds]
 
 
-def _si(text: str) -> float:
-    number, unit = text.split()
-    return float(number) * {"s": 1.0, "ms": 1e-3, "rad": 1.0, "mm": 1e-3, "m": 1.0, "deg": 0.017453292519943295}[unit]
+_UNITS = {"s": 1.0, "ms": 1e-3, "rad": 1.0, "mm": 1e-3, "m": 1.0, "deg": 0.017453292519943295}
+
+
+def _quantities(text: str) -> list[tuple[float, bool]]:
+    """Return each number in SI, and whether it is a length: a unit is that of all numbers since the last unit."""
+    found: list[tuple[float, bool]] = []
+    for numbers, unit in re.findall(r"((?:-?[\d.]+ )+)([a-z]+)", text):
+        found += [(float(number) * _UNITS[unit], unit in ("m", "mm")) for number in numbers.split()]
+    return found
+
+
+def _si(text: str, *, length: bool = False) -> float:
+    (number,) = [value for value, linear in _quantities(text) if linear is length]
+    return number
 
 
 @every_build
 def test_tolerances_are_those_of_the_spec_for_every_joint(cell: str, distro: str) -> None:
     texts = build(cell, distro).texts
+    tags = fromstring(build(cell, distro).urdf("mock")).findall("joint")
+    sliding = {tag.attrib["name"] for tag in tags if tag.get("type") == "prismatic"}
     loops = [one for one in processes(cell, distro, "mock") if one.executable == "ros2_control_node"]
     for process, (namespace, manager) in zip(loops, written_managers(cell, distro), strict=True):
         for name, one in manager["controllers"].items():
             own = told(texts, process.files, f"{namespace}/{name}")
             for joint in own.get("joints", ()) if "goal_time" in one else ():
-                assert own[f"constraints.{joint}.trajectory"] == pytest.approx(_si(one["path_tolerance"]))
-                assert own[f"constraints.{joint}.goal"] == pytest.approx(_si(one["goal_tolerance"]))
+                assert own[f"constraints.{joint}.trajectory"] == pytest.approx(
+                    _si(one["path_tolerance"], length=joint in sliding)
+                )
+                assert own[f"constraints.{joint}.goal"] == pytest.approx(
+                    _si(one["goal_tolerance"], length=joint in sliding)
+                )
             if "goal_time" in one:
                 assert own["constraints.goal_time"] == pytest.approx(_si(one["goal_time"]))
                 assert own["constraints.stopped_velocity_tolerance"] > 0
@@ -238,14 +256,27 @@ def _planned_at_a_driver(texts: dict[str, str], cell: str, distro: str) -> bool:
     return any(device["driver"] and name in planned for name, device in devices.items())
 
 
+def _planned_on_the_mock_alone(cell: str, distro: str) -> bool:
+    """Tell whether move_group commands a controller that claims what no component has on real hardware."""
+    texts, offered = build(cell, distro).texts, interfaces(build(cell, distro).urdf("real"))
+    loops = [one for one in processes(cell, distro, "mock") if one.executable == "ros2_control_node"]
+    return any(
+        one.get("client") == "move_group"
+        and not set(claimed(told(texts, process.files, f"{namespace}/{name}"))) <= offered
+        for process, (namespace, manager) in zip(loops, written_managers(cell, distro), strict=True)
+        for name, one in manager["controllers"].items()
+    )
+
+
 @every_build
 def test_package_has_every_part(cell: str, distro: str) -> None:
     texts = build(cell, distro).texts
     descriptions = {f"urdf/{cell}.mock.urdf", f"urdf/{cell}.real.urdf", f"config/moveit/{cell}.srdf"}
     assert _PARTS | descriptions <= set(texts)
     spec = safe_load(spec_for(cell, distro))
-    # One file of controllers, unless a driver's own node takes goals on real hardware.
-    called = ("controllers.mock", "controllers.real") if _planned_at_a_driver(texts, cell, distro) else ("controllers",)
+    # One file of controllers, unless a driver's own node takes goals on real hardware, or nothing moves a joint there.
+    apart = _planned_at_a_driver(texts, cell, distro) or _planned_on_the_mock_alone(cell, distro)
+    called = ("controllers.mock", "controllers.real") if apart else ("controllers",)
     planning = _FOR_PLANNING | {f"config/moveit/{name}.yaml" for name in called}
     assert planning & set(texts) == (planning if cell in PLANNING else set())  # nobody reads them where no node plans
     assert {f"middleware/{host}.sh" for host in spec.get("hosts", {})} <= set(texts)
@@ -304,9 +335,8 @@ def test_named_states_are_the_poses_of_the_spec(cell: str, distro: str) -> None:
     states = {(one.attrib["name"], one.attrib["group"]): one for one in semantic.findall("group_state")}
     for pose, groups in written(cell)["motion"].get("poses", {}).items():
         for group, text in groups.items():
-            *numbers, unit = text.split()
             values = [float(joint.attrib["value"]) for joint in states[pose, group].findall("joint")]
-            assert values == pytest.approx([_si(f"{number} {unit}") for number in numbers], abs=1e-12)
+            assert values == pytest.approx([value for value, _ in _quantities(text)], abs=1e-12)
 
 
 @every_build

@@ -158,7 +158,11 @@ def test_spawners_follow_the_spec_and_activate_nothing(cell: str, distro: str, t
         own = [line for line in spawned if line[line.index("-c") :][:2] == flag]
         names = [name for line in own for name in line[: line.index("-c")]]
         written_ = manager["controllers"]
-        assert names == [name for name in written_ if _has_hardware(cell, distro, target, f"{namespace}/{name}")]
+        order = list(written_)
+        wanted = [name for name in order if _has_hardware(cell, distro, target, f"{namespace}/{name}")]
+        # What one target alone has is spawned by itself, after what both have.
+        assert sorted(names, key=order.index) == wanted
+        assert all(list(line[: line.index("-c")]) == [one for one in order if one in line] for line in own)
         # Humble's manager hands its own remaps to its controllers; later ones warn, and ask it of the spawner.
         moved = () if distro == "humble" or not namespace else (f"--remap {namespace}/joint_states:=/joint_states",)
         told = ("--inactive", *(("--controller-ros-args", *moved) if moved else ()))

@@ -117,12 +117,16 @@ def test_audit_has_the_way_back_that_the_catalogue_knows(cell: str, distro: str)
     wanted: list[str] = []
     limits: list[str] = []
     for device, one in written(cell)["devices"].items():
-        facts = catalog_facts(one["model"])
+        facts, by = catalog_facts(one["model"]), _driven_by(one)
         assert one.get("program", {"mode": "local"})["mode"] == "local"  # of these cells each is started at the pendant
         for way in facts.get("safety", {}).get("recovery", ()):
+            if way.get("by", by) != by:
+                continue
             steps = [step if isinstance(step, str) else step["does"] for step in way["steps"] if _at_pendant(step)]
             wanted += [f"{device}, {way['state']}:", *(f"{n}. {step}" for n, step in enumerate(steps, 1))]
         limits += [f": {limit}" for limit in facts.get("mock_cannot_prove", ())]
+        limits += [pair["because"] for pair in facts.get("allowed_collisions", ())]
+        limits += [": its adapter - no launch file starts it on the mock"] if by == "adapter" else []
     assert [line for line in text.splitlines() if re.match(r"\d+\. |\w+, \w+:$", line)] == wanted
     proof = build(cell, distro).texts["audit.md"].split("\n## What the mock cannot prove\n")[1]
     assert len([line for line in proof.splitlines() if line.startswith("- ")]) == len(limits)
@@ -175,10 +179,16 @@ def test_gates_have_what_people_do_at_each_device(cell: str, distro: str) -> Non
     texts = build(cell, distro).texts
     page = (texts["gates/promotion.md"] + texts["gates/network.md"]).replace("\\", "")
     for device, one in written(cell)["devices"].items():
+        by = _driven_by(one)
         for step in catalog_facts(one["model"]).get("commissioning", ()):
             here = distro in step.get("only", [distro]) and "{" not in step["does"]
-            if here and step.get("when", ["pendant"]) == ["pendant"]:  # of these cells each is started there
+            # Of these cells each is started there.
+            if here and step.get("when", ["pendant"]) == ["pendant"] and step.get("by", by) == by:
                 assert f"{device}: {step['does']}" in page
+
+
+def _driven_by(device: dict[str, object]) -> str:
+    return "adapter" if device.get("architecture") == "direct_sdk" else "driver"
 
 
 def _at_pendant(step: str | dict[str, object]) -> bool:

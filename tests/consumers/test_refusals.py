@@ -20,6 +20,8 @@ _REAL = {
     "ur_robot_driver/URPositionHardwareInterface",
     "robotiq_driver/RobotiqGripperHardwareInterface",
     "franka_hardware/FrankaHardwareInterface",
+    "kortex_driver/KortexMultiInterfaceHardware",  # ros2_kortex@1fdbef3, kortex_driver/hardware_interface_plugin.xml
+    "openarm_hardware/OpenArmHW",  # openarm_ros2@492b307, openarm_hardware/openarm_hardware.xml
 }
 # Recorded as coming up, and still wrong: ignored without a word, or changed with a warning.
 _ACCEPTED_AND_DANGEROUS = {"owntype_spawner_p", "u_dup_iface", "unc_bad", "y_extra_param", "y_upd_nondiv"}

@@ -72,8 +72,12 @@ class Case:
 
 
 def _cells_with(device: str) -> tuple[str, ...]:
-    """Return the cells that a device is held in: a further one only where those that go through everything lack it."""
-    having = [cell for cell in EVERY_CELL if f"model: {device}\n" in spec_text(cell)]
+    """Return the cells that a device is held in: a further one only where those that go through everything lack it.
+
+    Where an adapter on the library of its vendor drives it, no release of the driver is loaded.
+    """
+    loaded = re.compile(rf"model: {device}\n(?!(?:    .*\n)*?    architecture: direct_sdk)")
+    having = [cell for cell in EVERY_CELL if loaded.search(spec_text(cell))]
     return tuple(cell for cell in having if cell in CELLS) or tuple(having)
 
 

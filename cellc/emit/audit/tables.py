@@ -19,6 +19,7 @@ from cellc.deploy.labels import (
     rate_label,
     units,
     watchdog,
+    watched_stream,
 )
 from cellc.deploy.processes import past_controllers
 from cellc.formats.escape import code
@@ -115,6 +116,8 @@ def _requests(cell: Cell) -> Iterator[tuple[str, ...]]:
             ends = f"{_names(one.sinks)} → {code(one.name)} → {_names(one.sources)}"
             time = one.time_source or _NOT_STATED
             qos = _qos((*one.sinks, *one.sources))
+            by = next((adapted.device for adapted in cell.adapters if adapted.action == one.name), None)
+            watched = None if by is None else watched_stream(cell, cell.device(by))
             yield (
                 ends,
                 frame_label(one),
@@ -122,7 +125,7 @@ def _requests(cell: Cell) -> Iterator[tuple[str, ...]]:
                 "on request",
                 time,
                 qos,
-                "none",
+                watched or "none",
                 failure_label(one),
             )
 

@@ -138,7 +138,7 @@ def _sending(cell: Cell, goal: FirstGoal) -> Iterator[Element]:
     )
     named = ("--action", goal.action, "--states", goal.topic, "--joint", goal.joint)
     absent = (f"--absent={node}" for node in goal.absent)
-    words = launch_words(*named, *told, *absent, *goal.controller.joints)
+    words = launch_words(*named, *told, *absent, *goal.joints)
     yield comment("one joint, a little, from where it stands; nothing that asks for motion may be there")
     yield element(
         "node",

@@ -7,7 +7,7 @@ Example that is reported:
 
 ```yaml
 devices:
-  gripper: {architecture: direct_sdk}  # expect at architecture
+  gripper: {architecture: direct_sdk, adapter: {run: cell_drivers/fingers}}  # expect at architecture
 interfaces:
   /gripper/state: {topic: sensor_msgs/msg/JointState, from: gripper, to: {task: {depth: 1}}, wants: newest,
                    rate: 20 Hz, max_age: 100 ms, on_stale: reject_goal}
@@ -19,7 +19,7 @@ Example that is accepted:
 
 ```yaml
 devices:
-  gripper: {architecture: direct_sdk}
+  gripper: {architecture: direct_sdk, adapter: {run: cell_drivers/fingers}}
 interfaces:
   /gripper/state: {topic: sensor_msgs/msg/JointState, from: gripper, to: {task: {depth: 1}}, wants: newest,
                    rate: 20 Hz, max_age: 100 ms, on_stale: reject_goal}
