@@ -69,6 +69,9 @@ class Drawing {
       this.before.hideSame(this.model);
     }
     this.labels = new Labels(place.querySelector(".labels"), this.camera);
+    for (const name of ["pointerdown", "wheel", "keydown"]) {
+      this.canvas.addEventListener(name, () => { this.turned = true; });
+    }
     this.orbit = new Orbit(this.camera, this.canvas, () => this.request());
     this.floor();
     this.fit();
@@ -112,6 +115,7 @@ class Drawing {
     this.renderer.setSize(width, height);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
+    if (!this.turned) this.fit(); // a phone that is turned, before anybody moved the cell
     this.request();
   }
 
