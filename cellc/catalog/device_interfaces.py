@@ -95,7 +95,8 @@ class HardwareFacts(CatalogModel):
     ``left_out_when_empty`` are parameters that the plugin has a default for: an empty ``<param>`` makes the reader
     of ros2_control complain. ``commands`` is what a kind of controller claims on this hardware. ``command_timeout``
     is the longest silence of the controller manager before the device ends what it does. ``nodes`` are those that the
-    plugin makes in the manager's process. ``modes`` exclude each other.
+    plugin makes in the manager's process. ``modes`` exclude each other. ``fixed_joint_names`` where the plugin makes
+    the names of its joints in its code: what the description calls them is nothing to it.
     """
 
     plugin: BareName
@@ -110,6 +111,7 @@ class HardwareFacts(CatalogModel):
     command_timeout: Duration | None = None
     nodes: tuple[InnerNodeFacts, ...] = ()
     modes: CommandModes | None = None
+    fixed_joint_names: bool = False
     source: Text
 
     def release(self, distro: Distro, driver: str) -> HardwareRelease | None:

@@ -137,10 +137,11 @@ class VersionRow(CatalogModel):
 
 
 class VendorDescriptionFacts(CatalogModel):
-    """The file in the vendor's package, and the arguments by which it is this model; links have the same names."""
+    """The file in the vendor's package, its arguments for this model, and links with other names: theirs to ours."""
 
     file: Text
     arguments: dict[Token, Text] = Field(default_factory=dict)
+    links: dict[Token, Token] = Field(default_factory=dict)
     source: Text
 
 
@@ -293,7 +294,7 @@ class LimitFacts(CatalogModel):
 
 
 class GripperFacts(CatalogModel):
-    """A gripper as its joint moves it: ``open`` and ``closed`` are joint positions, ``stroke`` the way of the jaws."""
+    """A gripper: ``open`` and ``closed`` are joint positions, ``stroke`` and ``max_speed`` are of jaw against jaw."""
 
     joint: Token
     open: JointPosition

@@ -48,6 +48,10 @@ def starter_spec(
 def _device(name: str, entry: CatalogDevice, arms: list[str], devices: Mapping[str, CatalogDevice]) -> Iterator[str]:
     yield f"  {name}:"
     yield f"    model: {entry.model.model}"
+    control = entry.model.control
+    real = None if control is None else control.hardware.real
+    if real is not None and real.fixed_joint_names:
+        yield '    prefix: ""    # the driver makes the names of joints in its code'
     if name in arms:
         # A metre apart: arms of one cell do not start inside each other.
         yield f"    mount: {{parent: world, xyz: 0 {arms.index(name)} 0 m}}"

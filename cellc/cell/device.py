@@ -147,12 +147,16 @@ class SimulatedJoint(Entity):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Gripper:
-    """A gripper as its joint moves it: positions and their tolerance in rad or m, the largest force in N."""
+    """A gripper as its joint moves it: positions and their tolerance in rad or m, the largest force in N.
+
+    ``max_velocity`` is that of the joint as the jaws close at the device's own speed, in rad/s or m/s; None of none.
+    """
 
     joint: str
     open: float
     closed: float
     max_force: float
+    max_velocity: float | None
     goal_tolerance: float
 
 

@@ -98,6 +98,7 @@ class HardwareComponent:
         nodes: those that the real plugin makes in the process of the controller manager.
         command_timeout_s: the longest silence before the device ends what it does; None where nobody told.
         modes: ways of commanding the real one that exclude each other; None where nobody told.
+        fixed_joint_names: the real plugin makes the names of its joints in its code.
     """
 
     name: str
@@ -115,6 +116,7 @@ class HardwareComponent:
     told: Mapping[Need, Told] = field(default_factory=dict)
     nodes: tuple[InnerNode, ...] = ()
     modes: CommandModes | None = None
+    fixed_joint_names: bool = False
 
     @property
     def kept_by_a_claim(self) -> tuple[Need, ...]:

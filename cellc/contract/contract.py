@@ -190,6 +190,9 @@ class ContractGripper(ContractModel):
     open: Coordinate = Field(description="Position when open.")
     closed: Coordinate = Field(description="Position when closed on nothing.")
     max_effort: Magnitude = Field(description="Largest effort, N or Nm.")
+    max_velocity: PositiveMagnitude | None = Field(
+        None, description="Speed of the joint as the jaws move, rad/s or m/s; null where nobody tells."
+    )
 
 
 def hand_group(device: str, kind: str) -> str:
@@ -250,7 +253,7 @@ class ContractDevice(ContractModel):
     kind: str = Field(description="Kind of device.")
     prefix: str = Field(description="Put before its joint and link names.")
     root_link: str = Field(description="Link that is mounted.")
-    architecture: str = Field(description="Who owns the command path.")
+    architecture: str = Field("ros2", description="Who owns the command path.")
     hardware_component: str | None = Field(None, description="Name of its ros2_control component.")
     driver: ContractDriver | None = Field(None, description="What moves it where it has no component on real hardware.")
     speed_scaling_interface: str | None = Field(None, description="State interface of its speed scaling.")

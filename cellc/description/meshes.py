@@ -9,9 +9,10 @@ from __future__ import annotations
 import hashlib
 import os
 import stat
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from xml.etree import ElementTree
 
 from cellc.description.model import Mesh
 from cellc.description.packages import lies_under, package_folders, package_path, repository_of
@@ -100,6 +101,24 @@ def identify_all(meshes: Iterable[Mesh], roots: Sequence[Path]) -> dict[str, Mes
         if len(files) > limits().mesh_shapes or together > most:
             break
     return files
+
+
+def absent(meshes: Iterable[Mesh], roots: Sequence[Path]) -> frozenset[str]:
+    """Return the names of the meshes that are not there; what is wrong with others is not asked."""
+    files = identify_all(meshes, roots)
+    return frozenset(
+        name for name, file in files.items() if isinstance(file, MeshError) and file.code == MESH_NOT_FOUND
+    )
+
+
+def without_shapes(urdf: str, names: Container[str]) -> str:
+    """Return a description without the collision shapes that are of some meshes: such a link touches nothing there."""
+    root = ElementTree.fromstring(urdf)
+    for link in root.iter("link"):
+        for collision in link.findall("collision"):
+            if any(mesh.get("filename", "") in names for mesh in collision.iter("mesh")):
+                link.remove(collision)
+    return ElementTree.tostring(root, encoding="unicode")
 
 
 def readable(files: Mapping[str, MeshFile | MeshError]) -> tuple[MeshFile, ...]:

@@ -6,6 +6,7 @@ report them where they stand.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Union
 
@@ -93,6 +94,10 @@ class Link:
     visuals: tuple[Visual, ...]
     collisions: tuple[Collision, ...]
     span: Span | None = None
+
+    def collision_meshes(self) -> tuple[Mesh, ...]:
+        """Return the meshes among its collision shapes, in their order."""
+        return tuple(shape.geometry for shape in self.collisions if isinstance(shape.geometry, Mesh))
 
 
 @dataclass(frozen=True, slots=True)
@@ -252,6 +257,17 @@ class Description:
             for joint in self.joints
         )
         return replace(self, joints=tuple(joints))
+
+    def with_link_names(self, names: Mapping[str, str]) -> Description:
+        """Return the same with other names of some links, in every reference to one too."""
+        if not names:
+            return self
+        links = tuple(replace(link, name=names.get(link.name, link.name)) for link in self.links)
+        joints = tuple(
+            replace(joint, parent=names.get(joint.parent, joint.parent), child=names.get(joint.child, joint.child))
+            for joint in self.joints
+        )
+        return replace(self, links=links, joints=joints)
 
     def renamed(self, prefix: str) -> Description:
         """Put ``prefix`` before the name of every link and joint, and in every reference to one."""

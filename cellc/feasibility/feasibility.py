@@ -10,8 +10,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TypeVar
 
+from cellc.description.meshes import MESH_NOT_FOUND
 from cellc.feasibility.answers import DisabledAnswer, DisabledLinks, MotionAnswer
-from cellc.feasibility.meshes import mesh_contents, mesh_faults, mesh_roots, spec_of
+from cellc.feasibility.meshes import mesh_contents, mesh_faults, mesh_roots, spec_of, with_shapes_at_hand
 from cellc.feasibility.question import MotionQuestion, motion_question, shapes_and_joints
 from cellc.feasibility.touching_links import touching_links
 from cellc.graph.cell_graph import CellGraph
@@ -26,8 +27,8 @@ _Answer = TypeVar("_Answer", DisabledAnswer, MotionAnswer)
 def disabled_links(graph: CellGraph) -> DisabledAnswer:
     """Return the pairs with their reasons, for the SRDF and the contract.
 
-    Where the planner refuses the description, because it names a mesh that is not here for instance, these are the
-    pairs that follow from the tree alone.
+    Where the planner refuses the description, these are the pairs that follow from the tree alone; so are those of
+    links whose meshes are not here.
     """
     return graph.once(_with_allowed)
 
@@ -50,18 +51,24 @@ def _with_allowed(graph: CellGraph) -> DisabledAnswer:
 
 
 def _disabled(graph: CellGraph) -> DisabledAnswer:
-    urdf = shapes_and_joints(graph.cell)
     if refused := _refused(graph):
         return DisabledAnswer(_touching(graph), 0, *refused)
+    urdf = with_shapes_at_hand(whole := shapes_and_joints(graph.cell), graph)
     answer = _kept("disabled", urdf, graph, DisabledAnswer, lambda: _sampled(urdf, mesh_roots(graph.cell)))
-    if not answer.refused:
-        return answer
-    return DisabledAnswer(_touching(graph), 0, answer.refused, answer.limit)
+    if answer.refused:
+        return DisabledAnswer(_touching(graph), 0, answer.refused, answer.limit)
+    return answer if urdf == whole else replace(answer, pairs=_joined(answer.pairs, _touching(graph)))
+
+
+def _joined(sampled: tuple[DisabledLinks, ...], touching: tuple[DisabledLinks, ...]) -> tuple[DisabledLinks, ...]:
+    """Add the pairs of links whose shapes are not there, and which others may know."""
+    known = {(pair.first, pair.second) for pair in sampled}
+    return tuple(sorted((*sampled, *(pair for pair in touching if (pair.first, pair.second) not in known))))
 
 
 def _refused(graph: CellGraph) -> tuple[str, str] | None:
     """Return why the shapes are not looked at, and the limit that they are beyond if it is one; None where they are."""
-    if faults := mesh_faults(graph):
+    if faults := [fault for fault in mesh_faults(graph) if fault.code != MESH_NOT_FOUND]:
         return faults[0].message, ""
     shapes = len(graph.cell.scene) + sum(len(part.link.collisions) for part in graph.model.links())
     pairs, most = shapes * (shapes - 1) // 2, limits().robot_pairs
@@ -88,9 +95,15 @@ def _motion(graph: CellGraph) -> MotionAnswer:
     if refused := _refused(graph):
         message, limit = refused
         return MotionAnswer(refused=message, limit=limit)
-    question = motion_question(graph)
+    question = question_at_hand(graph)
     roots = mesh_roots(graph.cell)
     return _kept("motion", repr(question), graph, MotionAnswer, lambda: _answered(question, roots))
+
+
+def question_at_hand(graph: CellGraph) -> MotionQuestion:
+    """Ask about the poses and goals of a cell with the shapes that are there."""
+    question = motion_question(graph)
+    return replace(question, urdf=with_shapes_at_hand(question.urdf, graph))
 
 
 def _answered(question: MotionQuestion, roots: tuple[Path, ...]) -> MotionAnswer:

@@ -6,7 +6,16 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from cellc.cell.cell import Cell
-from cellc.description.meshes import MeshError, MeshFacts, MeshFile, identify_all, readable, unusable
+from cellc.description.meshes import (
+    MESH_NOT_FOUND,
+    MeshError,
+    MeshFacts,
+    MeshFile,
+    identify_all,
+    readable,
+    unusable,
+    without_shapes,
+)
 from cellc.description.model import Mesh
 from cellc.diagnostics import Span, YamlPath
 from cellc.graph.cell_graph import CellGraph
@@ -47,6 +56,12 @@ def mesh_contents(graph: CellGraph) -> str:
     )
 
 
+def with_shapes_at_hand(urdf: str, graph: CellGraph) -> str:
+    """Return a description of the cell without the collision shapes whose meshes are not there."""
+    missing = {fault.name for fault in mesh_faults(graph) if fault.code == MESH_NOT_FOUND}
+    return without_shapes(urdf, missing) if missing else urdf
+
+
 def mesh_faults(graph: CellGraph) -> tuple[MeshFault, ...]:
     """Return the meshes of collision shapes that cannot be used, in the order of the descriptions."""
     return graph.once(_faults)
@@ -67,12 +82,7 @@ def _faults(graph: CellGraph) -> tuple[MeshFault, ...]:
 
 
 def _meshes(graph: CellGraph) -> list[tuple[Mesh, ModelLink]]:
-    return [
-        (shape.geometry, part)
-        for part in graph.model.links()
-        for shape in part.link.collisions
-        if isinstance(shape.geometry, Mesh)
-    ]
+    return [(mesh, part) for part in graph.model.links() for mesh in part.link.collision_meshes()]
 
 
 def _facts(file: MeshFile, files: tuple[MeshFile, ...], spec: Path) -> MeshFacts:

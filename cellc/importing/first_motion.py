@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from cellc.feasibility import motion_answer
+from cellc.feasibility.feasibility import question_at_hand
 from cellc.feasibility.meshes import mesh_roots
-from cellc.feasibility.question import motion_question
 from cellc.graph.cell_graph import CellGraph
 from cellc.importing.chain import Chain, away_of, back_of, home_of
 
@@ -42,6 +42,6 @@ def _free_way(graph: CellGraph, group: str, chain: Chain) -> Callable[[Configura
     from cellc.feasibility.compute import planner_of  # loads the robot library
     from cellc.planning import JointPath
 
-    planner = planner_of(motion_question(graph), group, mesh_roots(graph.cell))
+    planner = planner_of(question_at_hand(graph), group, mesh_roots(graph.cell))
     home = tuple(home_of(joint) for joint in chain.joints)
     return lambda goal: isinstance(planner.plan_to_configuration(home, goal, max_iterations=0), JointPath)

@@ -10,7 +10,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from cellc.description.meshes import MeshError, identify
-from cellc.description.model import Description, Mesh
+from cellc.description.model import Description
 from cellc.description.packages import MANIFEST, declared_name, folders_elsewhere, root_of
 from cellc.description.urdf_reader import read_urdf
 from cellc.description.xacro_expansion import expand_xacro
@@ -123,8 +123,7 @@ def _packaged(name: str, file: Path) -> str:
 
 
 def _collision_meshes(description: Description) -> Iterator[str]:
-    shapes = (shape.geometry for link in description.links for shape in link.collisions)
-    yield from dict.fromkeys(shape.filename for shape in shapes if isinstance(shape, Mesh))
+    yield from dict.fromkeys(mesh.filename for link in description.links for mesh in link.collision_meshes())
 
 
 def _located(name: str, file: Path, root: Path) -> Path | None:

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from cellc.catalog.device_interfaces import ImageFacts, ViewFacts
 from cellc.catalog.device_model import CommissioningStep as CommissioningFacts
-from cellc.catalog.device_model import DeviceModel
+from cellc.catalog.device_model import DeviceModel, GripperFacts
 from cellc.catalog.robot_facts import HumanStep
 from cellc.cell.device import (
     Adapter,
@@ -197,8 +197,18 @@ def _gripper(facts: DeviceModel, prefix: str) -> Gripper | None:
         open=one.open.si,
         closed=one.closed.si,
         max_force=one.max_force.si,
+        max_velocity=_joint_speed(one),
         goal_tolerance=float(one.goal_tolerance.si),
     )
+
+
+def _joint_speed(gripper: GripperFacts) -> float | None:
+    """Return how fast the joint moves as the jaws do at their own speed, in rad/s or m/s; None where it is none.
+
+    The way of a linkage is taken as even along its stroke. A vendor's URDF has another limit, which nobody measured.
+    """
+    way, stroke = abs(float(gripper.closed.si) - float(gripper.open.si)), gripper.stroke.si
+    return gripper.max_speed.si * way / stroke or None if stroke > 0.0 else None
 
 
 def _camera(facts: DeviceModel, written: DeviceSpec, known: Placeholders, prefix: str) -> Camera | None:

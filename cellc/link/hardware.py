@@ -63,7 +63,9 @@ def hardware_component(
     if real is None:
         return component
     made = inner_nodes(real.nodes, "", distro, known.fill)
-    return replace(_with_effects(component, real, distro), nodes=made, modes=_modes(real, control.gpios, prefix))
+    told = _with_effects(component, real, distro)
+    modes = _modes(real, control.gpios, prefix)
+    return replace(told, nodes=made, modes=modes, fixed_joint_names=real.fixed_joint_names)
 
 
 def _modes(real: HardwareFacts, gpios: Container[str], prefix: str) -> CommandModes | None:

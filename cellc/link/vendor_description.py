@@ -43,7 +43,7 @@ def link_vendor_description(
     if read.value is None:
         cause = read.diagnostics[0]
         return replace(found, refused=f"{cause.span.file}:{cause.span.line}: {cause.message}")
-    return replace(found, description=read.value.renamed(prefix))
+    return replace(found, description=read.value.with_link_names(vendor.links).renamed(prefix))
 
 
 def with_vendor_shapes(description: Description, vendor: VendorDescription | None) -> Description:

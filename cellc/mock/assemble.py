@@ -7,7 +7,14 @@ from functools import partial
 from math import inf
 
 from cellc.contract.bring_up import Target
-from cellc.contract.contract import Contract, ContractClock, ContractEndpoint, ContractFrame, ContractInterface
+from cellc.contract.contract import (
+    Contract,
+    ContractClock,
+    ContractEndpoint,
+    ContractFrame,
+    ContractInterface,
+    ContractSimulatedJoint,
+)
 from cellc.mock.adapter.server import AdapterServer
 from cellc.mock.bus.network import EdgeName, Network, QosEvent, QosEventKind
 from cellc.mock.bus.qos import hears, middleware_of, task_node
@@ -195,10 +202,12 @@ def _managers(folder: GeneratedFolder, seed: int) -> Mapping[str, ControllerMana
         )
         for name, manager in contract.managers.items()
     }
-    for joint, facts in contract.simulated_joints.items():
-        nature = JointFault(
-            time_constant_s=facts.lag_s, max_velocity=inf if facts.max_velocity is None else facts.max_velocity
-        )
+    fingers = {one.gripper.joint: one.gripper.max_velocity for one in contract.devices.values() if one.gripper}
+    as_they_are = ContractSimulatedJoint()
+    for joint in dict.fromkeys((*fingers, *contract.simulated_joints)):
+        facts = contract.simulated_joints.get(joint, as_they_are)
+        speed = facts.max_velocity or fingers.get(joint) or inf
+        nature = JointFault(time_constant_s=facts.lag_s, max_velocity=speed)
         noise = Noise.of_joint(joint, facts.noise, seed) if facts.noise else None
         for manager in managers.values():
             manager.disturbances.nature(joint, nature, noise)

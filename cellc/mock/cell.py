@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -50,7 +50,7 @@ def rehearse(
         result = _executed(folder, memory, rehearsal, seed, watch, reality)
     except LimitReachedError as error:
         result = _not_run(rehearsal, error)
-    return replace(result, edited=folder.edited)
+    return replace(result, edited=folder.edited, unseen=memory.model.unseen)
 
 
 def _executed(
@@ -168,6 +168,10 @@ def _findings(plant: Plant) -> tuple[str, ...]:
     )
 
 
+_SHOWN = 12
+"""Links that are named in one line; all are counted."""
+
+
 class MockCell:
     """A generated folder ready to be executed; every run starts from a cell that is off."""
 
@@ -204,14 +208,25 @@ class MockCell:
         return self._folder.rehearsals
 
     @property
-    def unplanned(self) -> str:
-        """Why nothing can be planned, empty where all can."""
-        return self._memory.model.unplanned
+    def unseen(self) -> tuple[str, ...]:
+        """Links with a shape whose mesh is not there: nothing is planned round them."""
+        return self._memory.model.unseen
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """How the folder differs from its manifest, one line each."""
-        return self._folder.notes
+        """How the folder differs from its manifest, and which links nobody sees, one line each."""
+        return (*self._folder.notes, *self._told_unseen())
+
+    def _told_unseen(self) -> Iterator[str]:
+        """Yield the links whose meshes are not there: those first that move, for they may hit anything."""
+        model = self._memory.model
+        told = (
+            f"{len(links)} that {word}, {', '.join(f'`{link}`' for link in links[:_SHOWN])}"
+            for word, stand in (("move", False), ("stand", True))
+            if (links := [link for link in model.unseen if model.links.stands(link) is stand])
+        )
+        if named := "; ".join(told):
+            yield f"nobody looks whether these links touch anything, their meshes are not there: {named}"
 
     def entry(self, rehearsal: str) -> RehearsalEntry:
         """Return a rehearsal of the folder.

@@ -148,6 +148,7 @@ class RehearsalResult:
         within_s: bound of ``response_s``; None where there is none.
         findings: what was odd, such as endpoints that do not connect or a second authority of a frame.
         edited: the folder was not as its manifest has it, so that this is evidence of no configuration.
+        unseen: links with a shape whose mesh is not there: nobody looked whether they touch anything.
         vacuous: it shows nothing of a fault, which never began although no other one ended the run; a finding says why.
     """
 
@@ -162,6 +163,7 @@ class RehearsalResult:
     findings: tuple[str, ...]
     vacuous: bool = False
     edited: bool = False
+    unseen: tuple[str, ...] = ()
 
     @property
     def reason(self) -> str:

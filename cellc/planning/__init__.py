@@ -8,7 +8,6 @@ find the pairs of links that need no check; ``statics`` has what holds the robot
 
 from cellc.planning.collision_matrix import DisabledPair, DisabledReason, decided_collisions, disabled_collisions
 from cellc.planning.inverse_kinematics import IkSolution
-from cellc.planning.mesh_shapes import without_meshes
 from cellc.planning.model import RobotModel
 from cellc.planning.pair_sampling import beyond_reach
 from cellc.planning.planner import Planner
@@ -53,5 +52,4 @@ __all__ = [
     "disabled_collisions",
     "holding_efforts",
     "time_parameterize",
-    "without_meshes",
 ]

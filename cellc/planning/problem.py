@@ -119,7 +119,6 @@ class FailureReason(str, Enum):
     NO_PATH = "no_path"
     SINGULAR = "singular"
     JOINT_JUMP = "joint_jump"
-    UNKNOWN_SHAPE = "unknown_shape"
 
 
 @dataclass(frozen=True, slots=True)

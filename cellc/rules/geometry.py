@@ -9,8 +9,8 @@ from cellc.feasibility import BodyContact, DisabledAnswer, MeshFault, MotionAnsw
 from cellc.limits import option
 from cellc.rules.kit import CellGraph, Finding, Findings, Related, found
 
-USABLE_MESHES = ("malformed-mesh", "mesh-not-found", "mesh-outside-root", "mesh-too-large")
-"""What keeps a collision shape from being known."""
+USABLE_MESHES = ("malformed-mesh", "mesh-outside-root", "mesh-too-large")
+"""What keeps shapes from being looked at; without one whose mesh is not there, the others are."""
 
 SOUND_MODEL = (
     "circular-mimic",
@@ -52,7 +52,21 @@ def unusable_meshes(graph: CellGraph, code: str) -> Findings:
         faults.setdefault(fault.path if code == "mesh-not-found" else number, []).append(fault)
     for first, *others in faults.values():
         more = f"; nor {', '.join(f'`{fault.name}`' for fault in others)}" if others else ""
+        more += _unseen(graph, [first, *others]) if code == "mesh-not-found" else ""
         yield Finding(first.message + more, first.span, first.path, first.help)
+
+
+def _unseen(graph: CellGraph, faults: Sequence[MeshFault]) -> str:
+    """Say which links of a device touch nothing for want of a shape: those that move may hit anything."""
+    missing = {fault.name for fault in faults}
+    links = [
+        part.link.name
+        for part in graph.model.links()
+        if part.path == faults[0].path and any(mesh.filename in missing for mesh in part.link.collision_meshes())
+    ]
+    moving = [link for link in links if any(frame.moving for frame in graph.frames.chain(link))]
+    of_these = f", {len(moving)} of which move" if moving else ", which stand still"
+    return f"; nobody looks whether {', '.join(f'`{link}`' for link in links)}{of_these}, touch anything"
 
 
 def beyond_limits(graph: CellGraph, answer: MotionAnswer | DisabledAnswer) -> Findings:

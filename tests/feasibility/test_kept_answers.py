@@ -12,7 +12,7 @@ import pytest
 import yaml
 
 from cellc.description.packages import on_package_path, use_packages
-from cellc.feasibility import MotionAnswer, disabled_links, motion_answer
+from cellc.feasibility import MotionAnswer, disabled_links, mesh_faults, motion_answer
 from cellc.feasibility.question import MotionQuestion
 from cellc.store.cache import cache_folder
 from tests.cells import CORPUS, graph_of, written
@@ -153,14 +153,14 @@ def test_changed_input_is_answered_as_without_a_cache(
     change(tmp_path, monkeypatch)
     after = _answers(path)
     assert after == _without_cache(path)
-    assert after[0].start != () or after[0].refused != ""
+    assert after[0].start != () or mesh_faults(graph_of(path))
 
 
 def test_mesh_that_appears_is_seen(tmp_path: Path) -> None:
     path = _cell(tmp_path, "package://parts/hand.stl")
-    assert "could not be found" in _answers(path)[0].refused
-    _cube(tmp_path / "one" / "parts" / "hand.stl", SMALL)
-    assert _answers(path)[0].refused == ""
+    assert _answers(path)[0].start == ()
+    _cube(tmp_path / "one" / "parts" / "hand.stl", LARGE)
+    assert _answers(path)[0].start != ()
 
 
 def test_mesh_that_changes_during_the_computation_is_not_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -19,7 +19,7 @@ _ARM = f"""<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
 _HAND = """<robot><link name="hand"><collision><geometry>
 <mesh filename="package://arm_parts/NAME"/>
 </geometry></collision></link></robot>"""
-_CELL = """format: 1
+CELL = """format: 1
 cell: bench
 versions: {ros: jazzy}
 packages: [PLACES]
@@ -36,7 +36,7 @@ motion:
   poses: {home: {all: 0 rad}, away: {all: 0.2 rad}}
 rehearsals: {wave: {steps: [move: away]}}
 """
-_DEVICE = """format: 1
+DEVICE = """format: 1
 model: arm
 vendor: UNKNOWN
 summary: an arm of one joint
@@ -56,7 +56,7 @@ control:
   hardware: {mock: {plugin: mock_components/GenericSystem, source: made up}}
   joints: {turn: {command: [position], state: [position, velocity]}}
 """
-_CUBE = """solid cube
+CUBE = """solid cube
 facet normal 0 0 1
 outer loop
 vertex 0 0 0
@@ -75,16 +75,16 @@ def repository_fixture(tmp_path: Path) -> Path:
     parts = tmp_path / "vendor" / "src" / "repo" / "arm_parts"
     parts.mkdir(parents=True)
     (parts / "hand.xacro").write_text(_HAND.replace("NAME", "hand.stl"))
-    (parts / "hand.stl").write_text(_CUBE)
+    (parts / "hand.stl").write_text(CUBE)
     device = tmp_path / "cells" / "bench" / "arm"
     device.mkdir(parents=True)
     (device / "arm.xacro").write_text(_ARM)
-    (device / "device.yaml").write_text(_DEVICE)
+    (device / "device.yaml").write_text(DEVICE)
     return tmp_path
 
 
 def _spec(repository: Path, places: str = "../../vendor") -> Path:
-    return written(repository / "cells" / "bench", _CELL.replace("PLACES", places))
+    return written(repository / "cells" / "bench", CELL.replace("PLACES", places))
 
 
 def test_xacro_and_mesh_of_a_named_folder_are_found_by_check_build_and_mock(repository: Path) -> None:
@@ -115,7 +115,7 @@ def test_vendors_shapes_are_taken_from_a_named_folder(tmp_path: Path) -> None:
     shutil.copytree(CORPUS / "invalid" / "base" / "vendored_arm", tmp_path / "cell" / "vendored_arm")
     package = "vendored_arm_description"
     (tmp_path / "cell" / "vendored_arm" / package).rename(tmp_path / package)
-    text = _CELL.partition("motion:")[0].replace("./arm", "./vendored_arm").partition("    arm_tra")[0]
+    text = CELL.partition("motion:")[0].replace("./arm", "./vendored_arm").partition("    arm_tra")[0]
     for places, found in (("", False), ("..", True)):
         (device,) = linked(written(tmp_path / "cell", text.replace("PLACES", places))).devices
         vendor = device.vendor_description

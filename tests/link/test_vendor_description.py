@@ -68,3 +68,16 @@ def test_difference_is_told_with_its_figures(tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", ["vendored_arm", "unread_arm"])
 def test_equal_or_unread_descriptions_differ_in_nothing(tmp_path: Path, name: str) -> None:
     assert "vendor-description-differs" not in {one.code for one in diagnose(_spec(tmp_path, name))}
+
+
+def test_link_that_the_vendor_calls_otherwise_has_its_shape_and_place_too(tmp_path: Path) -> None:
+    spec = _spec(tmp_path)
+    vendor = tmp_path / "vendored_arm" / "vendored_arm_description" / "urdf" / "vendored_arm.urdf"
+    text = vendor.read_text(encoding="utf-8")
+    vendor.write_text(text.replace('"arm"', '"vendors_arm"').replace('<robot name="vendors_arm"', '<robot name="arm"'))
+    assert _shapes(spec) == [Box]
+    device = tmp_path / "vendored_arm" / "device.yaml"
+    told = device.read_text(encoding="utf-8")
+    device.write_text(told.replace("vendor: {", "vendor: {links: {vendors_arm: arm}, "), encoding="utf-8")
+    assert _shapes(spec) == [Sphere]
+    assert "vendor-description-differs" not in {one.code for one in diagnose(spec)}

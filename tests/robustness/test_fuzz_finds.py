@@ -178,15 +178,15 @@ def _tiny_with(folder: Path, old: str, new: str) -> Path:
     return written(folder, bases.TINY[1].replace("./parts/stage", "./device"))
 
 
-def test_a_cell_whose_mesh_is_not_there_is_loaded_and_plans_nothing(tmp_path: Path) -> None:
-    """`description 2105`; the check warns of the mesh, and what nobody knows the shape of is not moved."""
+def test_a_cell_whose_mesh_is_not_there_runs_and_says_what_nobody_sees(tmp_path: Path) -> None:
+    """`description 2105`; the check warns of the mesh, and the mock plans with the shapes that are there."""
     shape = '<link name="tool"><collision><geometry><mesh filename="arm/base_link"/></geometry></collision></link>'
     spec = _tiny_with(tmp_path, '<link name="tool"/>', shape)
     assert {one.code for one in check(spec).diagnostics if one.severity is Severity.ERROR} == set()
-    result = load(build_into(tmp_path / "folder", spec)).run("there")
-    assert result.outcome == AttemptOutcome.PLANNING_FAILURE
-    assert "unknown_shape" in result.reason
-    assert "`arm/base_link` could not be found" in result.reason
+    cell = load(build_into(tmp_path / "folder", spec))
+    result = cell.run("there")
+    assert (result.outcome, result.unseen) == (AttemptOutcome.SUCCEEDED, ("stage_tool",))
+    assert [note for note in cell.notes if "1 that move, `stage_tool`" in note]
 
 
 @pytest.mark.parametrize("limit", ["acceleration", "jerk"])

@@ -21,6 +21,7 @@ from cellc.contract.contract import (
     ContractSimulatedJoint,
     ContractSwitched,
 )
+from cellc.formats.numbers import rounded
 from cellc.formats.urdf.robot import start_positions
 from cellc.vocabulary import Moment
 
@@ -93,6 +94,7 @@ def _gripper(cell: Cell, device: Device) -> ContractGripper | None:
         open=gripper.open,
         closed=gripper.closed,
         max_effort=gripper.max_force,
+        max_velocity=None if gripper.max_velocity is None else rounded(gripper.max_velocity),
     )
 
 

@@ -192,12 +192,9 @@ def device_joint(joint: Joint, limits: DeviceJoint | None) -> Element:
 
 def _limit(joint: DeviceJoint) -> Element:
     # urdfdom refuses a limit that lacks effort or velocity; a continuous joint has no lower and upper. A joint without
-    # velocity is excused and commanded by nobody: it is told to have none. One that has a velocity and states no effort
-    # stays as it is, so that the reader's refusal becomes a finding.
+    # one of them is excused and commanded by nobody: it is told to have none.
     values = {"lower": joint.lower, "upper": joint.upper} if joint.type != "continuous" else {}
-    values |= {"velocity": joint.velocity, "effort": joint.effort}
-    if joint.velocity is None:
-        values |= {"velocity": 0.0, "effort": joint.effort or 0.0}
+    values |= {"velocity": joint.velocity or 0.0, "effort": joint.effort or 0.0}
     return element("limit", {name: shortest(value) for name, value in values.items() if value is not None})
 
 

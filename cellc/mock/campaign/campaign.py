@@ -75,19 +75,19 @@ class Assignment:
     """What every worker knows before the first run.
 
     Attributes:
-        unplanned: why nothing can be planned here, empty where all can; elsewhere meshes may be missing.
+        unseen: links whose meshes are not here; elsewhere others may be missing.
     """
 
     folder: GeneratedFolder
     seed: int
     limits: Limits
     packages: tuple[str, ...]
-    unplanned: str
+    unseen: tuple[str, ...]
 
     @classmethod
     def of(cls, cell: MockCell, seed: int) -> Assignment:
         """Return what workers are told of a cell that was loaded here."""
-        return cls(cell.folder, seed, limits(), package_path(), cell.unplanned)
+        return cls(cell.folder, seed, limits(), package_path(), cell.unseen)
 
     def cell(self) -> MockCell:
         """Load the cell in a worker.
@@ -98,8 +98,8 @@ class Assignment:
         use(self.limits)
         use_packages(self.packages)
         cell = cell_of(self.folder)
-        if cell.unplanned != self.unplanned:
-            raise MockError("", f"a worker has not what the cell is planned with: {cell.unplanned or self.unplanned}")
+        if apart := sorted({*cell.unseen} ^ {*self.unseen}):
+            raise MockError("", f"a worker has other meshes than this computer, those of `{apart[0]}` first")
         return cell
 
 

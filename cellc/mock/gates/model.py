@@ -116,8 +116,13 @@ def _collision(evidence: GateEvidence) -> GateCheck:
                 good.append(f"{run.name}: {attempt.step}")
             elif attempt.plan_result is not None:
                 bad.append(f"{run.name}: {attempt.step}: {attempt.plan_result}")
+    bad += [f"{link}: its mesh is not there, and it was planned for as nothing" for link in _unseen(evidence)]
     text = "Every motion of the rehearsals is planned free of collision"
     return judged(text, good, bad, "a rehearsal without faults that moves")
+
+
+def _unseen(evidence: GateEvidence) -> dict[str, None]:
+    return dict.fromkeys(link for run in evidence.undisturbed() for link in run.result.unseen)
 
 
 def _frames(evidence: GateEvidence) -> GateCheck:

@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from cellc.contract.contract import Contract, ContractGroup, ContractJointLimits
+from cellc.description.meshes import absent, without_shapes
 from cellc.description.model import Description
 from cellc.mock.errors import MockError
 from cellc.mock.world.world import LinkTree, link_tree
@@ -31,7 +32,6 @@ from cellc.planning import (
     TimedTrajectory,
     UnknownShapeError,
     time_parameterize,
-    without_meshes,
 )
 from cellc.transforms import Pose, Vector3, identity
 
@@ -57,13 +57,16 @@ class GroupModel:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MotionModel:
-    """The robot model, its groups, and the scene without objects; ``unplanned`` where a shape is not known, and why."""
+    """The robot model, its groups, and the scene without objects.
+
+    ``unseen`` are the links with a shape whose mesh is not there: nothing is planned round it.
+    """
 
     robot: RobotModel
     groups: Mapping[str, GroupModel]
     scene: CollisionScene
     links: LinkTree
-    unplanned: str = ""
+    unseen: tuple[str, ...] = ()
 
 
 def build_motion_model(
@@ -74,17 +77,21 @@ def build_motion_model(
     mesh_roots: Sequence[Path] = (),
 ) -> MotionModel:
     """Build the planners of all groups; raise MockError where the URDF and the contract do not fit together."""
-    unplanned = ""
+    missing = frozenset[str]()
     try:
         try:
             robot = RobotModel.from_urdf(urdf, description=description, mesh_roots=mesh_roots)
-        except UnknownShapeError as error:
-            robot, unplanned = RobotModel.from_urdf(without_meshes(urdf)), str(error)
+        except UnknownShapeError:
+            missing = absent((mesh for link in description.links for mesh in link.collision_meshes()), mesh_roots)
+            robot = RobotModel.from_urdf(without_shapes(urdf, missing), mesh_roots=mesh_roots)
         scene = CollisionScene(robot, disabled_collisions=allowed_collisions)
     except ModelError as error:
         raise MockError(contract.files.urdf_mock, str(error)) from None
     groups = {name: _group_model(name, group, contract, robot, scene) for name, group in contract.groups.items()}
-    return MotionModel(robot, groups, scene, link_tree(description), unplanned)
+    unseen = (
+        link.name for link in description.links if any(mesh.filename in missing for mesh in link.collision_meshes())
+    )
+    return MotionModel(robot, groups, scene, link_tree(description), tuple(unseen))
 
 
 def _group_model(
@@ -175,8 +182,6 @@ class PlannedMotion:
 
 def plan_motion(model: MotionModel, request: MotionRequest) -> PlannedMotion | PlanFailure:
     """Plan: back along the retreat, across to the goal or before it, and straight on to it."""
-    if model.unplanned:
-        return PlanFailure(FailureReason.UNKNOWN_SHAPE, model.unplanned)
     group = model.groups[request.group]
     planner = group.planner.in_scene(build_scene(model, request.scene, request.others))
     back = None if request.retreat is None else planner.plan_cartesian(request.start, request.retreat)

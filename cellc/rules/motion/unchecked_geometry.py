@@ -1,14 +1,15 @@
 """Shapes cannot be read, so that collisions are not checked.
 
-The kinematics refuses the robot description, most often because a joint lacks a figure that URDF demands. Poses and
-goals are then not checked, the semantic description lists neighbors alone, and the mock does not plan.
+The kinematics refuses the robot description, most often because a figure of a joint has a sign or a size that nobody
+can compute with. Poses and goals are then not checked, and neither the mock nor another program takes the description.
 
 Example that is reported:
 
 ```xml
 <joint name="slide" type="prismatic">
   <parent link="base"/> <child link="carriage"/> <axis xyz="0 0 1"/>
-  <limit lower="0" upper="0.5" velocity="1"/>
+  <limit lower="0" upper="0.5" velocity="1" effort="10"/>
+  <dynamics friction="-1"/>
 </joint>
 <!-- expect at motion.groups -->
 ```
@@ -19,6 +20,7 @@ Example that is accepted:
 <joint name="slide" type="prismatic">
   <parent link="base"/> <child link="carriage"/> <axis xyz="0 0 1"/>
   <limit lower="0" upper="0.5" velocity="1" effort="10"/>
+  <dynamics friction="1"/>
 </joint>
 ```
 
@@ -34,7 +36,7 @@ from cellc.rules.geometry import SOUND_MODEL, USABLE_MESHES
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-@rule(Severity.WARNING, assumes=(*SOUND_MODEL, *USABLE_MESHES, "geometry-too-large"))
+@rule(Severity.ERROR, assumes=(*SOUND_MODEL, *USABLE_MESHES, "geometry-too-large"))
 def check(graph: CellGraph) -> Findings:
     """Yield the reason for which the description is refused."""
     refused = motion_answer(graph).refused
