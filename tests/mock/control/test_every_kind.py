@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from cellc.catalog.controller_kind import ControllerKind
-from cellc.catalog.device_interfaces import GroupInterfaces
+from cellc.catalog.device_interfaces import GroupInterfaces, counted
 from cellc.catalog.device_model import DeviceModel
 from cellc.catalog.load import CatalogDevice, controller_kinds, device_names, load_controller_kind, load_device
 from cellc.mock import load
@@ -91,7 +91,7 @@ def _written(kind: ControllerKind, catalog: CatalogDevice) -> Iterator[str]:
                 yield f', parameters: {{sensor_name: "{{prefix}}{name}", frame_id: world}}'
     if kind.kind is Behaviour.GPIO_COMMAND:
         for name, group in _simulated(control.gpios).items():
-            gpio, taken = f"{{prefix}}{name}", f"[{', '.join(group.command)}]"
+            gpio, taken = f"{{prefix}}{name}", f"[{', '.join(counted(group.command))}]"
             yield f', parameters: {{gpios: ["{gpio}"], "command_interfaces.{gpio}.interfaces": {taken}}}'
 
 
