@@ -123,7 +123,7 @@ def _link_with_devices(
     source = Derivation(spec, document, distro, loops, devices, all_frames, ends, resolver, planned.value.servo)
     derived = derive_interfaces(source, written)
     rehearsals = link_rehearsals(spec, document, devices, loops, (*written, *derived), names)
-    uncertainty = link_uncertainty(spec, document, all_frames)
+    uncertainty = link_uncertainty(spec, document)
     cell = replace(
         _surroundings(spec, document, distro, placed.value.measured, devices),
         devices=devices,

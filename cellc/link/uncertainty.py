@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cellc.cell.frame import Frame
 from cellc.cell.uncertainty import Region, Uncertainty
 from cellc.diagnostics import Diagnostic, Outcome
 from cellc.link.names import unknown_name
@@ -14,9 +13,7 @@ from cellc.spec.cell_spec import CellSpec
 from cellc.spec.uncertainty import RegionSpec, UncertaintySpec
 
 
-def link_uncertainty(
-    spec: CellSpec, document: SourceDocument, frames: tuple[Frame, ...]
-) -> Outcome[Uncertainty | None]:
+def link_uncertainty(spec: CellSpec, document: SourceDocument) -> Outcome[Uncertainty | None]:
     """Bind the uncertainty of a cell; None where neither it nor a region nor a rate of success is stated."""
     wanted = any(one.success is not None for one in spec.rehearsals.values())
     if spec.uncertainty is None and not spec.regions and not wanted:
@@ -28,7 +25,7 @@ def link_uncertainty(
         regions={name: _region(region) for name, region in spec.regions.items()},
         tolerances_m={name: value.si for name, value in written.tolerances.items()},
     )
-    return Outcome(bound, tuple(_unknown(spec, written, document, frames)))
+    return Outcome(bound, tuple(_unknown(spec, written, document)))
 
 
 def _region(written: RegionSpec) -> Region:
@@ -36,10 +33,8 @@ def _region(written: RegionSpec) -> Region:
     return Region(half_m=(x, y, z), half_yaw_rad=(si(written.yaw) or 0.0) / 2.0)
 
 
-def _unknown(
-    spec: CellSpec, written: UncertaintySpec, document: SourceDocument, frames: tuple[Frame, ...]
-) -> Iterator[Diagnostic]:
-    objects = [frame.name for frame in frames if frame.simulated_pose is not None]
+def _unknown(spec: CellSpec, written: UncertaintySpec, document: SourceDocument) -> Iterator[Diagnostic]:
+    objects = [name for name, frame in spec.frames.items() if frame.simulated_pose is not None]
     for names, known, code, kind, path in (
         (written.calibrations, tuple(spec.calibrations), "unknown-calibration", "calibration", "calibrations"),
         (written.tolerances, tuple(spec.motion.goals), "unknown-goal", "goal", "tolerances"),
