@@ -10,8 +10,7 @@ it carries beside its tool as one, ``{joint_stiffness}`` and ``{cartesian_stiffn
 ``{tool_baud_rate}``, ``{tool_parity}``, ``{tool_stop_bits}``, ``{tool_rx_idle_chars}``, ``{tool_tx_idle_chars}``,
 ``{tool_port}`` and ``{tool_tcp_port}`` what the spec says of its tool connector, ``{carrier}`` the robot through whose
 tool connector it has its power, ``{gripper_max_speed}``, ``{gripper_max_force}`` and ``{gripper_closed}`` figures of
-a gripper. Links, joints, sensors and
-gpios are named without prefix.
+a gripper. Links, joints, sensors and gpios are named without prefix.
 """
 
 from typing import Literal, get_args

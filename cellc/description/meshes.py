@@ -121,6 +121,18 @@ def without_shapes(urdf: str, names: Container[str]) -> str:
     return ElementTree.tostring(root, encoding="unicode")
 
 
+def without_meshes(urdf: str) -> str:
+    """Return a description with a ball in the place of each mesh that is checked for collisions."""
+    if "<mesh" not in urdf:
+        return urdf
+    root = ElementTree.fromstring(urdf)
+    for collision in root.iter("collision"):
+        for geometry in collision.iter("geometry"):
+            if geometry.find("mesh") is not None:
+                geometry[:] = [ElementTree.Element("sphere", {"radius": "1"})]
+    return ElementTree.tostring(root, encoding="unicode")
+
+
 def readable(files: Mapping[str, MeshFile | MeshError]) -> tuple[MeshFile, ...]:
     """Return the files that are there, each once and in one order whoever asks."""
     found = {file for file in files.values() if isinstance(file, MeshFile)}

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
-from xml.etree import ElementTree
 
 import coal
 import numpy as np
@@ -20,18 +19,6 @@ from cellc.description.model import Description, Mesh
 from cellc.transforms import Vector3
 
 PinShape = Any  # coal ships no type information
-
-
-def without_meshes(urdf: str) -> str:
-    """Return the description with a ball in the place of each mesh that is checked for collisions."""
-    if "<mesh" not in urdf:
-        return urdf
-    root = ElementTree.fromstring(urdf)
-    for collision in root.iter("collision"):
-        for geometry in collision.iter("geometry"):
-            if geometry.find("mesh") is not None:
-                geometry[:] = [ElementTree.Element("sphere", {"radius": "1"})]
-    return ElementTree.tostring(root, encoding="unicode")
 
 
 def mesh_shapes(description: Description, roots: Sequence[Path]) -> dict[tuple[str, int], PinShape]:

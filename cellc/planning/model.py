@@ -18,10 +18,10 @@ from typing import Any
 import numpy as np
 import pinocchio
 
-from cellc.description.meshes import MESH_NOT_FOUND, MeshError
+from cellc.description.meshes import MESH_NOT_FOUND, MeshError, without_meshes
 from cellc.description.model import Description, Joint
 from cellc.description.urdf_reader import read_urdf
-from cellc.planning.mesh_shapes import mesh_shapes, without_meshes
+from cellc.planning.mesh_shapes import mesh_shapes
 from cellc.planning.problem import Array, ModelError, UnknownShapeError
 from cellc.transforms import Pose
 

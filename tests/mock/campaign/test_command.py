@@ -26,10 +26,10 @@ def test_matrix_names_every_fault_and_step(folders: dict[str, Path]) -> None:
     ran = run("mock", str(folders["minimal"]), "--campaign", "--jobs", "1")
     assert ran.code == 0, ran.out
     lines = ran.out.splitlines()
-    assert lines[0] == "ready: 1 move ready, 2 grip close gripper, 3 grip open gripper"
-    assert lines[1].split() == ["fault", "1", "2", "3"]
+    assert lines[0] == "ready: 1 move aside, 2 grip close gripper, 3 move ready, 4 grip open gripper"
+    assert lines[1].split() == ["fault", "1", "2", "3", "4"]
     stop = next(line for line in lines if line.startswith("protective_stop:arm"))
-    assert stop.split() == ["protective_stop:arm", "stop", "stop", "stop"]
+    assert stop.split() == ["protective_stop:arm", "stop", "stop", "stop", "stop"]
     assert lines[-1].startswith("passed: ")
 
 
@@ -132,10 +132,10 @@ def test_failing_run_is_told_with_the_command_that_replays_it(
     ran = run("mock", str(folders["minimal"]), "--campaign", "--jobs", "1", "--seed", "7")
     assert ran.code == 1
     lines = ran.out.splitlines()
-    failed = lines.index("FAILED  ready/protective_stop:arm@3: succeeded")
+    failed = lines.index("FAILED  ready/protective_stop:arm@4: succeeded")
     assert lines[failed + 1] == "        expected: protective_stop"
     folder = shlex.quote(str(folders["minimal"]))
-    assert lines[failed + 2] == f"        replay: cellc mock {folder} --replay ready/protective_stop:arm@3 --seed 7"
+    assert lines[failed + 2] == f"        replay: cellc mock {folder} --replay ready/protective_stop:arm@4 --seed 7"
     assert lines[-1].startswith("FAILED: ")
     matrix = next(line for line in lines if line.startswith("protective_stop:arm"))
     assert "!" in matrix
@@ -170,7 +170,7 @@ def test_report_shows_the_matrix_and_judges_gates_by_it(option: str, folders: di
     assert ran.code == 0, ran.err
     page = (tmp_path / "kept" / "report.html").read_text(encoding="utf-8")
     row = page.partition("<td>protective_stop:arm</td>")[2].partition("</tr>")[0]
-    assert row.count(">stop<") == 3
+    assert row.count(">stop<") == 4
     assert "ready/protective_stop:arm@2: protective_stop" in row
     line = page.partition("Every fault at every step ends in a named outcome within its bound")[2]
     assert "runs of the campaign" in line[:200]

@@ -127,10 +127,13 @@ def _spec(offer: Offer, distro: Distro) -> str:
     if offer.behaviour is Behaviour.JOINT_STATE_BROADCASTER:
         tested = ""
     steps = "grip: close}, {grip: open" if offer.behaviour in GRIPPERS else "wait: 100 ms"
-    rates = () if device.model.control is None else device.model.control.update_rates
+    control = device.model.control
+    rates = () if control is None else control.update_rates
+    real = None if control is None else control.hardware.real
+    prefix = ', prefix: ""' if real is not None and real.fixed_joint_names else ""
     return (
         f"format: 1\ncell: one\nsummary: one controller\nversions: {{ros: {distro}}}\n"
-        f"devices:\n  dev: {{model: {offer.device}{mount}}}\n"
+        f"devices:\n  dev: {{model: {offer.device}{mount}{prefix}}}\n"
         f"control:\n  update_rate: {rates[0].text if rates else '100 Hz'}\n"
         f"  controllers:\n    joints: {{type: joint_state_broadcaster}}\n{tested}"
         f"rehearsals:\n  ready: {{steps: [{{{steps}}}]}}\n"

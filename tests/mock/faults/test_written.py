@@ -63,7 +63,7 @@ REHEARSALS = """
 def written(tmp_path_factory: pytest.TempPathFactory) -> MockCell:
     """The chapter's cell with more rehearsals, built and loaded."""
     folder = tmp_path_factory.mktemp("written")
-    spec = cells.written(folder, spec_text("ur5e_pick").replace("\nkpis:", f"{REHEARSALS}\nkpis:"))
+    spec = cells.written(folder, spec_text("ur5e_pick").replace("\nuncertainty:", f"{REHEARSALS}\nuncertainty:"))
     return load(build_into(folder / "ur5e_pick", spec))
 
 
@@ -78,5 +78,5 @@ def test_cell_with_such_rehearsals_is_checked_without_a_new_finding(tmp_path: Pa
     text = spec_text("ur5e_pick")
     cell = tmp_path / "cell.yaml"
     plain = {diagnostic.code for diagnostic in check(spec_of("ur5e_pick")).diagnostics}
-    cell.write_text(text.replace("\nkpis:", f"{REHEARSALS}\nkpis:"), encoding="utf-8")
+    cell.write_text(text.replace("\nuncertainty:", f"{REHEARSALS}\nuncertainty:"), encoding="utf-8")
     assert {diagnostic.code for diagnostic in check(cell).diagnostics} == plain
