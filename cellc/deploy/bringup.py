@@ -323,14 +323,17 @@ def _silent(cell: Cell, device: Device) -> Iterator[TopicProof]:
 
 
 def _watches(cell: Cell) -> Iterator[Watch]:
-    """Yield the controllers that lose their claims when a device no longer follows set points."""
+    """Yield the controllers that lose their claims when a device no longer follows set points, on either target.
+
+    Only what is active loses its claim, so that one of the mock alone may stand in the list on real hardware.
+    """
     for manager in cell.managers:
         for device, proof in _listening(cell, manager):
             own = {joint.name for joint in device.joints}
             claiming = tuple(
                 one.name
                 for one in manager.controllers
-                if "real" in one.targets and _claims(cell, one, ())
+                if _claims(cell, one, ())
                 if own & set(one.joints) or (one.behaviour is Behaviour.OWN_MOTION and one.device == device.name)
             )
             yield Watch(manager=manager.node, controllers=claiming, while_holds=proof)

@@ -60,6 +60,24 @@ def test_pictures_have_the_attributes_and_words_of_svg(cell: str, distro: str) -
 _DRAWN = {"svg", "defs", "marker", "g", "path", "rect", "polygon", "line", "text"}
 
 
+def _places(group: Element, at: tuple[float, float] = (0.0, 0.0)) -> set[tuple[float, float]]:
+    """Return where a group and those in it stand in the sheet."""
+    x, y = (float(value) for value in re.findall(_PLACE, group.get("transform", "translate(0 0)")))
+    here = at[0] + x, at[1] + y
+    return {here}.union(*(_places(inner, here) for inner in group.findall(f"{_SVG}g")))
+
+
+_PLACE = r"-?[\d.]+"
+
+
+@every_build
+def test_bodies_stand_where_a_frame_is_marked(cell: str, distro: str) -> None:
+    views = fromstring(build(cell, distro).texts["graph/cell.svg"]).findall(f"{_SVG}g")
+    assert len(views) == 2
+    for bodies, marks in (view.findall(f"{_SVG}g") for view in views):
+        assert _places(bodies) <= _places(marks)
+
+
 def _boxes(picture: Element) -> list[tuple[str, Rect]]:
     """Return the name in each box, with left, top, right, bottom."""
     (group,) = picture.findall(f"{_SVG}g")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import re
 import subprocess
 import sys
@@ -146,6 +147,18 @@ def test_everything_that_is_read_at_run_time_is_installed(cell: str, distro: str
     assert texts["CMakeLists.txt"].rstrip().endswith("ament_package()")
     assert f"project({cell} NONE)" in texts["CMakeLists.txt"]
     assert "find_package(ament_cmake REQUIRED)" in texts["CMakeLists.txt"]
+
+
+@every_build
+def test_usage_of_a_program_has_the_options_that_it_reads_and_files_of_the_package(cell: str, distro: str) -> None:
+    texts = build(cell, distro).texts
+    for path, text in texts.items():
+        if path.startswith("scripts/"):
+            told = ast.get_docstring(ast.parse(text)) or ""
+            usage = "\n".join(line for line in told.splitlines() if line.startswith("    "))
+            assert usage.split()[0] == path.rpartition("/")[2]
+            assert set(re.findall(r"--[a-z]+", usage)) <= set(re.findall(r'add_argument\(\s*"(--[a-z]+)"', text)), path
+            assert set(re.findall(r"--[a-z]+ ([\w/]+\.\w+)", usage)) <= set(texts), path
 
 
 # vcstool/clients/__init__.py of https://github.com/dirk-thomas/vcstool: what can be fetched.
