@@ -1,42 +1,60 @@
-"""A first spec for devices of the catalog: what a new cell must say, and honest blanks for the rest."""
+"""A first spec for devices of the catalog or of folders: what a new cell must say, and honest blanks for the rest."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 
+from cellc.catalog.device_model import DeviceModel
 from cellc.catalog.load import CatalogDevice
+from cellc.description.model import Joint
 from cellc.vocabulary import Behaviour, Distro
 
-_ASIDE_DEG = 20.0
+_ASIDE = {False: math.radians(20.0), True: 0.05}
+"""By whether a joint slides: how far the first joint goes, rad or m, where its range is ten times as wide."""
+_UNITS = {False: "rad", True: "m"}
 _UPDATE_RATE = "100 Hz"  # the controller manager's own default, for devices that accept any rate
 
 
+@dataclass(frozen=True, slots=True)
+class NamedDevice:
+    """A device, and the text by which the spec names it: a model of the catalog, or a folder beside the spec."""
+
+    named: str
+    entry: CatalogDevice
+
+    @property
+    def model(self) -> DeviceModel:
+        """What the catalog, or the folder, says of it."""
+        return self.entry.model
+
+
 def starter_spec(
-    name: str, distro: Distro, devices: Mapping[str, CatalogDevice], schema: str, packages: Sequence[str] = ()
+    name: str, distro: Distro, devices: Mapping[str, NamedDevice], schema: str, packages: Sequence[str] = ()
 ) -> str:
     """Write a spec that passes every check, in the layout of a hand-written one.
 
     Args:
         name: name of the cell and its package.
-        devices: catalog entries by the names they get in the cell; at least one.
+        devices: by the names they get in the cell; at least one.
         schema: path or address of the JSON schema for the editor's modeline.
         packages: folders of the repository in which the vendors' packages lie, relative to the spec.
 
     Returns:
         YAML text that ends in a newline.
     """
-    arms = [device for device, entry in devices.items() if entry.model.kind == "arm"]
-    grippers = [device for device, entry in devices.items() if entry.model.gripper is not None]
+    arms = [device for device, one in devices.items() if one.model.kind == "arm"]
+    grippers = [device for device, one in devices.items() if one.model.gripper is not None]
     lines = [
         f"# yaml-language-server: $schema={schema}",
         "format: 1",
         f"cell: {name}",
-        f"summary: {', '.join(entry.model.model for entry in devices.values())}, on the mock",
+        f"summary: {', '.join(one.model.model for one in devices.values())}, on the mock",
         f"versions: {{ros: {distro}}}        # what is missing here is UNKNOWN and blocks the real target",
         *([f"packages: [{', '.join(packages)}]"] if packages else []),
         "devices:",
-        *(line for device, entry in devices.items() for line in _device(device, entry, arms, devices)),
+        *(line for device, one in devices.items() for line in _device(device, one, arms, devices)),
         *_control(distro, devices),
         *_motion(arms, devices),
         "rehearsals:",
@@ -45,10 +63,10 @@ def starter_spec(
     return "\n".join(lines) + "\n"
 
 
-def _device(name: str, entry: CatalogDevice, arms: list[str], devices: Mapping[str, CatalogDevice]) -> Iterator[str]:
+def _device(name: str, device: NamedDevice, arms: list[str], devices: Mapping[str, NamedDevice]) -> Iterator[str]:
     yield f"  {name}:"
-    yield f"    model: {entry.model.model}"
-    control = entry.model.control
+    yield f"    model: {device.named}"
+    control = device.model.control
     real = None if control is None else control.hardware.real
     if real is not None and real.fixed_joint_names:
         yield '    prefix: ""    # the driver makes the names of joints in its code'
@@ -56,14 +74,14 @@ def _device(name: str, entry: CatalogDevice, arms: list[str], devices: Mapping[s
         # A metre apart: arms of one cell do not start inside each other.
         yield f"    mount: {{parent: world, xyz: 0 {arms.index(name)} 0 m}}"
     elif arms:
-        of_kind = [other for other, one in devices.items() if one.model.kind == entry.model.kind]
+        of_kind = [other for other, one in devices.items() if one.model.kind == device.model.kind]
         arm = arms[of_kind.index(name) % len(arms)]
-        aside = ", xyz: 0 -110 30 mm" if entry.model.camera is not None else ""
+        aside = ", xyz: 0 -110 30 mm" if device.model.camera is not None else ""
         yield f"    mount: {{parent: {arm}/{devices[arm].model.tool_frame or devices[arm].model.base}{aside}}}"
 
 
-def _control(distro: Distro, devices: Mapping[str, CatalogDevice]) -> Iterator[str]:
-    controlled = {name: entry for name, entry in devices.items() if entry.model.control is not None}
+def _control(distro: Distro, devices: Mapping[str, NamedDevice]) -> Iterator[str]:
+    controlled = {name: one for name, one in devices.items() if one.model.control is not None}
     if not controlled:
         return
     rates = [rate.text for one in controlled.values() if one.model.control for rate in one.model.control.update_rates]
@@ -71,37 +89,40 @@ def _control(distro: Distro, devices: Mapping[str, CatalogDevice]) -> Iterator[s
     yield f"  update_rate: {rates[0] if rates else _UPDATE_RATE}"
     yield "  controllers:"
     yield "    joint_states: {type: joint_state_broadcaster}"
-    for name, entry in controlled.items():
-        if entry.model.gripper is not None:
+    for name, one in controlled.items():
+        if one.model.gripper is not None:
             yield f"    {name}_action: {{type: parallel_gripper, device: {name}}}"
-        if entry.model.kind == "arm":
+        if one.model.kind == "arm":
             yield f"    {name}_trajectory:"
-            yield f"      type: {_trajectory_kind(entry, distro)}"
+            yield f"      type: {_trajectory_kind(one.model, distro)}"
             yield f"      device: {name}"
+            chain = _chain(one.entry)
+            if len(chain) < len(_driven(one.entry)):
+                yield f"      joints: [{', '.join(f'{name}/{joint.name}' for joint in chain)}]"
             yield "      goal_time: 1 s"
-            yield "      path_tolerance: 0.2 rad"
-            yield "      goal_tolerance: 0.01 rad"
-            yield from (f"    {name}_io: {{type: {kind}, device: {name}}}" for kind in _telling_kinds(entry))
+            yield f"      path_tolerance: {_tolerance(chain, {False: 0.2, True: 0.02})}"
+            yield f"      goal_tolerance: {_tolerance(chain, {False: 0.01, True: 0.001})}"
+            yield from (f"    {name}_io: {{type: {kind}, device: {name}}}" for kind in _telling_kinds(one.model))
 
 
-def _telling_kinds(entry: CatalogDevice) -> dict[str, None]:
+def _telling_kinds(model: DeviceModel) -> dict[str, None]:
     """Return the kinds of controllers that tell whether the device listens, each once."""
-    real = None if entry.model.control is None else entry.model.control.hardware.real
+    real = None if model.control is None else model.control.hardware.real
     return {} if real is None else {told.controller: None for told in real.told.values()}
 
 
-def _trajectory_kind(entry: CatalogDevice, distro: Distro) -> str:
+def _trajectory_kind(model: DeviceModel, distro: Distro) -> str:
     """Prefer the device's own trajectory controller, which knows its speed scaling.
 
     One that claims interfaces of its own is left to a person: a mock moves on position commands.
     """
-    for kind, own in entry.model.controllers.items():
+    for kind, own in model.controllers.items():
         if own.behaviour is Behaviour.JOINT_TRAJECTORY and not own.command_interfaces and distro in own.plugins:
             return kind
     return "joint_trajectory"
 
 
-def _motion(arms: list[str], devices: Mapping[str, CatalogDevice]) -> Iterator[str]:
+def _motion(arms: list[str], devices: Mapping[str, NamedDevice]) -> Iterator[str]:
     if not arms:
         return
     yield "motion:"
@@ -110,20 +131,71 @@ def _motion(arms: list[str], devices: Mapping[str, CatalogDevice]) -> Iterator[s
         model = devices[arm].model
         yield f"    {arm}_group: {{base: {arm}/{model.base}, tip: {arm}/{model.tool_frame or model.base}}}"
     yield "  poses:"
-    for name, aside in (("home", 0.0), ("aside", _ASIDE_DEG)):
+    for name, aside in (("home", False), ("aside", True)):
         yield f"    {name}:"
         for arm in arms:
-            yield f"      {arm}_group: {_pose(devices[arm], aside)}"
+            yield f"      {arm}_group: {_pose(devices[arm].entry, aside=aside)}"
 
 
-def _pose(entry: CatalogDevice, aside_deg: float) -> str:
-    """Return the home of an arm, turned about its first joint: what stands on that one keeps its shape."""
-    home, fingers = entry.model.home or {}, entry.model.gripper
-    driven = [one for one in entry.description.joints if one.movable and one.mimic is None]
-    joints = [one.name for one in driven if fingers is None or one.name != fingers.joint]
-    degrees = [math.degrees(home[joint].si) if joint in home else 0.0 for joint in joints]
-    turned = (value + (aside_deg if index == 0 else 0.0) for index, value in enumerate(degrees))
-    return " ".join(f"{round(value, 6):g}" for value in turned) + " deg"
+def _driven(entry: CatalogDevice) -> list[Joint]:
+    """Return the joints that are commanded, without those of a gripper that is part of the device."""
+    fingers = entry.model.gripper
+    driven = (one for one in entry.description.joints if one.movable and one.mimic is None)
+    return [one for one in driven if fingers is None or one.name != fingers.joint]
+
+
+def _chain(entry: CatalogDevice) -> list[Joint]:
+    """Return the driven joints between base and tool, in the order of the description."""
+    frames, above = entry.model.frames, {joint.child: joint for joint in entry.description.joints}
+    tool = entry.model.tool_frame
+    link, between = frames.get(tool or "", tool or ""), set()
+    while link in above:
+        between.add(above[link].name)
+        link = above[link].parent
+    return [joint for joint in _driven(entry) if joint.name in between]
+
+
+def _tolerance(chain: Sequence[Joint], figures: Mapping[bool, float]) -> str:
+    """Return one figure for each kind of joint of a chain."""
+    kinds = dict.fromkeys(joint.slides for joint in chain)
+    return " ".join(f"{figures[slides]:g} {_UNITS[slides]}" for slides in sorted(kinds))
+
+
+def _pose(entry: CatalogDevice, *, aside: bool) -> str:
+    """Return the home of an arm, or that with its first joint aside: what stands on that one keeps its shape."""
+    chain = _chain(entry)
+    values = [_home(entry, joint) for joint in chain]
+    if aside and chain:
+        values[0] += _way(chain[0], values[0])
+    if not any(joint.slides for joint in chain):
+        return " ".join(f"{round(math.degrees(value), 6):g}" for value in values) + " deg"
+    texts = []
+    for number, joint in enumerate(chain):
+        ends = number + 1 == len(chain) or chain[number + 1].slides != joint.slides
+        texts.append(f"{round(values[number], 6):g}" + (f" {_UNITS[joint.slides]}" if ends else ""))
+    return " ".join(texts)
+
+
+def _home(entry: CatalogDevice, joint: Joint) -> float:
+    """Return where a joint stands at home, rad or m: as the device says, else as near zero as its limits allow."""
+    home = entry.model.home or {}
+    if joint.name in home:
+        return home[joint.name].si
+    lower, upper = _ends(joint)
+    return min(max(0.0, lower), upper)
+
+
+def _way(joint: Joint, home: float) -> float:
+    """Return how far a joint goes aside, towards its farther end."""
+    lower, upper = _ends(joint)
+    most = min(_ASIDE[joint.slides], max(upper - home, home - lower) / 10.0)
+    return most if upper - home >= home - lower else -most
+
+
+def _ends(joint: Joint) -> tuple[float, float]:
+    limit = joint.limit
+    endless = limit is None or joint.type == "continuous" or limit.lower is None or limit.upper is None
+    return (-math.inf, math.inf) if endless or limit is None else (limit.lower or 0.0, limit.upper or 0.0)
 
 
 def _steps(arms: list[str], grippers: list[str]) -> Iterator[str]:

@@ -10,12 +10,14 @@ from urllib.parse import quote
 
 import click
 
-from cellc.catalog.load import CatalogDevice, device_names, load_device
-from cellc.catalog.starter import starter_spec
+from cellc.catalog.compiled import DEVICE_FILE
+from cellc.catalog.load import device_names, load_device, load_device_folder
+from cellc.catalog.starter import NamedDevice, starter_spec
 from cellc.cli.words import complete_named_model
-from cellc.description.packages import folders_elsewhere
+from cellc.description.packages import folders_elsewhere, lies_under
 from cellc.diagnostics import did_you_mean
 from cellc.printing import show
+from cellc.report.text_report import render_text
 from cellc.store.swap import write_whole
 from cellc.vocabulary import Distro
 
@@ -34,27 +36,30 @@ from cellc.vocabulary import Distro
     "-o",
     "--output",
     type=click.Path(path_type=Path, dir_okay=False),
-    help="File to write; cells/NAME/cell.yaml if absent.",
+    help="File to write; cells/NAME/cell.yaml if absent, or cell.yaml beside the folder of a device.",
 )
 @click.option("--force", is_flag=True, help="Replace a file that exists.")
 def init(name: str, devices: tuple[str, ...], ros: str, output: Path | None, force: bool) -> None:
     """Write a cell NAME with the given devices, such as `cellc init bench MODEL MODEL`; without models they are listed.
 
-    A device is called after its kind (arm, gripper, camera) unless DEVICE= names it.
+    A device is called after its kind (arm, gripper, camera) unless DEVICE= names it. A model is one of the catalog, or
+    the folder that `cellc import` wrote.
 
     \b
     cellc init bench                           the models
     cellc init bench MODEL MODEL --ros jazzy
     cellc init bench left=MODEL right=MODEL
+    cellc init bench arm=./my_robot gripper=MODEL
     """
     if not re.fullmatch(r"[a-z][a-z0-9_]+", name) or "__" in name:
         raise click.UsageError(f"`{name}` is no package name: use lower case letters, digits and single underscores")
     if not devices:
         raise click.UsageError(f"name at least one model of the catalog: {', '.join(device_names())}")
-    file = output or Path("cells") / name / "cell.yaml"
+    folders = [Path(text.rpartition("=")[2]) for text in devices if _is_folder(text.rpartition("=")[2])]
+    file = output or (folders[0].parent if folders else Path("cells") / name) / "cell.yaml"
     if file.exists() and not force:
         raise click.UsageError(f"{file.as_posix()} exists; give --force to replace it, or -o for another file")
-    entries = _named(devices)
+    entries = _named(devices, file.parent)
     schema = quote(Path(os.path.relpath("schemas/cell.schema.json", file.parent)).as_posix())
     named = [one.model.description.package for one in entries.values() if one.model.description.package is not None]
     beside = folders_elsewhere(named, file.parent.as_posix())
@@ -65,25 +70,47 @@ def init(name: str, devices: tuple[str, ...], ros: str, output: Path | None, for
         show("for completion in an editor: cellc schema -o schemas")
 
 
-def _named(devices: tuple[str, ...]) -> dict[str, CatalogDevice]:
-    entries: dict[str, CatalogDevice] = {}
+def _is_folder(model: str) -> bool:
+    return "/" in model
+
+
+def _named(devices: tuple[str, ...], beside: Path) -> dict[str, NamedDevice]:
+    """Return the devices by their names, as a spec in a folder names them."""
+    entries: dict[str, NamedDevice] = {}
     for text in devices:
         given, _, model = text.rpartition("=")
-        if model not in device_names():
-            known = did_you_mean(model, device_names(), "models of the catalog")
-            raise click.UsageError(f"the catalog has no model `{model}`: {known}")
-        entry = load_device(model).value
-        assert entry is not None  # package data, held valid by the catalog's tests
-        name = given or _free_name(entry.model.kind, entries)
+        device = _of_folder(Path(model), beside) if _is_folder(model) else _of_catalog(model)
+        name = given or _free_name(device.model.kind, entries)
         if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name):
             raise click.UsageError(f"`{name}` is no device name: use letters, digits and underscores")
         if name in entries:
             raise click.UsageError(f"two devices are called `{name}`: name them apart, such as `{name}_2={model}`")
-        entries[name] = entry
+        entries[name] = device
     return entries
 
 
-def _free_name(kind: str, taken: dict[str, CatalogDevice]) -> str:
+def _of_catalog(model: str) -> NamedDevice:
+    if model not in device_names():
+        known = did_you_mean(model, device_names(), "models of the catalog, or ./FOLDER")
+        raise click.UsageError(f"the catalog has no model `{model}`: {known}")
+    entry = load_device(model).value
+    assert entry is not None  # package data, held valid by the catalog's tests
+    return NamedDevice(model, entry)
+
+
+def _of_folder(folder: Path, beside: Path) -> NamedDevice:
+    if not (folder / DEVICE_FILE).is_file():
+        raise click.UsageError(f"`{folder}` holds no `{DEVICE_FILE}`: `cellc import` writes such a folder")
+    if not lies_under(str(folder), str(beside)):
+        raise click.UsageError(f"`{folder}` must lie below the folder of the spec, which is `{beside}`")
+    loaded = load_device_folder(folder, beside)
+    if loaded.value is None:
+        show(*render_text(loaded.diagnostics, {}))
+        raise click.exceptions.Exit(1)
+    return NamedDevice(f"./{Path(os.path.relpath(folder, beside)).as_posix()}", loaded.value)
+
+
+def _free_name(kind: str, taken: dict[str, NamedDevice]) -> str:
     if kind not in taken:
         return kind
     return next(f"{kind}_{number}" for number in range(2, len(taken) + 3) if f"{kind}_{number}" not in taken)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from cellc.catalog.load import CatalogDevice, load_device
-from cellc.catalog.starter import starter_spec
+from cellc.catalog.starter import NamedDevice, starter_spec
 from cellc.description.model import Box
 from cellc.vocabulary import Behaviour, Distro
 from tests.catalog.chains import Matrix, transform
@@ -153,15 +153,26 @@ def test_real_hand_is_moved_by_a_node_and_by_no_component() -> None:
     assert [node.executable for node in _device("franka_hand").model.nodes] == ["franka_gripper_node"]
 
 
+def _first_spec(model: str) -> str:
+    return starter_spec("first", Distro.JAZZY, {"arm": NamedDevice(model, _device(model))}, "cell.schema.json")
+
+
 def test_first_spec_of_the_arm_commands_what_a_mock_can_follow() -> None:
-    text = starter_spec("first", Distro.JAZZY, {"arm": _device("franka_fr3")}, "cell.schema.json")
+    text = starter_spec(
+        "first", Distro.JAZZY, {"arm": NamedDevice("franka_fr3", _device("franka_fr3"))}, "cell.schema.json"
+    )
     assert "type: joint_trajectory\n" in text
     assert "update_rate: 1000 Hz\n" in text
     assert "arm_group: 0 -45 0 -135 0 90 45 deg\n" in text
 
 
 def test_first_spec_of_an_arm_with_fingers_has_a_controller_for_each_and_goes_aside() -> None:
-    text = starter_spec("first", Distro.JAZZY, {"arm": _device("kinova_gen3_2f_85")}, "cell.schema.json")
+    text = starter_spec(
+        "first",
+        Distro.JAZZY,
+        {"arm": NamedDevice("kinova_gen3_2f_85", _device("kinova_gen3_2f_85"))},
+        "cell.schema.json",
+    )
     assert "    arm_trajectory:\n" in text
     assert "    arm_action: {type: parallel_gripper, device: arm}\n" in text
     assert "    aside:\n      arm_group: 20 14.8969 179.909 -130.061 0 55.0039 89.9544 deg\n" in text

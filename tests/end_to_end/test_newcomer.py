@@ -67,6 +67,34 @@ def test_cell_of_init_builds_and_runs_with_any_devices(models: str) -> None:
     _ran_here("mock generated/bench")
 
 
+def test_cell_of_init_moves_an_imported_robot_with_a_gripper_of_the_catalog(empty: Path) -> None:
+    # tests/corpus/valid/parts/lift: a rail and a swing, so metres and radians in one group.
+    _ran_here(f"import {ROOT / 'tests/corpus/valid/parts/lift/lift.urdf'} -o my_robot")
+    _ran_here("init bench arm=./my_robot gripper=robotiq_2f_85")
+    text = (empty / "cell.yaml").read_text(encoding="utf-8")
+    assert "model: ./my_robot" in text
+    assert "arm_group: 0.05 m 0 0 rad" in text
+    _ran_here("build cell.yaml")
+    assert "passed  ready: succeeded" in _ran_here("mock generated/bench")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "said"),
+    [
+        ("arm=./nothing", 2, "`nothing` holds no `device.yaml`: `cellc import` writes such a folder"),
+        ("arm=./empty_one -o sub/cell.yaml", 2, "`empty_one` must lie below the folder of the spec, which is `sub`"),
+        ("arm=./empty_one", 1, "error[catalogue-entry-invalid]: `model` is missing"),
+    ],
+)
+def test_folder_that_is_no_device_is_refused_by_init(arguments: str, code: int, said: str, empty: Path) -> None:
+    (empty / "empty_one").mkdir()
+    (empty / "empty_one/device.yaml").write_text("format: 1\n")
+    ran = run(*f"init bench {arguments}".split())
+    assert ran.code == code
+    assert said in ran.out + ran.err
+    assert not (empty / "cell.yaml").exists()
+
+
 def test_init_tells_the_next_step_and_the_editor_finds_the_schema(tmp_path: Path) -> None:
     told = _ran(tmp_path, f"{' '.join(INIT)} -o deep/er/bench.yaml").out
     assert "next: cellc build deep/er/bench.yaml && cellc mock generated/bench" in told
