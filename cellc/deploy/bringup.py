@@ -65,7 +65,7 @@ def bring_up(cell: Cell) -> BringUp:
         enclave=bring_up_enclave(cell),
         mock=tuple(_steps(cell, "mock")),
         real=(*_comparisons(cell, real), *real),
-        watches=tuple(_watches(cell)),
+        watches=tuple(watches(cell)),
     )
 
 
@@ -322,11 +322,8 @@ def _silent(cell: Cell, device: Device) -> Iterator[TopicProof]:
                     yield proof.model_copy(update={"value": not proof.value})
 
 
-def _watches(cell: Cell) -> Iterator[Watch]:
-    """Yield the controllers that lose their claims when a device no longer follows set points, on either target.
-
-    Only what is active loses its claim, so that one of the mock alone may stand in the list on real hardware.
-    """
+def watches(cell: Cell) -> Iterator[Watch]:
+    """Yield who loses a claim when a device follows no set points: of both targets, as only what is active loses it."""
     for manager in cell.managers:
         for device, proof in _listening(cell, manager):
             own = {joint.name for joint in device.joints}

@@ -10,7 +10,7 @@ from cellc.cell.device import Device
 from cellc.cell.interface import Endpoint, Interface, InterfaceKind
 from cellc.cell.site import UNKNOWN
 from cellc.contract.bring_up import CLAIM_WATCH
-from cellc.deploy.bringup import bring_up
+from cellc.deploy.bringup import watches
 from cellc.deploy.configuration import version_tuple
 from cellc.deploy.files import is_servo
 from cellc.deploy.gate_motion import (
@@ -282,7 +282,7 @@ def _beside(cell: Cell, interface: Interface) -> Iterator[str]:
         asked = node.endpoints.requests if interface.kind is InterfaceKind.SERVICE else node.endpoints.subscribes
         if interface.name in {node.remaps.get(one, one) for one in asked}:
             yield node.full_name
-    if any(watch.while_holds.topic == interface.name for watch in bring_up(cell).watches):
+    if any(watch.while_holds.topic == interface.name for watch in watches(cell)):
         yield CLAIM_WATCH
 
 
