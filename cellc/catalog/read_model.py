@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from functools import lru_cache
 from pathlib import Path
 from typing import TypeVar
 
@@ -10,6 +11,7 @@ from pydantic import BaseModel, ValidationError
 
 from cellc.catalog.catalog_model import DAY
 from cellc.diagnostics import Diagnostic, Outcome, Severity, Span, YamlPath, format_path
+from cellc.limits import Limits, limits
 from cellc.source.compose import compose
 from cellc.source.document import SourceDocument
 from cellc.source.text import read_text
@@ -23,6 +25,7 @@ _WORDINGS = {_UNKNOWN_KEY: "there is no key `{}`", "missing": "`{}` is missing"}
 _A_NAME = "use letters, digits and `_`, a letter first"
 _SHAPES = {DAY: "write the day as `2026-07-01`"}
 _HELP = {"missing": "add it"}
+_KEPT = 32  # files of the devices of a few cells
 
 
 def read_model(path: Path, shown: str, model: type[ModelT]) -> Outcome[tuple[ModelT, SourceDocument]]:
@@ -45,13 +48,19 @@ def read_document(path: Path, shown: str, fill: Mapping[str, str] | None = None)
     filled = text.value
     for placeholder, value in (fill or {}).items():
         filled = filled.replace(placeholder, value)
+    return _composed(shown, text.value, filled, limits())
+
+
+@lru_cache(maxsize=_KEPT)
+def _composed(shown: str, text: str, filled: str, _bounds: Limits) -> Outcome[SourceDocument]:
+    """Return a text as a document; cells of one folder name the same devices, and an editor asks at every change."""
     composed = compose(shown, filled)
     if composed.diagnostics:
         return Outcome(None, composed.diagnostics)
     if composed.value is None or composed.value.data is None:
         place = Span(shown, 1, 1, 1, 1)
         return Outcome(None, (Diagnostic("empty-file", Severity.ERROR, f"`{shown}` holds no data", place),))
-    return Outcome(SourceDocument(shown, {shown: text.value}, composed.value))
+    return Outcome(SourceDocument(shown, {shown: text}, composed.value))
 
 
 def validated(document: SourceDocument, model: type[ModelT]) -> Outcome[tuple[ModelT, SourceDocument]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import lru_cache
 from pathlib import Path
 
 from cellc.description.model import Description
@@ -10,7 +11,9 @@ from cellc.description.urdf_reader import read_urdf
 from cellc.description.xacro_expansion import Expansion, expand_here, expand_xacro
 from cellc.description.xacro_files import ConfinedFiles, XacroRefusedError
 from cellc.diagnostics import Diagnostic, Outcome, Severity, Span
-from cellc.limits import Purse
+from cellc.limits import Limits, Purse, limits
+
+_KEPT = 32  # descriptions of the devices of a few cells
 
 
 def read_description(
@@ -37,7 +40,13 @@ def read_description(
     except XacroRefusedError as refusal:
         found = Diagnostic(refusal.code, Severity.ERROR, refusal.message, start, help=refusal.help_text)
         return Outcome(None, (found,))
-    return read_urdf(text, file.as_posix(), from_user=True)
+    return _read(text, file.as_posix(), limits())
+
+
+@lru_cache(maxsize=_KEPT)
+def _read(text: str, file: str, _bounds: Limits) -> Outcome[Description]:
+    """Read a user's URDF; cells of one folder name the same devices, and an editor asks at every change."""
+    return read_urdf(text, file, from_user=True)
 
 
 def read_catalog_description(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import lru_cache
 from graphlib import TopologicalSorter
 from importlib import import_module
 from pkgutil import iter_modules
@@ -39,11 +40,12 @@ def run_rules(graph: CellGraph, rules: tuple[Rule, ...] = ALL_RULES) -> tuple[Di
     return tuple(sorted(diagnostics, key=Diagnostic.sort_key))
 
 
-def _assumed_first(rules: tuple[Rule, ...]) -> Iterator[Rule]:
-    """Yield every rule after those whose codes it assumes absent."""
+@lru_cache(maxsize=1)
+def _assumed_first(rules: tuple[Rule, ...]) -> tuple[Rule, ...]:
+    """Return every rule after those whose codes it assumes absent."""
     by_code = {rule.code: rule for rule in rules}
     order = TopologicalSorter({rule.code: rule.assumes for rule in rules}).static_order()
-    yield from (by_code[code] for code in order if code in by_code)
+    return tuple(by_code[code] for code in order if code in by_code)
 
 
 def _diagnostics(rule: Rule, graph: CellGraph) -> Iterator[Diagnostic]:

@@ -132,9 +132,10 @@ def diagnose_example(example: Example, folder: Path) -> tuple[Diagnostic, ...]:
         fragment = yaml.load(example.text, Loader=yaml.BaseLoader)
     merged = _typed(_merged(_merged(complete_cell(), _situation(example)), fragment))
     text = yaml.dump(merged, Dumper=_DUMPER, sort_keys=False)
-    # Copied is what the cell names: most of a test's time went into copies of the other device folders.
+    # Copied is what the cell names and is not there from the example before, but for the one that examples change.
     for named in (path for path in BASE.iterdir() if path.is_dir() and path.name in text):
-        shutil.copytree(named, folder / named.name, dirs_exist_ok=True)
+        if named.name == "stage" or not (folder / named.name).exists():
+            shutil.copytree(named, folder / named.name, dirs_exist_ok=True)
     if example.language == "xml":
         _merge_description(example.text, folder / "stage" / "stage.urdf")
     (folder / "cell.yaml").write_text(text, encoding="utf-8")

@@ -17,8 +17,14 @@ _OWN = re.compile(r"docs/principles\.md#([\w-]+)")
 FOLDER = Path(__file__).resolve().parents[2] / "cellc" / "rules"
 
 
-def test_the_complete_cell_is_clean(tmp_path: Path) -> None:
-    assert diagnose_example(Example("yaml", "{}"), tmp_path) == ()
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the folder that each example is written to: the devices beside the cells are read once."""
+    return tmp_path_factory.mktemp("examples")
+
+
+def test_the_complete_cell_is_clean(folder: Path) -> None:
+    assert diagnose_example(Example("yaml", "{}"), folder) == ()
 
 
 def test_every_code_is_declared_once() -> None:
@@ -70,15 +76,15 @@ def test_every_section_of_the_principles_is_the_source_of_a_rule() -> None:
 
 
 @pytest.mark.parametrize("rule", RULES)
-def test_reported_example_is_reported_where_it_is_marked_and_nowhere_else(rule: Rule, tmp_path: Path) -> None:
+def test_reported_example_is_reported_where_it_is_marked_and_nowhere_else(rule: Rule, folder: Path) -> None:
     reported, _ = examples(rule)
-    diagnosed = diagnose_example(reported, tmp_path)
+    diagnosed = diagnose_example(reported, folder)
     for one in diagnosed:
         if one.code == rule.code:
             assert one.severity is rule.severity
             assert one.help
             assert "\n" not in one.message + one.help
-    found = sorted(places(diagnosed, reported, tmp_path), key=lambda place: (place.code, place.line))
+    found = sorted(places(diagnosed, reported, folder), key=lambda place: (place.code, place.line))
     expected = sorted(marks(rule, reported), key=lambda place: (place.code, place.line))
     assert rule.code in {place.code for place in expected}
     assert len(found) == len(expected), found
@@ -86,6 +92,6 @@ def test_reported_example_is_reported_where_it_is_marked_and_nowhere_else(rule: 
 
 
 @pytest.mark.parametrize("rule", RULES)
-def test_accepted_example_is_accepted(rule: Rule, tmp_path: Path) -> None:
+def test_accepted_example_is_accepted(rule: Rule, folder: Path) -> None:
     _, accepted = examples(rule)
-    assert diagnose_example(accepted, tmp_path) == ()
+    assert diagnose_example(accepted, folder) == ()

@@ -33,10 +33,11 @@ def test_matrix_names_every_fault_and_step(folders: dict[str, Path]) -> None:
     assert lines[-1].startswith("passed: ")
 
 
+@pytest.mark.usefixtures("few_faults")
 def test_json_names_every_run_with_its_bound_digest_and_replay(folders: dict[str, Path], tmp_path: Path) -> None:
     folder = str(folders["minimal"])
     records = tmp_path / "all.jsonl"
-    ran = process("mock", folder, "--campaign", "--json", "--jobs", "2", "--records", str(records))
+    ran = run("mock", folder, "--campaign", "--json", "--jobs", "2", "--records", str(records))
     assert ran.code == 0, ran.err
     told = json.loads(ran.out)
     assert told["passed"] is True
