@@ -113,6 +113,7 @@ def rows(folder: str) -> Iterator[Row]:
     yield Row(f"check {CELL}", _cellc("check", CELL))
     yield Row(f"build {CELL}, first on a machine", build, is_first=True)
     yield Row(f"build {CELL}", build)
+    yield Row(f"build --check {CELL}", _cellc("build", "--check", CELL))
     yield Row("mock generated/ur5e_pick (all rehearsals)", _cellc("mock", "generated/ur5e_pick"))
 
 

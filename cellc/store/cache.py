@@ -13,6 +13,7 @@ import re
 import sys
 import zlib
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -35,11 +36,21 @@ MAX_CONTENT_BYTES = 50_000_000
 MAX_ENTRIES = 2000
 """Entries of one kind; when there are more, the older half goes."""
 
-_ANSWERING = ("feasibility", "planning", "description")
-"""Packages whose code decides the answers; an entry that other code wrote is not read."""
 
-_LIBRARIES = ("pin", "coal", "numpy")
-"""Distributions whose code decides the answers too."""
+@dataclass(frozen=True, slots=True)
+class Program:
+    """What decides the answers apart from their questions: an entry that other code wrote is not read.
+
+    Args:
+        code: packages and modules of cellc.
+        libraries: distributions that are asked.
+    """
+
+    code: tuple[str, ...]
+    libraries: tuple[str, ...]
+
+
+GEOMETRY = Program(("feasibility", "planning", "description", "transforms.py"), ("pin", "coal", "numpy"))
 
 _Answer = TypeVar("_Answer")
 
@@ -70,21 +81,20 @@ _adapters: dict[type, TypeAdapter[Any]] = {}
 """What reads and writes a type: to make one takes a tenth of the check of a small cell."""
 
 
-def entry_name(kind: str, question: str) -> str:
+def entry_name(kind: str, question: str, program: Program) -> str:
     """Return the path of an entry in the cache folder."""
-    digest = hashlib.sha256("\0".join((__version__, _program(), kind, question)).encode()).hexdigest()
+    digest = hashlib.sha256("\0".join((__version__, _content(program), kind, question)).encode()).hexdigest()
     return f"{kind}/{digest}.json"
 
 
 @cache
-def _program() -> str:
+def _content(program: Program) -> str:
     root = Path(__file__).resolve().parents[1]
     digest = hashlib.sha256()
-    for package in _ANSWERING:
-        for file in sorted((root / package).glob("*.py")):
+    for name in program.code:
+        for file in [root / name] if name.endswith(".py") else sorted((root / name).glob("*.py")):
             digest.update(f"{file.name}\0".encode() + file.read_bytes() + b"\0")
-    digest.update((root / "transforms.py").read_bytes())
-    digest.update("\0".join((sys.version, *map(_version, _LIBRARIES))).encode())
+    digest.update("\0".join((sys.version, *map(_version, program.libraries))).encode())
     return digest.hexdigest()
 
 
@@ -102,6 +112,7 @@ def recall(
     compute: Callable[[], _Answer],
     is_kept: Callable[[_Answer], bool] = lambda _: True,
     asked_by: Path | None = None,
+    program: Program = GEOMETRY,
 ) -> _Answer:
     """Return the kept answer to a question, or compute it.
 
@@ -114,11 +125,12 @@ def recall(
         is_kept: whether a computed answer is the answer to this question for ever: no file changed under it, and it
             does not rest on what the machine had left.
         asked_by: the spec that it is about; a cache in its working tree is not used.
+        program: what computes it.
     """
     if cache_folder() is None:
         return compute()
     adapter: TypeAdapter[_Answer] = _adapters.get(answer) or _adapters.setdefault(answer, TypeAdapter(answer))
-    name = entry_name(kind, question)
+    name = entry_name(kind, question, program)
     content = read_entry(name, asked_by)
     if content is not None:
         try:

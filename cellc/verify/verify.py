@@ -1,143 +1,37 @@
-"""Read our artifacts back with parsers that we did not write.
-
-Common parsers read every XML, YAML and JSON file, published schemas hold the JSON files, and two robot libraries read
-each description.
-"""
+"""What foreign parsers say of artifacts: asked once for the same bytes, since what they say rests on nothing else."""
 
 from __future__ import annotations
 
-import json
-import xml.etree.ElementTree as ElementTree
-from collections.abc import Iterator, Mapping, Sequence
-from functools import cache
-from typing import Any
-
-import yaml
-from jsonschema import Draft202012Validator
-from jsonschema.exceptions import best_match
-from pydantic import BaseModel
+from collections.abc import Sequence
+from pathlib import Path
 
 from cellc.artifact import Artifact
-from cellc.contract.base import contract_schema
-from cellc.contract.contract import Contract
-from cellc.contract.manifest import Manifest
-from cellc.contract.rehearsals import Rehearsals
 from cellc.diagnostics import Diagnostic
 from cellc.graph.cell_graph import CellGraph
+from cellc.store.cache import Program, recall
 from cellc.verify.codes import Disagreement
-from cellc.verify.description import cell_poses, check_description
+from cellc.verify.meant import meant_by
 
-_XML = (".xml", ".urdf", ".srdf", ".xacro", ".svg")
-_YAML = (".yaml", ".yml", ".repos", ".rviz")
-
-_MODELS: Mapping[str, type[BaseModel]] = {
-    "contract.json": Contract,
-    "manifest.json": Manifest,
-    "rehearsals.json": Rehearsals,
-}
+_PARSERS = Program(
+    code=("verify", "contract", "transforms.py", "vocabulary.py"),
+    libraries=("pin", "yourdfpy", "trimesh", "numpy", "lxml", "PyYAML", "jsonschema", "referencing", "pydantic"),
+)
 
 
 def verify(artifacts: Sequence[Artifact], graph: CellGraph) -> tuple[Diagnostic, ...]:
     """Return a diagnostic for everything that foreign parsers make of the artifacts and the cell does not mean.
 
-    Each finding is a bug of cellc; it stands at the name of the cell. Importing this module takes about half a second
-    and is left to commands that build.
+    Each finding is a bug of cellc; it stands at the name of the cell. That there is none is kept: to load the parsers
+    and to ask them takes as long as all that a build does else. What they found is asked again.
     """
-    place = graph.cell.locate("cell")
-    found = [disagreement.at(place) for disagreement in _disagreements(artifacts, graph)]
-    return tuple(sorted(found, key=Diagnostic.sort_key))
+    meant = meant_by(graph)
 
+    def ask() -> tuple[Disagreement, ...]:
+        from cellc.verify.read_back import read_back
 
-def _disagreements(artifacts: Sequence[Artifact], graph: CellGraph) -> Iterator[Disagreement]:
-    malformed = tuple(_check_text(artifacts))
-    yield from malformed
-    yield from _check_json(artifacts)
-    frames = cell_poses(graph.frames)
-    joints = [joint for device in graph.cell.devices for joint in device.joints]
-    broken = {disagreement.path for disagreement in malformed}
-    for artifact in artifacts:
-        if artifact.path.endswith(".urdf") and artifact.path not in broken:
-            yield from check_description(artifact, frames, joints)
+        return tuple(read_back(artifacts, meant))
 
-
-def _check_text(artifacts: Sequence[Artifact]) -> Iterator[Disagreement]:
-    """Yield the files that are not what the end of their name says."""
-    for artifact in artifacts:
-        if artifact.path.endswith(_XML):
-            yield from _check_xml(artifact)
-        elif artifact.path.endswith(_YAML):
-            yield from _check_yaml(artifact)
-
-
-def _check_xml(artifact: Artifact) -> Iterator[Disagreement]:
-    try:
-        root = ElementTree.fromstring(artifact.text)
-    except ElementTree.ParseError as error:
-        yield Disagreement("verify-text", artifact.path, f"is not well-formed XML: {error}")
-        return
-    if _flat(ElementTree.fromstring(ElementTree.tostring(root))) != _flat(root):
-        yield Disagreement("verify-text", artifact.path, "changes when it is read and written again")
-
-
-def _flat(root: ElementTree.Element) -> list[tuple[str, dict[str, str], str | None, str | None]]:
-    return [(element.tag, element.attrib, element.text, element.tail) for element in root.iter()]
-
-
-def _check_yaml(artifact: Artifact) -> Iterator[Disagreement]:
-    try:
-        # The rules of YAML 1.1, as rcl reads parameters and most Python nodes read files.
-        yaml.load(artifact.text, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
-    except (yaml.YAMLError, ValueError) as error:
-        yield Disagreement("verify-text", artifact.path, f"is not YAML: {error}")
-
-
-def _check_json(artifacts: Sequence[Artifact]) -> Iterator[Disagreement]:
-    """Yield the JSON files that do not fit their schema, or name another configuration than the contract."""
-    read: dict[str, Any] = {}
-    for artifact in artifacts:
-        if not artifact.path.endswith(".json"):
-            continue
-        try:
-            read[artifact.path] = json.loads(artifact.text, parse_constant=_refuse)
-        except ValueError as error:
-            yield Disagreement("verify-json", artifact.path, f"is not JSON: {error}")
-            continue
-        yield from _check_schema(artifact.path, read[artifact.path])
-    yield from _check_configuration(read)
-    yield from _check_files(read, {artifact.path for artifact in artifacts})
-
-
-def _refuse(constant: str) -> float:
-    raise ValueError(f"{constant} is not a number of JSON")
-
-
-def _check_schema(path: str, data: object) -> Iterator[Disagreement]:
-    if path not in _MODELS:
-        return
-    error = best_match(_validator(path).iter_errors(data))
-    if error is not None:
-        yield Disagreement("verify-json", path, f"{error.json_path} does not fit the schema: {error.message[:200]}")
-
-
-@cache
-def _validator(path: str) -> Draft202012Validator:
-    return Draft202012Validator(contract_schema(_MODELS[path]))
-
-
-def _check_configuration(read: Mapping[str, Any]) -> Iterator[Disagreement]:
-    contract, manifest = read.get("contract.json"), read.get("manifest.json")
-    if isinstance(contract, dict) and isinstance(manifest, dict):
-        ours, theirs = manifest.get("configuration_id"), contract.get("configuration_id")
-        if ours != theirs:
-            yield Disagreement("verify-json", "manifest.json", f"names configuration {ours}, the contract {theirs}")
-
-
-def _check_files(read: Mapping[str, Any], made: set[str]) -> Iterator[Disagreement]:
-    contract = read.get("contract.json")
-    files = contract.get("files") if isinstance(contract, dict) else None
-    if not isinstance(files, dict):
-        return
-    parameters = files.get("parameters")
-    named = [*files.values(), *(parameters.values() if isinstance(parameters, dict) else ())]
-    for path in sorted({name for name in named if isinstance(name, str)} - made):
-        yield Disagreement("verify-json", "contract.json", f"names the file `{path}`, which is not made")
+    place, question = graph.cell.locate("cell"), repr((tuple(artifacts), meant))
+    kind = tuple[Disagreement, ...]
+    found = recall("verify", question, kind, ask, lambda found: not found, Path(place.file), _PARSERS)
+    return tuple(sorted((disagreement.at(place) for disagreement in found), key=Diagnostic.sort_key))

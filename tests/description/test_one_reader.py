@@ -11,7 +11,7 @@ READERS = {
     "description/meshes.py",  # takes meshes out of a text that the reader has accepted
     "description/xacro_confinement.py",
     "description/xml_tree.py",
-    "verify/verify.py",
+    "verify/read_back.py",
 }
 
 

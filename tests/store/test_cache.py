@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from cellc.store.cache import cache_folder, recall
+from cellc.store.cache import GEOMETRY, Program, cache_folder, recall
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,6 +89,13 @@ def test_another_program_does_not_read_the_entry(monkeypatch: pytest.MonkeyPatch
     monkeypatch.setattr("cellc.store.cache.__version__", "0.0.0")
     recall("kind", "question", Answer, compute)
     assert compute.calls == 2
+
+
+def test_an_entry_of_other_code_or_of_other_libraries_is_not_read() -> None:
+    compute = Counting()
+    for program in (GEOMETRY, Program(("verify",), ()), Program(("verify",), ("numpy",)), Program(("verify",), ())):
+        recall("kind", "question", Answer, compute, program=program)
+    assert compute.calls == 3
 
 
 def test_a_relative_folder_is_ignored_as_the_standard_has_it() -> None:

@@ -14,10 +14,12 @@ from pathlib import Path
 
 import pytest
 
+from cellc.graph.cell_graph import build_graph
 from cellc.graph.frame_tree import FrameTree
 from cellc.transforms import Pose, from_xyz_rpy, identity
-from cellc.verify.codes import CODES
-from cellc.verify.description import cell_poses, distance
+from cellc.verify.codes import CODES, Disagreement
+from cellc.verify.description import distance
+from cellc.verify.meant import cell_poses
 from cellc.verify.parsers import read_by_pinocchio, read_by_yourdfpy
 from cellc.verify.verify import verify
 from tests.cells import CELLS, ROOT, built
@@ -134,6 +136,31 @@ def test_check_of_a_cell_does_not_import_foreign_parsers(tmp_path: Path) -> None
     # pinocchio answers what is feasible; its answers are kept, and then it is not asked.
     assert first == ["pinocchio"]
     assert second == []
+
+
+def test_parsers_are_asked_once_about_the_same_bytes_and_the_same_meaning(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    answers = iter([[], [Disagreement("verify-urdf", MOCK, "is refused")], [], []])
+    asked: list[list[Disagreement]] = []
+
+    def answer(*_: object) -> list[Disagreement]:
+        asked.append(next(answers))
+        return asked[-1]
+
+    monkeypatch.setattr("cellc.verify.read_back.read_back", answer)
+    artifacts, graph = built("ur5e_pick").artifacts, built("ur5e_pick").graph
+    assert (verify(artifacts, graph), verify(artifacts, graph), len(asked)) == ((), (), 1)
+    # Another byte; a disagreement is not kept, so that nobody has to clear a cache to be rid of it.
+    edited = (*artifacts[:-1], replace(artifacts[-1], text=f"{artifacts[-1].text}\n"))
+    assert [len(verify(edited, graph)) for _ in range(3)] == [1, 0, 0]
+    assert len(asked) == 3
+    # The same bytes of a cell that means something else.
+    arm = graph.cell.devices[0]
+    raised = replace(arm, joints=(replace(arm.joints[0], velocity=7.0), *arm.joints[1:]))
+    other = build_graph(replace(graph.cell, devices=(raised, *graph.cell.devices[1:])))
+    assert (verify(artifacts, other), len(asked)) == ((), 4)
 
 
 def test_what_was_hidden_can_be_imported_after_a_verification() -> None:
