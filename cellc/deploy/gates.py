@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -188,7 +188,13 @@ def _rows(subject: str, graph: CellGraph, gate: str) -> Iterator[Row]:
     if subject == CELL:
         yield {}
         return
-    for values in ROWS[subject](graph):
+    for values in graph.once(_listed(subject)):
         row = dict(zip(FIELDS[subject], values, strict=True))
         if row.get("gate", gate) == gate:
             yield row
+
+
+@cache
+def _listed(subject: str) -> Callable[[CellGraph], tuple[tuple[str, ...], ...]]:
+    """Return what lists a subject; the lines of all gates ask for the same few."""
+    return lambda graph: tuple(ROWS[subject](graph))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import lru_cache
 
 from cellc.catalog.device_model import VersionRow
 from cellc.catalog.load import load_releases
@@ -15,6 +16,7 @@ PACKAGED = ("driver", "sdk", "description")
 """The parts of a device that are packages."""
 
 
+@lru_cache(maxsize=16)
 def release_sets(distro: str) -> tuple[ReleaseSet, ...]:
     """Return what belonged together on a distribution, the newest first."""
     table = load_releases().value
