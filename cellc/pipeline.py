@@ -22,7 +22,8 @@ from cellc.source import read
 from cellc.source.text import with_shown_texts
 from cellc.spec.parse import parse
 
-_DESCRIPTIONS = (".urdf", ".xacro")
+DESCRIPTIONS = (".urdf", ".xacro")
+"""Files of a robot alone, which no cell holds."""
 _ON_MODELS = tuple(one for one in ALL_RULES if one.family == "MOD" or one.code == "missing-velocity-limit")
 
 
@@ -53,7 +54,7 @@ def check(path: str | Path, edited: Mapping[str, str] | None = None) -> Checked:
         edited: texts that are read in place of files of the spec, by the name that spans carry.
     """
     file = Path(path).as_posix()
-    if file.endswith(_DESCRIPTIONS):
+    if file.endswith(DESCRIPTIONS):
         return _check_description(Path(path))
     source = read(path, edited)
     if source.value is None or not source.ok:

@@ -43,8 +43,7 @@ def view(folder: str, output: Path | None, names: tuple[str, ...], against: str 
     from cellc.review.sides import SideError
     from cellc.store.swap import replace_whole
     from cellc.view.content import before_of, content_of
-    from cellc.view.library import three_js
-    from cellc.view.page import to_html
+    from cellc.view.page import three_js, to_html
     from cellc.view.subject import ViewError, read_subject
 
     try:
@@ -52,7 +51,7 @@ def view(folder: str, output: Path | None, names: tuple[str, ...], against: str 
             raise ViewError(f"{output.as_posix()}: cannot be written: no such folder")
         subject = read_subject(Path(folder))
         content = content_of(subject, names, seed)
-        if against is not None and content.scene is not None:
+        if against is not None and subject.folder is not None:
             content = replace(content, before=before_of(against, folder))
     except (ViewError, MockError, SideError) as problem:
         refuse(str(problem))
@@ -68,5 +67,5 @@ def view(folder: str, output: Path | None, names: tuple[str, ...], against: str 
     show(f"wrote {place.as_posix()}, {len(page) / 1e6:.1f} MB")
     if library is None:
         show("without 3D: the installed trimesh ships no three.js that cellc knows")
-    if subject.folder is None:
+    if subject.findings is not None and not subject.findings.ok:
         raise click.exceptions.Exit(1)

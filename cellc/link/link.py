@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass, replace
-from pathlib import PurePosixPath
+from pathlib import Path, PurePosixPath
 
 from cellc.catalog.load import load_distros, load_qos_profiles
 from cellc.catalog.tables import RMWS, Rmw
@@ -14,6 +15,7 @@ from cellc.cell.frame import Frame, SceneBox, SharedArea
 from cellc.cell.motion import CartesianGoal, NamedPose, Octomap, Pipeline, PlanningGroup, Servo
 from cellc.cell.site import Versions
 from cellc.description.model import Description
+from cellc.description.packages import lies_under, repository_of
 from cellc.diagnostics import Diagnostic, Outcome, Severity, Span, did_you_mean
 from cellc.link.control import as_driven, bind_adapters, link_managers
 from cellc.link.controller import ControlContext
@@ -26,7 +28,6 @@ from cellc.link.interfaces import link_interfaces
 from cellc.link.motion import Machine, link_goals, link_groups, link_poses
 from cellc.link.moveit import link_octomap, link_servo, with_octomap
 from cellc.link.nodes import link_nodes, standard_nodes
-from cellc.link.packages import link_packages
 from cellc.link.planners import link_pipelines
 from cellc.link.programs import implied_endpoints, with_programs
 from cellc.link.rehearsals import link_rehearsals
@@ -60,7 +61,7 @@ def link(spec: CellSpec, document: SourceDocument) -> Outcome[Cell]:
         The cell where every reference could be bound; all references that could not, at once.
     """
     distro = _distro(spec, document)
-    packages = link_packages(spec, document)
+    packages = _packages(spec, document)
     if packages.value is None:
         return Outcome(None, (*distro.diagnostics, *packages.diagnostics))
     devices = link_devices(spec, document, distro.value, packages.value)
@@ -70,6 +71,31 @@ def link(spec: CellSpec, document: SourceDocument) -> Outcome[Cell]:
     every = Outcome(switched.value, (*devices.diagnostics, *switched.diagnostics))
     linked = _link_with_devices(spec, document, distro.value, every)
     return replace(linked, value=None if linked.value is None else replace(linked.value, packages=packages.value))
+
+
+def _packages(spec: CellSpec, document: SourceDocument) -> Outcome[tuple[str, ...]]:
+    """Return each folder as the current folder sees it; of one that may not be searched, why.
+
+    A folder is relative to the file that names it, as includes are, and lies in the repository of the spec with every
+    link followed; without version control that is the spec's own folder.
+    """
+    repository = repository_of(os.path.dirname(document.file) or ".")
+    folders: list[str] = []
+    problems: list[Diagnostic] = []
+    for number, written in enumerate(spec.packages):
+        place = document.locate(("packages", number))
+        folder = os.path.normpath(Path(place.file).parent / written).replace(os.sep, "/")
+        if os.path.isabs(written) or not lies_under(folder, repository):
+            code, message = "include-escape", f"`{written}` leads out of the repository of the spec"
+            advice = "name a folder of the repository, relative to the spec, or give it with `--package-path`"
+        elif not os.path.isdir(folder):
+            code, message = "file-not-found", f"there is no folder `{folder}`"
+            advice = "name the folder that holds the packages, relative to the spec"
+        else:
+            folders.append(folder)
+            continue
+        problems.append(Diagnostic(code, Severity.ERROR, message, place, ("packages", number), advice))
+    return Outcome(None if problems else tuple(folders), tuple(problems))
 
 
 @dataclass(frozen=True, slots=True)

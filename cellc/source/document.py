@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TypeAlias, Union
 
 from cellc.diagnostics import Span, YamlPath
@@ -109,6 +109,15 @@ class SourceDocument:
         child = self._child(path)
         return child.node.text if child is not None else ""
 
+    def without(self, path: YamlPath) -> SourceDocument:
+        """Return the same without the value of a path that exists; what stands behind it in a list moves up."""
+        return replace(self, root=_changed(self.root, path, None))
+
+    def with_value(self, key: str, value: Plain) -> SourceDocument:
+        """Return the same with a section that nobody wrote; its values are marked where the document begins."""
+        node = Node(self.root.span, value)
+        return replace(self, root=_changed(self.root, (key,), Child(node, node.span, None)))
+
     def _child(self, path: YamlPath) -> Child | None:
         node, child = self.root, None
         for part in path:
@@ -126,3 +135,16 @@ class SourceDocument:
                 break
             node, found = child.node, child
         return found
+
+
+def _changed(node: Node, path: YamlPath, child: Child | None) -> Node:
+    """Return a collection with another child at a path, or without the one there."""
+    first, rest = path[0], path[1:]
+    if rest:
+        held = node.children[first]
+        child = replace(held, node=_changed(held.node, rest, child))
+    kept = {key: one for key, one in {**node.children, first: child}.items() if one is not None}
+    if isinstance(node.data, list):
+        listed = list(kept.values())
+        return replace(node, data=[one.node.data for one in listed], children=dict(enumerate(listed)))
+    return replace(node, data={str(key): one.node.data for key, one in kept.items()}, children=kept)

@@ -5,9 +5,13 @@ from __future__ import annotations
 import base64
 import hashlib
 import json
+import re
+import zipfile
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict
 from importlib.resources import files
+from importlib.util import find_spec
+from pathlib import Path
 from xml.etree.ElementTree import Element
 
 from cellc.diagnostics import Severity
@@ -15,6 +19,7 @@ from cellc.mock.report_page.html import Child, count, tag, to_page
 from cellc.view.content import Content
 from cellc.view.scene import Scene
 from cellc.view.sections import (
+    absent_section,
     changes_section,
     findings_section,
     gates_section,
@@ -55,6 +60,32 @@ def to_html(content: Content, library: str | None) -> str:
     for text in scripts:
         body.append(_with_text("script", text))
     return to_page(f"{content.subject.name}: the cell", style, body, policy=_policy(style, scripts))
+
+
+_ARCHIVE, _TEMPLATE = "resources/templates/viewer.zip", "viewer.html.template"
+_LARGEST = 4 * 1024 * 1024
+# From the license to the end of the module; behind it the template has controls and loaders of its own.
+_MODULE = re.compile(r"<script>(/\*\*\n \* @license\n[^/]*Three\.js Authors.*?\}\)\);)\n", re.DOTALL)
+
+
+def three_js() -> str | None:
+    """Return the text of three.js; None where no package ships it in the form that is known here.
+
+    trimesh, which yourdfpy needs, has a page of its own with three.js in it (release 140, MIT) for its
+    `scene_to_html`: https://github.com/mikedh/trimesh/tree/5.2.0/trimesh/resources/templates. The library alone is
+    taken from there, with its license at the head, and trimesh is not imported, which would load numerics for a text.
+    """
+    found = find_spec("trimesh")
+    for folder in (found.submodule_search_locations or ()) if found is not None else ():
+        try:
+            with zipfile.ZipFile(Path(folder) / _ARCHIVE) as archive, archive.open(_TEMPLATE) as template:
+                text = template.read(_LARGEST).decode("utf-8")
+        except (OSError, KeyError, ValueError, zipfile.BadZipFile):
+            continue
+        module = _MODULE.search(text)
+        if module is not None and "</script" not in module[1]:
+            return module[1]
+    return None
 
 
 _STYLES = (("cellc.mock.report_page", "style.css"), ("cellc.view.assets", "page.css"))
@@ -100,6 +131,8 @@ def _parts(content: Content, *, drawn: bool) -> Iterator[Element]:
     yield _header(content)
     if content.scene is not None and drawn:
         yield _stage(content.scene, compared=content.before is not None)
+    if content.not_drawn:
+        yield absent_section(content.not_drawn)
     if content.before is not None:
         yield changes_section(content.before.review)
     if content.runs:
@@ -118,14 +151,7 @@ def _header(content: Content) -> Element:
     facts = [] if contract is None else [("configuration", contract.configuration_id), ("ROS 2", contract.distro.value)]
     found = [] if subject.findings is None else [one.severity for one in subject.findings.diagnostics]
     facts += [("findings", ", ".join(_counted(found)) or "none")] if subject.findings is not None else []
-    left_out = content.scene.left_out if content.scene is not None else 0
-    notes = [*(() if folder is None else folder.notes)]
-    notes += [f"{count(left_out, 'mesh')} not drawn: meshes are left out"] if left_out else []
-    notes += (
-        ["an error keeps the package from being made: what is drawn follows once it is mended"]
-        if folder is None
-        else []
-    )
+    notes = [*(() if folder is None else folder.notes), *_drawn_less(content)]
     return tag(
         "header",
         tag("p", "Robot cell", class_="kicker"),
@@ -137,11 +163,28 @@ def _header(content: Content) -> Element:
     )
 
 
+def _drawn_less(content: Content) -> Iterator[str]:
+    left_out = content.scene.left_out if content.scene is not None else 0
+    if left_out:
+        yield f"{count(left_out, 'mesh')} not drawn: meshes are left out"
+    findings = content.subject.findings
+    if content.subject.folder is not None or findings is None:
+        return
+    if findings.ok:
+        yield "a robot alone: a cell that mounts it has rehearsals, interfaces and gates too"
+    elif content.scene is None:
+        yield "nothing is drawn: an error keeps the cell from being linked"
+    else:
+        yield "errors keep the package from being made; what can be linked without them is drawn, and nothing is run"
+
+
 def _counted(found: Sequence[Severity]) -> Iterator[str]:
     return (count(found.count(one), one.value) for one in Severity if one in found)
 
 
 def _places(content: Content) -> Iterator[tuple[str, str]]:
+    if content.not_drawn:
+        yield "absent", "Not drawn"
     if content.before is not None:
         yield "changes", "Changes"
     if content.runs:

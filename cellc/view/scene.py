@@ -6,10 +6,10 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from cellc.cell.device import FieldOfView
-from cellc.contract.contract import Contract
-from cellc.description.model import Box, Collision, Cylinder, Description, Geometry, Link, Mesh, Sphere, Visual
+from cellc.description.model import Box, Collision, Cylinder, Geometry, Link, Mesh, Sphere, Visual
 from cellc.transforms import Pose
 from cellc.view.skeleton import Held, Skeleton, pose_of
+from cellc.view.standing import Standing
 
 Numbers = tuple[float, ...]
 """A pose as the page has it: position in m, quaternion x, y, z, w."""
@@ -91,23 +91,21 @@ class Scene:
     left_out: int
 
 
-def scene_of(
-    contract: Contract, description: Description, views: Mapping[str, FieldOfView], skeleton: Skeleton
-) -> Scene:
-    """Return what is drawn of a package."""
-    found = [(link, *one) for link in description.links for one in _bodies(link)]
-    owners = _owners(contract)
+def scene_of(standing: Standing, views: Mapping[str, FieldOfView], skeleton: Skeleton) -> Scene:
+    """Return what is drawn of what stands."""
+    found = [(link, *one) for link in standing.description.links for one in _bodies(link)]
+    owners = _owners(standing)
     drawn = tuple(_shape(skeleton, owners, *one) for one in found)
     return Scene(
         groups=skeleton.groups,
-        devices=tuple(contract.devices),
+        devices=tuple(standing.roots),
         shapes=tuple(one for one in drawn if one is not None),
-        frames=tuple(_frames(contract, skeleton)),
+        frames=tuple(_frames(standing, skeleton)),
         cones=tuple(
             _cone(name, skeleton.frames[name], view) for name, view in views.items() if name in skeleton.frames
         ),
-        goals=tuple(_goals(contract, skeleton)),
-        poses=tuple(_poses(contract, skeleton)),
+        goals=tuple(_goals(standing, skeleton)),
+        poses=tuple(_poses(standing, skeleton)),
         left_out=sum(one is None for one in drawn),
     )
 
@@ -124,17 +122,17 @@ def _bodies(link: Link) -> Iterator[tuple[Pose, Geometry]]:
     return ((shape.pose, shape.geometry) for shape in shapes)
 
 
-def _owners(contract: Contract) -> dict[str, str]:
-    """Return the device of each link of the contract: that of the nearest mount above it."""
-    roots = {device.root_link: name for name, device in contract.devices.items()}
+def _owners(standing: Standing) -> dict[str, str]:
+    """Return the device of each link: that of the nearest mount above it; what is mounted on one is none of it."""
+    roots = {link: name for name, link in standing.roots.items()}
+    above = {joint.child: joint.parent for joint in standing.description.joints}
+    beside = {name for name, frame in standing.frames.items() if frame.kind not in ("link", "mount")}
     owners: dict[str, str] = {}
-    for name in contract.frames:
-        above, seen = name, set[str]()
-        while above in contract.frames and above not in roots and above not in seen:
-            seen.add(above)
-            above = contract.frames[above].parent
-        if contract.frames[name].kind in ("link", "mount"):
-            owners[name] = roots.get(above, "")
+    for link in standing.description.links:
+        name = link.name
+        while name in above and name not in roots and name not in beside:
+            name = above[name]
+        owners[link.name] = roots.get(name, "")
     return owners
 
 
@@ -144,7 +142,7 @@ def _shape(skeleton: Skeleton, owners: Mapping[str, str], link: Link, pose: Pose
         return None
     kind, size = measured
     held = skeleton.held(link.name)
-    owner = owners.get(link.name, "")
+    owner = owners[link.name]
     return Shape(held.group, numbers(held.pose @ pose), kind, tuple(round(one, 5) for one in size), owner, link.name)
 
 
@@ -156,9 +154,9 @@ def _measured(shape: Geometry) -> tuple[str, Numbers] | None:
     return ("sphere", (shape.radius,)) if isinstance(shape, Sphere) else None
 
 
-def _frames(contract: Contract, skeleton: Skeleton) -> Iterator[FrameMark]:
+def _frames(standing: Standing, skeleton: Skeleton) -> Iterator[FrameMark]:
     for name, held in skeleton.frames.items():
-        frame = contract.frames[name]
+        frame = standing.frames[name]
         yield FrameMark(held.group, numbers(held.pose), name, frame.parent, frame.kind)
 
 
@@ -167,24 +165,24 @@ def _cone(name: str, held: Held, view: FieldOfView) -> ViewCone:
     return ViewCone(held.group, numbers(held.pose), name, angles, (view.nearest_m, view.farthest_m))
 
 
-def _goals(contract: Contract, skeleton: Skeleton) -> Iterator[GoalMark]:
-    for name, goal in contract.goals.items():
+def _goals(standing: Standing, skeleton: Skeleton) -> Iterator[GoalMark]:
+    for name, goal in standing.goals.items():
         held = skeleton.frames.get(goal.frame)
         if held is not None:
-            pose, tip = held.pose @ pose_of(goal.pose), contract.groups[goal.group].tip_frame
+            pose, tip = held.pose @ pose_of(goal.pose), standing.groups[goal.group].tip_frame
             yield GoalMark(held.group, numbers(pose), name, tip, goal.frame, goal.approach or ())
 
 
-def _poses(contract: Contract, skeleton: Skeleton) -> Iterator[PoseMark]:
+def _poses(standing: Standing, skeleton: Skeleton) -> Iterator[PoseMark]:
     """Yield the named poses, and where the mock begins."""
-    for name, targets in contract.poses.items():
+    for name, targets in standing.poses.items():
         positions = {
             joint: position
             for target in targets
-            for joint, position in zip(contract.groups[target.group].joints, target.positions, strict=True)
+            for joint, position in zip(standing.groups[target.group].joints, target.positions, strict=True)
         }
         yield PoseMark(name, _flat(skeleton.posture(positions)))
-    yield PoseMark("start of the mock" if contract.poses else "as it starts", _flat(skeleton.posture({})))
+    yield PoseMark("start of the mock" if standing.poses else "as it starts", _flat(skeleton.posture({})))
 
 
 def _flat(poses: tuple[Pose, ...]) -> Numbers:

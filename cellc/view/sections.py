@@ -83,6 +83,12 @@ def _snippet(span: Span, texts: Mapping[str, str]) -> Iterator[Element]:
     yield tag("pre", f"{span.line} | {before}", tag("mark", rest[: shown.marked_cells]), rest[shown.marked_cells :])
 
 
+def absent_section(not_drawn: Sequence[tuple[str, str]]) -> Element:
+    """Return what the cell names and the drawing does not have, each with the reason."""
+    rows = [(tag("b", name), why) for name, why in not_drawn]
+    return section("absent", "Not drawn", table(("what", "why"), rows))
+
+
 def changes_section(review: Review) -> Element:
     """Return what changed since the other state, as `cellc diff` grades it, and the gates that must be passed again."""
     names = ("grade", "what", "before", "after", "difference", "why")

@@ -6,10 +6,11 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from cellc.contract.base import ContractPose
-from cellc.contract.contract import Contract
+from cellc.contract.contract import ContractFrame
 from cellc.description.model import Description
 from cellc.mock.world.world import LinkTree, link_tree
 from cellc.transforms import Pose, identity
+from cellc.view.standing import Standing
 
 Carried = Mapping[str, tuple[str, Pose]]
 """Where dynamic frames stand: the link that each hangs from, and its pose there."""
@@ -31,8 +32,9 @@ class Skeleton:
         frames: where each frame of the cell is held; dynamic ones that nothing places are left out.
     """
 
-    def __init__(self, contract: Contract, description: Description) -> None:
-        """Find the groups of a package."""
+    def __init__(self, standing: Standing) -> None:
+        """Find the groups of what stands."""
+        description = standing.description
         self._tree: LinkTree = link_tree(description)
         self._start = dict(_start_positions(description))
         moved = {joint.child for joint in description.joints if joint.movable}
@@ -40,12 +42,12 @@ class Skeleton:
         roots = [name for name in self._links if name in moved or name not in self._tree.joints]
         self._placed: Carried = {
             name: (frame.simulated_parent, pose_of(frame.simulated_pose))
-            for name, frame in contract.frames.items()
+            for name, frame in standing.frames.items()
             if frame.simulated_parent in self._links and frame.simulated_pose is not None
         }
         self.groups: tuple[str, ...] = (*roots, *self._placed)
         self._numbers = {name: number for number, name in enumerate(self.groups)}
-        self.frames = dict(self._frames(contract))
+        self.frames = dict(self._frames(standing.frames))
 
     def posture(self, positions: Mapping[str, float], carried: Carried | None = None) -> tuple[Pose, ...]:
         """Return the pose of each group in the root link.
@@ -69,19 +71,19 @@ class Skeleton:
             pose, link = joint.origin @ pose, joint.parent
         return Held(self._numbers[link], pose)
 
-    def _frames(self, contract: Contract) -> Iterator[tuple[str, Held]]:
-        for name in contract.frames:
-            found = self._frame(name, contract, 0)
+    def _frames(self, frames: Mapping[str, ContractFrame]) -> Iterator[tuple[str, Held]]:
+        for name in frames:
+            found = self._frame(name, frames, 0)
             if found is not None:
                 yield name, found
 
-    def _frame(self, name: str, contract: Contract, depth: int) -> Held | None:
+    def _frame(self, name: str, frames: Mapping[str, ContractFrame], depth: int) -> Held | None:
         if name in self._links or name in self._placed:
             return self.held(name)
-        frame = contract.frames.get(name)
-        if frame is None or frame.pose is None or depth > len(contract.frames):
+        frame = frames.get(name)
+        if frame is None or frame.pose is None or depth > len(frames):
             return None
-        parent = self._frame(frame.parent, contract, depth + 1)
+        parent = self._frame(frame.parent, frames, depth + 1)
         return None if parent is None else Held(parent.group, parent.pose @ pose_of(frame.pose))
 
 

@@ -11,12 +11,14 @@ from cellc.catalog.load import device_names, load_device
 from cellc.cell.cell import Cell
 from cellc.cell.device import FieldOfView
 from cellc.contract.contract import Contract
+from cellc.description.packages import root_of
 from cellc.diagnostics.diagnostic import Findings
 from cellc.link.device_facts import field_of_view
 from cellc.mock.cell import read_to_run
 from cellc.mock.errors import MockError
 from cellc.mock.folder import CONTRACT_FILE, GeneratedFolder, read_folder, read_text
 from cellc.output.write import write
+from cellc.view.standing import Standing, Wanted, of_cell, of_package, wanted_of
 
 SPEC_FILE = "cell.yaml"
 """What a spec is called where its folder is named."""
@@ -35,6 +37,8 @@ class Subject:
     Attributes:
         findings: what the check says, with the text of the spec; None for a generated folder.
         folder: the package; None where an error keeps it from being made.
+        standing: what stands in the cell; None where too little of the spec can be linked.
+        wanted: what the cell names and a reader looks for in the drawing.
         views: what cameras see, by optical frame.
         pictures: text of the package's pictures, by file.
     """
@@ -42,6 +46,8 @@ class Subject:
     name: str
     findings: Findings | None
     folder: GeneratedFolder | None
+    standing: Standing | None = None
+    wanted: Wanted = field(default_factory=dict)
     views: Mapping[str, FieldOfView] = field(default_factory=dict)
     pictures: Mapping[str, str] = field(default_factory=dict)
 
@@ -64,25 +70,62 @@ def read_subject(path: Path) -> Subject:
 def _of_folder(path: Path) -> Subject:
     folder = read_to_run(path, edited=True)
     views = dict(_views_by_model(folder.contract))
-    return Subject(folder.contract.cell, None, folder, views, _pictures(path, folder))
+    return _of_package(folder.contract.cell, None, folder, views, _pictures(path, folder))
+
+
+def _of_package(
+    name: str,
+    findings: Findings | None,
+    folder: GeneratedFolder,
+    views: Mapping[str, FieldOfView],
+    pictures: Mapping[str, str],
+) -> Subject:
+    standing = of_package(folder)
+    return Subject(name, findings, folder, standing, wanted_of(standing), views, pictures)
 
 
 def _of_spec(path: Path) -> Subject:
     # A folder is shown without the compiler, which takes a second to load.
-    from cellc.pipeline import check, emit_cell
+    from cellc.pipeline import DESCRIPTIONS, check, emit_cell
 
     checked = check(path)
+    if path.suffix in DESCRIPTIONS:
+        return _of_description(path, checked.findings)
     emitted = emit_cell(checked)
     findings = checked.findings.with_more(emitted.diagnostics)
     if emitted.value is None or checked.graph is None:
-        return Subject(path.as_posix(), findings, None)
+        return _of_errors(path, findings, None if checked.graph is None else checked.graph.cell)
     cell = checked.graph.cell
     with tempfile.TemporaryDirectory(prefix="cellc-view-") as place:
         package = Path(place) / cell.name
         write(emitted.value, package)
         folder = replace(read_folder(package), mesh_roots=(path.absolute().parent,))
         pictures = _pictures(package, folder)
-    return Subject(cell.name, findings, folder, dict(_views(cell)), pictures)
+    return _of_package(cell.name, findings, folder, dict(_views(cell)), pictures)
+
+
+def _of_description(path: Path, findings: Findings) -> Subject:
+    """Return a robot alone, which stands in the world."""
+    from cellc.description.read_description import read_description
+    from cellc.link.link import bare_cell
+
+    root = root_of(path)
+    read = read_description(path, {}, root)
+    cell = None if read.value is None else bare_cell(read.value, path.as_posix(), root.as_posix())
+    return _linked(path, findings, cell, {})
+
+
+def _of_errors(path: Path, findings: Findings, linked: Cell | None) -> Subject:
+    from cellc.view.partial import cell_as_far
+
+    found, wanted = cell_as_far(path)
+    return _linked(path, findings, linked or found, wanted)
+
+
+def _linked(path: Path, findings: Findings, cell: Cell | None, wanted: Wanted) -> Subject:
+    if cell is None:
+        return Subject(path.as_posix(), findings, None, None, wanted)
+    return Subject(cell.name, findings, None, of_cell(cell), wanted, dict(_views(cell)))
 
 
 def _pictures(path: Path, folder: GeneratedFolder) -> dict[str, str]:

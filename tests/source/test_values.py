@@ -142,3 +142,13 @@ def test_alias_is_marked_where_it_stands_and_its_content_at_the_anchor(tmp_path:
     assert str(read.locate(("b", "k"))).endswith(":1:11")
     assert str(read.locate(("b",))).endswith(":2:1")
     assert str(read.locate(("d",))).endswith(":4:4")
+
+
+def test_a_value_is_taken_out_and_every_other_keeps_its_place(tmp_path: Path) -> None:
+    written = document(tmp_path, "a: {b: [1, 2, 3], c: 4}\nd: 5\n")
+    less = written.without(("a", "b", 1))
+    assert less.data == {"a": {"b": [1, 3], "c": 4}, "d": 5}
+    assert less.locate(("a", "b", 1)) == written.locate(("a", "b", 2))
+    assert less.locate(("d",)) == written.locate(("d",))
+    assert less.without(("a",)).with_value("e", {"f": 6}).data == {"d": 5, "e": {"f": 6}}
+    assert written.data == {"a": {"b": [1, 2, 3], "c": 4}, "d": 5}

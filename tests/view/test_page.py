@@ -14,11 +14,11 @@ from typing import Any
 import pytest
 
 from cellc.view.content import Content, before_of, content_of
-from cellc.view.library import three_js
-from cellc.view.page import to_html
+from cellc.view.page import three_js, to_html
 from cellc.view.subject import read_subject
-from tests.cells import ROOT
-from tests.cli.run import PICK, run
+from tests.cells import ROOT, spec_text
+from tests.cells import written as written_spec
+from tests.cli.run import PICK, Ran, run
 from tests.view.page import Page
 
 HOSTILE = "</script><script>alert(1)</script><!--<script>\u2028<img src=x onerror=alert(1)>\"'&lt;"
@@ -135,16 +135,71 @@ def _home(scene: dict[str, Any]) -> list[float]:
     return numbers
 
 
-def test_a_spec_with_errors_is_shown_with_its_findings_alone(tmp_path: Path) -> None:
-    spec = tmp_path / "cell.yaml"
-    spec.write_text("format: 1\ncell: bench\nframes: { <b>tip: {}}\n", encoding="utf-8")
-    ran = run("view", spec.as_posix(), "-o", (tmp_path / "x.html").as_posix())
-    found = Page((tmp_path / "x.html").read_text(encoding="utf-8"))
+def test_a_spec_that_is_no_yaml_is_shown_with_its_findings_alone(tmp_path: Path) -> None:
+    ran, found = _viewed(tmp_path, "format: 1\ncell: bench\nframes: { <b>tip: {}\n")
     assert ran.code == 1
     assert found.scripts == []
     assert "3 | frames: { <b>tip" in found.text
-    assert "an error keeps the package from being made" in found.text
-    assert [tag for tag, _ in found.elements].count("b") == 1  # that of the note
+    assert "nothing is drawn: an error keeps the cell from being linked" in found.text
+    assert re.search(r"Not drawn what why the whole cell .*\(.*cell.yaml:\d+:\d+\)", found.text)
+    assert [tag for tag, _ in found.elements].count("b") == 2  # that of the note and that of what is not drawn
+
+
+def test_a_spec_with_mistakes_of_every_kind_is_drawn_as_far_as_it_can_be_linked(tmp_path: Path) -> None:
+    mistakes = {
+        "ros: jazzy": "ros: jazy",
+        "model: robotiq_2f_85": "model: robotiq_2f_58",
+        "xyz: 0 0 0.8 m}": "xyz: 0 0 0.8 m, calibraton: x}",
+        "parent: world, xyz: 450 100 850 mm": "parnt: world, xyz: 450 100 850 mm",
+        "goal_time: 1 s": "goaltime: 1 s",
+        "update_rate: 500 Hz": "update_rate: fast",
+        "domain_id: 42": "domain_id: 4242",
+        "box: 900 1200 40 mm": "box: 900 1200 mm",
+        "cancel_within: 200 ms": "cancel_within: 200",
+        "acknowledge: operator": "acknowledged: operator",
+    }
+    text = spec_text("ur5e_pick")
+    for right, wrong in mistakes.items():
+        assert right in text
+        text = text.replace(right, wrong, 1)
+    ran, found = _viewed(tmp_path, text)
+    assert (ran.code, ran.err) == (1, "")
+    scene = found.data["scene"]
+    assert {one["owner"] for one in scene["shapes"]} == {"arm", "camera"}
+    # By hand: the arm is mounted 0.8 m above the world, and the camera stands where it is drawn, on the flange.
+    base = next(one for one in scene["frames"] if one["name"] == "arm_base_link")
+    assert base["pose"][:3] == [0, 0, 0.8]
+    told = found.text[found.text.index("Not drawn what why") :]
+    assert re.search(r"devices\.gripper the catalog has no model `robotiq_2f_58` \(\S+:\d+:12\)", told)
+    assert re.search(
+        r"frames\.tcp it needs what is not drawn frames\.fixture_A `frames\.fixture_A` has no key `parnt`", told
+    )
+    assert re.search(r"scene\.table `scene\.table\.box` must have 3 numbers, got 2", told)
+    assert "devices.arm " not in told[: told.index("Findings")]
+    assert len(re.findall(r"unknown-key|missing-unit|wrong-count|not-a-quantity", found.text)) > 5
+
+
+def test_what_hangs_in_a_circle_is_told_and_the_rest_is_drawn(tmp_path: Path) -> None:
+    circle = "fixture_A: {parent: jig, xyz: 0 0 1 mm}\n  jig: {parent: fixture_A}\n  "
+    text = re.sub(r"fixture_A: \{parent: world.*\n  ", circle, spec_text("ur5e_pick"))
+    ran, found = _viewed(tmp_path, text)
+    assert ran.code == 1
+    assert {one["owner"] for one in found.data["scene"]["shapes"]} == {"arm", "camera", "gripper", ""}
+    assert re.search(r"frames\.fixture_A [^.]*`fixture_A`.* frames\.jig .* frames\.object", found.text)
+
+
+def test_a_robot_alone_is_drawn(tmp_path: Path) -> None:
+    file = ROOT / "tests/corpus/valid/parts/demo_arm/demo_arm.urdf"
+    ran = run("view", file.as_posix(), "-o", (tmp_path / "x.html").as_posix())
+    found = Page((tmp_path / "x.html").read_text(encoding="utf-8"))
+    assert (ran.code, ran.err) == (0, "")
+    assert {one["owner"] for one in found.data["scene"]["shapes"]} == {"robot"}
+    assert "a robot alone: a cell that mounts it" in found.text
+
+
+def _viewed(folder: Path, text: str) -> tuple[Ran, Page]:
+    ran = run("view", written_spec(folder, text).as_posix(), "-o", (folder / "x.html").as_posix())
+    return ran, Page((folder / "x.html").read_text(encoding="utf-8"))
 
 
 @pytest.mark.parametrize(

@@ -25,14 +25,14 @@ def subject() -> Subject:
 
 @pytest.fixture(scope="module")
 def skeleton(subject: Subject) -> Skeleton:
-    assert subject.folder is not None
-    return Skeleton(subject.folder.contract, subject.folder.description)
+    assert subject.standing is not None
+    return Skeleton(subject.standing)
 
 
 @pytest.fixture(scope="module")
 def scene(subject: Subject, skeleton: Skeleton) -> Scene:
-    assert subject.folder is not None
-    return scene_of(subject.folder.contract, subject.folder.description, subject.views, skeleton)
+    assert subject.standing is not None
+    return scene_of(subject.standing, subject.views, skeleton)
 
 
 @pytest.fixture(scope="module")
