@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from cellc.contract.contract import Contract
@@ -15,7 +16,7 @@ from cellc.mock.bus.qos import unmatched_pairs
 from cellc.mock.control import ManagerAbortedError
 from cellc.mock.errors import LimitReachedError, MockError
 from cellc.mock.faults.ports import FaultPorts, fault_ports
-from cellc.mock.faults.registry import Injection, build_fault
+from cellc.mock.faults.registry import Injection, any_begun, build_fault
 from cellc.mock.folder import GeneratedFolder, read_folder
 from cellc.mock.nodes.motion_planner import PlanMemory, build_motion_model
 from cellc.mock.plant import Plant
@@ -98,7 +99,8 @@ def _run_task(
     for injection in injections:
         if injection.entry.phase is None:
             injection.schedule(ports, begun_ns)
-    task = Task(rehearsal, TaskContext(plant, begun_ns + round(rehearsal.timeout_s * 1e9), seed))
+    disturbed = partial(any_begun, injections)
+    task = Task(rehearsal, TaskContext(plant, begun_ns + round(rehearsal.timeout_s * 1e9), seed, disturbed))
     plant.simulation.run_process(task.run())
     absent = tuple(injection.describe_absence() for injection in injections if injection.begun_ns is None)
     return RehearsalResult(

@@ -61,6 +61,11 @@ class Clock:
         self._segments = list(segments)
         self._offset_ns = self._constant_offset_ns()
 
+    @property
+    def steady(self) -> bool:
+        """Tell whether it neither drifts nor jumped."""
+        return self._offset_ns is not None
+
     def read(self, true_ns: int) -> int:
         """Return what the clock read, or will read as far as is known, at a simulated instant."""
         if self._offset_ns is not None:
@@ -139,6 +144,11 @@ class Clocks:
         self._of = {node: self._clocks[name] for node, name in clock_of.items()}
         self._now_ns = now_ns
         self._listeners: list[Callable[[TimeJump], None]] = []
+
+    @property
+    def steady(self) -> bool:
+        """Tell whether no clock drifts or has jumped."""
+        return all(clock.steady for clock in self._clocks.values())
 
     def of(self, node: str) -> Clock:
         """Return the clock that a node, device or controller stamps with."""

@@ -142,6 +142,11 @@ class ControlStack:
         """The time after which every manager and every adapter has gone through a cycle."""
         return max((server.period_ns for server in self.servers()), default=0)
 
+    @property
+    def is_watched(self) -> bool:
+        """Tell whether somebody takes what is published as it comes."""
+        return bool(self._watchers)
+
     def manager_of(self, controller: str) -> ControllerManager:
         """Return the manager of a controller of the contract."""
         return self.managers[self._manager_of[controller]]

@@ -40,6 +40,10 @@ class Simulation:
         """Schedule an action that neither reads nor commands the present state of the control stack."""
         self._background.at(max(when_ns, self.now_ns), action)
 
+    def next_foreground_ns(self) -> int | None:
+        """Return the time of the next event of the foreground; None where there is none."""
+        return self._foreground.next_ns()
+
     def every(self, first_ns: int, rate_hz: float, action: Callable[[int], None]) -> None:
         """Call ``action`` in the background with 0, 1, 2 … at ``first_ns + k / rate_hz``, without drift."""
 

@@ -11,9 +11,9 @@ from cellc.mock.nodes.motion_planner import PLANNING_LATENCY_S
 from cellc.mock.nodes.observations import DEFAULT_MAX_AGE_S as DEFAULT_OBSERVATION_AGE_S
 from cellc.mock.nodes.perception import DEFAULT_RATE_HZ, POSE_TYPE
 from cellc.mock.task.bounds import action_timeout_s, cancel_bound_s, goal_timeout_s, grip_timeout_s, joint_state_age_s
-from cellc.mock.task.context import WATCH_S
 from cellc.mock.task.move import TF_TIMEOUT_S
 from cellc.mock.task.task import PATIENCE_PERIODS
+from cellc.mock.task.watch import WATCH_S
 from cellc.vocabulary import AttemptOutcome
 
 MONITOR_S = 0.05

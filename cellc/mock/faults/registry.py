@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import partial
 from typing import Protocol
 
@@ -62,6 +62,11 @@ class Injection:
         self._fault = fault
         self._missed = ""
 
+    @property
+    def touched(self) -> bool:
+        """Tell whether the fault began, or tried to."""
+        return self.begun_ns is not None or bool(self._missed)
+
     def describe_absence(self) -> str:
         """Say why the fault never began."""
         name = f"fault `{self.entry.kind} {self.entry.target}`"
@@ -102,6 +107,11 @@ class Injection:
         if self.entry.lasting_s is not None:
             end_ns = ports.schedule.now_ns + round(self.entry.lasting_s * 1e9)
             ports.schedule.at(end_ns, partial(self._fault.end, ports))
+
+
+def any_begun(injections: Iterable[Injection]) -> bool:
+    """Tell whether a fault has begun, or was to begin and changed the cell on its way."""
+    return any(injection.touched for injection in injections)
 
 
 FAULTS: tuple[FaultType, ...] = (

@@ -29,6 +29,11 @@ class JointStateFeed:
         self.history = history
         self._edge = edge
 
+    @property
+    def at_once(self) -> bool:
+        """Tell whether every message so far arrived as it was published."""
+        return (self._edge is None or self._edge.ideal) and not self.history.is_delayed
+
     def newest(self, now_ns: int) -> int | None:
         """Return the place in the history of the newest message that has arrived; None before the first."""
         if self._edge is None or self._edge.ideal:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 
 from cellc.contract.contract import Contract
@@ -13,11 +13,10 @@ from cellc.mock.plant import Plant, TaskNode
 from cellc.mock.result import AttemptRecord, CancelRecord, PacketStep, ResultRecord, TracePoint
 from cellc.mock.stops import EMERGENCY_STOP, FAULT, PROTECTIVE_STOP
 from cellc.mock.task.bounds import joint_state_age_s
+from cellc.mock.task.watch import next_look_ns
 from cellc.transforms import Pose
 from cellc.vocabulary import AttemptOutcome
 
-WATCH_S = 0.2
-"""The task looks at the state of the cell at least five times a second, whatever it waits for."""
 OUTCOME_OF_STOP = {
     PROTECTIVE_STOP: AttemptOutcome.PROTECTIVE_STOP,
     EMERGENCY_STOP: AttemptOutcome.EMERGENCY_STOP,
@@ -164,6 +163,7 @@ class TaskContext:
     Attributes:
         deadline_ns: end of the whole rehearsal.
         seed: told to whatever draws numbers.
+        is_disturbed: tells whether a fault has begun.
         observed: stamp of the kept observation, by dynamic frame.
         retreats: pose of the tip link in the base from which a group's goal was approached, while it stands there.
         held: object in each gripper.
@@ -175,6 +175,7 @@ class TaskContext:
     plant: Plant
     deadline_ns: int
     seed: int
+    is_disturbed: Callable[[], bool]
     observed: dict[str, int] = field(default_factory=dict)
     retreats: dict[str, Pose] = field(default_factory=dict)
     held: dict[str, str] = field(default_factory=dict)
@@ -216,8 +217,11 @@ class TaskContext:
         Raises:
             AttemptError: the cell stopped, missed cycles, or the rehearsal's time is over.
         """
-        until_ns = min(until_ns, self.deadline_ns, self.now_ns + round(WATCH_S * 1e9), self._observed_until_ns())
-        yield Wait(until_ns, (self.control.changed, *signals))
+        disturbed = self.is_disturbed() or any(signal.from_background for signal in signals)
+        look_ns = next_look_ns(self.plant, disturbed=disturbed)
+        yield Wait(
+            min(until_ns, self.deadline_ns, look_ns, self._observed_until_ns()), (self.control.changed, *signals)
+        )
         self.check_cell()
 
     def let_take_effect(self) -> Waiting[None]:

@@ -36,6 +36,7 @@ class JointStateHistory:
         names: joints in the order of the columns; empty before the first message.
         subscribed: somebody collects the messages of the broadcaster.
         silent: the broadcaster is not active, so that messages which stay away are no missed cycles.
+        period_ns: of the update cycles in which it may publish.
     """
 
     def __init__(
@@ -54,6 +55,7 @@ class JointStateHistory:
         self._late: list[LateArrival] = []
         self.subscribed = False
         self.silent = False
+        self.period_ns = period_ns
         self._keep = int(horizon_s * 1e9 / period_ns) + 2
         self._foreign = foreign
         self._missed = 0
@@ -134,6 +136,11 @@ class JointStateHistory:
     def is_delayed(self) -> bool:
         """Tell whether some messages arrive later than they are stamped."""
         return bool(self._late)
+
+    @property
+    def unbroken(self) -> bool:
+        """Tell whether the broadcaster publishes in every cycle, so that no message is missed while cycles go on."""
+        return self._spacing_ns == self.period_ns and not (self.silent or self._resumed or self._late)
 
     def note_active(self, active: bool) -> None:
         """Take note that the broadcaster was activated or deactivated."""

@@ -114,6 +114,10 @@ class Controller(Protocol):
     def update(self, cycle: Cycle) -> None:
         """Do one cycle. Raises UpdateError."""
 
+    @property
+    def decides_next(self) -> bool:
+        """Whether its next update is known to be part of no block."""
+
     def expected_updates(self) -> int | None:
         """Updates up to the next one that is likely to decide something; None where none is, or nobody knows."""
 
@@ -178,6 +182,11 @@ class QuietController:
 
     def update(self, cycle: Cycle) -> None:
         """Nothing to command."""
+
+    @property
+    def decides_next(self) -> bool:
+        """Never."""
+        return False
 
     def expected_updates(self) -> int | None:
         """None: it decides nothing."""

@@ -102,7 +102,7 @@ class CycleRunner:
             The time of the last one.
         """
         if not self._ahead.remaining and not self._next_alone and self._blocks_allowed():
-            self._compute_ahead()
+            self._compute_ahead(cycles)
         if self._ahead.remaining:
             time_ns = self._ahead.adopt(cycles, self._log)
             self.next_ns = time_ns + self._period_ns
@@ -111,11 +111,16 @@ class CycleRunner:
         self._next_alone = False
         return self._run_single()
 
-    def _compute_ahead(self) -> None:
-        """Compute a block, not much longer than until a controller expects to decide something."""
+    def _compute_ahead(self, wanted: int) -> None:
+        """Compute a block of the cycles that are wanted and those after, not much longer than until a controller
+        expects to decide something; none where one of them decides at once.
+        """
         active = [loaded for loaded in self._registry.in_update_order() if loaded.state == "active"]
+        if any(loaded.last_update_ns is None or loaded.controller.decides_next for loaded in active):
+            return
         expected = [loaded.controller.expected_updates() for loaded in active]
-        length = min([self._length, *(updates + _BEYOND_DECISION for updates in expected if updates is not None)])
+        longest = max(self._length, min(wanted, _LONGEST_BLOCK))
+        length = min([longest, *(updates + _BEYOND_DECISION for updates in expected if updates is not None)])
         self._ahead.compute(active, self.next_ns, length)
         self._next_alone = self._ahead.remaining < length
         self._length = min(self._length * _GROWTH, _LONGEST_BLOCK)

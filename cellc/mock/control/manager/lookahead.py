@@ -28,22 +28,32 @@ class _Part:
 
     Attributes:
         loaded: the controller.
-        rows: cycles of the block in which it is updated.
+        rows: cycles of the block in which it is updated; None for all of them.
         block: its updates; the block itself where it is updated in every cycle.
         columns: columns that it commands.
     """
 
     loaded: LoadedController
-    rows: Columns
+    rows: Columns | None
     block: Block
     columns: list[int]
 
     def updates_within(self, cycles: int) -> int:
         """Return how many of the updates lie in the first cycles of the block."""
-        count = len(self.rows)
-        if count and int(self.rows[-1]) == count - 1:  # every cycle up to there has an update
-            return min(cycles, count)
-        return int(np.searchsorted(self.rows, cycles))
+        return cycles if self.rows is None else int(self.rows.searchsorted(cycles))
+
+    def cycles_before(self, update: int, cycles: int) -> int:
+        """Return how many of the first cycles of the block come before an update."""
+        if self.rows is None:
+            return min(update, cycles)
+        return min(int(self.rows[update]), cycles) if update < len(self.rows) else cycles
+
+    def seen(self, block: Block) -> Block:
+        """Return the updates within the first cycles of the block, with their states; these cycles where it has all."""
+        if self.rows is None:
+            return block
+        own, count = self.block, self.updates_within(len(block))
+        return Block(own.times_ns[:count], own.period_ns, own.command[:count], block.state[self.rows[:count]])
 
 
 class Lookahead:
@@ -90,30 +100,25 @@ class Lookahead:
         times = first_ns + self._period_ns * np.arange(cycles, dtype=np.int64)
         block = Block(times, self._period_ns, np.empty((cycles, len(self._table.command))), np.empty((0, 0)))
         block.command[:] = self._table.command
-        for loaded in active:
-            part = self._part(loaded, block)
-            if part is None:
-                continue
-            self._parts.append(part)
+        self._parts = [part for loaded in active if (part := self._part(loaded, block)) is not None]
+        for part in self._parts:
             cycles = min(cycles, self._previewed(part, block))
             if cycles == 0:
                 return
         cycles = self._read(block, cycles)
         for part in self._parts:
             if cycles:
-                cycles = min(cycles, self._regular(part, block, cycles))
+                cycles = min(cycles, self._regular(part, block.cut(cycles)))
         if cycles:
             self._block = block.cut(cycles)
 
     def _part(self, loaded: LoadedController, block: Block) -> _Part | None:
         """The updates of a controller, None where there is none in the block."""
         columns = loaded.columns.tolist()
-        if loaded.last_update_ns is None:
-            # Its first update is never part of a block.
-            return _Part(loaded, np.empty(0, dtype=np.intp), block, columns)
         divisor = loaded.divisor(self._rate, self._period_ns)
         if divisor == 1:
-            return _Part(loaded, np.arange(len(block)), block, columns)
+            return _Part(loaded, None, block, columns)
+        assert loaded.last_update_ns is not None, "a first update is never part of a block"
         first = divisor - (int(block.times_ns[0]) - loaded.last_update_ns) // self._period_ns
         rows = np.arange(max(first, 0), len(block), divisor)
         if not len(rows):
@@ -123,17 +128,15 @@ class Lookahead:
 
     def _previewed(self, part: _Part, block: Block) -> int:
         """Let a controller write its commands, limited, into the block; returns the regular cycles."""
-        if not len(part.rows):
-            return 0
         own = part.block
         updates = part.loaded.controller.preview(own)
         if updates and self._limiter is not None:
             updates = min(updates, self._limiter.limit_block(own.cut(updates), part.columns))
-        if own is not block and part.columns:
+        if part.rows is not None and part.columns:
             first = int(part.rows[0])
             lasting = np.searchsorted(part.rows, np.arange(first, len(block)), side="right") - 1
             block.command[first:, part.columns] = own.command[lasting][:, part.columns]
-        return _cycles(part, updates, len(block))
+        return part.cycles_before(updates, len(block))
 
     def _read(self, block: Block, cycles: int) -> int:
         """Compute the states of the first cycles; returns how many could be computed."""
@@ -147,22 +150,17 @@ class Lookahead:
                 cycles = min(cycles, component.system.read(before, block.state, self._period_ns))
         return cycles
 
-    def _seen(self, part: _Part, block: Block, cycles: int) -> Block:
-        """The updates of a controller within the first cycles, with their states."""
-        own = part.block
-        count = part.updates_within(cycles)
-        state = block.state[:cycles] if count == cycles else block.state[part.rows[:count]]
-        return Block(own.times_ns[:count], own.period_ns, own.command[:count], state)
-
-    def _regular(self, part: _Part, block: Block, cycles: int) -> int:
+    def _regular(self, part: _Part, block: Block) -> int:
         """Ask a controller which cycles are regular, with the states known."""
-        seen = self._seen(part, block, cycles)
+        seen = part.seen(block)
         updates = len(seen)
-        if updates and self._limiter is not None and part.columns:
+        if not updates:
+            return len(block)
+        if self._limiter is not None and part.columns:
             updates = self._limiter.first_out_of_bounds(seen, part.columns)
         if updates:
             updates = min(updates, part.loaded.controller.regular(seen.cut(updates)))
-        return min(_cycles(part, updates, cycles), cycles) if len(seen) else cycles
+        return part.cycles_before(updates, len(block))
 
     def adopt(self, cycles: int, log: Log) -> int:
         """Adopt at most so many of the remaining cycles.
@@ -178,12 +176,13 @@ class Lookahead:
             if component.available:
                 component.system.commit(self._done)
                 component.last_read_ns = int(block.times_ns[last])
+        done, journal = block.cut(self._done), self._table.journal
         for part in self._parts:
-            start = part.updates_within(before)
-            seen = self._seen(part, block, self._done)
+            start, seen = part.updates_within(before), part.seen(done)
             if start < len(seen):
                 part.loaded.controller.commit(seen, start)
-                self._table.journal.add(part.loaded.name, part.columns, seen.times_ns[start:], seen.command[start:])
+                if journal.listening:
+                    journal.add(part.loaded.name, part.columns, seen.times_ns[start:], seen.command[start:])
                 part.loaded.last_update_ns = int(seen.times_ns[-1])
                 if self._limiter is not None:
                     self._limiter.commit(seen, part.columns)
@@ -191,8 +190,3 @@ class Lookahead:
         self._table.state[:] = block.state[last]
         log.now_ns = int(block.times_ns[last])
         return log.now_ns
-
-
-def _cycles(part: _Part, updates: int, cycles: int) -> int:
-    """Cycles of the manager before the first update that is not regular."""
-    return int(part.rows[updates]) if updates < len(part.rows) else cycles

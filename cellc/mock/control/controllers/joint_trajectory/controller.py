@@ -228,17 +228,20 @@ class JointTrajectoryController(QuietController):
 
     # -- blocks ------------------------------------------------------------------------------------------------------
 
+    @property
+    def decides_next(self) -> bool:
+        """With a trajectory to take over, or with commands that depend on what is measured."""
+        return self._motion is None or self._pending is not None or self._commands.depend_on_state
+
     def expected_updates(self) -> int | None:
         """Updates up to the end of the trajectory that is executed."""
-        if self._motion is None or self._pending is not None:
-            return None
+        assert self._motion is not None, "asked of one whose next update decides nothing"
         return self._motion.updates_left(self.scaling.factor)
 
     def preview(self, block: Block) -> int:
         """Sample the trajectory for all cycles of the block."""
         motion = self._motion
-        if motion is None or self._pending is not None or self._commands.depend_on_state:
-            return 0
+        assert motion is not None, "a block has only updates that decide nothing"
         self._factor = self.scaling.factor
         step = int(block.period_ns * self._factor)
         times = motion.time_ns + step * np.arange(1, len(block) + 1, dtype=np.int64)

@@ -1,0 +1,48 @@
+"""The task looks at the cell as rarely as nothing can have happened, and sees everything when it would have anyway."""
+
+from __future__ import annotations
+
+import pytest
+
+from cellc.mock import MockCell
+from cellc.mock.plant import Plant
+from cellc.mock.task import context, watch
+from tests.mock.conftest import LoadWith, fault
+
+_LOOK_NS = 200_000_000
+
+
+def _always(plant: Plant, *, disturbed: bool) -> int:
+    """Return the next look of a task that looks five times a second."""
+    return plant.now_ns + _LOOK_NS
+
+
+@pytest.mark.parametrize("at_s", [2.05, 2.8501, 7.45])
+def test_missed_cycles_are_seen_at_the_instant_at_which_looking_all_the_time_sees_them(
+    load_with: LoadWith, monkeypatch: pytest.MonkeyPatch, at_s: float
+) -> None:
+    cell = load_with(fault("skip_cycles", "control", at_s, cycles=20), expect="missed_cycle")
+    calm = cell.run("faulty")
+    monkeypatch.setattr(context, "next_look_ns", _always)
+    assert calm.outcome == "missed_cycle"
+    assert repr(calm) == repr(cell.run("faulty"))
+
+
+def test_a_quiet_rehearsal_ends_bit_by_bit_as_with_every_look_and_needs_fewer(
+    cell: MockCell, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    looks: dict[str, int] = {"seldom": 0, "always": 0}
+
+    def seldom(plant: Plant, *, disturbed: bool) -> int:
+        looks["seldom"] += 1
+        return watch.next_look_ns(plant, disturbed=disturbed)
+
+    def always(plant: Plant, *, disturbed: bool) -> int:
+        looks["always"] += 1
+        return _always(plant, disturbed=disturbed)
+
+    monkeypatch.setattr(context, "next_look_ns", seldom)
+    calm = cell.run("pick_and_place")
+    monkeypatch.setattr(context, "next_look_ns", always)
+    assert repr(calm) == repr(cell.run("pick_and_place"))
+    assert looks["seldom"] < 0.7 * looks["always"]
