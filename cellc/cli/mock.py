@@ -5,7 +5,7 @@ from __future__ import annotations
 import click
 
 from cellc.cli.limit_option import limit_option
-from cellc.cli.words import complete_rehearsal
+from cellc.cli.words import complete_rehearsal, complete_run
 
 
 @click.command()
@@ -24,7 +24,7 @@ from cellc.cli.words import complete_rehearsal
 @click.option(
     "--journal",
     type=click.Path(path_type=str, dir_okay=False),
-    help="With --sweep: keep each run in this file, and go on from it.",
+    help="With --sweep: keep each run in this file, and go on from it. With --replay: the sweep that a run is of.",
 )
 @click.option("--jobs", type=int, metavar="N", help="Processes of campaign and sweep; as many as cores by default.")
 @click.option("--cluster", metavar="ADDRESS", help="A scheduler of Dask instead, such as tcp://10.0.0.7:8786.")
@@ -34,6 +34,7 @@ from cellc.cli.words import complete_rehearsal
     "replayed",
     multiple=True,
     metavar="RUN",
+    shell_complete=complete_run,
     help="One run alone, of the campaign or `sweep:NUMBER`; repeatable.",
 )
 @click.option("--gates", is_flag=True, help="Run rehearsals and campaign, and judge gates L6, G1, G2 by them.")

@@ -72,6 +72,11 @@ class RehearsalEntry(ContractModel):
         "mock", description="Target whose bring-up is taken; with `real` devices do what their vendors' drivers do."
     )
 
+    @property
+    def is_plain(self) -> bool:
+        """Whether a campaign adds faults to it: it has none of its own, and how the real target comes up is no step."""
+        return not self.faults and self.bring_up == "mock"
+
 
 class Rehearsals(ContractModel):
     """All rehearsals of a cell."""

@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 from cellc.compute.work import Hire, Work, stream
-from cellc.contract.rehearsals import RehearsalEntry
 from cellc.description.packages import package_path, use_packages
 from cellc.limits import Limits, limits, use
 from cellc.mock.campaign.limits import LimitsReport, check_limits, merge
@@ -158,18 +157,13 @@ def _identifier(run: CampaignRun) -> str:
     return run.identifier
 
 
-def _is_plain(entry: RehearsalEntry) -> bool:
-    """Tell whether a rehearsal has no fault of its own; how the real target comes up makes no step another one."""
-    return not entry.faults and entry.bring_up == "mock"
-
-
 def make_plan(cell: MockCell, cases: Sequence[FaultCase], seed: int) -> tuple[CampaignPlan, tuple[RunEnd, ...]]:
     """Run what is undisturbed, and plan faults for what succeeds; a rehearsal that fails by itself is told as failed.
 
     Raises:
         MockError: the cell cannot be executed, or has no rehearsal without faults.
     """
-    undisturbed = [CampaignRun.undisturbed(entry) for entry in cell.entries if _is_plain(entry)]
+    undisturbed = [CampaignRun.undisturbed(entry) for entry in cell.entries if entry.is_plain]
     if not undisturbed:
         raise MockError(cell.contract.files.rehearsals, "has no rehearsal without faults to run a campaign over")
     baselines = tuple(execute(cell, run, seed) for run in undisturbed)

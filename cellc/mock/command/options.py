@@ -88,8 +88,8 @@ class MockOptions:
             return f"{alone[0]} does not go with {alone[1]}"
         if self.sweep and (self.campaign or self.pairs or self.records is not None):
             return "--sweep does not go with --campaign, --pairs or --records"
-        if self.journal is not None and not self.sweep:
-            return "--journal needs --sweep"
+        if self.journal is not None and not self.swept:
+            return "--journal needs --sweep, or --replay sweep:NUMBER"
         fanned = {"--pairs": self.pairs or None, "--jobs": self.jobs, "--cluster": self.cluster}
         given = [option for option, value in fanned.items() if value is not None]
         if given and not modes:

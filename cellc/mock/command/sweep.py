@@ -95,6 +95,8 @@ def replay_swept(options: MockOptions) -> int:
         cell = load_checked(options)
         uncertainty = uncertainty_of(cell)
         (entry,) = _entries(cell, options)[:1]
+        if options.journal is not None:
+            Journal(Path(options.journal), cell.contract.configuration_id, entry.name, options.seed)  # or it refuses
         numbers = [_number(text) for text in dict.fromkeys(options.replay)]
         runs = [execute(cell, entry, uncertainty, options.seed, number) for number in numbers]
         if options.evidence is not None:

@@ -26,10 +26,13 @@ def test_a_sweep_says_rate_margins_draws_and_verdict_and_a_run_is_made_again(nes
     failed = next(line.split()[1].rstrip(":") for line in lines if line.startswith("FAILED"))
     told = json.loads(run("mock", str(nest_folder), "--sweep", "6", "--jobs", "1", "--journal", journal, "--json").out)
     number = int(failed.removeprefix("sweep:"))
-    again = run("mock", str(nest_folder), "--replay", failed)
+    again = run("mock", str(nest_folder), "--journal", journal, "--replay", failed)
     assert again.code == 1
     assert f"FAILED  {failed}: missed put" in again.out
     assert f"digest: {told['sweeps'][0]['runs'][number]['digest']}" in again.out
+    assert_refused(
+        run("mock", str(nest_folder), "--journal", journal, "--replay", failed, "--seed", "1"), "is of another sweep"
+    )
     assert told["sweeps"][0]["verdict"] is None
     kept = tmp_path / "kept"
     run("mock", str(nest_folder), "--sweep", "6", "--jobs", "1", "--journal", journal, "--evidence", str(kept))
@@ -43,6 +46,7 @@ def test_a_sweep_says_rate_margins_draws_and_verdict_and_a_run_is_made_again(nes
         (["--sweep", "-1"], "the number of runs is -1; it must be 0 or greater"),
         (["--sweep", "5", "--campaign"], "--sweep does not go with --campaign"),
         (["--journal", "runs.jsonl"], "--journal needs --sweep"),
+        (["--journal", "runs.jsonl", "--replay", "ready/delay:arm@1"], "--journal needs --sweep, or --replay sweep:"),
         (["--sweep", "5", "--gates"], "--gates does not go with --sweep"),
         (["--sweep", "5"], "the folder has no `config/uncertainty.json`; write `uncertainty: {}` in the spec"),
         (["--replay", "sweep:x"], "the folder has no `config/uncertainty.json`"),
