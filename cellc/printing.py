@@ -241,6 +241,21 @@ def progress(
         line.erase()
 
 
+_MINUTES_FROM_S = 120.0
+
+
+def time_left(done: int, total: int, seconds: float) -> str:
+    """Return how long the rest takes at the pace so far, such as ``, 40 s left``; empty where nothing is done.
+
+    Args:
+        seconds: in which as many as are done were done.
+    """
+    if not done:
+        return ""
+    left_s = (total - done) * max(seconds, 1e-3) / done
+    return f", {left_s / 60:.0f} min left" if left_s >= _MINUTES_FROM_S else f", {left_s:.0f} s left"
+
+
 class _ProgressLine:
     def __init__(self, label: str, stream: TextIO | None, clock: Callable[[], float]) -> None:
         self._label = label

@@ -2,31 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import click
 
 from cellc.artifact import Artifact
 from cellc.cli.batch import CellResult, cell_files, results
-from cellc.cli.findings import (
-    FAIL_ON,
-    FORMAT,
-    IGNORE,
-    SELECT,
-    finish,
-    number_hidden,
-    read_selection,
-    selected_and_errors,
-    show_findings,
-)
+from cellc.cli.findings import FAIL_ON, FORMAT, IGNORE, SELECT, read_selection, selected_and_errors
+from cellc.cli.fleet import FleetOptions, fleet_options, folder_of
 from cellc.cli.limit_option import limit_option
+from cellc.cli.rows import finish_rows, row_of, show_checked
 from cellc.diagnostics import Span
 from cellc.diagnostics.diagnostic import Findings
 from cellc.output.codes import shared_output
 from cellc.output.compare import Difference, compare
 from cellc.output.write import WriteReport, write
-from cellc.printing import Line, progress, show
+from cellc.printing import Line, show
 from cellc.report.text_report import render_difference
 
 
@@ -48,6 +40,7 @@ from cellc.report.text_report import render_difference
 @IGNORE
 @FORMAT
 @FAIL_ON
+@fleet_options
 @limit_option
 def build(
     files: tuple[str, ...],
@@ -58,10 +51,11 @@ def build(
     ignore: tuple[str, ...],
     output_format: str,
     fail_on: str,
+    fleet: FleetOptions,
 ) -> None:
     """Check each cell in FILES and write its ROS 2 package to OUTPUT/<cell>.
 
-    A folder stands for every cell.yaml below it.
+    A folder stands for every cell.yaml below it. With --matrix each tuple has a folder of its own in OUTPUT.
 
     Errors stop a cell from being written. Blockers do not: they refuse the real target, not the mock, and are summed
     here; `cellc check` shows each. Files that you put beside the generated ones stay. No option hides an error.
@@ -69,44 +63,56 @@ def build(
     \b
     cellc build cells/bench/cell.yaml          writes generated/bench
     cellc build --check .                      fails where one is not up to date
+    cellc build . --matrix ros=humble,jazzy    in generated/ros-humble, and so on
     """
     wanted = read_selection(select, ignore)
     files = cell_files(files)
-    built: list[Findings] = []
-    places: dict[str, Span] = {}
-    told: list[Line] = []
-    differs = False
-    with progress("building") as update:
-        computed = results("compile", files)
-        for file in files:
-            update(file)
-            result = _unless_shared(next(computed), places)
-            findings = result.findings
-            if result.artifacts is not None and result.cell is not None:
-                folder = output / result.cell.name
-                if only_compare:
-                    differences = compare(result.artifacts, folder)
-                    differs = differs or bool(differences)
-                    told += _differences(differences, folder)
-                else:
-                    findings, report = written(findings, result.artifacts, folder, force)
-                    told += [] if report is None else [told_of(report, folder)]
-            built.append(findings)
-    shown = [selected_and_errors(one, wanted) for one in built]
-    show_findings(shown, output_format, hidden=number_hidden(built, shown), sum_blockers=True)
-    if output_format == "text" and told:
+    tasks, built = fleet.tasks(files), list[_Built]()
+    places: dict[tuple[str, str], Span] = {}
+    for task, result in zip(tasks, results("compile", tasks, fleet.fan), strict=True):
+        folder = folder_of(task.versions)
+        built.append(_built(_unless_shared(result, folder, places), output / folder, only_compare, force))
+    shown = [selected_and_errors(one.result.findings, wanted) for one in built]
+    found = [(task, one.result.findings) for task, one in zip(tasks, built, strict=True)]
+    show_checked(fleet, found, shown, output_format, sum_blockers=True)
+    told = [line for one in built for line in one.told]
+    if output_format == "text" and told and not fleet.as_json:
         show(*told)
-    if differs:
-        raise click.exceptions.Exit(1)
-    finish(shown, fail_on)
+    rows = [
+        row_of(task, one.result, findings, fail_on, one.problem)
+        for task, one, findings in zip(tasks, built, shown, strict=True)
+    ]
+    finish_rows(fleet, rows, output_format)
 
 
-def _unless_shared(result: CellResult, places: dict[str, Span]) -> CellResult:
+@dataclass(frozen=True, slots=True)
+class _Built:
+    """What became of a cell, without its artifacts; ``problem`` says that its folder is not what it makes."""
+
+    result: CellResult
+    told: tuple[Line, ...] = ()
+    problem: str = ""
+
+
+def _built(result: CellResult, output: Path, only_compare: bool, force: bool) -> _Built:
+    if result.artifacts is None or result.cell is None:
+        return _Built(result)
+    folder = output / result.cell.name
+    if only_compare:
+        differences = compare(result.artifacts, folder)
+        problem = f"`{folder.as_posix()}` is not what the cell makes" if differences else ""
+        return _Built(replace(result, artifacts=None), tuple(_differences(differences, folder)), problem)
+    findings, report = written(result.findings, result.artifacts, folder, force)
+    told = () if report is None else (told_of(report, folder),)
+    return _Built(replace(result, findings=findings, artifacts=None), told)
+
+
+def _unless_shared(result: CellResult, folder: str, places: dict[tuple[str, str], Span]) -> CellResult:
     """Take the artifacts from a cell whose folder is made already; ``places`` holds where the cells are named."""
     if result.cell is None:
         return result
     here = result.cell.named_at
-    shared = shared_output(result.cell.name, here, places.setdefault(result.cell.name, here))
+    shared = shared_output(result.cell.name, here, places.setdefault((folder, result.cell.name), here))
     if shared is None:
         return result
     return replace(result, findings=result.findings.with_more((shared,)), artifacts=None)

@@ -10,18 +10,10 @@ from typing import TYPE_CHECKING
 import click
 
 from cellc.cli.batch import cell_files, results
-from cellc.cli.findings import (
-    FAIL_ON,
-    FORMAT,
-    IGNORE,
-    SELECT,
-    finish,
-    number_hidden,
-    read_selection,
-    selected,
-    show_findings,
-)
+from cellc.cli.findings import FAIL_ON, FORMAT, IGNORE, SELECT, read_selection, selected
+from cellc.cli.fleet import FleetOptions, fleet_options
 from cellc.cli.limit_option import limit_option
+from cellc.cli.rows import finish_rows, row_of, show_checked
 from cellc.printing import Stream, progress, show
 
 if TYPE_CHECKING:
@@ -43,6 +35,7 @@ _PASSES = 16
 @IGNORE
 @FORMAT
 @FAIL_ON
+@fleet_options
 @limit_option
 def check(
     files: tuple[str, ...],
@@ -51,6 +44,7 @@ def check(
     ignore: tuple[str, ...],
     output_format: str,
     fail_on: str,
+    fleet: FleetOptions,
 ) -> None:
     """Check each cell in FILES and point at what is wrong; a folder stands for every cell.yaml below it.
 
@@ -59,21 +53,20 @@ def check(
     cellc check .                              every cell of a repository
     cellc check robot.urdf.xacro               a description alone
     cellc check . --format github              annotations of a pull request
+    cellc check . --matrix ros=humble,jazzy    each cell with each distribution
     """
     wanted = read_selection(select, ignore)
     files = cell_files(files)
-    found = []
-    with progress("checking") as update:
+    with progress("mending") as update:
         for file in files if fix else ():
             update(file)
             fix_file(file)
-        computed = results("check", files)
-        for file in files:
-            update(file)
-            found.append(next(computed).findings)
-    shown = [selected(one, wanted) for one in found]
-    show_findings(shown, output_format, hidden=number_hidden(found, shown))
-    finish(shown, fail_on)
+    tasks = fleet.tasks(files)
+    computed = list(results("check", tasks, fleet.fan))
+    shown = [selected(one.findings, wanted) for one in computed]
+    show_checked(fleet, [(task, one.findings) for task, one in zip(tasks, computed, strict=True)], shown, output_format)
+    rows = [row_of(task, one, told, fail_on) for task, one, told in zip(tasks, computed, shown, strict=True)]
+    finish_rows(fleet, rows, output_format)
 
 
 def fix_file(file: str) -> None:

@@ -59,7 +59,8 @@ def show_findings(
         sum_blockers: whether people are told the number of blockers only, where nothing is worse.
     """
     if output_format != "text":
-        _show_for_programs([d for one in found for d in one.diagnostics], output_format)
+        # A cell with several tuples has most of its findings with each.
+        _show_for_programs(tuple(dict.fromkeys(d for one in found for d in one.diagnostics)), output_format)
         return
     for one in found:
         summed = sum_blockers and all(each.severity is not Severity.ERROR for each in one.diagnostics)
@@ -78,11 +79,10 @@ def number_hidden(found: Sequence[Findings], shown: Sequence[Findings]) -> int:
     return sum(len(one.diagnostics) for one in found) - sum(len(one.diagnostics) for one in shown)
 
 
-def finish(found: Sequence[Findings], fail_on: str) -> None:
-    """Leave with 1 where a finding is as severe as ``fail_on``."""
+def fails(found: Findings, fail_on: str) -> bool:
+    """Tell whether a finding is as severe as ``fail_on``."""
     limit = _RANK[Severity(fail_on)]
-    if any(_RANK[d.severity] <= limit for one in found for d in one.diagnostics):
-        raise click.exceptions.Exit(1)
+    return any(_RANK[one.severity] <= limit for one in found.diagnostics)
 
 
 def _show_for_programs(found: Sequence[Diagnostic], output_format: str) -> None:

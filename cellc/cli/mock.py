@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import os
+
 import click
 
+from cellc.cli.fleet import CLUSTER, MATRIX, Fan, FleetOptions, read_matrix
 from cellc.cli.limit_option import limit_option
 from cellc.cli.words import complete_rehearsal, complete_run
 
 
 @click.command()
-@click.argument("folder", type=click.Path(path_type=str))
+@click.argument("folders", nargs=-1, required=True, metavar="FOLDER...", type=click.Path(path_type=str))
+@MATRIX
 @click.option(
     "--rehearsal",
     "names",
@@ -27,7 +31,7 @@ from cellc.cli.words import complete_rehearsal, complete_run
     help="With --sweep: keep each run in this file, and go on from it. With --replay: the sweep that a run is of.",
 )
 @click.option("--jobs", type=int, metavar="N", help="Processes of campaign and sweep; as many as cores by default.")
-@click.option("--cluster", metavar="ADDRESS", help="A scheduler of Dask instead, such as tcp://10.0.0.7:8786.")
+@CLUSTER
 @click.option("--list", "list_only", is_flag=True, help="Print the runs of the campaign, and run none.")
 @click.option(
     "--replay",
@@ -50,7 +54,8 @@ from cellc.cli.words import complete_rehearsal, complete_run
 @click.option("--speed", type=float, metavar="X", help="With --live: X times as fast as real time.")
 @limit_option
 def mock(
-    folder: str,
+    folders: tuple[str, ...],
+    matrix: tuple[str, ...],
     names: tuple[str, ...],
     campaign: bool,
     pairs: int,
@@ -72,16 +77,21 @@ def mock(
 ) -> None:
     """Execute the rehearsals of the generated FOLDER; exit 1 where one does not end as it should.
 
+    Several folders, or one of several, give one table of rehearsals and sweeps. With --matrix cells are named instead,
+    and each is built with each tuple for the time of the call.
+
     \b
     cellc mock generated/bench                 every rehearsal
     cellc mock generated/bench --rehearsal pick --evidence evidence/1
     cellc mock generated/bench --campaign      every fault at every step
     cellc mock generated/bench --live          in Foxglove
+    cellc mock cells --matrix ros=humble,jazzy --sweep 200
     """
     from cellc.mock.command.options import MockOptions, run_mock
 
+    tuples, several = read_matrix(matrix), _several(folders)
     options = MockOptions(
-        folder=folder,
+        folder=folders[0],
         rehearsals=names,
         campaign=campaign,
         list_only=list_only,
@@ -100,8 +110,26 @@ def mock(
         live=live,
         listen=listen,
         speed=speed,
+        many=bool(matrix) or several is not None,
     )
     problem = options.contradiction()
     if problem:
         raise click.UsageError(f"{problem}.")
-    raise click.exceptions.Exit(run_mock(options))
+    if not options.many:
+        raise click.exceptions.Exit(run_mock(options))
+    from cellc.cli.mock_fleet import rehearse_cells, rehearse_folders
+
+    fleet = FleetOptions(tuples, Fan(jobs, cluster), as_json)
+    if matrix:
+        rehearse_cells(folders, fleet, options)
+    else:
+        rehearse_folders(several or (), fleet, options)
+
+
+def _several(folders: tuple[str, ...]) -> tuple[str, ...] | None:
+    """Return the folders that are meant, None for one; what looks for others loads for longer than a folder is read."""
+    if len(folders) == 1 and os.path.exists(os.path.join(folders[0], "contract.json")):
+        return None
+    from cellc.cli.batch import several_folders
+
+    return several_folders(folders)

@@ -40,8 +40,9 @@ def upgrade(spec: str, target: str, write: bool, output_format: str) -> None:
     cellc upgrade cells/bench/cell.yaml --ros humble --format markdown
     """
     # Comparing loads the compiler.
+    from cellc.review.moved_spec import UpgradeError
     from cellc.review.sides import SideError
-    from cellc.review.upgrade import UpgradeError, plan_upgrade
+    from cellc.review.upgrade import plan_upgrade
 
     try:
         planned = plan_upgrade(spec, Distro(target))

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from cellc.cli.batch import cell_files
+from cellc.cli.batch import State, cell_files, states
 from cellc.cli.build import told_of, written
 from cellc.cli.findings import IGNORE, SELECT, read_selection, selected, show_findings
 from cellc.cli.limit_option import limit_option
@@ -26,9 +26,6 @@ _SHARE = 9.0
 """Looking takes a tenth of the time at most, however many files there are."""
 _SETTLED_S = 0.02
 """An editor that saves in several steps is done when nothing has changed for so long."""
-
-State = tuple[int, int, int]
-"""When a file was changed in ns, its size and its inode."""
 
 
 @click.command()
@@ -143,32 +140,6 @@ class Watched:
                 return now
             seen, took = now, time.monotonic() - began
             time.sleep(_SETTLED_S if now != before else max(_PAUSE_S, _SHARE * took))
-
-
-def states(places: Iterable[str], output: Path) -> dict[str, State]:
-    """Return the state of every file below folders, but of what is hidden, generated, or a virtual environment."""
-    found: dict[str, State] = {}
-    left = list(places)
-    generated = os.path.abspath(output)
-    while left:
-        try:
-            entries = list(os.scandir(left.pop()))
-        except OSError:
-            continue  # it has gone meanwhile, or nobody may look into it
-        if {"pyvenv.cfg", "manifest.json"} & {entry.name for entry in entries}:
-            continue
-        for entry in entries:
-            if entry.name.startswith("."):
-                continue
-            if entry.is_dir(follow_symlinks=False):
-                left += [] if entry.path == generated else [entry.path]
-                continue
-            try:
-                state = entry.stat()
-            except OSError:
-                continue
-            found[entry.path] = (state.st_mtime_ns, state.st_size, state.st_ino)
-    return found
 
 
 def different(before: Mapping[str, State], after: Mapping[str, State]) -> set[str]:

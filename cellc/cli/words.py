@@ -62,7 +62,7 @@ def _entries(context: click.Context) -> Sequence[RehearsalEntry]:
 
 def _folder(context: click.Context) -> Path:
     # Behind an option without its value click has not told arguments from each other yet.
-    return Path(str(context.params.get("folder") or next(iter(context.args), "")))
+    return Path(str(next(iter((*(context.params.get("folders") or ()), *context.args)), "")))
 
 
 def complete_run(context: click.Context, _parameter: click.Parameter, incomplete: str) -> list[CompletionItem]:

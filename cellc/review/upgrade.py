@@ -2,36 +2,30 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 from pathlib import Path
 
-from cellc.catalog.load import load_distros
 from cellc.catalog.tables import DistroFacts
 from cellc.cell.cell import Cell
 from cellc.cell.site import UNKNOWN
 from cellc.contract.upgrade import Upgrade, UpgradeInterface, UpgradePin
 from cellc.description.xml_tree import XmlElement, read_xml
 from cellc.diagnostics import Severity
-from cellc.edit.rewrite import Edit, apply_edits, rewrite
+from cellc.edit.rewrite import Edit, rewrite
 from cellc.pipeline import Checked, check
 from cellc.review.declared import Told, parameter_changes
 from cellc.review.facts import Facts
 from cellc.review.leaves import Leaf
+from cellc.review.moved_spec import UpgradeError, edited_check, facts_of_distro
 from cellc.review.review import gates_again, review
 from cellc.review.sides import Package, SideError, as_review_finding, package_of
 from cellc.review.tuples import PinMove, moved_pins
 from cellc.vocabulary import Distro, ReviewArea
 
 _POLICY = "security/policy.xml"
-_SCALAR = re.compile(r"((?:[&!]\S* +)*)(.*)")
 _RIGHTS = ("publish", "subscribe", "reply", "request", "execute", "call")
-
-
-class UpgradeError(Exception):
-    """The spec cannot be moved to another distribution; the text is one line, lower case."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,10 +64,9 @@ def plan_upgrade(file: str, target: Distro) -> Planned:
     before = package_of(f"{file} on {_distro(checked)}", checked)
     assert checked.graph is not None  # it has a package
     cell = checked.graph.cell
-    moves = moved_pins(cell, target, _facts(target))
-    edits = tuple(_edits(cell, moves, checked.findings.texts))
-    moved = check(file, _edited(edits, checked.findings.texts)) if edits else checked
-    _hold(moves, moved)
+    moves = moved_pins(cell, target, facts_of_distro(target))
+    edits, moved = edited_check(file, cell, checked.findings.texts, [(move.pin, move.text) for move in moves])
+    moved = moved or checked
     try:
         after = package_of(f"{file} on {target}", moved)
     except SideError:
@@ -83,55 +76,6 @@ def plan_upgrade(file: str, target: Distro) -> Planned:
 
 def _distro(checked: Checked) -> str:
     return "" if checked.graph is None else checked.graph.cell.distro.value
-
-
-def _facts(target: Distro) -> DistroFacts:
-    table = load_distros().value
-    assert table is not None  # package data, held valid by the catalog's tests
-    return next(facts for name, facts in table.distros.items() if name == target)
-
-
-def _edits(cell: Cell, moves: Sequence[PinMove], texts: Mapping[str, str]) -> Iterator[Edit]:
-    """Yield the edit of each pin that the spec writes and that becomes another; an alias may bring one to several."""
-    taken: dict[tuple[str, int, int], str] = {}
-    for move in moves:
-        pin = move.pin
-        if not cell.states(*pin.path) or move.text == pin.text:
-            continue
-        span = cell.locate(*pin.path)
-        place = (span.file, span.line, span.column)
-        if span.line != span.end_line:
-            raise UpgradeError(f"{span}: `{pin.part}` stands over several lines; write it in one")
-        if taken.setdefault(place, move.text) != move.text:
-            raise UpgradeError(f"{span}: one text pins several parts, which become different ones; write each out")
-        written = texts[span.file].split("\n")[span.line - 1][span.column - 1 : span.end_column - 1]
-        said = f"`{pin.part}` of `{pin.holder}`: `{pin.text}` becomes `{move.text}`"
-        yield Edit(*place, span.end_column, _as_yaml(move.text, written), said)
-
-
-def _as_yaml(text: str, written: str) -> str:
-    """Return a scalar in place of another, with its anchor and its quotes; in quotes where it would be a number."""
-    match = _SCALAR.fullmatch(written)
-    before, value = ("", written) if match is None else match.groups()
-    quote = value[:1] if value[:1] in ("'", '"') else ""
-    if not quote and re.fullmatch(r"[-+]?[0-9.]+([eE][-+]?[0-9]+)?", text) and text.count(".") < 2:
-        quote = '"'
-    return f"{before}{quote}{text}{quote}"
-
-
-def _edited(edits: Sequence[Edit], texts: Mapping[str, str]) -> dict[str, str]:
-    files = {edit.file for edit in edits}
-    return {file: apply_edits(texts[file], (edit for edit in edits if edit.file == file)) for file in files}
-
-
-def _hold(moves: Sequence[PinMove], moved: Checked) -> None:
-    """Refuse an edit that says something else than was meant; where nothing is linked, findings say why."""
-    if moved.graph is None:
-        return
-    cell = moved.graph.cell
-    for move in moves:
-        if cell.states(*move.pin.path) and cell.text(*move.pin.path) != move.text:
-            raise UpgradeError(f"{cell.locate(*move.pin.path)}: `{move.pin.part}` cannot be edited by itself")
 
 
 def _upgrade(
@@ -146,7 +90,7 @@ def _upgrade(
         cell=cell.name,
         before=cell.distro.value,
         after=target.value,
-        facts=tuple(_of_distro(_facts(target))),
+        facts=tuple(_of_distro(facts_of_distro(target))),
         pins=tuple(_pin(cell, move) for move in moves),
         parameters=parameters,
         interfaces=() if after is None else tuple(_interfaces(before.files[_POLICY], after.files[_POLICY])),

@@ -9,6 +9,7 @@ from pydantic import BaseModel
 
 from cellc.contract.base import DIALECT, Json, contract_schema
 from cellc.contract.contract import Contract
+from cellc.contract.fleet import Fleet
 from cellc.contract.manifest import Manifest
 from cellc.contract.rehearsals import Rehearsals
 from cellc.contract.review import Review
@@ -40,6 +41,7 @@ def schema_files() -> Mapping[str, str]:
     """Return the text of every published schema by file name."""
     contracts: tuple[tuple[str, type[BaseModel]], ...] = (
         ("contract", Contract),
+        ("fleet", Fleet),
         ("manifest", Manifest),
         ("rehearsals", Rehearsals),
         ("review", Review),

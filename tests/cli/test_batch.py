@@ -12,26 +12,29 @@ import pytest
 
 from cellc.cli import batch
 from cellc.cli.batch import CellResult, cell_files, compute, in_workers, number_of_workers
+from cellc.cli.fleet import Task
+from cellc.compute.processes import processes
 from tests.cells import ROOT
 from tests.cli.run import MINIMAL, run
 
-FILES = [file.as_posix() for file in sorted((ROOT / "tests/corpus/invalid").glob("un*.yaml"))[:3]]
+FILES = [Task(file.as_posix()) for file in sorted((ROOT / "tests/corpus/invalid").glob("un*.yaml"))[:3]]
+SMALL = Task(MINIMAL)
 
 
 def test_workers_answer_as_this_process_does() -> None:
-    assert list(in_workers("check", FILES, 2)) == [compute("check", file) for file in FILES]
+    assert list(in_workers("check", FILES, processes(2))) == [compute("check", file) for file in FILES]
     assert multiprocessing.active_children() == []
 
 
 def test_workers_compile_as_this_process_does() -> None:
-    assert list(in_workers("compile", [MINIMAL, FILES[0]], 2)) == [
-        compute("compile", MINIMAL),
+    assert list(in_workers("compile", [SMALL, FILES[0]], processes(2))) == [
+        compute("compile", SMALL),
         compute("compile", FILES[0]),
     ]
 
 
 def test_a_caller_that_stops_early_leaves_no_process() -> None:
-    found = in_workers("check", FILES, 2)
+    found = in_workers("check", FILES, processes(2))
     assert next(found) == compute("check", FILES[0])
     found.close()
     assert multiprocessing.active_children() == []
@@ -62,16 +65,16 @@ def test_a_process_bound_to_one_core_starts_no_others() -> None:
 def test_what_a_lost_process_owes_is_computed_by_another(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     (tmp_path / "fatal").touch()
     monkeypatch.setattr(batch, "_compute_within", partial(_computed_by_mortals, tmp_path.as_posix()))
-    files = [MINIMAL, *FILES[:2]]
-    assert list(in_workers("check", files, 2)) == [compute("check", file) for file in files]
+    files = [SMALL, *FILES[:2]]
+    assert list(in_workers("check", files, processes(2))) == [compute("check", file) for file in files]
     assert list(tmp_path.iterdir()) == []
 
 
-def _computed_by_mortals(folder: str, _asked: object) -> Callable[[str], CellResult]:
+def _computed_by_mortals(folder: str, _asked: object) -> Callable[[batch._Unit], CellResult]:
     for fatal in Path(folder).iterdir():
         fatal.unlink()
         os._exit(9)
-    return partial(compute, "check")
+    return lambda unit: compute("check", unit.task)
 
 
 def test_folder_stands_for_every_spec_below_it(tmp_path: Path) -> None:

@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 
 from cellc.cli.batch import in_workers
+from cellc.cli.fleet import Task
+from cellc.compute.processes import processes
 from cellc.limits import DEFAULTS, LimitError, as_options, in_force, limits, raised, rows
 from tests.cli.run import MINIMAL, run
 
@@ -59,5 +61,5 @@ def test_limits_are_handed_on_as_options() -> None:
 
 def test_processes_of_a_call_have_its_limits(tmp_path: Path) -> None:
     with in_force(raised([f"spec-bytes={3 * 2**20}"])):
-        results = list(in_workers("check", [_long(tmp_path)], 1))
+        results = list(in_workers("check", [Task(_long(tmp_path))], processes(1)))
     assert [found.code for found in results[0].findings.diagnostics if found.code == "file-too-large"] == []

@@ -11,13 +11,15 @@ from pathlib import Path
 
 import pytest
 
+from cellc.cli.batch import results
+from cellc.cli.fleet import Fan, Task
 from cellc.compute import cluster as of_dask
 from cellc.compute.cluster import cluster
 from cellc.compute.work import ComputeError, Work, stream
 from cellc.mock import load
 from cellc.mock.campaign.campaign import conduct, make_plan
 from cellc.mock.faults.registry import possible_faults
-from tests.cells import generated
+from tests.cells import generated, spec_of
 from tests.compute.test_work import _deadly, _squares
 
 pytest.importorskip("distributed")
@@ -78,6 +80,13 @@ def test_a_campaign_is_the_same_on_a_cluster_as_here(dask: Dask) -> None:
     assert there.ends == here.ends
     assert repr(there.ends) == repr(here.ends)
     assert len(there.ends) > 20
+
+
+def test_cells_are_checked_on_a_cluster_as_they_are_here(dask: Dask) -> None:
+    tasks = [Task(spec_of("minimal").as_posix(), {"ros": distro}) for distro in ("humble", "jazzy")]
+    here, there = (list(results("check", tasks, Fan(cluster=address))) for address in (None, dask.address))
+    assert there == here
+    assert all(one.cell is not None for one in there)
 
 
 def test_a_worker_of_a_cluster_that_dies_costs_time_alone(dask: Dask, tmp_path: Path) -> None:

@@ -26,9 +26,7 @@ from cellc.mock.faults.registry import possible_faults
 from cellc.mock.gates.gate import GateResult, Verdict, gate_lines, gates_as_data
 from cellc.mock.gates.runs import judged_campaign, judged_rehearsals
 from cellc.mock.gates.sign import sign_gates
-from cellc.printing import progress, refuse, remark, show, show_document
-
-_MINUTES_FROM_S = 120.0
+from cellc.printing import progress, refuse, remark, show, show_document, time_left
 
 Choice = Callable[[CampaignPlan], Sequence[CampaignRun]]
 
@@ -192,9 +190,7 @@ def pace(run: str, total: int, done: int, failed: int, seconds: float) -> str:
         done: in ``seconds``.
     """
     rate = done / max(seconds, 1e-3)
-    left_s = (total - done) / rate
-    left = f"{left_s / 60:.0f} min" if left_s >= _MINUTES_FROM_S else f"{left_s:.0f} s"
-    return f"run {run}, {failed} failed, {rate:.0f} a second, {left} left"
+    return f"run {run}, {failed} failed, {rate:.0f} a second{time_left(done, total, seconds)}"
 
 
 def stopped(stop: MockError) -> int:

@@ -44,6 +44,7 @@ class MockOptions:
         live: show rehearsals in Foxglove.
         listen: host and port of that; None for this machine alone.
         speed: how much faster than real time it is shown; None for not at all.
+        many: several folders are meant, of which ``folder`` is the first.
     """
 
     folder: str
@@ -66,6 +67,7 @@ class MockOptions:
     live: bool = False
     listen: str | None = None
     speed: float | None = None
+    many: bool = False
 
     def modes(self) -> list[str]:
         """Return the options that ask for something else than rehearsals."""
@@ -92,19 +94,31 @@ class MockOptions:
             return "--journal needs --sweep, or --replay sweep:NUMBER"
         fanned = {"--pairs": self.pairs or None, "--jobs": self.jobs, "--cluster": self.cluster}
         given = [option for option, value in fanned.items() if value is not None]
-        if given and not modes:
+        if given and not modes and (not self.many or self.pairs):
             return f"{given[0]} needs --campaign"
         if self.jobs is not None and self.cluster is not None:
             return "--jobs does not go with --cluster, whose workers are all taken"
         paths = {"--evidence": self.evidence, "--records": self.records}
         written = [option for option, path in paths.items() if path is not None]
-        live = self._live_contradiction(modes)
-        if live:
-            return live
+        other = self._beyond_many(modes) or self._live_contradiction(modes)
+        if other:
+            return other
         if "--list" in alone and written:
             return f"{written[0]} does not go with --list, which runs nothing"
         empty = [option for option in written if paths[option] == ""]
         return f"{empty[0]} cannot be written: its path is empty" if empty else ""
+
+    def _beyond_many(self, modes: Sequence[str]) -> str:
+        """Say what is about one folder, where several are meant."""
+        given = {
+            "--rehearsal": bool(self.rehearsals),
+            "--journal": self.journal is not None,
+            "--evidence": self.evidence is not None,
+            "--records": self.records is not None,
+            "--live": self.live,
+            **{mode: mode != "--sweep" for mode in modes},
+        }
+        return next((f"{option} is about one folder" for option, asked in given.items() if asked and self.many), "")
 
     @property
     def swept(self) -> bool:

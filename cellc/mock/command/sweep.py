@@ -37,7 +37,7 @@ def run_sweep(options: MockOptions) -> int:
     """
     try:
         cell = load_checked(options)
-        sweeps = [_sweep(cell, entry, options) for entry in _entries(cell, options)]
+        sweeps = [sweep_entry(cell, entry, options) for entry in entries_to_sweep(cell, options)]
         if options.evidence is not None:
             failed = [(cell.entry(each.rehearsal), run) for each in sweeps for run in each.failed[:_EVIDENCE]]
             _write_evidence(cell, failed, options, sweeps)
@@ -51,7 +51,7 @@ def run_sweep(options: MockOptions) -> int:
     return 0 if all(each.verdict or each.expected is None for each in sweeps) else 1
 
 
-def _entries(cell: MockCell, options: MockOptions) -> Sequence[RehearsalEntry]:
+def entries_to_sweep(cell: MockCell, options: MockOptions) -> Sequence[RehearsalEntry]:
     """Return the rehearsals that are meant: those named, else those that must succeed often enough, else the first."""
     names = options.rehearsals or tuple(uncertainty_of(cell).expected) or cell.rehearsals[:1]
     if not names:
@@ -61,7 +61,12 @@ def _entries(cell: MockCell, options: MockOptions) -> Sequence[RehearsalEntry]:
     return [cell.entry(name) for name in dict.fromkeys(names)]
 
 
-def _sweep(cell: MockCell, entry: RehearsalEntry, options: MockOptions) -> Sweep:
+def sweep_entry(cell: MockCell, entry: RehearsalEntry, options: MockOptions) -> Sweep:
+    """Sweep one rehearsal, with its progress.
+
+    Raises:
+        MockError: a run cannot be executed, or nobody does.
+    """
     begun, done = perf_counter(), 0
     failed = 0
     hire, who = options.crew()
@@ -94,7 +99,7 @@ def replay_swept(options: MockOptions) -> int:
     try:
         cell = load_checked(options)
         uncertainty = uncertainty_of(cell)
-        (entry,) = _entries(cell, options)[:1]
+        (entry,) = entries_to_sweep(cell, options)[:1]
         if options.journal is not None:
             Journal(Path(options.journal), cell.contract.configuration_id, entry.name, options.seed)  # or it refuses
         numbers = [_number(text) for text in dict.fromkeys(options.replay)]

@@ -1,0 +1,143 @@
+"""The rehearsals of many generated folders, each in its own process or worker, and their sweeps one after the other."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator, Iterator, Sequence
+from contextlib import closing
+from dataclasses import dataclass, replace
+from pathlib import Path
+from time import perf_counter
+
+from cellc.compute.work import Work, in_order, stream
+from cellc.contract.fleet import FleetRehearsal, FleetSweep
+from cellc.description.packages import package_path
+from cellc.limits import limits
+from cellc.mock.campaign.campaign import Assignment
+from cellc.mock.cell import cell_of, read_to_run
+from cellc.mock.command.options import MockOptions
+from cellc.mock.command.sweep import entries_to_sweep, sweep_entry
+from cellc.mock.errors import MockError
+from cellc.mock.folder import GeneratedFolder
+from cellc.mock.sweep.sweep import Sweep
+from cellc.printing import progress, time_left
+
+
+@dataclass(frozen=True, slots=True)
+class Member:
+    """A generated folder of a call.
+
+    Attributes:
+        name: as the user knows it.
+        read: None where it cannot be executed, and ``problem`` says why.
+    """
+
+    name: str
+    read: GeneratedFolder | None
+    problem: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Rehearsed:
+    """What became of a folder: its rehearsals, and its sweeps where any were asked for."""
+
+    rehearsals: tuple[FleetRehearsal, ...] = ()
+    sweeps: tuple[FleetSweep, ...] | None = None
+    problem: str = ""
+
+    @property
+    def passed(self) -> bool:
+        """Whether everything ended as it must."""
+        swept = all(one.verdict in (None, "passed") for one in self.sweeps or ())
+        return not self.problem and swept and all(one.passed for one in self.rehearsals)
+
+
+def member_of(name: str, folder: Path, *, edited: bool, spec: Path | None = None) -> Member:
+    """Read a generated folder.
+
+    Args:
+        spec: folder of the spec, where the package lies elsewhere than it will.
+    """
+    try:
+        read = read_to_run(folder, edited=edited)
+    except MockError as problem:
+        return Member(name, None, str(problem))
+    return Member(name, read if spec is None else replace(read, mesh_roots=(spec, *read.mesh_roots)))
+
+
+def rehearse_all(members: Sequence[Member], options: MockOptions) -> Iterator[Rehearsed]:
+    """Yield what became of each folder, in their order.
+
+    Raises:
+        ComputeError: nobody can execute one.
+    """
+    begun = perf_counter()
+    with progress("mock") as update, closing(_rehearsed(members, options)) as ended:
+        found: list[Rehearsed] = []
+        for number, member in enumerate(members):
+            left = time_left(number, len(members), perf_counter() - begun)
+            update(f"{number + 1} of {len(members)}, {member.name}{left}")
+            found.append(Rehearsed(problem=member.problem) if member.read is None else next(ended))
+    for member, one in zip(members, found, strict=True):
+        yield one if not options.sweep or one.problem else _with_sweeps(one, member, options)
+
+
+def _rehearsed(members: Sequence[Member], options: MockOptions) -> Generator[Rehearsed, None, None]:
+    hire, _ = options.crew()
+    # Another computer may lack meshes; finding that out takes as long as a rehearsal.
+    assigned = [
+        Assignment.of(cell_of(one.read), options.seed)
+        if options.cluster is not None
+        else Assignment(one.read, options.seed, limits(), package_path(), None)
+        for one in members
+        if one.read is not None
+    ]
+    if hire is None or len(assigned) < 2:
+        return (_rehearse(one) for one in assigned)
+    names = {one.folder.contract.configuration_id: one.folder.contract.cell for one in assigned}
+    work = Work(_begin, None, lambda one: names[one.folder.contract.configuration_id])
+    return in_order(stream(work, assigned, hire))
+
+
+def _begin(_: None) -> Callable[[Assignment], Rehearsed]:
+    return _rehearse
+
+
+def _rehearse(assignment: Assignment) -> Rehearsed:
+    try:
+        cell = assignment.cell()
+        results = [cell.run(name, seed=assignment.seed) for name in cell.rehearsals]
+    except MockError as problem:
+        return Rehearsed(problem=str(problem))
+    return Rehearsed(
+        tuple(
+            FleetRehearsal(name=one.name, outcome=one.outcome, expected=one.expected, passed=one.passed)
+            for one in results
+        )
+    )
+
+
+def _with_sweeps(rehearsed: Rehearsed, member: Member, options: MockOptions) -> Rehearsed:
+    """Sweep what the cell expects a rate of success of, or its first rehearsal; nothing where it draws nothing."""
+    if member.read is None or member.read.uncertainty is None:
+        return replace(rehearsed, sweeps=())
+    try:
+        cell = cell_of(member.read)
+        sweeps = tuple(_told(sweep_entry(cell, entry, options)) for entry in entries_to_sweep(cell, options))
+    except MockError as problem:
+        return replace(rehearsed, problem=str(problem))
+    return replace(rehearsed, sweeps=sweeps)
+
+
+def _told(sweep: Sweep) -> FleetSweep:
+    words = {True: "passed", False: "failed", None: "UNKNOWN"}
+    return FleetSweep.model_validate(
+        {
+            "rehearsal": sweep.rehearsal,
+            "runs": len(sweep.runs),
+            "succeeded": len(sweep.runs) - len(sweep.failed),
+            "low": sweep.rate.low,
+            "high": sweep.rate.high,
+            "confidence": sweep.rate.confidence,
+            "verdict": None if sweep.expected is None else words[sweep.verdict],
+        }
+    )
