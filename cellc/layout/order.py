@@ -1,4 +1,4 @@
-"""The canonical order of keys, and the canonical spelling of quantities, by the models of the spec."""
+"""The canonical order of keys, and the canonical spelling of quantities, by the models of spec and device."""
 
 from __future__ import annotations
 
@@ -18,14 +18,21 @@ _QUANTITY_BEGINS = re.compile(r"[-+.0-9]")
 
 
 def put_in_order(root: Value, data: Plain) -> None:
-    """Put the keys of a cell in the order of the reference; a file of a device has none but its author's.
+    """Put the keys of a cell in the order of the reference, and those of a device in the order of its schema.
 
     Args:
         root: is changed.
         data: what the file says, as ``compose`` read it.
     """
-    if isinstance(data, dict) and not _OF_A_DEVICE & data.keys():
+    if not isinstance(data, dict):
+        return
+    if not _OF_A_DEVICE & data.keys():
         _order(root, data, CellSpec)
+        return
+    # Of a device or its family. A repository of cells alone is formatted without these models.
+    from cellc.catalog.device_model import DeviceModel
+
+    _order(root, data, DeviceModel)
 
 
 def _order(value: Value, data: Plain, annotation: object) -> None:

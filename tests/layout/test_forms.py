@@ -105,9 +105,13 @@ FORMS = {
         "frames:\n  a: {rpy: &r 0 0 0 deg,  parent: *r}\n",
         "frames:\n  a: {rpy: &r 0 0 0 deg, parent: *r}\n",
     ),
-    "the file of a device keeps its order": (
-        "vendor:  nobody\nmodel: arm\nkind: arm\nformat: 1\n",
-        "vendor: nobody\nmodel: arm\nkind: arm\nformat: 1\n",
+    "the file of a device has the order of its schema, and the author's names stay": (
+        "# head\n\n"
+        "limits: {payload: {source: s, value: 5kg},  velocity_everywhere: {b: {source: s, value: 2rad/s}, a: {}}}\n"
+        "# whose\nvendor:  nobody\nmodel: arm\nown: x\nkind: arm\nformat: 1   # of the file\n",
+        "# head\n\nformat: 1   # of the file\nmodel: arm\n# whose\nvendor: nobody\nkind: arm\n"
+        "limits: {velocity_everywhere: {b: {value: 2 rad/s, source: s}, a: {}}, payload: {value: 5 kg, source: s}}\n"
+        "own: x\n",
     ),
     "a comment at the end of a section stays in it": (
         "frames:\n    a: {parent: world}\n    # no more\n# of hosts\nhosts: {}\n",
