@@ -53,7 +53,7 @@ def content_of(subject: Subject, rehearsals: Sequence[str], seed: int) -> Conten
         return Content(subject, None, (), tuple(_not_drawn(subject, frozenset())))
     skeleton = Skeleton(subject.standing)
     scene = scene_of(subject.standing, subject.views, skeleton)
-    absent = tuple(_not_drawn(subject, _shown(subject.standing, scene)))
+    absent = (*_not_drawn(subject, _shown(subject.standing, scene)), *scene.left_out)
     if subject.folder is None:
         return Content(subject, scene, (), absent)
     # Planning libraries load where there is a package to run.

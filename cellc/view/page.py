@@ -8,7 +8,7 @@ import json
 import re
 import zipfile
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from importlib.resources import files
 from importlib.util import find_spec
 from pathlib import Path
@@ -107,9 +107,12 @@ def _with_text(name: str, text: str) -> Element:
 
 def _json(content: Content) -> str:
     """Return what the script reads; no text of the cell ends the element that holds it."""
+    scene, before = content.scene, None if content.before is None else content.before.scene
+    if scene is not None and before is not None and before.meshes == scene.meshes:
+        before = replace(before, meshes=())  # those of the scene are taken
     told = {
-        "scene": None if content.scene is None else asdict(content.scene),
-        "before": None if content.before is None else asdict(content.before.scene),
+        "scene": None if scene is None else asdict(scene),
+        "before": None if before is None else asdict(before),
         "runs": [asdict(one) for one in content.runs],
     }
     return json.dumps(told, ensure_ascii=True, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
@@ -164,9 +167,6 @@ def _header(content: Content) -> Element:
 
 
 def _drawn_less(content: Content) -> Iterator[str]:
-    left_out = content.scene.left_out if content.scene is not None else 0
-    if left_out:
-        yield f"{count(left_out, 'mesh')} not drawn: meshes are left out"
     findings = content.subject.findings
     if content.subject.folder is not None or findings is None:
         return

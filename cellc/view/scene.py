@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from cellc.cell.device import FieldOfView
 from cellc.description.model import Box, Collision, Cylinder, Geometry, Link, Mesh, Sphere, Visual
 from cellc.transforms import Pose
+from cellc.view.meshes import DrawnMesh, Meshes, meshes_at_hand, meshes_of
 from cellc.view.skeleton import Held, Skeleton, pose_of
 from cellc.view.standing import Standing
 
@@ -17,7 +18,9 @@ Numbers = tuple[float, ...]
 
 @dataclass(frozen=True, slots=True)
 class Shape:
-    """A body: the size of a box in m, the radius of a sphere, or radius and length of a cylinder along z.
+    """A body: the size of a box in m, the radius of a sphere, radius and length of a cylinder along z, or a mesh.
+
+    The size of a mesh is its number among those of the scene.
 
     Attributes:
         owner: device, or empty for the scene.
@@ -78,35 +81,49 @@ class Scene:
     """Everything that stands still, and the postures that can be chosen.
 
     Attributes:
-        left_out: shapes that are meshes, which are not drawn.
+        kinds: which shapes of each device are drawn, in words.
+        left_out: links whose shapes are not drawn, and why.
     """
 
     groups: tuple[str, ...]
     devices: tuple[str, ...]
+    kinds: tuple[str, ...]
     shapes: tuple[Shape, ...]
+    meshes: tuple[DrawnMesh, ...]
     frames: tuple[FrameMark, ...]
     cones: tuple[ViewCone, ...]
     goals: tuple[GoalMark, ...]
     poses: tuple[PoseMark, ...]
-    left_out: int
+    left_out: tuple[tuple[str, str], ...]
 
 
 def scene_of(standing: Standing, views: Mapping[str, FieldOfView], skeleton: Skeleton) -> Scene:
     """Return what is drawn of what stands."""
-    found = [(link, *one) for link in standing.description.links for one in _bodies(link)]
+    links = standing.description.links
+    meshes = meshes_at_hand(links, standing.mesh_roots)
     owners = _owners(standing)
-    drawn = tuple(_shape(skeleton, owners, *one) for one in found)
+    bodies = [(link, *_bodies(link, meshes)) for link in links]
+    kinds: dict[str, dict[str, None]] = {name: {} for name in standing.roots}
+    for link, kind, shapes in bodies:
+        if shapes and owners[link.name]:
+            kinds[owners[link.name]][kind] = None
     return Scene(
         groups=skeleton.groups,
         devices=tuple(standing.roots),
-        shapes=tuple(one for one in drawn if one is not None),
+        kinds=tuple(" and ".join(found) for found in kinds.values()),
+        shapes=tuple(
+            _shape(skeleton, owners[link.name], link.name, pose, *_measured(geometry, meshes))
+            for link, _, shapes in bodies
+            for pose, geometry in shapes
+        ),
+        meshes=meshes.drawn,
         frames=tuple(_frames(standing, skeleton)),
         cones=tuple(
             _cone(name, skeleton.frames[name], view) for name, view in views.items() if name in skeleton.frames
         ),
         goals=tuple(_goals(standing, skeleton)),
         poses=tuple(_poses(standing, skeleton)),
-        left_out=sum(one is None for one in drawn),
+        left_out=tuple(_left_out(links, owners, meshes)),
     )
 
 
@@ -115,11 +132,35 @@ def numbers(pose: Pose) -> Numbers:
     return (*(round(value, 4) + 0.0 for value in pose.position), *(round(value, 4) + 0.0 for value in pose.quaternion))
 
 
-def _bodies(link: Link) -> Iterator[tuple[Pose, Geometry]]:
-    """Yield what is seen of a link; what collides, where that is drawn more easily."""
-    plain = bool(link.visuals) and not any(isinstance(shape.geometry, Mesh) for shape in link.visuals)
-    shapes: tuple[Visual, ...] | tuple[Collision, ...] = link.visuals if plain else link.collisions
-    return ((shape.pose, shape.geometry) for shape in shapes)
+def _bodies(link: Link, meshes: Meshes) -> tuple[str, list[tuple[Pose, Geometry]]]:
+    """Return what is seen of a link, what collides where that is not at hand, and which of them it is."""
+
+    def at_hand(shapes: Sequence[Visual | Collision]) -> list[tuple[Pose, Geometry]]:
+        return [(one.pose, one.geometry) for one in shapes if _drawable(one.geometry, meshes)]
+
+    seen = at_hand(link.visuals)
+    if seen and len(seen) == len(link.visuals):
+        return "visual meshes" if meshes_of(link.visuals) else "visual shapes", seen
+    touched = at_hand(link.collisions)
+    meshed = any(isinstance(geometry, Mesh) for _, geometry in touched)
+    return "collision meshes" if meshed else "collision shapes", touched
+
+
+def _drawable(geometry: Geometry, meshes: Meshes) -> bool:
+    return not isinstance(geometry, Mesh) or geometry in meshes.numbers
+
+
+def _left_out(links: Iterable[Link], owners: Mapping[str, str], meshes: Meshes) -> Iterator[tuple[str, str]]:
+    """Yield of each device, or of the cell itself, the links that have a shape and none that is drawn, and why."""
+    bare: dict[str, list[Link]] = {}
+    for link in links:
+        if (link.visuals or link.collisions) and not _bodies(link, meshes)[1]:
+            bare.setdefault(owners[link.name], []).append(link)
+    for owner, found in bare.items():
+        named = [one for link in found for one in (*meshes_of(link.visuals), *link.collision_meshes())]
+        why = next((meshes.absent[one] for one in named if one in meshes.absent), "")
+        links_ = f"{len(found)} {'link' if len(found) == 1 else 'links'}"
+        yield f"shapes of {links_} of {owner or 'the cell'}", why
 
 
 def _owners(standing: Standing) -> dict[str, str]:
@@ -136,22 +177,17 @@ def _owners(standing: Standing) -> dict[str, str]:
     return owners
 
 
-def _shape(skeleton: Skeleton, owners: Mapping[str, str], link: Link, pose: Pose, shape: Geometry) -> Shape | None:
-    measured = _measured(shape)
-    if measured is None:
-        return None
-    kind, size = measured
-    held = skeleton.held(link.name)
-    owner = owners[link.name]
-    return Shape(held.group, numbers(held.pose @ pose), kind, tuple(round(one, 5) for one in size), owner, link.name)
+def _shape(skeleton: Skeleton, owner: str, link: str, pose: Pose, kind: str, size: Numbers) -> Shape:
+    held = skeleton.held(link)
+    return Shape(held.group, numbers(held.pose @ pose), kind, tuple(round(one, 5) for one in size), owner, link)
 
 
-def _measured(shape: Geometry) -> tuple[str, Numbers] | None:
+def _measured(shape: Geometry, meshes: Meshes) -> tuple[str, Numbers]:
     if isinstance(shape, Box):
         return "box", shape.size
     if isinstance(shape, Cylinder):
         return "cylinder", (shape.radius, shape.length)
-    return ("sphere", (shape.radius,)) if isinstance(shape, Sphere) else None
+    return ("sphere", (shape.radius,)) if isinstance(shape, Sphere) else ("mesh", (meshes.numbers[shape],))
 
 
 def _frames(standing: Standing, skeleton: Skeleton) -> Iterator[FrameMark]:

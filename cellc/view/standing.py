@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Union
 
 from cellc.cell.cell import Cell
@@ -24,6 +25,7 @@ class Standing:
     Attributes:
         roots: the root link of each device.
         description: the robot model, every link of which hangs from the world.
+        mesh_roots: folders beside which the packages of meshes may lie.
     """
 
     roots: Mapping[str, str]
@@ -32,13 +34,21 @@ class Standing:
     poses: Mapping[str, tuple[ContractPoseTarget, ...]]
     goals: Mapping[str, ContractGoal]
     description: Description
+    mesh_roots: tuple[Path, ...]
 
 
 def of_package(folder: GeneratedFolder) -> Standing:
     """Return what stands in the cell of a package."""
     contract = folder.contract
-    roots = {name: device.root_link for name, device in contract.devices.items()}
-    return Standing(roots, contract.frames, contract.groups, contract.poses, contract.goals, folder.description)
+    return Standing(
+        {name: device.root_link for name, device in contract.devices.items()},
+        contract.frames,
+        contract.groups,
+        contract.poses,
+        contract.goals,
+        folder.description,
+        folder.mesh_roots,
+    )
 
 
 def of_cell(cell: Cell) -> Standing | None:
@@ -49,6 +59,7 @@ def of_cell(cell: Cell) -> Standing | None:
     # What is written into packages says it too; a folder is shown without the compiler.
     from cellc.description.urdf_reader import read_urdf
     from cellc.emit.contract.motion import frames, goals, groups, poses
+    from cellc.feasibility.meshes import mesh_roots
     from cellc.formats.urdf.robot import robot_description
     from cellc.formats.xml_text import render
 
@@ -69,7 +80,7 @@ def of_cell(cell: Cell) -> Standing | None:
     }
     roots = {device.name: device.root_link for device in cell.devices if device.root_link not in apart}
     reached = {name: goal for name, goal in goals(cell).items() if goal.group in known}
-    return Standing(roots, frames(cell), known, fitting, reached, description)
+    return Standing(roots, frames(cell), known, fitting, reached, description, mesh_roots(cell))
 
 
 def wanted_of(standing: Standing) -> Wanted:

@@ -86,6 +86,7 @@ def _of_package(
 
 def _of_spec(path: Path) -> Subject:
     # A folder is shown without the compiler, which takes a second to load.
+    from cellc.feasibility.meshes import mesh_roots
     from cellc.pipeline import DESCRIPTIONS, check, emit_cell
 
     checked = check(path)
@@ -99,7 +100,7 @@ def _of_spec(path: Path) -> Subject:
     with tempfile.TemporaryDirectory(prefix="cellc-view-") as place:
         package = Path(place) / cell.name
         write(emitted.value, package)
-        folder = replace(read_folder(package), mesh_roots=(path.absolute().parent,))
+        folder = replace(read_folder(package), mesh_roots=mesh_roots(cell))
         pictures = _pictures(package, folder)
     return _of_package(cell.name, findings, folder, dict(_views(cell)), pictures)
 

@@ -59,7 +59,8 @@ class Drawing {
     this.camera = new THREE.PerspectiveCamera(35, 1, 0.01, 100);
     this.camera.up.set(0, 0, 1);
     this.model = new CellModel(data.scene);
-    this.before = data.before ? new CellModel(data.before, { ghost: true }) : null;
+    const before = data.before && (data.before.meshes.length ? data.before : { ...data.before, meshes: data.scene.meshes });
+    this.before = before ? new CellModel(before, { ghost: true }) : null;
     const light = new THREE.DirectionalLight("#ffffff", 0.55);
     light.position.set(0.4, 0.8, 1);
     this.camera.add(light);
@@ -274,6 +275,7 @@ function start() {
     const entry = make("span", "", legend);
     make("i", "", entry).style.background = `#${colour.getHexString()}`;
     entry.append(name);
+    make("small", data.scene.kinds[data.scene.devices.indexOf(name)], entry);
   }
   const place = stage.querySelector(".player");
   const player = data.runs.length ? new Player(place, drawing) : null;

@@ -19,8 +19,20 @@ const makeGeometry = {
   sphere: ([radius]) => new THREE.SphereGeometry(radius, 28, 18),
 };
 
+// Whole numbers of 16 bits, as base64.
+function unpacked(text) {
+  return new Uint16Array(Uint8Array.from(atob(text), (one) => one.charCodeAt(0)).buffer);
+}
+
+function meshGeometry({ low, step, vertices, triangles }) {
+  const numbers = Float32Array.from(unpacked(vertices), (one, at) => low[at % 3] + step * one);
+  return new THREE.BufferGeometry().setAttribute("position", new THREE.BufferAttribute(numbers, 3))
+    .setIndex(new THREE.BufferAttribute(unpacked(triangles), 1));
+}
+
 class CellModel {
   constructor(data, { ghost = false } = {}) {
+    this.meshes = data.meshes.map(meshGeometry);
     this.root = new THREE.Group();
     this.groups = data.groups.map(() => new THREE.Group());
     this.root.add(...this.groups);
@@ -43,14 +55,18 @@ class CellModel {
   }
 
   addShape(shape, ghost) {
-    const geometry = makeGeometry[shape.kind](shape.size);
+    const meshed = shape.kind === "mesh";
+    const geometry = meshed ? this.meshes[shape.size[0]] : makeGeometry[shape.kind](shape.size);
     const colour = ghost ? new THREE.Color("#d0762a") : this.colours.get(shape.owner) || new THREE.Color(SCENE_COLOUR);
-    const body = new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({
-      color: colour, transparent: ghost, opacity: ghost ? 0.28 : 1, depthWrite: !ghost }));
-    const edges = new THREE.LineSegments(new THREE.EdgesGeometry(geometry, 30),
-      new THREE.LineBasicMaterial({ color: colour.clone().multiplyScalar(0.4), transparent: true, opacity: 0.6 }));
+    const look = { color: colour, transparent: ghost, opacity: ghost ? 0.28 : 1, depthWrite: !ghost };
+    const body = new THREE.Mesh(geometry, meshed
+      ? new THREE.MeshPhongMaterial({ ...look, flatShading: true, specular: 0 })
+      : new THREE.MeshLambertMaterial(look));
+    if (!meshed) {
+      body.add(new THREE.LineSegments(new THREE.EdgesGeometry(geometry, 30),
+        new THREE.LineBasicMaterial({ color: colour.clone().multiplyScalar(0.4), transparent: true, opacity: 0.6 })));
+    }
     body.userData.words = shape.owner ? `${shape.owner}: ${shape.link}` : shape.link;
-    body.add(edges);
     placeAt(body, shape.pose);
     this.groups[shape.group].add(body);
     this.bodies.push(body);
