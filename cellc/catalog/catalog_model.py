@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from typing import Annotated, Union
 
-from pydantic import BaseModel, ConfigDict, Strict, StringConstraints
+from pydantic import BaseModel, ConfigDict, GetJsonSchemaHandler, Strict, StringConstraints
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema
 
 from cellc.vocabulary import (
     Behaviour,
@@ -48,3 +51,19 @@ class CatalogModel(BaseModel):
     """A part of the catalog: facts with their sources, in the units of the text."""
 
     model_config = ConfigDict(strict=True, frozen=True, extra="forbid", regex_engine="python-re", defer_build=True)
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
+        """Describe each property by what the docstring says of it, so that an editor shows it."""
+        made = handler(schema)
+        for name, one in handler.resolve_ref_schema(made).get("properties", {}).items():
+            said = said_of(cls, name)
+            if said:
+                one["description"] = said
+        return made
+
+
+def said_of(model: type[BaseModel], name: str) -> str:
+    """Return the sentences in which the docstring of a model names a key as ``key``."""
+    sentences = re.split(r"(?<=\.) ", " ".join((model.__doc__ or "").split()))
+    return " ".join(one for one in sentences if f"``{name}``" in one).replace("``", "`")

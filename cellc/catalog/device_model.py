@@ -17,7 +17,7 @@ from typing import Literal, get_args
 
 from pydantic import Field, model_validator
 
-from cellc.catalog.catalog_model import CatalogModel, Date, DistroName, FileName, GateName, PartName, Text, Token
+from cellc.catalog.catalog_model import CatalogModel, Date, DistroName, GateName, PartName, Text, Token
 from cellc.catalog.device_controller import DeviceController
 from cellc.catalog.device_interfaces import (
     ActionFacts,
@@ -30,6 +30,7 @@ from cellc.catalog.device_interfaces import (
     TopicFacts,
 )
 from cellc.catalog.robot_facts import DrivenBy, HumanStep, MountFacts, PlugFacts, RobotControllerFacts, StepCondition
+from cellc.catalog.version_rows import VersionRow
 from cellc.spec.quantity import (
     Force,
     JointAcceleration,
@@ -105,34 +106,6 @@ class SafetyFacts(CatalogModel):
     ended: tuple[HumanStep, ...] = ()
     watchdog: Text | None = None
     source: Text
-
-
-class RepositoryPin(CatalogModel):
-    """A repository at one commit or tag, as ``vcs import`` takes it; ``name`` is its folder in a workspace."""
-
-    name: FileName
-    url: Text
-    ref: FileName
-
-
-class VersionRow(CatalogModel):
-    """Versions that go together on one distribution; ``known`` are those that the source names.
-
-    A version that the distribution does not release is ``built_from`` repositories, its own first. ``ambiguous`` says
-    why a version pins nothing.
-    """
-
-    part: Literal["driver", "sdk", "description", "firmware"]
-    distro: DistroName | None = None
-    product: Text | None = None
-    known: tuple[Text, ...] = ()
-    minimum: Text | None = None
-    below: Text | None = None
-    built_from: tuple[RepositoryPin, ...] = ()
-    ambiguous: Text | None = None
-    note: Text | None = None
-    source: Text
-    as_of: Date
 
 
 class VendorDescriptionFacts(CatalogModel):
@@ -354,8 +327,18 @@ def device_kinds() -> tuple[str, ...]:
 class DeviceModel(CatalogModel):
     """One ``device.yaml``.
 
-    ``family`` names the file that the model's own was laid over, where it has one.
+    ``format`` is the version of this format. ``family`` names the file that the model's own was laid over, where it
+    has one. ``model`` is the name of the device in specs. ``vendor`` is who makes it. ``summary`` is what it is, in one
+    line for who chooses. ``kind`` is what it is to a cell. ``as_of`` is the day on which the facts were read, and
+    ``sources`` are what they were read from.
+
+    ``base`` is the link that a mount places. ``frames`` are the links that a spec may name, by the names that it uses.
+    ``tool_frame`` is the link that carries tools. ``optical_frames`` are links in which a camera sees, z ahead.
+    ``home`` has the position of each joint in which it rests. ``allowed_collisions`` are pairs of links that may touch.
     ``excused`` are findings on its description that endanger nobody and that who uses it cannot mend, each with why.
+
+    ``controllers`` are the kinds that the vendor ships. ``record`` has what of its state is recorded.
+    ``mock_cannot_prove`` is what only the real device shows: it stands in the audit.
     """
 
     format: Literal[1]

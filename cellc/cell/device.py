@@ -6,7 +6,7 @@ import datetime
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from cellc.catalog.device_model import VersionRow
+from cellc.catalog.version_rows import VersionRow
 from cellc.cell.entity import Entity
 from cellc.cell.frame import WORLD
 from cellc.cell.hardware import Effect, HardwareComponent

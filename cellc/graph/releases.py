@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import lru_cache
 
-from cellc.catalog.device_model import VersionRow
 from cellc.catalog.load import load_releases
 from cellc.catalog.tables import ReleaseSet
+from cellc.catalog.version_rows import VersionRow
 from cellc.cell.device import Device
 from cellc.cell.site import UNKNOWN
 from cellc.pins import is_commit, last_word, same_version, version_number, version_numbers

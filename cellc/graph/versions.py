@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import Enum
 
-from cellc.catalog.device_model import RepositoryPin, VersionRow
 from cellc.catalog.load import load_distros
 from cellc.catalog.tables import DistroFacts, ReleaseSet
+from cellc.catalog.version_rows import RepositoryPin, VersionRow
 from cellc.cell.cell import Cell
 from cellc.cell.device import Device
 from cellc.cell.site import UNKNOWN

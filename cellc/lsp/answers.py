@@ -14,6 +14,7 @@ from cellc.edit.rewrite import Edit
 from cellc.lsp.cursor import Begun, begun, here
 from cellc.lsp.fields import annotation_at, in_si, keys_at, meaning_of, root_model, takes_a_frame, words_of
 from cellc.lsp.names import Names, kinds_at, names_of
+from cellc.lsp.parts import place_of_part
 from cellc.report.resolved import flatten, resolved_at, resolved_tree
 from cellc.source.compose import compose
 from cellc.source.document import Node, SourceDocument
@@ -88,7 +89,7 @@ def _rows(cell: Cell, path: YamlPath) -> Iterator[str]:
 
 
 def definition(text: str, line: int, column: int, known: Known, file: Path) -> Span | None:
-    """Return where what is named at a place is written: in the spec, an included file, a device."""
+    """Return where what is named at a place is written: in the spec, an included file, a device, its description."""
     root = compose("", text).value
     found = here(root, line, column) if root is not None else None
     if found is None:
@@ -97,8 +98,16 @@ def definition(text: str, line: int, column: int, known: Known, file: Path) -> S
         return _top(file.parent / found.text)
     if found.path[-1] == "model" and not found.is_key:
         return _device(found.text, file)
-    is_name = not found.is_key or kinds_at(found.path[:-1])
-    place = known.names.place_of(found.text, kinds_at(_field(found.path))) if is_name else None
+    if found.is_key and not kinds_at(found.path[:-1]):
+        return None
+    kinds, owner = kinds_at(_field(found.path)), found.text.partition("/")[0]
+    place = known.names.place_of(found.text, kinds)
+    if place is None and owner != found.text:
+        at_part = column - found.span.column > len(owner)
+        part = place_of_part(known.cell, found.text, kinds) if at_part and known.cell is not None else None
+        if part is not None:
+            return part
+        place = known.names.place_of(owner, ("device",))
     return known.document.locate_key(place) if place is not None and known.document is not None else None
 
 

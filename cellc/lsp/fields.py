@@ -12,6 +12,7 @@ from typing import Literal, Union, get_args, get_origin
 from pydantic import BaseModel
 from pydantic_core import PydanticCustomError
 
+from cellc.catalog.catalog_model import said_of
 from cellc.catalog.device_model import DeviceModel
 from cellc.diagnostics import YamlPath
 from cellc.source.document import Plain
@@ -65,7 +66,9 @@ def meaning_of(data: Plain, path: YamlPath) -> str:
     holder = chosen(annotation_at(data, path[:-1]), value_at(data, path[:-1]))
     model = model_of(holder)
     if model is not None and str(path[-1]) in fields_by_key(model):
-        return _key(model, str(path[-1])).meaning
+        told = _key(model, str(path[-1])).meaning
+        if told:
+            return told
     own = model_of(chosen(annotation_at(data, path), value_at(data, path)))
     return (own.__doc__ or "").strip() if own is not None else ""
 
@@ -111,7 +114,15 @@ def _key(model: type[BaseModel], name: str) -> Key:
     quantity = _quantity_type(inner(model, name))
     units = f" Units: {', '.join(quantity.units())}." if quantity is not None else ""
     example = re.sub(r"'", "", str(field.examples[0])) if field.examples else ""
-    return Key(name, f"{field.description or ''}{units}".strip(), field.is_required(), example)
+    told = field.description or _told_of(model, name)
+    return Key(name, f"{told}{units}".strip(), field.is_required(), example)
+
+
+def _told_of(model: type[BaseModel], name: str) -> str:
+    """Return what the docstring of a model says of a key, and that of the model which reads its value."""
+    value = next(_models(inner(model, name), None), None) or next(_models(inner(inner(model, name), 0), None), None)
+    kind = (value.__doc__ or "").partition("\n\n")[0].replace("``", "`").split() if value is not None else ()
+    return " ".join((said_of(model, name), *kind)).strip()
 
 
 def _models(annotation: object, data: Plain) -> Iterator[type[BaseModel]]:

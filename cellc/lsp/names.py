@@ -65,12 +65,9 @@ class Names:
             yield from ((name, kind) for name in self.derived.get(kind, ()))
 
     def place_of(self, name: str, kinds: tuple[str, ...]) -> YamlPath | None:
-        """Return where a name is written, as one of some kinds or else of any; of ``arm/tool0`` that of ``arm``."""
-        for kind in (*kinds, *self.written):
-            if name in self.written.get(kind, ()):
-                return self.written[kind][name]
-        owner = name.partition("/")[0]
-        return self.written.get("device", {}).get(owner) if owner and owner != name else None
+        """Return where a name is written, as one of some kinds or else of any."""
+        sections = (self.written.get(kind, {}) for kind in (*kinds, *self.written))
+        return next((section[name] for section in sections if name in section), None)
 
 
 def names_of(document: SourceDocument, cell: Cell | None) -> Names:

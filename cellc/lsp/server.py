@@ -23,6 +23,7 @@ from cellc.edit.rewrite import Edit
 from cellc.layout.layout import formatted
 from cellc.lsp.answers import Symbol, by_file, completions, definition, fixes, hover, symbols
 from cellc.lsp.cells import Cells
+from cellc.source.text import read_text
 from cellc.version import __version__
 
 _QUIET_S = 0.15
@@ -118,7 +119,7 @@ class CellServer(LanguageServer):
     def location(self, span: Span) -> lsp.Location:
         """Return a place in any file."""
         opened = self._opened()
-        text = opened.get(span.file) or self.cells.shown(span.file)
+        text = opened.get(span.file) or self.cells.shown(span.file) or read_text(Path(span.file), "", span).value or ""
         return lsp.Location(from_fs_path(span.file) or "", Ranges(self.workspace.position_codec, text).of(span))
 
     def _opened(self) -> dict[str, str]:

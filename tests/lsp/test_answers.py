@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
-from cellc.lsp.answers import Known, completions
+from cellc.catalog.compiled import device_file
+from cellc.lsp.answers import Known, completions, definition, hover
 from cellc.lsp.cells import Cells
+from tests.cells import spec_of
 
 _BROKEN = {
     "a key on a line of its own": ("devices:\n  arm:\n    model: ur5e\n    mou^\n    tcp: x\n", "mount"),
@@ -25,6 +29,40 @@ def test_completion_in_a_text_that_is_being_written(place: str) -> None:
     before, _, after = text.partition("^")
     line, column = before.count("\n") + 1, len(before.split("\n")[-1]) + 1
     assert expected in [one.word for one in completions(before + after, line, column, Known())]
+
+
+_WRITTEN = [
+    ("parent: arm/too^l0", 'child="tool0"'),  # a macro makes the link, and its call has the name
+    ("tip: arm/wrist_3^_link", '<link name="wrist_3_link"'),
+    ("joint: arm/elbow^_joint", 'name="elbow_joint"'),
+]
+
+
+@pytest.mark.parametrize(("asked", "written"), _WRITTEN)
+def test_a_link_or_joint_is_defined_where_its_description_writes_it(asked: str, written: str) -> None:
+    spec = spec_of("ur5e_pick").as_posix()
+    cells = Cells()
+    cells.check(spec, {})
+    place = definition(
+        f"frames:\n  a: {{{asked.replace('^', '')}}}\n", 2, asked.index("^") + 7, cells.known(spec), Path(spec)
+    )
+    assert place is not None
+    lines = Path(place.file).read_text(encoding="utf-8").split("\n")
+    assert written in lines[place.line - 1]
+    assert Path(place.file).parent == device_file("ur5e").parent
+
+
+def test_keys_of_a_device_are_explained_by_what_their_models_say() -> None:
+    text = "format: 1\nmodel: my_arm\nvendor: me\ncommissioning:\n  - {gate: G5, does: it is pushed, run: []}\n\n"
+    meant = {one.word: one.meaning for one in completions(text, 6, 1, Known())}
+    assert meant["base"].startswith("`base` is the link that a mount places")
+    assert "versions" in meant
+    assert "vendor" not in meant  # it stands there
+    shown = [hover(text, line, column, Known()) for line, column in ((3, 2), (5, 37))]
+    assert [one[0].partition("\n\n")[2] for one in shown if one is not None] == [
+        "`vendor` is who makes it.",
+        "`run` are commands that read; `{address}` in them is a word of the shell.",
+    ]
 
 
 def test_yaml_of_others_is_none_of_ours() -> None:

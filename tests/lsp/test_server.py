@@ -168,7 +168,8 @@ async def _ask(editor: Editor, done: Session) -> None:
     done.range = await editor.hover_range("on a ", "stage")
     done.definitions = {
         "device": await editor.definition("device: st", "age"),
-        "link": await editor.definition("parent: sta", "ge/carriage"),
+        "owner": await editor.definition("parent: sta", "ge/carriage"),
+        "link": await editor.definition("parent: stage/carr", "iage"),
         "model": await editor.definition("model: ./", "stage"),
         "include": await editor.definition("include: parts", "/"),
     }
@@ -251,7 +252,10 @@ def test_places_count_utf_16_units_as_the_protocol_does(session: Session) -> Non
 def test_definition_leads_to_where_a_thing_is_written(session: Session) -> None:
     spec = (session.folder / "cell.yaml").as_uri()
     assert session.definitions["device"] == (spec, _SPEC[: _SPEC.index("  stage: {")].count("\n"))
-    assert session.definitions["link"] == session.definitions["device"]
+    assert session.definitions["owner"] == session.definitions["device"]
+    urdf = session.folder / "stage" / "stage.urdf"
+    written = urdf.read_text(encoding="utf-8").split("\n").index('  <link name="carriage"/>')
+    assert session.definitions["link"] == (urdf.as_uri(), written)
     assert session.definitions["model"] == ((session.folder / "stage" / "device.yaml").as_uri(), 0)
     assert session.definitions["include"] == ((session.folder / "parts" / "hosts.yaml").as_uri(), 0)
 
