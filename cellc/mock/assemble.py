@@ -107,13 +107,19 @@ def stream_edge(contract: Contract, network: Network, topic: str, source: str, s
 
 
 def assemble(
-    folder: GeneratedFolder, memory: PlanMemory, seed: int, bring_up: Target = "mock", reality: Reality = AS_STATED
+    folder: GeneratedFolder,
+    memory: PlanMemory,
+    seed: int,
+    bring_up: Target = "mock",
+    reality: Reality = AS_STATED,
+    standing: ControlStack | None = None,
 ) -> Plant:
     """Create every node of the cell at time zero; nothing runs yet.
 
     Args:
         bring_up: target whose steps are taken; with ``real`` devices act as those of the robot do when they come up.
         reality: where the cell differs from what its folder says.
+        standing: a control stack that came up before; None for one that is off.
 
     Raises:
         ManagerAbortedError: a controller manager ended while it started.
@@ -121,7 +127,7 @@ def assemble(
     contract = folder.contract
     horizon_s = max([DEFAULT_BUFFER_S, *(frame.buffer_s or 0.0 for frame in contract.frames.values())])
     noise = seed if reality.noise is None else reality.noise
-    control = ControlStack(_managers(folder, noise), contract.managers, horizon_s, _adapters(contract))
+    control = standing or ControlStack(_managers(folder, noise), contract.managers, horizon_s, _adapters(contract))
     simulation = Simulation(control)
     clocks = build_clocks(_read(contract.clocks, reality.offsets_s), contract.clock_of, lambda: simulation.now_ns)
     network = Network(contract.interfaces, simulation, noise, middleware_of(contract))

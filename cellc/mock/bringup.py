@@ -180,15 +180,20 @@ def observe(plant: Plant, plan: PlanTaker) -> Waiting[StageEvidence]:
     watched_until_ns = plant.now_ns + _WATCH_NS
     while plant.now_ns < watched_until_ns:
         yield Wait(watched_until_ns)
+    announce(plant)
+    seen = (*facts, _freshness(plant), *plant.task.buffer.conflicts)
+    return StageEvidence("observe", seen, tuple(_missing_frames(plant)))
+
+
+def announce(plant: Plant) -> None:
+    """Let the task hear robot_state_publisher from now on; the names of the joints must be known."""
     task = plant.task.name
     plant.robot_state_publisher.announce(
         plant.task.buffer,
+        plant.now_ns,
         hears_static=hears(plant.contract, "/tf_static", NODE, task),
         hears_moving=hears(plant.contract, "/tf", NODE, task),
     )
-    plant.robot_state_publisher.catch_up(plant.now_ns)
-    seen = (*facts, _freshness(plant), *plant.task.buffer.conflicts)
-    return StageEvidence("observe", seen, tuple(_missing_frames(plant)))
 
 
 def _missing_joints(plant: Plant) -> tuple[str, ...]:

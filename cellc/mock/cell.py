@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
@@ -22,6 +22,7 @@ from cellc.mock.nodes.motion_planner import PlanMemory, build_motion_model
 from cellc.mock.plant import Plant
 from cellc.mock.reality import AS_STATED, Reality
 from cellc.mock.result import AttemptRecord, RehearsalResult, RunFailure, StageEvidence
+from cellc.mock.standing import StandingMemory, comes_up_alike
 from cellc.mock.task.context import TaskContext
 from cellc.mock.task.task import Task
 from cellc.vocabulary import AttemptOutcome
@@ -30,58 +31,82 @@ Watch = Callable[[Plant], None]
 """Called with the plant before anything runs, so that whoever keeps evidence can listen from the first cycle on."""
 
 
-def rehearse(
-    folder: GeneratedFolder,
-    memory: PlanMemory,
-    rehearsal: RehearsalEntry,
-    seed: int,
-    watch: Watch | None = None,
-    reality: Reality = AS_STATED,
-) -> RehearsalResult:
-    """Run a rehearsal from a cell that is off to its named end.
+@dataclass(frozen=True, slots=True)
+class _Run:
+    """One run of a rehearsal.
 
-    Args:
+    Attributes:
         watch: sees the plant first; it may listen, and must not change anything.
         reality: where the cell differs from what its folder says.
-
-    Raises:
-        MockError: a fault names what the contract does not have.
+        standing: copies of the cell that the run may begin with; None where it must begin with a cell that is off.
     """
-    try:
-        result = _executed(folder, memory, rehearsal, seed, watch, reality)
-    except LimitReachedError as error:
-        result = _not_run(rehearsal, error)
-    return replace(result, edited=folder.edited, unseen=memory.model.unseen)
 
+    folder: GeneratedFolder
+    memory: PlanMemory
+    rehearsal: RehearsalEntry
+    seed: int
+    watch: Watch | None
+    reality: Reality
+    standing: StandingMemory | None
 
-def _executed(
-    folder: GeneratedFolder,
-    memory: PlanMemory,
-    rehearsal: RehearsalEntry,
-    seed: int,
-    watch: Watch | None,
-    reality: Reality,
-) -> RehearsalResult:
-    injections = [Injection(entry, build_fault(entry, folder.contract)) for entry in rehearsal.faults]
-    try:
-        plant = assemble(folder, memory, seed, rehearsal.bring_up, reality)
-    except ManagerAbortedError as aborted:
-        evidence = StageEvidence("discover", (), (f"the controller manager ended: {aborted.reason}",))
-        return _not_up(rehearsal, (evidence,), unmatched_pairs(folder.contract))
-    if watch is not None:
-        watch(plant)
-    start_nodes(plant)
-    ports = fault_ports(plant)
-    for injection in injections:
-        if injection.entry.phase is not None:
-            injection.schedule(ports, plant.now_ns)
-    bringup = Bringup(plant)
-    plant.simulation.run_process(bringup.run())
-    if not bringup.passed:
-        failed = AttemptOutcome.CLAIM_FAILURE if plant.effects.refused else RunFailure.BRINGUP_FAILURE
-        outcome = AttemptOutcome.UNCOMMANDED_MOTION if plant.effects.motions else failed
-        return _not_up(rehearsal, tuple(bringup.evidence), _findings(plant), outcome)
-    return _run_task(plant, ports, rehearsal, seed, injections, tuple(bringup.evidence))
+    def result(self) -> RehearsalResult:
+        """Run the rehearsal to its named end.
+
+        Raises:
+            MockError: a fault names what the contract does not have.
+        """
+        try:
+            result = self._executed()
+        except LimitReachedError as error:
+            result = _not_run(self.rehearsal, error)
+        return replace(result, edited=self.folder.edited, unseen=self.memory.model.unseen)
+
+    def _executed(self) -> RehearsalResult:
+        rehearsal = self.rehearsal
+        injections = [Injection(entry, build_fault(entry, self.folder.contract)) for entry in rehearsal.faults]
+        alike = rehearsal.bring_up == "mock" and all(entry.phase is None for entry in rehearsal.faults)
+        standing = self.standing if alike else None
+        copied = None if standing is None else self._resumed(standing)
+        if copied is not None:
+            plant, evidence = copied
+            return _run_task(plant, fault_ports(plant), rehearsal, self.seed, injections, evidence)
+        try:
+            plant = assemble(self.folder, self.memory, self.seed, rehearsal.bring_up, self.reality)
+        except ManagerAbortedError as aborted:
+            stage = StageEvidence("discover", (), (f"the controller manager ended: {aborted.reason}",))
+            return _not_up(rehearsal, (stage,), unmatched_pairs(self.folder.contract))
+        if self.watch is not None:
+            self.watch(plant)
+        start_nodes(plant)
+        ports = fault_ports(plant)
+        for injection in injections:
+            if injection.entry.phase is not None:
+                injection.schedule(ports, plant.now_ns)
+        bringup = Bringup(plant)
+        if standing is None:
+            plant.simulation.run_process(bringup.run())
+        else:
+            standing.bring_up(plant, bringup)
+        evidence = tuple(bringup.evidence)
+        if not bringup.passed:
+            failed = AttemptOutcome.CLAIM_FAILURE if plant.effects.refused else RunFailure.BRINGUP_FAILURE
+            outcome = AttemptOutcome.UNCOMMANDED_MOTION if plant.effects.motions else failed
+            return _not_up(rehearsal, evidence, _findings(plant), outcome)
+        return _run_task(plant, ports, rehearsal, self.seed, injections, evidence)
+
+    def _resumed(self, standing: StandingMemory) -> tuple[Plant, tuple[StageEvidence, ...]] | None:
+        """Return a plant that stands after its bring-up; None where it must be brought up."""
+        known = standing.get()
+        if known is None:
+            return None
+        plant = assemble(self.folder, self.memory, self.seed, "mock", self.reality, known.control())
+        if not comes_up_alike(plant):
+            return None
+        if self.watch is not None:
+            self.watch(plant)
+        start_nodes(plant)
+        known.resume(plant)
+        return plant, known.evidence
 
 
 def _run_task(
@@ -183,6 +208,7 @@ class MockCell:
         """Bind what ``load`` has read; ``realities`` has what is different in rehearsals of these names."""
         self._folder = folder
         self._memory = memory
+        self._standing = StandingMemory()
         self._realities = realities or {}
 
     def with_realities(self, folder: GeneratedFolder, realities: Mapping[str, Reality]) -> MockCell:
@@ -251,15 +277,25 @@ class MockCell:
         return self.rehearse(self.entry(rehearsal), seed=seed)
 
     def rehearse(
-        self, entry: RehearsalEntry, *, seed: int = 0, watch: Watch | None = None, reality: Reality | None = None
+        self,
+        entry: RehearsalEntry,
+        *,
+        seed: int = 0,
+        watch: Watch | None = None,
+        reality: Reality | None = None,
+        from_off: bool = True,
     ) -> RehearsalResult:
         """Run a rehearsal that need not stand in the folder; ``watch`` sees the plant before anything runs.
+
+        Args:
+            from_off: bring the cell up where ``watch`` is given, so that it sees that too; else a copy may do.
 
         Raises:
             MockError: it names what the contract does not have.
         """
         known = self._realities.get(entry.name, AS_STATED) if reality is None else reality
-        return rehearse(self._folder, self._memory, entry, seed, watch, known)
+        standing = None if from_off and watch is not None else self._standing
+        return _Run(self._folder, self._memory, entry, seed, watch, known, standing).result()
 
 
 def load(folder: Path, *, edited: bool = False) -> MockCell:

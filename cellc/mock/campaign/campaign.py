@@ -34,7 +34,7 @@ def execute(cell: MockCell, run: CampaignRun, seed: int) -> RunEnd:
             journals.append(server.journal)
 
     try:
-        result = cell.rehearse(run.entry, seed=seed, watch=watch)
+        result = cell.rehearse(run.entry, seed=seed, watch=watch, from_off=False)
     except MockError:
         raise
     except Exception as bug:  # a run that breaks the mock must not hide the runs after it

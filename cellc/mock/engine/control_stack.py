@@ -137,6 +137,10 @@ class ControlStack:
             history = JointStateHistory(horizon_s, server.period_ns, broadcaster=device)
             self.histories[(device, device)] = history
 
+    def __getstate__(self) -> dict[str, object]:
+        """Return what a copy has: it begins without listeners."""
+        return {**self.__dict__, "_listeners": [], "_watchers": []}
+
     @property
     def longest_period_ns(self) -> int:
         """The time after which every manager and every adapter has gone through a cycle."""

@@ -40,6 +40,21 @@ class Simulation:
         """Schedule an action that neither reads nor commands the present state of the control stack."""
         self._background.at(max(when_ns, self.now_ns), action)
 
+    @property
+    def events(self) -> int:
+        """Events that have happened."""
+        return self._events
+
+    def catch_up(self, until_ns: int, events: int | None = None) -> None:
+        """Let time pass in the background up to where the control stack is, or before.
+
+        Args:
+            events: that have happened by then, where some are not done again.
+        """
+        self._run_background(until_ns)
+        self.now_ns = self._last_ns = until_ns
+        self._events = self._events if events is None else events
+
     def next_foreground_ns(self) -> int | None:
         """Return the time of the next event of the foreground; None where there is none."""
         return self._foreground.next_ns()
@@ -65,10 +80,7 @@ class Simulation:
         reached_ns = self.now_ns
         if target_ns > self.now_ns:
             reached_ns = self.control.advance(target_ns)
-        while (action := self._background.pop_due(reached_ns)) is not None:
-            self.now_ns = action.at_ns
-            self._count()
-            action.run()
+        self._run_background(reached_ns)
         self._check_progress(reached_ns)
         self.now_ns = reached_ns
         self.control.dispatch(self.now_ns)
@@ -77,6 +89,12 @@ class Simulation:
             self._count()
             due.run()
             self.control.dispatch(self.now_ns)
+
+    def _run_background(self, until_ns: int) -> None:
+        while (action := self._background.pop_due(until_ns)) is not None:
+            self.now_ns = action.at_ns
+            self._count()
+            action.run()
 
     def _count(self) -> None:
         self._events += 1

@@ -102,6 +102,11 @@ class PublishedStates:
         self._travelling: list[tuple[int, UsedState]] = []
         self._last_ns: int | None = None
 
+    @property
+    def at_once(self) -> bool:
+        """Tell whether every message so far arrived as it was published, here and at the listener."""
+        return self._feed.at_once and (self._edge is None or self._edge.ideal)
+
     def catch_up(self, now_ns: int) -> None:
         """Use the joint states that have arrived since the last call."""
         places = self._feed.arrived(now_ns)
@@ -191,6 +196,7 @@ class RobotStatePublisher:
 
     Attributes:
         links: the edges.
+        announced_ns: when the listener began to hear it; None before.
     """
 
     def __init__(
@@ -213,8 +219,14 @@ class RobotStatePublisher:
         )
         self._moving: dict[str, JointSource] = {}
         self._warnings: TfWarnings | None = None
+        self.announced_ns: int | None = None
 
-    def announce(self, buffer: TransformBuffer, *, hears_static: bool, hears_moving: bool) -> None:
+    @property
+    def at_once(self) -> bool:
+        """Tell whether every joint state, and every transform made of it, arrived as it was published."""
+        return all(published.at_once for published in self._published)
+
+    def announce(self, buffer: TransformBuffer, now_ns: int, *, hears_static: bool, hears_moving: bool) -> None:
         """Start publishing to a listener; the names of the joints must be known from a first joint state.
 
         Args:
@@ -226,6 +238,8 @@ class RobotStatePublisher:
             if source is not None and (hears_moving if joint.moves else hears_static):
                 buffer.add(child, source)
         self._warnings = buffer.warnings
+        self.announced_ns = now_ns
+        self.catch_up(now_ns)
 
     def catch_up(self, now_ns: int) -> None:
         """Publish what the joint states that have arrived by now imply."""

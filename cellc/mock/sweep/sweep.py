@@ -109,7 +109,7 @@ def execute(cell: MockCell, entry: RehearsalEntry, uncertainty: Uncertainty, see
     watched: list[Plant] = []
     try:
         drawn = reality(uncertainty, seed, number)
-        result = cell.rehearse(entry, seed=seed, watch=watched.append, reality=drawn)
+        result = cell.rehearse(entry, seed=seed, watch=watched.append, reality=drawn, from_off=False)
     except MockError:
         raise
     except Exception as bug:  # a run that breaks the mock must not hide the runs after it

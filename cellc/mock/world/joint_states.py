@@ -67,6 +67,11 @@ class JointStateHistory:
         self._positions: FloatArray = np.empty((0, 0))
         self._count = 0
 
+    def __getstate__(self) -> dict[str, object]:
+        """Return what a copy has: room for the messages that are there, unless old ones are to be dropped."""
+        size = self._count if self._count <= self._keep else len(self._stamps)
+        return {**self.__dict__, "_stamps": self._stamps[:size], "_positions": self._positions[:size]}
+
     def append(self, block: JointStateBlock) -> None:
         """Add the messages that a broadcaster published; a message of other joints than before starts anew."""
         size = len(block.stamps_ns)

@@ -117,7 +117,7 @@ def test_robot_state_publisher_thins_joint_states_to_its_frequency(links: LinkTr
         links, (JointStateFeed(history, None),), rate_hz=20.0, buffer_s=10.0, clocks=Clocks({}, {}, lambda: 0)
     )
     buffer = TransformBuffer()
-    publisher.announce(buffer, hears_static=True, hears_moving=True)
+    publisher.announce(buffer, 0, hears_static=True, hears_moving=True)
     publisher.catch_up(398 * MS)
     answer = buffer.lookup("world", "cart", 125 * MS)
     assert isinstance(answer, Transform)
