@@ -2,7 +2,7 @@
 
 What a run draws, where things really are and what clocks read, reaches the control stack by the task's goals alone. So
 controllers come up alike in every run of a rehearsal; cameras, networks and transforms, which see what was drawn, are
-made anew and catch up. With this a run of ``ur5e_pick`` takes 10 ms of processor time less.
+made anew and catch up. A run of ten seconds of a six-joint arm takes 10 ms of processor time less with it.
 """
 
 from __future__ import annotations

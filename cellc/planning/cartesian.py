@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 import pinocchio
 
-from cellc.planning.chain import GroupChain
+from cellc.planning.chain import FollowedLine, GroupChain
 from cellc.planning.inverse_kinematics import descend
 from cellc.planning.model import from_pose, to_pose
 from cellc.planning.problem import Array, FailureReason, JointLimits, JointPath, PlanFailure
@@ -20,6 +20,7 @@ MAX_STEP_M = 0.005
 MAX_STEP_RAD = 0.05
 # Such a step moves no joint farther than this unless the arm is near a singularity or changes its branch.
 MAX_JOINT_STEP_RAD = 0.25
+_KEPT_LINES = 16
 # Weights of the last waypoint, the one before it, and so on, by how many there are.
 _EXTRAPOLATION = ((1.0,), (2.0, -1.0), (3.0, -3.0, 1.0), (4.0, -6.0, 4.0, -1.0))
 
@@ -41,10 +42,8 @@ def plan_line(
     Args:
         target_in_world: wanted pose of the tip in the world frame.
     """
-    first = to_pose(chain.tip(start))
-    steps = _step_count(first, target_in_world)
-    poses = [interpolate(first, target_in_world, step / steps) for step in range(1, steps + 1)]
-    waypoints, jacobians = _follow(chain, start, poses)
+    line = _line(chain, start, target_in_world)
+    steps, waypoints, jacobians = line.steps, line.waypoints, line.jacobians
     refusal = _first_refusal(chain, limits, waypoints, jacobians, min_singular_value)
     if refusal is not None:
         return PlanFailure(refusal.reason, f"{_place(refusal.step, steps)}: {refusal.detail}")
@@ -54,13 +53,24 @@ def plan_line(
     return JointPath(limits.joints, (tuple(tuple(point) for point in waypoints.tolist()),))
 
 
-def _follow(chain: GroupChain, start: Array, poses: Sequence[Pose]) -> tuple[Array, Array]:
-    """Solve for pose after pose, each from where the ones before it lead to.
+def _line(chain: GroupChain, start: Array, target_in_world: Pose) -> FollowedLine:
+    """Follow a line, or remember how it went: what the arm carries changes what touches, and not where it goes."""
+    key = (chain.rest.tobytes(), start.tobytes(), target_in_world)
+    line = chain.lines.pop(key, None)
+    if line is None:
+        first = to_pose(chain.tip(start))
+        steps = _step_count(first, target_in_world)
+        line = _follow(
+            chain, start, [interpolate(first, target_in_world, step / steps) for step in range(1, steps + 1)]
+        )
+    chain.lines[key] = line
+    if len(chain.lines) > _KEPT_LINES:
+        del chain.lines[next(iter(chain.lines))]
+    return line
 
-    Returns:
-        The start and a configuration for each pose up to the first that is not reached, one in each row, and the
-        Jacobians of the tip for all but the start.
-    """
+
+def _follow(chain: GroupChain, start: Array, poses: Sequence[Pose]) -> FollowedLine:
+    """Solve for pose after pose, each from where the ones before it lead to."""
     waypoints, jacobians = [start], []
     for pose in poses:
         descent = descend(chain, from_pose(pose), _extrapolated(waypoints), None)
@@ -68,7 +78,7 @@ def _follow(chain: GroupChain, start: Array, poses: Sequence[Pose]) -> tuple[Arr
             break
         waypoints.append(descent.configuration)
         jacobians.append(descent.jacobian)
-    return np.array(waypoints), np.array(jacobians)
+    return FollowedLine(len(poses), np.array(waypoints), np.array(jacobians))
 
 
 def _extrapolated(waypoints: list[Array]) -> Array:

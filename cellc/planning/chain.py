@@ -13,6 +13,7 @@ import pinocchio
 from cellc.planning.model import MimicJoint, PinShape, PinTransform, RobotModel
 from cellc.planning.problem import Array, PlanningGroup
 from cellc.planning.scene import CollisionScene
+from cellc.transforms import Pose
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,10 +46,27 @@ def _driven_joints(model: RobotModel, group: PlanningGroup) -> list[_DrivenJoint
     return found
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class FollowedLine:
+    """A straight line of the tip that was followed, in so many steps, as far as it can be.
+
+    Attributes:
+        waypoints: the start and a configuration for each step up to the first that is not reached, one in each row.
+        jacobians: of the tip for all but the start.
+    """
+
+    steps: int
+    waypoints: Array
+    jacobians: Array
+
+
 class GroupChain:
     """Maps a group's configuration to pinocchio's, and to the pose and Jacobian of the tip.
 
     The joints outside the group stand where the scene has them.
+
+    Attributes:
+        lines: that were followed last, by where the joints stand and where the tip goes, in every scene.
     """
 
     def __init__(self, group: PlanningGroup, scene: CollisionScene) -> None:
@@ -71,6 +89,7 @@ class GroupChain:
         for joint in driven:
             self._speeds[joint.row, joint.column] = joint.multiplier
         self._shape_rates = sweep_rates(model, group.joints, model.geometry.geometryObjects)
+        self.lines: dict[tuple[bytes, bytes, Pose], FollowedLine] = {}
         self._bind(scene)
 
     def _bind(self, scene: CollisionScene) -> None:
@@ -82,6 +101,11 @@ class GroupChain:
         if scene.boxes:
             box_rates = sweep_rates(scene.model, self._joints, scene.box_shapes())
             self._rates = np.vstack((self._shape_rates, box_rates))
+
+    @property
+    def rest(self) -> Array:
+        """Pinocchio's configuration with the group's own joints anywhere."""
+        return self._rest
 
     def in_scene(self, scene: CollisionScene) -> GroupChain:
         """Return the chain of the same group in another scene of the same model."""

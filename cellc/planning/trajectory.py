@@ -11,6 +11,7 @@ import math
 from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -25,6 +26,7 @@ _LEAST_USE = 1.0 - 1e-3
 # Points closer than this would let rounding of positions look like jerk: 60 * 2e-16 rad / (1e-4 s)^3 = 0.01 rad/s^3.
 _LEAST_SPACING_NS = 100_000
 _MAX_RESCALINGS = 8
+_KEPT_SECTIONS = 64
 # Three years; 64 bits hold the nanoseconds of many such sections.
 _LONGEST_S = 1e8
 
@@ -144,8 +146,12 @@ class TimedSection:
     limit_use: LimitUse
 
 
-def time_at_rest(waypoints: Sequence[Sequence[float]], limits: JointLimits) -> TimedSection:
-    """Run a section from rest to rest, rescaled in time until the interpolated motion just keeps the limits."""
+@lru_cache(maxsize=_KEPT_SECTIONS)
+def time_at_rest(waypoints: tuple[Configuration, ...], limits: JointLimits) -> TimedSection:
+    """Run a section from rest to rest, rescaled in time until the interpolated motion just keeps the limits.
+
+    Kept, since runs that differ in where an object lies go on alike from where it is put down.
+    """
     curve = SectionCurve(waypoints)
     bounds = _scaled(fastest_bounds(curve, limits), _TARGET_USE)
     section = _sample(curve, rest_to_rest(bounds), limits)

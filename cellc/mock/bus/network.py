@@ -37,7 +37,7 @@ class EdgeBehaviour:
     @property
     def is_ideal(self) -> bool:
         """Tell whether every sample arrives at once."""
-        return self == IDEAL
+        return self is IDEAL or self == IDEAL
 
     @property
     def retry_s(self) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
 from cellc.limits import limits
 from cellc.mock.engine.control_stack import ControlStack
@@ -63,10 +64,10 @@ class Simulation:
         """Call ``action`` in the background with 0, 1, 2 … at ``first_ns + k / rate_hz``, without drift."""
 
         def fire(index: int) -> None:
-            self.at_background(first_ns + round((index + 1) * 1e9 / rate_hz), lambda: fire(index + 1))
+            self.at_background(first_ns + round((index + 1) * 1e9 / rate_hz), partial(fire, index + 1))
             action(index)
 
-        self.at_background(first_ns, lambda: fire(0))
+        self.at_background(first_ns, partial(fire, 0))
 
     def run_process(self, body: Waiting[None]) -> None:
         """Run a process to its end; everything else in the cell goes on meanwhile."""

@@ -196,7 +196,8 @@ class Spline:
         with np.errstate(invalid="ignore", over="ignore"):
             for power in range(self._degree, shift - 1, -1):
                 value *= t
-                value += self._rows(power, indices) * factors[power]
+                row, factor = self._rows(power, indices), factors[power]
+                value += row if factor == 1.0 else row * factor
         if indices[-1] == self.count:
             # The last point itself, whatever its derivatives are: NaN * 0 would spread.
             value[indices == self.count] = self._table[shift][-1] * factors[shift]
