@@ -216,7 +216,11 @@ def _stage(scene: Scene, *, compared: bool) -> Element:
         class_="controls",
     )
     time = tag(
-        "div", tag("div", class_="line"), tag("input", type="range", aria_label="time of the rehearsal"), class_="time"
+        "div",
+        tag("div", class_="line"),
+        tag("input", type="range", aria_label="time of the rehearsal"),
+        tag("div", class_="marks"),
+        class_="time",
     )
     choice = tag("select", aria_label="rehearsal")
     player = tag(

@@ -54,17 +54,19 @@ class Drawing {
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute("role", "img");
     this.canvas.setAttribute("aria-label", "The cell in 3D; arrow keys turn it, + and - go nearer and away");
-    place.prepend(this.canvas);
+    this.copy = document.createElement("canvas");
+    this.copy.className = "copy";
+    place.prepend(this.canvas, this.copy);
     this.scene = new THREE.Scene();
-    this.camera = new THREE.PerspectiveCamera(35, 1, 0.01, 100);
+    this.camera = new THREE.PerspectiveCamera(24, 1, 0.01, 100);
     this.camera.up.set(0, 0, 1);
     this.model = new CellModel(data.scene);
     const before = data.before && (data.before.meshes.length ? data.before : { ...data.before, meshes: data.scene.meshes });
     this.before = before ? new CellModel(before, { ghost: true }) : null;
-    const light = new THREE.DirectionalLight("#ffffff", 0.55);
+    const light = new THREE.DirectionalLight("#ffffff", 0.7);
     light.position.set(0.4, 0.8, 1);
     this.camera.add(light);
-    this.scene.add(this.camera, this.model.root, new THREE.HemisphereLight("#ffffff", "#8d97a3", 0.5));
+    this.scene.add(this.camera, this.model.root, new THREE.HemisphereLight("#ffffff", "#8d97a3", 0.6));
     if (this.before) {
       this.scene.add(this.before.root);
       this.before.hideSame(this.model);
@@ -78,34 +80,40 @@ class Drawing {
     this.fit();
     new ResizeObserver(() => this.resize()).observe(place);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.floor());
+    window.addEventListener("beforeprint", () => this.print(true));
+    window.addEventListener("afterprint", () => this.print(false));
     this.pick(place.querySelector(".picked"));
     this.resize();
   }
 
-  floor() {
+  floor(paper = false) {
     this.scene.remove(this.grid);
     const half = Math.max(1, Math.ceil(this.model.sphere.radius * 1.6));
-    const colour = getComputedStyle(document.documentElement).getPropertyValue("--rule").trim();
+    const colour = paper ? "#d9dee4" : getComputedStyle(document.documentElement).getPropertyValue("--rule").trim();
     this.grid = new THREE.GridHelper(half * 2, half * 4, colour, colour).rotateX(Math.PI / 2);
     this.scene.add(this.grid);
     this.request();
   }
 
-  // As near as all corners of what stands there are seen.
+  // As near as all corners of what stands there are seen, and in the middle: the camera looks along `back`, so that
+  // a corner is within the picture where its distance from the axis is at most slope times its distance from the camera.
   fit() {
-    const { orbit, camera, model: { box, sphere } } = this;
+    const { orbit, camera, model: { sphere } } = this;
     orbit.target.copy(sphere.center);
     orbit.place();
     const [right, up, back] = [0, 1, 2].map((column) => new THREE.Vector3().setFromMatrixColumn(camera.matrix, column));
     const tangent = Math.tan((camera.fov * Math.PI) / 360);
     const aspect = this.place.clientWidth / Math.max(1, this.place.clientHeight);
-    const distances = [0, 1, 2, 3, 4, 5, 6, 7].map((bits) => {
-      const corner = new THREE.Vector3(...["x", "y", "z"].map((axis, bit) => (bits >> bit & 1 ? box.max : box.min)[axis]));
-      corner.sub(sphere.center);
-      const aside = Math.max(Math.abs(corner.dot(right)) / aspect, Math.abs(corner.dot(up)));
-      return aside / tangent + corner.dot(back);
+    const corners = [this.model, this.before].flatMap((model) => model?.corners() ?? []);
+    const distances = [[right, tangent * aspect], [up, tangent]].map(([axis, slope]) => {
+      const ends = [1, -1].map((sign) => Math.max(...corners.map((corner) => {
+        const away = corner.clone().sub(sphere.center);
+        return sign * away.dot(axis) + slope * away.dot(back);
+      })));
+      orbit.target.addScaledVector(axis, (ends[0] - ends[1]) / 2);
+      return (ends[0] + ends[1]) / 2 / slope;
     });
-    orbit.distance = Math.max(...distances) * 1.12;
+    orbit.distance = Math.max(...distances) * 1.15;
     orbit.place();
   }
 
@@ -123,10 +131,26 @@ class Drawing {
   request() {
     this.due ||= requestAnimationFrame(() => {
       this.due = 0;
-      this.renderer.render(this.scene, this.camera);
-      this.labels.update(this.place.clientWidth, this.place.clientHeight);
+      this.draw();
       document.documentElement.dataset.drawn ||= Math.round(performance.now());
     });
+  }
+
+  draw() {
+    this.renderer.render(this.scene, this.camera);
+    this.labels.update(this.place.clientWidth, this.place.clientHeight);
+  }
+
+  // On paper the cell is as wide as the page, which nobody is told before it is printed; browsers print what a canvas
+  // of this kind showed before, so that its picture is copied to one of the other kind.
+  print(paper) {
+    this.place.classList.toggle("paper", paper);
+    this.floor(paper);
+    this.resize();
+    this.draw();
+    const { width, height } = this.canvas;
+    Object.assign(this.copy, { width, height });
+    this.copy.getContext("2d").drawImage(this.canvas, 0, 0);
   }
 
   show(layers, named) {
@@ -170,6 +194,7 @@ class Player {
     this.line = place.querySelector(".line");
     this.slider = place.querySelector("input");
     this.button = place.querySelector("button");
+    this.marks = place.querySelector(".marks");
     this.words = place.querySelector(".told");
     this.choice = place.querySelector("select");
     data.runs.forEach((run, number) => make("option", run.name, this.choice, { value: number }));
@@ -204,10 +229,29 @@ class Player {
       const mark = make("i", "", this.line, { className: "fault", title: `${fault.name} at ${fault.at_s.toFixed(2)} s` });
       mark.style.left = share(Math.max(this.from, fault.at_s));
     }
+    this.nameFaults();
     this.time = this.from;
     this.slider.value = this.from;
     if (shown) this.go(this.from);
     else this.tell();
+  }
+
+  // Each under its mark, or a row lower where another name stands there.
+  nameFaults() {
+    this.marks.replaceChildren();
+    const wide = this.marks.clientWidth || 1, rows = [];
+    for (const fault of this.run.faults) {
+      const name = make("span", fault.name, this.marks);
+      const at = (wide * (fault.at_s - this.from)) / Math.max(1e-9, this.run.end_s - this.from);
+      const late = at + name.offsetWidth > wide;
+      const left = late ? Math.max(0, at - name.offsetWidth) : at;
+      name.classList.toggle("late", late);
+      const free = rows.findIndex((end) => end < left);
+      const row = free < 0 ? rows.length : free;
+      rows[row] = left + name.offsetWidth + 8;
+      Object.assign(name.style, { left: `${(100 * left) / wide}%`, top: `${15 * row}px` });
+    }
+    this.marks.style.height = `${15 * rows.length}px`;
   }
 
   play() {
@@ -270,17 +314,26 @@ function start() {
   for (const { name } of data.scene.poses) {
     make("button", name, poses, { type: "button" }).addEventListener("click", () => { player?.stop(); drawing.pose(name); });
   }
-  const legend = stage.querySelector(".legend");
-  for (const [name, colour] of drawing.model.colours) {
-    const entry = make("span", "", legend);
+  legend(drawing);
+  const place = stage.querySelector(".player");
+  place.hidden = !data.runs.length;
+  const player = data.runs.length ? new Player(place, drawing) : null;
+  show();
+}
+
+function legend(drawing) {
+  const place = stage.querySelector(".legend");
+  const { devices, kinds } = data.scene;
+  const alike = devices.length > 1 && new Set(kinds).size === 1;
+  const add = (colour, name, kind) => {
+    const entry = make("span", "", place);
     make("i", "", entry).style.background = `#${colour.getHexString()}`;
     entry.append(name);
-    make("small", data.scene.kinds[data.scene.devices.indexOf(name)], entry);
-  }
-  const place = stage.querySelector(".player");
-  const player = data.runs.length ? new Player(place, drawing) : null;
-  place.hidden = !player;
-  show();
+    if (kind) make("small", kind, entry);
+  };
+  devices.forEach((name, number) => add(drawing.model.colours.get(name), name, alike ? "" : kinds[number]));
+  if (drawing.before) add(GHOST_COLOUR, "where it stood before");
+  if (alike) make("small", `all drawn as ${kinds[0]}`, place);
 }
 
 if (data.scene && window.THREE && document.createElement("canvas").getContext("webgl")) {

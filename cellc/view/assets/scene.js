@@ -3,6 +3,7 @@ THREE.ColorManagement.legacyMode = false;
 const POSE = 7;
 const AXES = [[[1, 0, 0], "#d64545"], [[0, 1, 0], "#2f9e5b"], [[0, 0, 1], "#2f6fd6"]];
 const SCENE_COLOUR = "#a9b0b9";
+const GHOST_COLOUR = new THREE.Color("#d0762a");
 
 function deviceColour(number) {
   return new THREE.Color().setHSL(((212 + number * 137.5) % 360) / 360, number ? 0.32 : 0.2, 0.55);
@@ -57,7 +58,7 @@ class CellModel {
   addShape(shape, ghost) {
     const meshed = shape.kind === "mesh";
     const geometry = meshed ? this.meshes[shape.size[0]] : makeGeometry[shape.kind](shape.size);
-    const colour = ghost ? new THREE.Color("#d0762a") : this.colours.get(shape.owner) || new THREE.Color(SCENE_COLOUR);
+    const colour = ghost ? GHOST_COLOUR : this.colours.get(shape.owner) || new THREE.Color(SCENE_COLOUR);
     const look = { color: colour, transparent: ghost, opacity: ghost ? 0.28 : 1, depthWrite: !ghost };
     const body = new THREE.Mesh(geometry, meshed
       ? new THREE.MeshPhongMaterial({ ...look, flatShading: true, specular: 0 })
@@ -80,6 +81,21 @@ class CellModel {
       this.groups[one.group].add(mark);
       return mark;
     });
+  }
+
+  // Of all bodies that are seen, and where frames and goals stand; what is far off leaves the rest large.
+  corners() {
+    this.root.updateMatrixWorld(true);
+    const all = this.bodies.filter((body) => body.visible).flatMap((body) => {
+      if (!body.geometry.boundingBox) body.geometry.computeBoundingBox();
+      const { min, max } = body.geometry.boundingBox;
+      return [0, 1, 2, 3, 4, 5, 6, 7].map((bits) => new THREE.Vector3(
+        bits & 1 ? max.x : min.x, bits & 2 ? max.y : min.y, bits & 4 ? max.z : min.z).applyMatrix4(body.matrixWorld));
+    });
+    const marks = [...(this.layers.frames || []), ...(this.layers.goals || [])];
+    const near = marks.map((mark) => mark.getWorldPosition(new THREE.Vector3()))
+      .filter((place) => place.distanceTo(this.sphere.center) < 2 * this.sphere.radius);
+    return all.length + near.length ? [...all, ...near] : [this.box.min, this.box.max];
   }
 
   get unit() {
