@@ -21,10 +21,7 @@ from cellc.output.write import WriteReport, write
 from cellc.printing import Line, show
 from cellc.report.text_report import render_difference
 
-
-@click.command()
-@click.argument("files", nargs=-1, required=True, type=click.Path(path_type=str))
-@click.option(
+OUTPUT = click.option(
     "-o",
     "--output",
     type=click.Path(path_type=Path),
@@ -32,6 +29,11 @@ from cellc.report.text_report import render_difference
     show_default=True,
     help="Folder that holds a folder for each cell.",
 )
+
+
+@click.command()
+@click.argument("files", nargs=-1, required=True, type=click.Path(path_type=str))
+@OUTPUT
 @click.option(
     "--check", "only_compare", is_flag=True, help="Write nothing; fail where a folder is not what its cell makes."
 )

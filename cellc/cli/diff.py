@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING
 
 import click
 
+from cellc.cli.forms import FORM, tell
 from cellc.cli.limit_option import limit_option
-from cellc.printing import refuse, show, show_document
+from cellc.printing import refuse
 
 if TYPE_CHECKING:
     from cellc.contract.review import ReviewRehearsal
@@ -16,14 +17,7 @@ if TYPE_CHECKING:
 
 @click.command()
 @click.argument("sides", nargs=-1, required=True, metavar="[BEFORE] AFTER", type=click.Path(path_type=str))
-@click.option(
-    "--format",
-    "output_format",
-    type=click.Choice(["text", "markdown", "json"]),
-    default="text",
-    show_default=True,
-    help="How changes are written.",
-)
+@FORM
 @click.option("--breaking", is_flag=True, help="Fail only where a consumer outside of the cell breaks.")
 @click.option("--rehearse", is_flag=True, help="Run the rehearsals of both sides on the mock, and compare outcomes.")
 @limit_option
@@ -41,9 +35,11 @@ def diff(sides: tuple[str, ...], output_format: str, breaking: bool, rehearse: b
     if len(sides) > 2:
         raise click.UsageError(f"expected one or two of spec, folder and revision, got {len(sides)}.")
     # Comparing loads the compiler.
+    from cellc.review.markdown import render_markdown
     from cellc.review.review import review
     from cellc.review.sides import SideError, packages
     from cellc.review.sides import sides as asked
+    from cellc.review.text import render_review
 
     try:
         with packages(*asked(sides)) as ((before, _), (after, _)):
@@ -51,18 +47,7 @@ def diff(sides: tuple[str, ...], output_format: str, breaking: bool, rehearse: b
     except SideError as problem:
         refuse(str(problem))
         raise click.exceptions.Exit(2) from None
-    if output_format == "json":
-        from cellc.diagnostics.unsafe_text import harmless_json
-
-        show_document(harmless_json(found.model_dump_json(indent=2)) + "\n")
-    elif output_format == "markdown":
-        from cellc.review.markdown import render_markdown
-
-        show_document(render_markdown(found))
-    else:
-        from cellc.review.text import render_review
-
-        show(*render_review(found))
+    tell(found, output_format, render_markdown, render_review)
     counted = [change for change in found.changes if change.breaking or not breaking]
     if counted or (found.rehearsals_differ() and not breaking):
         raise click.exceptions.Exit(1)

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import click
 
+from cellc.cli.forms import FORM, tell
 from cellc.cli.limit_option import limit_option
-from cellc.printing import Stream, refuse, show, show_document
+from cellc.printing import Stream, refuse, show
 from cellc.vocabulary import Distro
 
 
@@ -19,14 +20,7 @@ from cellc.vocabulary import Distro
     help="The distribution to go to; an older one too.",
 )
 @click.option("--write", is_flag=True, help="Write the new pins into the spec; nothing else of it changes.")
-@click.option(
-    "--format",
-    "output_format",
-    type=click.Choice(["text", "markdown", "json"]),
-    default="text",
-    show_default=True,
-    help="How it is written.",
-)
+@FORM
 @limit_option
 def upgrade(spec: str, target: str, write: bool, output_format: str) -> None:
     """Tell what another distribution of ROS 2 would change in the cell of SPEC; exit 1 where anything would.
@@ -43,6 +37,7 @@ def upgrade(spec: str, target: str, write: bool, output_format: str) -> None:
     from cellc.review.moved_spec import UpgradeError
     from cellc.review.sides import SideError
     from cellc.review.upgrade import plan_upgrade
+    from cellc.review.upgrade_text import render_upgrade, upgrade_markdown
 
     try:
         planned = plan_upgrade(spec, Distro(target))
@@ -52,17 +47,6 @@ def upgrade(spec: str, target: str, write: bool, output_format: str) -> None:
         refuse(str(problem))
         raise click.exceptions.Exit(2) from None
     found = planned.upgrade
-    if output_format == "json":
-        from cellc.diagnostics.unsafe_text import harmless_json
-
-        show_document(harmless_json(found.model_dump_json(indent=2)) + "\n")
-    elif output_format == "markdown":
-        from cellc.review.upgrade_text import upgrade_markdown
-
-        show_document(upgrade_markdown(found))
-    else:
-        from cellc.review.upgrade_text import render_upgrade
-
-        show(*render_upgrade(found))
+    tell(found, output_format, upgrade_markdown, render_upgrade)
     if found.asks():
         raise click.exceptions.Exit(1)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import click
 
 from cellc.cli.batch import State, cell_files, states
-from cellc.cli.build import told_of, written
+from cellc.cli.build import OUTPUT, told_of, written
 from cellc.cli.findings import IGNORE, SELECT, read_selection, selected, show_findings
 from cellc.cli.limit_option import limit_option
 from cellc.printing import Stream, clear, show
@@ -31,14 +31,7 @@ _SETTLED_S = 0.02
 @click.command()
 @click.argument("files", nargs=-1, required=True, metavar="FILES...", type=click.Path(path_type=str))
 @click.option("--build", "builds", is_flag=True, help="Build each cell too, once no error is left.")
-@click.option(
-    "-o",
-    "--output",
-    type=click.Path(path_type=Path),
-    default=Path("generated"),
-    show_default=True,
-    help="Folder that holds a folder for each cell.",
-)
+@OUTPUT
 @SELECT
 @IGNORE
 @limit_option

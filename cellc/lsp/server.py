@@ -171,25 +171,25 @@ def normalised(text: str) -> str:
 
 server = CellServer()
 
+_Touched = (
+    lsp.DidOpenTextDocumentParams
+    | lsp.DidChangeTextDocumentParams
+    | lsp.DidSaveTextDocumentParams
+    | lsp.DidCloseTextDocumentParams
+)
 
-@server.feature(lsp.TEXT_DOCUMENT_DID_OPEN)
-async def _opened(of: CellServer, params: lsp.DidOpenTextDocumentParams) -> None:
+
+async def _touched(of: CellServer, params: _Touched) -> None:
     of.soon(params.text_document.uri)
 
 
-@server.feature(lsp.TEXT_DOCUMENT_DID_CHANGE)
-async def _changed(of: CellServer, params: lsp.DidChangeTextDocumentParams) -> None:
-    of.soon(params.text_document.uri)
-
-
-@server.feature(lsp.TEXT_DOCUMENT_DID_SAVE)
-async def _saved(of: CellServer, params: lsp.DidSaveTextDocumentParams) -> None:
-    of.soon(params.text_document.uri)
-
-
-@server.feature(lsp.TEXT_DOCUMENT_DID_CLOSE)
-async def _closed(of: CellServer, params: lsp.DidCloseTextDocumentParams) -> None:
-    of.soon(params.text_document.uri)
+for _event in (
+    lsp.TEXT_DOCUMENT_DID_OPEN,
+    lsp.TEXT_DOCUMENT_DID_CHANGE,
+    lsp.TEXT_DOCUMENT_DID_SAVE,
+    lsp.TEXT_DOCUMENT_DID_CLOSE,
+):
+    server.feature(_event)(_touched)
 
 
 @server.feature(lsp.TEXT_DOCUMENT_HOVER)

@@ -9,28 +9,14 @@ Example that is reported:
 
 ```yaml
 devices:
-  gripper: {architecture: direct_sdk}  # expect at architecture
-interfaces:
-  /gripper/state: {topic: sensor_msgs/msg/JointState, from: gripper, to: {task: {depth: 1}}, wants: newest,
-                   rate: 20 Hz, max_age: 100 ms, on_stale: reject_goal}
-  /gripper/grasp: {action: control_msgs/action/ParallelGripperCommand, server: gripper, client: task, frame: world,
-                   timeout: 5 s, on_timeout: cancel_and_hold, cancel_within: 200 ms}
-control: {controllers: {gripper_action: null}}
-rehearsals: {pick_and_place: {steps: [{move: home}, {detect: object}, {move: pick}]}}
+  camera: {architecture: direct_sdk}  # expect at architecture
 ```
 
 Example that is accepted:
 
 ```yaml
 devices:
-  gripper: {architecture: direct_sdk, adapter: {run: cell_drivers/fingers}}
-interfaces:
-  /gripper/state: {topic: sensor_msgs/msg/JointState, from: gripper, to: {task: {depth: 1}}, wants: newest,
-                   rate: 20 Hz, max_age: 100 ms, on_stale: reject_goal}
-  /gripper/grasp: {action: control_msgs/action/ParallelGripperCommand, server: gripper, client: task, frame: world,
-                   timeout: 5 s, on_timeout: cancel_and_hold, cancel_within: 200 ms}
-control: {controllers: {gripper_action: null}}
-rehearsals: {pick_and_place: {steps: [{move: home}, {detect: object}, {move: pick}]}}
+  camera: {architecture: direct_sdk, adapter: {run: cell_drivers/camera}}
 ```
 
 Fix: name the program of the adapter: `adapter: {run: package/executable}`.
