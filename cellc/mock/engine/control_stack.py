@@ -110,6 +110,7 @@ class ControlStack:
         """Bind the managers and adapters; ``horizon_s`` bounds the history of joint states."""
         self.managers = dict(managers)
         self.adapters = dict(adapters or {})
+        self._servers: tuple[GoalServer, ...] = (*self.managers.values(), *self.adapters.values())
         self.changed = Signal()
         self.events: list[ControlEvent] = []
         self.unready_hardware: dict[str, str] = {}
@@ -213,7 +214,7 @@ class ControlStack:
         A single manager or adapter stops at its events. Several go on together in short steps, and are heard after
         each step.
         """
-        servers = self.servers()
+        servers = self._servers
         before_ns = {server: server.now_ns for server in servers}
         if servers:
             stretch_ns = _LONGEST_STRETCH * min(server.period_ns for server in servers)
@@ -278,7 +279,7 @@ class ControlStack:
 
     def servers(self) -> tuple[GoalServer, ...]:
         """Return every manager, then every adapter."""
-        return (*self.managers.values(), *self.adapters.values())
+        return self._servers
 
     def _take_joint_states(self, manager: str, controller: str) -> JointStateBlock:
         if manager in self.managers:

@@ -13,7 +13,7 @@ from cellc.mock.plant import Plant, TaskNode
 from cellc.mock.result import AttemptRecord, CancelRecord, PacketStep, ResultRecord, TracePoint
 from cellc.mock.stops import EMERGENCY_STOP, FAULT, PROTECTIVE_STOP
 from cellc.mock.task.bounds import joint_state_age_s
-from cellc.mock.task.watch import next_look_ns
+from cellc.mock.task.watch import WATCH_NS, next_look_ns
 from cellc.transforms import Pose
 from cellc.vocabulary import AttemptOutcome
 
@@ -217,11 +217,11 @@ class TaskContext:
         Raises:
             AttemptError: the cell stopped, missed cycles, or the rehearsal's time is over.
         """
-        disturbed = self.is_disturbed() or any(signal.from_background for signal in signals)
-        look_ns = next_look_ns(self.plant, disturbed=disturbed)
-        yield Wait(
-            min(until_ns, self.deadline_ns, look_ns, self._observed_until_ns()), (self.control.changed, *signals)
-        )
+        until_ns = min(until_ns, self.deadline_ns, self._observed_until_ns())
+        if until_ns > self.now_ns + WATCH_NS:
+            disturbed = self.is_disturbed() or any(signal.from_background for signal in signals)
+            until_ns = min(until_ns, next_look_ns(self.plant, disturbed=disturbed))
+        yield Wait(until_ns, (self.control.changed, *signals))
         self.check_cell()
 
     def let_take_effect(self) -> Waiting[None]:

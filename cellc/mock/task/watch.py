@@ -19,7 +19,7 @@ from cellc.mock.task.bounds import joint_state_age_s
 
 WATCH_S = 0.2
 """The task looks at the state of the cell at least five times a second, whatever it waits for."""
-_WATCH_NS = round(WATCH_S * 1e9)
+WATCH_NS = round(WATCH_S * 1e9)
 CALM_NS = 2_000_000_000
 """The longest sleep: histories and buffers keep ten seconds, and who reads them must come before they are full."""
 
@@ -32,10 +32,10 @@ def next_look_ns(plant: Plant, *, disturbed: bool) -> int:
     """
     now_ns = plant.now_ns
     if disturbed or plant.control.is_watched or not is_calm(plant):
-        return now_ns + _WATCH_NS
+        return now_ns + WATCH_NS
     event_ns = plant.simulation.next_foreground_ns()
     until_ns = now_ns + CALM_NS if event_ns is None else min(now_ns + CALM_NS, event_ns)
-    return now_ns + max(1, -(-(until_ns - now_ns) // _WATCH_NS)) * _WATCH_NS
+    return now_ns + max(1, -(-(until_ns - now_ns) // WATCH_NS)) * WATCH_NS
 
 
 def is_calm(plant: Plant) -> bool:

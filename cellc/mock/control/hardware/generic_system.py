@@ -204,6 +204,8 @@ class GenericSystem:
     def _move(self, motion: Motion, command: Array, period_s: float) -> None:
         for kind in _MODES:
             indices, columns = self._moving_columns[kind]
+            if not len(indices):
+                continue
             given = ~np.isnan(command[0, columns])
             if not given.all():
                 indices, columns = indices[given], columns[given]

@@ -179,9 +179,8 @@ class ControllerManager:
         """
         before = len(self._events)
         while len(self._events) == before:
-            monitor_ns = min(
-                (t for c in self._controllers() if (t := c.next_monitor_ns()) is not None), default=until_ns + 1
-            )
+            controllers = self._controllers()
+            monitor_ns = min((t for c in controllers if (t := c.next_monitor_ns()) is not None), default=until_ns + 1)
             horizon = min(until_ns, monitor_ns)
             if self._cycles is not None and self._cycles.first_time_ns() <= horizon:
                 due = (horizon - self._cycles.first_time_ns()) // self.period_ns + 1
@@ -190,7 +189,7 @@ class ControllerManager:
             self.now_ns = self.log.now_ns = max(horizon, self.now_ns)
             if monitor_ns > until_ns:
                 break
-            for controller in self._controllers():
+            for controller in controllers:
                 controller.monitor(self.now_ns)
         return self.now_ns
 

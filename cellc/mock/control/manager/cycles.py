@@ -173,8 +173,9 @@ class CycleRunner:
                     f"{error.reason}",
                 )
             return False
-        stamps = np.array([time_ns], dtype=np.int64)
-        self._table.journal.add(loaded.name, loaded.columns.tolist(), stamps, self._table.command[None, :])
+        if self._table.journal.listening:
+            stamps = np.array([time_ns], dtype=np.int64)
+            self._table.journal.add(loaded.name, loaded.columns.tolist(), stamps, self._table.command[None, :])
         return True
 
     def _stop_failed(self, failed: list[Component], what: str, time_ns: int) -> None:
