@@ -19,7 +19,7 @@ from cellc.compute.work import ComputeError, Work, stream
 from cellc.mock import load
 from cellc.mock.campaign.campaign import conduct, make_plan
 from cellc.mock.faults.registry import possible_faults
-from tests.cells import generated, spec_of
+from tests.cells import ROOT, written
 from tests.compute.test_work import _deadly, _squares
 
 pytest.importorskip("distributed")
@@ -70,9 +70,9 @@ def _slow(_: None) -> Callable[[int], int]:
 
 
 def test_a_campaign_is_the_same_on_a_cluster_as_here(dask: Dask) -> None:
-    cell = load(generated("minimal"))
+    cell = load(ROOT / "generated" / "minimal")
     plan, baselines = make_plan(cell, possible_faults(cell.contract), 0)
-    runs = tuple(plan.singles())[::5]
+    runs = tuple(plan.singles())[::15]
     here, there = (
         conduct(cell, runs, baselines, seed=0, hire=hire, progress=lambda *_: None)
         for hire in (None, cluster(dask.address))
@@ -82,8 +82,11 @@ def test_a_campaign_is_the_same_on_a_cluster_as_here(dask: Dask) -> None:
     assert len(there.ends) > 20
 
 
-def test_cells_are_checked_on_a_cluster_as_they_are_here(dask: Dask) -> None:
-    tasks = [Task(spec_of("minimal").as_posix(), {"ros": distro}) for distro in ("humble", "jazzy")]
+def test_cells_are_checked_on_a_cluster_as_they_are_here(dask: Dask, tmp_path: Path) -> None:
+    spec = written(
+        tmp_path, "format: 1\ncell: camera\nversions: {ros: jazzy}\ndevices: {eye: {model: realsense_d435i}}\n"
+    )
+    tasks = [Task(spec.as_posix(), {"ros": distro}) for distro in ("humble", "kilted")]
     here, there = (list(results("check", tasks, Fan(cluster=address))) for address in (None, dask.address))
     assert there == here
     assert all(one.cell is not None for one in there)
