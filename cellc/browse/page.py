@@ -67,6 +67,8 @@ def _figures(entry: CatalogDevice) -> Iterator[str]:
         told.append(f"reach {model.limits.reach.value.text} ({model.limits.reach.source})")
     if model.limits.payload is not None:
         told.append(f"payload {model.limits.payload.value.text} ({model.limits.payload.source})")
+    if model.limits.repeatability is not None:
+        told.append(f"repeatability {model.limits.repeatability.value.text} ({model.limits.repeatability.source})")
     if model.tool_frame is not None:
         far = farthest(entry.description, model.tool_frame, _home(model))
         told.append(f"{code(model.tool_frame)} gets {far * 1000:.0f} mm from the axis of the first joint")

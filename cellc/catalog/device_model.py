@@ -240,6 +240,13 @@ class ReachFigure(CatalogModel):
     source: Text
 
 
+class RepeatabilityFigure(CatalogModel):
+    """Pose repeatability of the tip by ISO 9283, half of what a data sheet gives as a range about zero."""
+
+    value: Length
+    source: Text
+
+
 class LimitFacts(CatalogModel):
     """Limits that URDF cannot hold; keys are joint names or ``*`` for all others.
 
@@ -251,6 +258,7 @@ class LimitFacts(CatalogModel):
     jerk: dict[Text, JerkLimit] = Field(default_factory=dict)
     payload: PayloadLimit | None = None
     reach: ReachFigure | None = None
+    repeatability: RepeatabilityFigure | None = None
 
     def velocity_of(self, joint: str) -> VelocityLimit | None:
         """Return the velocity that a joint, named without prefix, may have everywhere."""

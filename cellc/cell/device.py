@@ -260,6 +260,7 @@ class Device(Entity):
         optical_frames: short names of frames that look along z.
         kinematics: whose joints the description has; None where robots of the type do not differ.
         payload_limit_kg: what may hang on the flange, tool included.
+        repeatability_m: pose repeatability of its tip (ISO 9283); None where the catalog tells none.
         update_rates_hz: those that the device accepts; any where empty.
         controller_kinds: kinds of controllers that only this device has.
         speed_scaling: full name of the state interface that reports how far trajectories are slowed down.
@@ -313,6 +314,7 @@ class Device(Entity):
     home: Mapping[str, float] = field(default_factory=dict)
     optical_frames: tuple[str, ...] = ()
     payload_limit_kg: float | None = None
+    repeatability_m: float | None = None
     update_rates_hz: tuple[float, ...] = ()
     controller_kinds: tuple[str, ...] = ()
     speed_scaling: str | None = None

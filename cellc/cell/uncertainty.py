@@ -10,7 +10,7 @@ from cellc.transforms import Vector3
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Region:
-    """Where an object may lie about its simulated pose: half edges in m along the parent's axes, half a turn in rad."""
+    """Where an object may lie about its simulated pose, or a fixed frame: half edges in m, half a turn in rad."""
 
     half_m: Vector3
     half_yaw_rad: float
@@ -22,10 +22,12 @@ class Uncertainty:
 
     Args:
         rotations_rad: calibration → standard deviation about each axis.
-        regions: dynamic frame → where its object may lie.
+        regions: frame → where what lies there may lie.
+        repeatability_m: arm → pose repeatability as it was measured.
         tolerances_m: goal → farthest that the tip may really be from it.
     """
 
     rotations_rad: Mapping[str, float]
     regions: Mapping[str, Region]
+    repeatability_m: Mapping[str, float]
     tolerances_m: Mapping[str, float]

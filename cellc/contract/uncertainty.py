@@ -11,7 +11,7 @@ UNCERTAINTY_FILE = "config/uncertainty.json"
 """Beside the contract; a cell that says nothing of uncertainty has none."""
 
 
-Kind = Literal["calibration", "region", "clock"]
+Kind = Literal["calibration", "repeatability", "place", "region", "clock"]
 Axis = Literal["x", "y", "z", "rx", "ry", "rz", "offset"]
 
 
@@ -19,8 +19,9 @@ class UncertainQuantity(ContractModel):
     """One number that each run draws anew.
 
     ``calibration``: the frame ``target`` really stands displaced along (x, y, z), or turned about (rx, ry, rz), an axis
-    of its own. ``region``: the object that frame ``target`` follows lies displaced along, or is turned about, an axis
-    of the parent of its simulated pose. ``clock``: the clock ``target`` reads so much more.
+    of its own; so do ``place``, where something lies that nobody looks at, and ``repeatability``, the tip of an arm.
+    Several of one frame add up. ``region``: the object that frame ``target`` follows lies displaced along, or is turned
+    about, an axis of the parent of its simulated pose. ``clock``: the clock ``target`` reads so much more.
     """
 
     name: str = Field(description="Name in reports.")

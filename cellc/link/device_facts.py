@@ -74,6 +74,7 @@ def with_catalog(
         ),
         optical_frames=facts.optical_frames,
         payload_limit_kg=None if limits.payload is None else limits.payload.value.si,
+        repeatability_m=None if limits.repeatability is None else limits.repeatability.value.si,
         update_rates_hz=() if control is None else tuple(rate.si for rate in control.update_rates),
         controller_kinds=tuple(facts.controllers),
         speed_scaling=None if facts.speed_scaling is None else known.fill(facts.speed_scaling.state_interface),

@@ -23,6 +23,7 @@ def link_uncertainty(spec: CellSpec, document: SourceDocument) -> Outcome[Uncert
     bound = Uncertainty(
         rotations_rad={name: value for name, value in rotations.items() if value},
         regions={name: _region(region) for name, region in spec.regions.items()},
+        repeatability_m={name: value.si for name, value in written.repeatability.items()},
         tolerances_m={name: value.si for name, value in written.tolerances.items()},
     )
     return Outcome(bound, tuple(_unknown(spec, written, document)))
@@ -34,15 +35,16 @@ def _region(written: RegionSpec) -> Region:
 
 
 def _unknown(spec: CellSpec, written: UncertaintySpec, document: SourceDocument) -> Iterator[Diagnostic]:
-    objects = [name for name, frame in spec.frames.items() if frame.simulated_pose is not None]
+    places = [name for name, frame in spec.frames.items() if frame.simulated_pose is not None or not frame.dynamic]
     for names, known, code, kind, path in (
         (written.calibrations, tuple(spec.calibrations), "unknown-calibration", "calibration", "calibrations"),
+        (written.repeatability, tuple(spec.devices), "unknown-device", "device", "repeatability"),
         (written.tolerances, tuple(spec.motion.goals), "unknown-goal", "goal", "tolerances"),
     ):
         for name in names:
             if name not in known:
                 yield unknown_name(code, name, kind, known, document, ("uncertainty", path, name))
     for name in spec.regions:
-        if name not in objects:
-            kind = "dynamic frame with `simulated_pose`"
-            yield unknown_name("unknown-frame", name, kind, objects, document, ("regions", name))
+        if name not in places:
+            kind = "fixed frame, or dynamic one with `simulated_pose`,"
+            yield unknown_name("unknown-frame", name, kind, places, document, ("regions", name))

@@ -27,6 +27,7 @@ _HIDDEN = {
     Controller: {"package", "declared", "plugin_parameters", "written_parameters"},
     Device: {
         *("vendor", "kind", "description", "home", "optical_frames", "payload_limit_kg", "update_rates_hz"),
+        "repeatability_m",
         *("controller_kinds", "speed_scaling", "gripper", "camera", "offers", "network", "safety", "packages"),
         *("version_rows", "commissioning", "record", "robot", "plug", "programs", "mock_cannot_prove", "starts"),
     },

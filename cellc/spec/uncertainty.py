@@ -15,15 +15,19 @@ class CalibrationUncertaintySpec(SpecModel):
 
 
 class RegionSpec(SpecModel):
-    """Where an object may lie, about its simulated pose, and how it may be turned; each place is as likely."""
+    """Where an object may lie, and how it may be turned; each place is as likely.
+
+    A dynamic frame is that of an object about its simulated pose. A fixed one is of what lies there and is not looked
+    at: it lies elsewhere, and the robot does not know.
+    """
 
     box: Position = Field(
         ...,
-        description="Full edge lengths along x, y, z of the parent of its simulated pose.",
+        description="Full edge lengths along x, y, z of the parent of its simulated pose; of a fixed frame its own.",
         examples=["80 120 0 mm"],
     )
     yaw: FieldAngle | None = Field(
-        None, description="Full range about z of that parent; not turned if absent.", examples=["90 deg"]
+        None, description="Full range about the same z; not turned if absent.", examples=["90 deg"]
     )
 
 
@@ -34,6 +38,11 @@ class UncertaintySpec(SpecModel):
         default_factory=dict,
         description="Calibrations by name, with what their residual does not say.",
         examples=[{"hand_eye": {"rotation": "0.1 deg"}}],
+    )
+    repeatability: dict[Name, Length] = Field(
+        default_factory=dict,
+        description="Arms by name, with a repeatability (ISO 9283) that was measured; else the catalog's is drawn.",
+        examples=[{"arm": "0.05 mm"}],
     )
     tolerances: dict[Name, Length] = Field(
         default_factory=dict,

@@ -24,7 +24,7 @@ from tests.cells import linked, linking, spec_of, spec_text, written
             "{object: {box",
             "{objekt: {box",
             "unknown-frame",
-            "there is no dynamic frame with `simulated_pose` `objekt`",
+            "there is no fixed frame, or dynamic one with `simulated_pose`, `objekt`",
             "object",
         ),
     ],

@@ -2,12 +2,15 @@
 
 Format 1, ``cellc.contract.uncertainty``. Read by ``cellc mock --sweep``. A residual is taken for the root of the mean
 square of the distance by which a frame stands elsewhere, the same along each axis: an axis has a third of its square. A
-bound of a clock says no more than that: every offset within it is as likely. Left out: what spec and catalog give no
-figure of, such as the repeatability of an arm, and how a payload differs.
+bound of a clock says no more than that: every offset within it is as likely. Pose repeatability is the mean distance
+from the middle of all arrivals and three standard deviations of it (ISO 9283:1998, 7.2.2); of errors that are normal
+and alike along three axes that is 3.615 of their deviation. Left out: what spec and catalog give no figure of, such as
+the error of tracking, and how a payload differs, on which nothing of the mock rests.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from cellc.cell.cell import Cell
@@ -17,12 +20,14 @@ from cellc.contract.uncertainty import Axis, ExpectedSuccess, Kind, UncertainQua
 from cellc.formats.numbers import rounded
 
 _AXES: tuple[Axis, ...] = ("x", "y", "z")
+_REPEATABILITY = math.sqrt(8.0 / math.pi) + 3.0 * math.sqrt(3.0 - 8.0 / math.pi)
+"""Mean and three deviations of the length of a vector, each of whose three components has the deviation 1."""
 _TURNS: tuple[Axis, ...] = ("rx", "ry", "rz")
 
 
 def uncertainty(cell: Cell, stated: Stated, clocks: dict[str, ContractClock]) -> Uncertainty:
     """Return what sweeps of a cell draw and judge."""
-    drawn = (*_calibrations(cell, stated), *_regions(stated), *_clocks(cell, clocks))
+    drawn = (*_calibrations(cell, stated), *_arms(cell, stated), *_regions(cell, stated), *_clocks(cell, clocks))
     return Uncertainty(
         format=1,
         quantities=tuple(one for one in drawn if one.spread > 0.0),
@@ -48,11 +53,25 @@ def _calibrations(cell: Cell, stated: Stated) -> Iterator[UncertainQuantity]:
         yield from _three("calibration", calibration.name, frame.name, (sigma_rad,) * 3, path, turns=True)
 
 
-def _regions(stated: Stated) -> Iterator[UncertainQuantity]:
+def _arms(cell: Cell, stated: Stated) -> Iterator[UncertainQuantity]:
+    for device in cell.devices:
+        path, value = f"devices.{device.name}.model: {device.model}", device.repeatability_m
+        if device.name in stated.repeatability_m:
+            path, value = f"uncertainty.repeatability.{device.name}", stated.repeatability_m[device.name]
+        spread = (value or 0.0) * math.sqrt(3.0) / _REPEATABILITY
+        for group in cell.groups:
+            if {joint.name for joint in device.joints} & set(group.joints):
+                yield from _three("repeatability", f"{group.name} tip", group.tip_frame, (spread,) * 3, path)
+
+
+def _regions(cell: Cell, stated: Stated) -> Iterator[UncertainQuantity]:
+    moving = {frame.name for frame in cell.frames if frame.simulated_pose is not None}
     for name, region in stated.regions.items():
-        yield from _three("region", name, name, region.half_m, f"regions.{name}.box")
+        kind: Kind = "region" if name in moving else "place"
+        shown = name if name in moving else f"part at {name}"  # the frame itself may be calibrated
+        yield from _three(kind, shown, name, region.half_m, f"regions.{name}.box")
         yaw = (0.0, 0.0, region.half_yaw_rad)
-        yield from _three("region", name, name, yaw, f"regions.{name}.yaw", turns=True)
+        yield from _three(kind, shown, name, yaw, f"regions.{name}.yaw", turns=True)
 
 
 def _three(
@@ -65,7 +84,7 @@ def _three(
             target=target,
             axis=axis,
             unit="rad" if turns else "m",
-            distribution="uniform" if kind == "region" else "normal" if turns else "isotropic",
+            distribution="uniform" if kind in ("region", "place") else "normal" if turns else "isotropic",
             spread=rounded(spread),
             source=source,
         )

@@ -19,10 +19,12 @@ from numpy.typing import NDArray
 
 from cellc.contract.uncertainty import UncertainQuantity
 from cellc.mock.reality import Displacement, Reality
-from cellc.transforms import Pose, Vector3
+from cellc.transforms import Pose, Vector3, identity
 
 _NORMAL = NormalDist()
 _NOISE = "noise of samples"
+LINKS = ("calibration", "repeatability", "place")
+"""Kinds of quantities that displace a frame of the description, one after the other where they have the same."""
 
 
 class _Bits:
@@ -65,8 +67,12 @@ def reality_of(quantities: Sequence[UncertainQuantity], values: Mapping[str, flo
     parts: dict[tuple[str, str], dict[str, float]] = {}
     for one in quantities:
         parts.setdefault((one.kind, one.target), {})[one.axis] = values[one.name]
+    links: dict[str, Pose] = {}
+    for kind in LINKS:
+        for target, axes in _of(kind, parts):
+            links[target] = links.get(target, identity()) @ Pose(_along(axes), _turn(axes))
     return Reality(
-        links={target: Pose(_along(axes), _turn(axes)) for target, axes in _of("calibration", parts)},
+        links=links,
         objects={
             target: Displacement(_along(axes), Pose((0.0, 0.0, 0.0), _turn(axes)))
             for target, axes in _of("region", parts)

@@ -16,7 +16,7 @@ from cellc.mock.errors import MockError
 from cellc.mock.plant import Plant
 from cellc.mock.reality import Reality
 from cellc.mock.result import RunFailure
-from cellc.mock.sweep.draws import draw, reality_of
+from cellc.mock.sweep.draws import LINKS, draw, reality_of
 from cellc.mock.sweep.figures import Interval, confidence_of_look, interval, looks
 
 USUAL_CONFIDENCE = 0.95
@@ -80,7 +80,7 @@ def uncertainty_of(cell: MockCell) -> Uncertainty:
     if found is None:
         raise MockError("", f"the folder has no `{UNCERTAINTY_FILE}`; write `uncertainty: {{}}` in the spec, and build")
     known: dict[str, tuple[str, Sequence[str]]] = {
-        "calibration": ("frame of the description", [joint.child for joint in cell.folder.description.joints]),
+        **dict.fromkeys(LINKS, ("frame of the description", [one.child for one in cell.folder.description.joints])),
         "region": ("dynamic frame", [name for name, one in contract.frames.items() if one.simulated_parent]),
         "clock": ("clock", list(contract.clocks)),
     }

@@ -1,0 +1,51 @@
+"""What a sweep draws of arms, and of what lies where nobody looks: each with the statement that it rests on."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from cellc.contract.uncertainty import UncertainQuantity, Uncertainty
+from cellc.emit.contract.uncertainty import uncertainty
+from cellc.mock.sweep.draws import draw, reality_of
+from tests.cells import linked, spec_of, spec_text, written
+
+
+def _drawn(path: Path) -> Uncertainty:
+    cell = linked(path)
+    assert cell.uncertainty is not None
+    return uncertainty(cell, cell.uncertainty, {})
+
+
+def _of(found: Uncertainty, kind: str) -> list[UncertainQuantity]:
+    return [one for one in found.quantities if one.kind == kind]
+
+
+def test_draws_of_a_tip_have_the_repeatability_that_the_catalog_tells() -> None:
+    found = _of(_drawn(spec_of("ur5e_pick")), "repeatability")
+    assert {(one.target, one.source) for one in found} == {("tcp", "devices.arm.model: ur5e")}
+    drawn = [list(draw(found, 7, run).values()) for run in range(4000)]
+    lengths = np.linalg.norm(np.array(drawn), axis=1)
+    # ISO 9283:1998, 7.2.2: the mean distance and three deviations of it; 0.03 mm is that of a UR5e.
+    assert float(lengths.mean() + 3.0 * lengths.std(ddof=1)) == pytest.approx(0.03e-3, rel=0.03)
+
+
+def test_a_repeatability_that_was_measured_stands_in_place_of_the_catalogs(tmp_path: Path) -> None:
+    text = spec_text("ur5e_pick").replace("  tolerances: {pick", "  repeatability: {arm: 0.12 mm}\n  tolerances: {pick")
+    found = _of(_drawn(written(tmp_path, text)), "repeatability")
+    four_times = [4.0 * one.spread for one in _of(_drawn(spec_of("ur5e_pick")), "repeatability")]
+    assert [one.spread for one in found] == pytest.approx(four_times, rel=1e-3)
+    assert {one.source for one in found} == {"uncertainty.repeatability.arm"}
+
+
+def test_what_lies_on_a_calibrated_frame_adds_to_where_that_frame_stands() -> None:
+    found = _drawn(spec_of("fr3_hand"))
+    assert {one.target for one in (*_of(found, "place"), *_of(found, "calibration"))} >= {"tray"}
+    values = dict.fromkeys((one.name for one in found.quantities), 0.0)
+    values |= {"tray x": 1e-3, "part at tray x": 2e-3, "part at tray y": -1e-3, "part at tray rz": 0.01}
+    moved = reality_of(found.quantities, values, 0, 0).links["tray"]
+    assert moved.position == pytest.approx((3e-3, -1e-3, 0.0))
+    assert moved.quaternion == pytest.approx((0.0, 0.0, math.sin(0.005), math.cos(0.005)))
