@@ -115,7 +115,7 @@ def _arrows(cell: Cell, exchanges: Sequence[Exchange]) -> Iterator[tuple[Line, s
     for device in cell.devices:
         if device.driver is not None:
             yield Line(device.driver.node, device.name, "moves"), "moves"
-        if device.hardware is not None:
+        if device.is_driven:
             yield Line(_stop(cell), device.name, "stops"), "stops"
 
 

@@ -148,11 +148,14 @@ def _response_s(injections: Sequence[Injection], records: Sequence[AttemptRecord
     A cancel takes effect when it is requested and ends when the joints stand still. Any other fault takes effect when
     it begins, or when the attempt begins that meets it, and ends with the attempt.
     """
-    begun = [injection.begun_ns for injection in injections if injection.begun_ns is not None]
     attempts = records[:-1]
-    if not begun or not attempts:
+    if not attempts:
         return None
     ended = next((record for record in attempts if record.outcome != AttemptOutcome.SUCCEEDED), attempts[-1])
+    # What began after that end did not cause it.
+    begun = [one.begun_ns for one in injections if one.begun_ns is not None and one.begun_ns <= ended.ended_ns]
+    if not begun:
+        return None
     if ended.outcome == AttemptOutcome.CANCELLED and ended.cancel is not None:
         return ended.cancel.latency_s
     return (ended.ended_ns - max(*begun, ended.started_ns)) / 1e9

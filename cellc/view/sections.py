@@ -12,7 +12,7 @@ from cellc.deploy.gates import GateText, gate_texts
 from cellc.diagnostics import Diagnostic, Severity, Span
 from cellc.diagnostics.diagnostic import Findings
 from cellc.mock.bus.qos import unmatched_pairs
-from cellc.mock.report_page.html import Child, count, tag
+from cellc.mock.report_page.html import Child, cards, count, tag
 from cellc.report.snippet import excerpt
 from cellc.view.playback import Run
 from cellc.vocabulary import Grade
@@ -24,15 +24,6 @@ _OPEN = (Severity.ERROR, Severity.WARNING)
 def section(id_: str, title: str, *children: Child) -> Element:
     """Return a section that the page's head leads to."""
     return tag("section", tag("h2", title), *children, id=id_)
-
-
-def table(names: Sequence[str], rows: Iterable[Sequence[Child]]) -> Element:
-    """Return a table whose rows are cards on a phone."""
-    body = (
-        tag("tr", *(tag("td", cell, data_name=name) for name, cell in zip(names, row, strict=True))) for row in rows
-    )
-    head = tag("thead", tag("tr", *(tag("th", name) for name in names)))
-    return tag("div", tag("table", head, tag("tbody", *body), class_="cards"), class_="wide")
 
 
 def findings_section(findings: Findings) -> Element:
@@ -86,7 +77,7 @@ def _snippet(span: Span, texts: Mapping[str, str]) -> Iterator[Element]:
 def absent_section(not_drawn: Sequence[tuple[str, str]]) -> Element:
     """Return what the cell names and the drawing does not have, each with the reason."""
     rows = [(tag("b", name), why) for name, why in not_drawn]
-    return section("absent", "Not drawn", table(("what", "why"), rows))
+    return section("absent", "Not drawn", cards(("what", "why"), rows))
 
 
 def changes_section(review: Review) -> Element:
@@ -105,7 +96,7 @@ def changes_section(review: Review) -> Element:
     ]
     told = f"{review.before.name} → {review.after.name}. Gates to pass again: "
     gates = ", ".join(gate.code.value for gate in review.gates) or "none"
-    return section("changes", "What changed", tag("p", told, gates, class_="hint"), table(names, rows))
+    return section("changes", "What changed", tag("p", told, gates, class_="hint"), cards(names, rows))
 
 
 _GRADES = {Grade.SAFE: "good", Grade.REVIEW: "unknown", Grade.DANGEROUS: "bad"}
@@ -125,7 +116,7 @@ def rehearsals_section(runs: Sequence[Run]) -> Element:
         )
         for number, run in enumerate(runs)
     ]
-    return section("rehearsals", "Rehearsals on the mock", table(names, rows))
+    return section("rehearsals", "Rehearsals on the mock", cards(names, rows))
 
 
 def interfaces_section(contract: Contract) -> Element:
@@ -133,7 +124,7 @@ def interfaces_section(contract: Contract) -> Element:
     broken = [tag("p", text, class_="note") for text in unmatched_pairs(contract)]
     names = ("interface", "type", "from", "to", "bounds", "owner")
     rows = [_interface(name, one) for name, one in contract.interfaces.items()]
-    return section("interfaces", "Interfaces and QoS", *broken, table(names, rows))
+    return section("interfaces", "Interfaces and QoS", *broken, cards(names, rows))
 
 
 def _interface(name: str, one: ContractInterface) -> tuple[Child, ...]:
@@ -178,7 +169,7 @@ def gates_section(contract: Contract) -> Element:
     names = ("gate", "what it shows", "state", "evidence", "signed by")
     rows = [_gate(one, contract) for one in (*texts.promotion, *texts.network)]
     told = "Passed by people at the cell, in this order; G3 layer by layer. The package has the checks of each."
-    return section("gates", "Gates", tag("p", told, class_="hint"), table(names, rows))
+    return section("gates", "Gates", tag("p", told, class_="hint"), cards(names, rows))
 
 
 def _gate(text: GateText, contract: Contract) -> tuple[Child, ...]:

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import json
 import re
 from itertools import combinations
 from typing import Any
 from xml.etree.ElementTree import Element, fromstring
 
+import pytest
+
+from tests.cells import EVERY_CELL, ROOT
 from tests.consumers.matrix import build, every_build
 from tests.consumers.test_pictures import contract
 
@@ -134,3 +138,18 @@ def test_what_commands_goes_from_left_to_right() -> None:
     way = [left[name] for name in ("task", "move_group", "arm_trajectory", "arm", "safety_plc")]
     assert way == sorted(set(way))
     assert left["perception"] < left["task"]
+
+
+@pytest.mark.parametrize("cell", EVERY_CELL)
+def test_the_stop_reaches_every_drive_whatever_commands_it(cell: str) -> None:
+    # hybrid_sdk has an arm that an adapter drives, without hardware of ros2_control.
+    folder = ROOT / "generated" / cell
+    promised = json.loads((folder / "contract.json").read_text(encoding="utf-8"))
+    adapted = promised.get("adapters", {})
+    driven = [
+        name
+        for name, one in promised["devices"].items()
+        if one.get("hardware_component") or one.get("driver") or name in adapted
+    ]
+    (arrows,) = fromstring((folder / "graph/nodes.svg").read_text(encoding="utf-8")).findall(f"{_SVG}g")
+    assert len([one for one in arrows.iter() if one.get("marker-end") == "url(#stop)"]) == len(driven) > 0

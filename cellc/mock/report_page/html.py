@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from xml.etree.ElementTree import Element, tostring
 
 from cellc.diagnostics.unsafe_text import escaped_within
@@ -27,6 +27,19 @@ def extend(element: Element, children: Iterable[Child]) -> Element:
             element[-1].tail = (element[-1].tail or "") + escaped_within(child)
         else:
             element.text = (element.text or "") + escaped_within(child)
+    return element
+
+
+def cards(names: Sequence[str], rows: Iterable[Sequence[Child]]) -> Element:
+    """Return a table whose rows are cards on a phone, each value with its name; a value may be a cell already."""
+    body = (tag("tr", *(_named(cell, name) for name, cell in zip(names, row, strict=True))) for row in rows)
+    head = tag("thead", tag("tr", *(tag("th", name) for name in names)))
+    return tag("div", tag("table", head, tag("tbody", *body), class_="cards"), class_="wide")
+
+
+def _named(cell: Child, name: str) -> Element:
+    element = cell if isinstance(cell, Element) and cell.tag == "td" else tag("td", cell)
+    element.set("data-name", name)
     return element
 
 

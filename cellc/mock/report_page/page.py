@@ -13,9 +13,9 @@ from cellc.mock.campaign.plan import RunEnd
 from cellc.mock.campaign.summary import Matrix, cell_text, legend, limit_lines, matrix_of, outcome_lines
 from cellc.mock.evidence.kpis import Kpi
 from cellc.mock.gates.gate import GateCheck, GateResult, Verdict
-from cellc.mock.report_page.html import count, plain, seconds, tag, to_page
+from cellc.mock.report_page.html import Child, cards, count, plain, seconds, tag, to_page
 from cellc.mock.report_page.run_section import RunEvidence, run_section
-from cellc.mock.sweep.summary import Table, count_lines, tables, verdict_line
+from cellc.mock.sweep.summary import count_lines, tables, verdict_line
 from cellc.mock.sweep.sweep import Sweep
 
 _NAMES = {
@@ -100,7 +100,7 @@ def sweep_section(sweep: Sweep) -> Element:
         "believed. How a part slips or turns between the fingers is not simulated."
     )
     lines = [tag("p", line) for line in count_lines(sweep)]
-    found = [tag("div", _plain_table(rows), class_="wide") for rows in tables(sweep)]
+    found = [cards(head, rows) for head, *rows in tables(sweep)]
     return tag("section", tag("h2", f"Sweep of {sweep.rehearsal}"), *lines, *found, tag("p", hint, class_="hint"))
 
 
@@ -110,31 +110,22 @@ def _verdict(sweep: Sweep) -> Element:
     )
 
 
-def _plain_table(rows: Table) -> Element:
-    head, *others = rows
-    body = (tag("tr", *(tag("td", cell) for cell in row)) for row in others)
-    return tag("table", tag("thead", tag("tr", *(tag("th", cell) for cell in head))), tag("tbody", *body))
-
-
 def outcomes(content: ReportContent) -> Element:
     """Return the matrix of rehearsals and their ends."""
     names = ("rehearsal", "verdict", "outcome", "expected", "injected", "response", "bound", "simulated")
-    head = tag("tr", *(tag("th", name) for name in names))
     rows = [_outcome_row(number, run) for number, run in enumerate(content.runs, start=1)]
-    table = tag("table", tag("thead", head), tag("tbody", *rows))
-    return tag("section", tag("h2", "Outcomes"), tag("div", table, class_="wide"))
+    return tag("section", tag("h2", "Outcomes"), cards(names, rows))
 
 
-def _outcome_row(number: int, run: RunEvidence) -> Element:
+def _outcome_row(number: int, run: RunEvidence) -> tuple[Child, ...]:
     result = run.result
     faults = ", ".join(f"{fault.kind} {fault.target}" for fault in run.entry.faults) or "nothing"
     cells = [result.outcome, result.expected, faults]
     numbers = [seconds(result.response_s), seconds(result.within_s), seconds(result.sim_time_s)]
-    return tag(
-        "tr",
-        tag("td", tag("a", result.name, href=f"#run-{number}")),
-        tag("td", _mark(result.passed)),
-        *(tag("td", cell) for cell in cells),
+    return (
+        tag("a", result.name, href=f"#run-{number}"),
+        _mark(result.passed),
+        *cells,
         *(tag("td", cell, class_="number") for cell in numbers),
     )
 
@@ -146,16 +137,16 @@ def key_figures(content: ReportContent) -> Element:
     if not runs:
         return tag("section", title, tag("p", "No cell came up, so that nothing was measured.", class_="hint"))
     figures = runs[0].kpis
-    names = tag("tr", tag("th", "rehearsal"), *(tag("th", _NAMES[figure.name]) for figure in figures))
-    targets = tag("tr", tag("th", "target"), *(tag("th", _target(figure)) for figure in figures))
-    table = tag("table", tag("thead", names, targets), tag("tbody", *(_figure_row(run) for run in runs)))
+    names = ("rehearsal", *(_NAMES[figure.name] for figure in figures))
+    targets = (tag("td", "target", class_="aim"), *(tag("td", _target(figure), class_="aim") for figure in figures))
+    table = cards(names, (targets, *(_figure_row(run) for run in runs)))
     hint = (
         "A target is for the cell in service. Where a rehearsal injects a fault, a missed target tells what the fault "
         "did, and is set in brackets; the rehearsal itself is judged above. – is what a run never came to."
     )
     bases = [tag("div", tag("dt", _NAMES[figure.name]), tag("dd", figure.basis)) for figure in figures]
     measured = tag("details", tag("summary", "What was measured"), tag("dl", *bases, class_="pairs"))
-    return tag("section", title, tag("p", hint, class_="hint"), tag("div", table, class_="wide"), measured)
+    return tag("section", title, tag("p", hint, class_="hint"), table, measured)
 
 
 def _target(figure: Kpi) -> str:
@@ -163,9 +154,8 @@ def _target(figure: Kpi) -> str:
     return "none set" if figure.target is None else f"{comparison} {plain(figure.target, figure.unit)}"
 
 
-def _figure_row(run: RunEvidence) -> Element:
-    cells = [_figure(figure, injected=bool(run.entry.faults)) for figure in run.kpis]
-    return tag("tr", tag("td", run.result.name), *cells)
+def _figure_row(run: RunEvidence) -> tuple[Child, ...]:
+    return run.result.name, *(_figure(figure, injected=bool(run.entry.faults)) for figure in run.kpis)
 
 
 def _figure(figure: Kpi, *, injected: bool) -> Element:

@@ -11,7 +11,7 @@ from cellc.contract.rehearsals import FaultEntry, FaultEvent, RehearsalEntry
 from cellc.mock.evidence.kpis import Kpi
 from cellc.mock.evidence.run_trace import Claim, StateChange, TraceResult
 from cellc.mock.report_page.axes import TimeAxis, ticks
-from cellc.mock.report_page.html import Child, at, count, seconds, tag
+from cellc.mock.report_page.html import Child, at, cards, count, seconds, tag
 from cellc.mock.report_page.plots import age_plot, joint_plot, state_plot
 from cellc.mock.result import AttemptRecord, PacketStep, RehearsalResult
 from cellc.vocabulary import AttemptOutcome
@@ -171,8 +171,7 @@ def claims(trace: TraceResult, time: TimeAxis) -> Iterator[Element]:
     yield tag("div", tag("h3", "Claims of command interfaces"), *lanes, axis(time), class_="lanes")
     if trace.changes:
         rows = [_change(change) for change in trace.changes]
-        head = tag("tr", *(tag("th", name) for name in ("at", "what", "became", "because")))
-        table = tag("div", tag("table", tag("thead", head), tag("tbody", *rows)), class_="wide")
+        table = cards(("at", "what", "became", "because"), rows)
         title = f"{count(len(trace.changes), 'change')} of controllers and hardware"
         yield tag("details", tag("summary", title), table)
 
@@ -201,9 +200,9 @@ def _lane(interfaces: list[str], spans: _Spans, time: TimeAxis) -> Element:
     return lane([tag("b", owners), " ", title, *wrong], bars, time)
 
 
-def _change(change: StateChange) -> Element:
-    cells = (f"{change.kind} {change.subject}", change.state, change.reason or "it was asked to")
-    return tag("tr", tag("td", at(change.stamp_ns), class_="number"), *(tag("td", cell) for cell in cells))
+def _change(change: StateChange) -> tuple[Child, ...]:
+    told = change.reason or "it was asked to"
+    return tag("td", at(change.stamp_ns), class_="number"), f"{change.kind} {change.subject}", change.state, told
 
 
 def fault_times(faults: Sequence[FaultEntry], attempts: Sequence[AttemptRecord]) -> tuple[float, ...]:

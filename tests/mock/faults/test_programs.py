@@ -124,6 +124,11 @@ def test_campaign_has_the_fault_for_the_arm_and_fails_without_a_watch(cell: Mock
     assert done.result.outcome not in case.outcomes((HOME, wait(1.0), HOME), 2)
 
 
+def test_a_response_is_counted_from_what_began_before_the_attempt_ended(run: Rehearse) -> None:
+    # The claim goes 0.1 s or so after the program stops; jog and start come later, and ended nothing.
+    assert 0.0 < (run(*jogged_and_started(0.0), steps=CLAIMED_AGAIN).result.response_s or 0.0) < 0.5
+
+
 def test_jog_while_the_program_runs_moves_nothing_and_the_rehearsal_shows_nothing(run: Rehearse) -> None:
     done = run(moment(FaultKind.JOG, WRIST, 0.5, displacement=0.02), steps=(HOME, wait(1.0)))
     assert done.result.findings[-1] == (
