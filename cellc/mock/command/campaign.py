@@ -1,8 +1,7 @@
-"""The commands behind `--campaign`, `--list`, `--replay` and `--gates`: plan, run, report, and say how it went."""
+"""The commands behind `--campaign`, `--list` and `--replay`: plan, run, report, and say how it went."""
 
 from __future__ import annotations
 
-import json
 import shlex
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -13,7 +12,6 @@ from time import perf_counter
 
 from cellc.compute.work import ComputeError
 from cellc.diagnostics import nearest
-from cellc.diagnostics.unsafe_text import harmless_json
 from cellc.limits import limits, option
 from cellc.mock.campaign.campaign import Campaign, conduct, make_plan
 from cellc.mock.campaign.plan import CampaignPlan, CampaignRun
@@ -23,9 +21,7 @@ from cellc.mock.command.options import MockOptions, refuse_foreign, write_record
 from cellc.mock.command.rehearsals import begin_evidence
 from cellc.mock.errors import MockError
 from cellc.mock.faults.registry import possible_faults
-from cellc.mock.gates.gate import GateResult, Verdict, gate_lines, gates_as_data
-from cellc.mock.gates.runs import judged_campaign, judged_rehearsals
-from cellc.mock.gates.sign import sign_gates
+from cellc.mock.sweep.sweep import Sweep
 from cellc.printing import progress, refuse, remark, show, show_document, time_left
 
 Choice = Callable[[CampaignPlan], Sequence[CampaignRun]]
@@ -75,14 +71,14 @@ def replay_runs(options: MockOptions) -> int:
     return 0 if all(end.passed for end in campaign.ends) else 1
 
 
-def keep_evidence_of(cell: MockCell, campaign: Campaign, options: MockOptions) -> None:
+def keep_evidence_of(cell: MockCell, campaign: Campaign, options: MockOptions, sweeps: Sequence[Sweep] = ()) -> None:
     """Write bags of the declared rehearsals and a report over them and the campaign, where evidence is asked for."""
     if options.evidence is None:
         return
     with begin_evidence(cell, Path(options.evidence), cell.rehearsals, campaign.seed) as collector:
         for name in cell.rehearsals:
             collector.run(name)
-        collector.settle(campaign)
+        collector.settle(campaign, sweeps)
 
 
 def _keep_evidence(cell: MockCell, campaign: Campaign, folder: Path) -> None:
@@ -197,30 +193,3 @@ def stopped(stop: MockError) -> int:
     """Say why nothing came of it; return the exit code."""
     refuse(str(stop))
     return 2
-
-
-def run_gates(options: MockOptions) -> int:
-    """Run everything that is evidence, and print each gate with its lines.
-
-    Returns:
-        0 where no line failed, UNKNOWN ones among them; 1 where one did; 2 where the folder or an option is unusable.
-    """
-    try:
-        cell = load_checked(options)
-        results = [cell.run(name, seed=options.seed) for name in cell.rehearsals]
-        campaign = conduct_all(cell, options)
-        keep_evidence_of(cell, campaign, options)
-    except MockError as stop:
-        return stopped(stop)
-    runs = (*judged_rehearsals(cell.entries, results), *judged_campaign(campaign))
-    gates = sign_gates(cell.folder, runs, options.seed)
-    if options.as_json:
-        judged = {"gates": gates_as_data(gates), "notes": list(cell.notes)}
-        show_document(harmless_json(json.dumps(judged, ensure_ascii=False, indent=2)))
-    else:
-        show(*(f"note: {note}" for note in cell.notes), *list(gate_lines(gates))[:-1])
-    return 1 if any(_failed(gate) for gate in gates) else 0
-
-
-def _failed(gate: GateResult) -> bool:
-    return gate.verdict is Verdict.FAILED

@@ -78,7 +78,7 @@ class EvidenceCollector:
 
         Args:
             campaign: what a campaign found, which the report shows and the gates are judged by too.
-            sweeps: what sweeps found, which the report shows.
+            sweeps: what sweeps found, which the report shows and the gates are judged by too.
 
         Raises:
             MockError: the folder cannot take it.
@@ -87,7 +87,7 @@ class EvidenceCollector:
         runs = judged_rehearsals(self._cell.entries, [run.result for run in self._runs])
         if campaign is not None:
             runs = (*runs, *judged_campaign(campaign))
-        gates = sign_gates(self._cell.folder, runs, self._seed)
+        gates = sign_gates(self._cell.folder, runs, self._seed, sweeps)
         content = ReportContent(
             contract, self._cell.notes, self._seed, tuple(self._runs), gates, campaign, tuple(sweeps)
         )

@@ -83,12 +83,13 @@ class MockOptions:
     def contradiction(self) -> str:
         """Say which options do not go together; empty where all do."""
         modes = self.modes()
-        alone = [option for option in modes if option != "--campaign"]
-        if self.rehearsals and modes and not self.swept:
+        both = ("--campaign", "--sweep") if self.gates else ("--campaign",)  # gates are judged by sweeps too
+        alone = [option for option in modes if option not in both]
+        if self.rehearsals and modes and (self.gates or not self.swept):
             return "--rehearsal does not go with the options of the campaign"
         if len(alone) > 1:
             return f"{alone[0]} does not go with {alone[1]}"
-        if self.sweep and (self.campaign or self.pairs or self.records is not None):
+        if self.sweep and not self.gates and (self.campaign or self.pairs or self.records is not None):
             return "--sweep does not go with --campaign, --pairs or --records"
         if self.journal is not None and not self.swept:
             return "--journal needs --sweep, or --replay sweep:NUMBER"
@@ -169,7 +170,7 @@ def _run(options: MockOptions) -> int:
 
         return run_rehearsals(options)
     if options.gates:
-        from cellc.mock.command.campaign import run_gates
+        from cellc.mock.command.gates import run_gates
 
         return run_gates(options)
     if options.swept:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import islice
 
 from cellc.contract.contract import ContractController
 from cellc.mock.campaign.limits import merge
 from cellc.mock.gates.gate import GateCheck, failed, judged, passed, unknown
 from cellc.mock.gates.runs import GateEvidence
 from cellc.mock.result import PacketStep
+from cellc.mock.sweep.summary import count_lines
 from cellc.mock.task.bounds import cancel_bound_s
 from cellc.vocabulary import AttemptOutcome
 
@@ -105,6 +107,7 @@ def _no_real_interface(evidence: GateEvidence) -> GateCheck:
 def mock_run_checks(evidence: GateEvidence) -> Iterator[GateCheck]:
     """Yield the lines of G2."""
     yield _rehearsals(evidence)
+    yield from _rates(evidence)
     yield _bringup(evidence)
     yield unknown("The launch file starts the nodes", "`ros2 launch` on a host with ROS 2")
     yield owners(evidence)
@@ -113,6 +116,25 @@ def mock_run_checks(evidence: GateEvidence) -> Iterator[GateCheck]:
         yield cancel_trace(evidence, name)
     yield _faults(evidence)
     yield _limits(evidence)
+
+
+def _rates(evidence: GateEvidence) -> Iterator[GateCheck]:
+    """Judge each expected rate of success by its sweep, and cite what it takes to make that again."""
+    drawn = evidence.folder.uncertainty
+    swept = {one.rehearsal: one for one in evidence.sweeps}
+    for name, expected in () if drawn is None else drawn.expected.items():
+        text = f"{name} succeeds in {expected.success:.6g} of its runs or more, where not everything is known exactly"
+        needed = f"a sweep of {name} that decides it with confidence {expected.confidence:.6g}: --gates --sweep N"
+        found = swept.get(name)
+        if found is None:
+            yield unknown(text, needed)
+            continue
+        runs, rate = islice(count_lines(found), 2)
+        told = (f"{runs}, {evidence.contract.configuration_id}", rate)
+        if found.verdict is None:
+            yield unknown(text, f"{needed} above {len(found.runs)}; {rate}")
+        else:
+            yield passed(text, told) if found.verdict else failed(text, told)
 
 
 def _rehearsals(evidence: GateEvidence) -> GateCheck:

@@ -11,6 +11,7 @@ from cellc.mock.campaign.campaign import Campaign
 from cellc.mock.campaign.limits import LimitsReport
 from cellc.mock.folder import GeneratedFolder
 from cellc.mock.result import AttemptRecord, PacketStep, RehearsalResult
+from cellc.mock.sweep.sweep import Sweep
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +51,7 @@ class GateEvidence:
 
     folder: GeneratedFolder
     runs: tuple[JudgedRun, ...]
+    sweeps: tuple[Sweep, ...] = ()
 
     @property
     def contract(self) -> Contract:

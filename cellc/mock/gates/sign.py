@@ -10,6 +10,7 @@ from cellc.mock.gates.gate import GateCheck, GateResult
 from cellc.mock.gates.interaction import interaction_checks
 from cellc.mock.gates.model import model_checks
 from cellc.mock.gates.runs import GateEvidence, JudgedRun
+from cellc.mock.sweep.sweep import Sweep
 from cellc.vocabulary import GateCode
 
 # Name, title and state of the robot.
@@ -21,15 +22,18 @@ _GATES: tuple[tuple[GateCode, str, str, Callable[[GateEvidence], Iterator[GateCh
 )
 
 
-def sign_gates(folder: GeneratedFolder, runs: Sequence[JudgedRun], seed: int) -> tuple[GateResult, ...]:
+def sign_gates(
+    folder: GeneratedFolder, runs: Sequence[JudgedRun], seed: int, sweeps: Sequence[Sweep] = ()
+) -> tuple[GateResult, ...]:
     """Judge every line of the gates that can be judged without hardware.
 
     Args:
         folder: what was executed.
         runs: its runs; of two with one name the last counts.
         seed: of the runs.
+        sweeps: how often rehearsals succeeded where not everything is known exactly.
     """
-    evidence = GateEvidence(folder, tuple({run.name: run for run in runs}.values()))
+    evidence = GateEvidence(folder, tuple({run.name: run for run in runs}.values()), tuple(sweeps))
     known = folder.contract.configuration_id
     return tuple(
         GateResult(gate, title, state, known, seed, tuple(_distinct(checks(evidence))), signed=not folder.edited)

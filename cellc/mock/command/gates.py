@@ -1,0 +1,44 @@
+"""The command behind `--gates`: everything that is evidence is run, and each gate is judged by it."""
+
+from __future__ import annotations
+
+import json
+
+from cellc.diagnostics.unsafe_text import harmless_json
+from cellc.mock.command.campaign import conduct_all, keep_evidence_of, load_checked, stopped
+from cellc.mock.command.options import MockOptions
+from cellc.mock.command.sweep import entries_to_sweep, sweep_entry
+from cellc.mock.errors import MockError
+from cellc.mock.gates.gate import GateResult, Verdict, gate_lines, gates_as_data
+from cellc.mock.gates.runs import judged_campaign, judged_rehearsals
+from cellc.mock.gates.sign import sign_gates
+from cellc.printing import show, show_document
+
+
+def run_gates(options: MockOptions) -> int:
+    """Run everything that is evidence, and print each gate with its lines.
+
+    Returns:
+        0 where no line failed, UNKNOWN ones among them; 1 where one did; 2 where the folder or an option is unusable.
+    """
+    try:
+        cell = load_checked(options)
+        results = [cell.run(name, seed=options.seed) for name in cell.rehearsals]
+        campaign = conduct_all(cell, options)
+        swept = entries_to_sweep(cell, options) if options.sweep else ()
+        sweeps = tuple(sweep_entry(cell, entry, options) for entry in swept)
+        keep_evidence_of(cell, campaign, options, sweeps)
+    except MockError as stop:
+        return stopped(stop)
+    runs = (*judged_rehearsals(cell.entries, results), *judged_campaign(campaign))
+    gates = sign_gates(cell.folder, runs, options.seed, sweeps)
+    if options.as_json:
+        judged = {"gates": gates_as_data(gates), "notes": list(cell.notes)}
+        show_document(harmless_json(json.dumps(judged, ensure_ascii=False, indent=2)))
+    else:
+        show(*(f"note: {note}" for note in cell.notes), *list(gate_lines(gates))[:-1])
+    return 1 if any(_failed(gate) for gate in gates) else 0
+
+
+def _failed(gate: GateResult) -> bool:
+    return gate.verdict is Verdict.FAILED
