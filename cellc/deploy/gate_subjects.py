@@ -90,6 +90,13 @@ def _calibrated_frames(graph: CellGraph) -> Iterator[Values]:
     return ((one.name, one.calibration) for one in graph.cell.frames if one.calibration is not None)
 
 
+def _success(graph: CellGraph) -> Iterator[Values]:
+    """Yield the rehearsals that must succeed often enough, with least share and confidence."""
+    for one in graph.cell.rehearsals:
+        if one.success is not None:
+            yield one.name, f"{one.success:.6g}", f"{one.confidence:.6g}"
+
+
 def _mock_statements(graph: CellGraph) -> Iterator[Values]:
     return ((device.name, name, said.by, said.date) for device, name, said in graph.cell.signed_for_mock())
 
@@ -323,6 +330,7 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "calibrated_device": (("device", "file", "hash", "measured", "owner", "sha256", "path"), _calibrated_devices),
     "calibrated_frame": (("frame", "calibration"), _calibrated_frames),
     "mock_statement": (("device", "loaded", "by", "date"), _mock_statements),
+    "success": (("rehearsal", "share", "confidence"), _success),
     "mock_motion": (("command",), lambda graph: _each(move_mock(graph.cell))),
     "manager": (("manager",), _managers),
     "component": (("component", "state", "whose"), _components),

@@ -11,7 +11,7 @@ import pytest
 from cellc.contract.uncertainty import UncertainQuantity, Uncertainty
 from cellc.emit.contract.uncertainty import uncertainty
 from cellc.mock.sweep.draws import draw, reality_of
-from tests.cells import linked, spec_of, spec_text, written
+from tests.cells import ROOT, linked, spec_of, spec_text, written
 
 
 def _drawn(path: Path) -> Uncertainty:
@@ -49,3 +49,13 @@ def test_what_lies_on_a_calibrated_frame_adds_to_where_that_frame_stands() -> No
     moved = reality_of(found.quantities, values, 0, 0).links["tray"]
     assert moved.position == pytest.approx((3e-3, -1e-3, 0.0))
     assert moved.quaternion == pytest.approx((0.0, 0.0, math.sin(0.005), math.cos(0.005)))
+
+
+def test_the_checklist_of_the_mock_asks_for_the_sweep_of_each_rate_that_is_expected() -> None:
+    sections = {
+        cell: (ROOT / "generated" / cell / "gates/promotion.md").read_text(encoding="utf-8").split("## G2 ")[1]
+        for cell in ("ur5e_pick", "minimal")
+    }
+    asked = "- [ ] pick_and_place succeeds in 0.99 of its runs or more: write down runs, interval, seed and"
+    assert asked in sections["ur5e_pick"].split("\n## ")[0]
+    assert "--sweep" not in sections["minimal"].split("\n## ")[0]
