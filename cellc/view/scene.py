@@ -17,7 +17,15 @@ Numbers = tuple[float, ...]
 
 
 @dataclass(frozen=True, slots=True)
-class Shape:
+class Placed:
+    """What stands still in a rigid group."""
+
+    group: int
+    pose: Numbers
+
+
+@dataclass(frozen=True, slots=True)
+class Shape(Placed):
     """A body: the size of a box in m, the radius of a sphere, radius and length of a cylinder along z, or a mesh.
 
     The size of a mesh is its number among those of the scene.
@@ -26,8 +34,6 @@ class Shape:
         owner: device, or empty for the scene.
     """
 
-    group: int
-    pose: Numbers
     kind: str
     size: Numbers
     owner: str
@@ -35,33 +41,27 @@ class Shape:
 
 
 @dataclass(frozen=True, slots=True)
-class FrameMark:
+class FrameMark(Placed):
     """A frame of the cell; ``kind`` is that of the contract."""
 
-    group: int
-    pose: Numbers
     name: str
     parent: str
     kind: str
 
 
 @dataclass(frozen=True, slots=True)
-class ViewCone:
+class ViewCone(Placed):
     """What a camera sees along z of its optical frame: whole angles in rad, distances in m."""
 
-    group: int
-    pose: Numbers
     name: str
     angles: Numbers
     depths: Numbers
 
 
 @dataclass(frozen=True, slots=True)
-class GoalMark:
+class GoalMark(Placed):
     """Where a tip goes, and where it comes from; ``approach`` in the tip's axes, m."""
 
-    group: int
-    pose: Numbers
     name: str
     tip: str
     frame: str

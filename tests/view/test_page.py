@@ -67,6 +67,12 @@ def test_the_browser_is_told_to_run_the_scripts_of_the_page_alone(page: Page) ->
     assert not [name for _, found in page.elements for name in found if name.startswith("on") or name == "style"]
 
 
+def test_paper_is_light_where_the_screen_is_dark(page: Page) -> None:
+    dark = re.findall(r"@media ([^{]*prefers-color-scheme[^{]*)", "".join(page.styles))
+    assert dark
+    assert all(rule.startswith("screen and ") for rule in dark)
+
+
 def test_three_js_stands_in_the_page_with_its_license(page: Page) -> None:
     assert page.scripts[1] == three_js()
     assert "Three.js Authors" in page.scripts[1][:200]
@@ -237,3 +243,4 @@ def test_a_browser_draws_the_page_without_a_word_on_its_console(written: Path) -
     assert drawn.elements[0][1].keys() >= {"data-drawn"}
     assert "pick_and_place" in drawn.text
     assert "fixture_A" in drawn.text
+    assert "arm gripper camera all drawn as visual shapes" in drawn.text

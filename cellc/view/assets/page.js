@@ -303,7 +303,8 @@ function start() {
     drawing.show(layers, layers.has("names"));
   };
   boxes.forEach((box) => box.addEventListener("change", show));
-  const looks = { around: [-0.9, 0.45], front: [0, 0], side: [-Math.PI / 2, 0], above: [-Math.PI / 2, 1.55] };
+  // Front and side are those of the picture from two sides: along y, and against x.
+  const looks = { around: [-0.9, 0.45], front: [-Math.PI / 2, 0], side: [0, 0], above: [-Math.PI / 2, 1.55] };
   for (const button of stage.querySelectorAll("[data-look]")) {
     button.addEventListener("click", () => {
       drawing.orbit.look(...looks[button.dataset.look]);
