@@ -43,8 +43,13 @@ AS_STATED = Reality()
 
 @dataclass(frozen=True, slots=True)
 class Arrival:
-    """A motion to a goal has ended: how far the tip really is from where the goal really is."""
+    """A motion to a goal has ended: how far the tip really is from where the goal really is.
+
+    Attributes:
+        joint_room: least share of its range that a joint of the group has left to the nearer end; None without limits.
+    """
 
     goal: str
     stamp_ns: int
     distance_m: float
+    joint_room: float | None = None

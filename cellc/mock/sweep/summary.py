@@ -22,7 +22,12 @@ _WORDS = {
     "uniform": "uniform, within",
 }
 _QUANTILES = (0.05, 0.5, 0.95, 1.0)
-_SHOWN_UNITS: Mapping[str, tuple[str, float]] = {"m": ("mm", 1e3), "rad": ("deg", 180.0 / np.pi), "s": ("ms", 1e3)}
+_SHOWN_UNITS: Mapping[str, tuple[str, float]] = {
+    "m": ("mm", 1e3),
+    "rad": ("deg", 180.0 / np.pi),
+    "s": ("ms", 1e3),
+    "1": ("%", 100.0),
+}
 
 
 def explanations(sweep: Sweep) -> tuple[Explanation, ...]:
@@ -39,9 +44,13 @@ def _margins(sweep: Sweep) -> Iterator[tuple[str, str, Sequence[float], float | 
     for goal in goals:
         found = [run.distances_m[goal] for run in sweep.runs if goal in run.distances_m]
         yield f"distance at {goal}", "m", _quantiles(found), sweep.uncertainty.tolerances.get(goal)
-    ages = [run.oldest_s for run in sweep.runs if run.oldest_s is not None]
-    if ages:
-        yield "age of transforms", "s", _quantiles(ages), None
+    for goal in sorted({goal for run in sweep.runs for goal in run.joint_room}):
+        used = [1.0 - 2.0 * run.joint_room[goal] for run in sweep.runs if goal in run.joint_room]
+        yield f"way to a joint's end used at {goal}", "1", _quantiles(used), 1.0
+    for name, of in (("transforms", lambda run: run.oldest_s), ("joint states", lambda run: run.oldest_joints_s)):
+        ages = [age for age in map(of, sweep.runs) if age is not None]
+        if ages:
+            yield f"age of {name}", "s", _quantiles(ages), None
 
 
 def _quantiles(values: Sequence[float]) -> list[float]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from contextlib import closing
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from cellc.compute.work import Hire, Work, stream
 from cellc.contract.rehearsals import RehearsalEntry
@@ -33,6 +33,8 @@ class SweepRun:
         distances_m: goal → farthest that the tip really was from it when it had arrived.
         oldest_s: age of the oldest transform that a goal was looked up by; None without such a goal.
         digest: over attempts and arrivals, so that a replay can be compared bit for bit.
+        joint_room: goal → least share of its range that a joint had left when the tip had arrived.
+        oldest_joints_s: age of the oldest joint state that a motion was planned from; None without one.
     """
 
     number: int
@@ -41,6 +43,8 @@ class SweepRun:
     distances_m: Mapping[str, float]
     oldest_s: float | None
     digest: str
+    joint_room: Mapping[str, float] = field(default_factory=dict)
+    oldest_joints_s: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,14 +120,20 @@ def execute(cell: MockCell, entry: RehearsalEntry, uncertainty: Uncertainty, see
         return SweepRun(number, RunFailure.CRASHED.value, False, {}, None, type(bug).__name__)
     arrivals = watched[0].arrivals if watched else []
     distances: dict[str, float] = {}
+    room: dict[str, float] = {}
     for each in arrivals:
         distances[each.goal] = max(distances.get(each.goal, 0.0), each.distance_m)
+        if each.joint_room is not None:
+            room[each.goal] = min(room.get(each.goal, 1.0), each.joint_room)
     missed = next((goal for goal, most in uncertainty.tolerances.items() if distances.get(goal, 0.0) > most), None)
     outcome = result.outcome.value if missed is None or not result.passed else f"missed {missed}"
     ages = [each.tf_lookup_age for each in result.attempts if each.tf_lookup_age is not None]
     digest = hashlib.sha256(repr((result.attempts, arrivals)).encode()).hexdigest()[:16]
     passed = result.passed and missed is None
-    return SweepRun(number, outcome, passed, distances, max(ages, default=None), digest)
+    planned = [each.joint_state_age for each in result.attempts if each.joint_state_age is not None]
+    return SweepRun(
+        number, outcome, passed, distances, max(ages, default=None), digest, room, max(planned, default=None)
+    )
 
 
 @dataclass(frozen=True, slots=True)

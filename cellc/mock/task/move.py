@@ -210,7 +210,19 @@ def _note_arrival(context: TaskContext, name: str) -> None:
     tip = _really(plant, context.contract.groups[goal.group].tip_frame)
     if place is not None and tip is not None:
         distance_m = math.dist(tip.position, place.apply(goal.pose.xyz))
-        plant.arrivals.append(Arrival(name, plant.now_ns, distance_m))
+        plant.arrivals.append(Arrival(name, plant.now_ns, distance_m, _joint_room(plant, goal.group)))
+
+
+def _joint_room(plant: Plant, group: str) -> float | None:
+    """Return how near the joints of a group are to an end: the least share of its range that one has left."""
+    positions = plant.world.joint_positions(plant.now_ns)
+    shares = []
+    for joint in plant.contract.groups[group].joints:
+        limit = plant.contract.joint_limits.get(joint)
+        if limit is not None and limit.lower is not None and limit.upper is not None and joint in positions:
+            left = min(positions[joint] - limit.lower, limit.upper - positions[joint])
+            shares.append(left / (limit.upper - limit.lower))
+    return min(shares, default=None)
 
 
 def _really(plant: Plant, frame: str) -> Pose | None:

@@ -47,7 +47,7 @@ def test_a_sweep_says_rate_margins_draws_and_verdict_and_a_run_is_made_again(nes
         (["--sweep", "5", "--campaign"], "--sweep does not go with --campaign"),
         (["--journal", "runs.jsonl"], "--journal needs --sweep"),
         (["--journal", "runs.jsonl", "--replay", "ready/delay:arm@1"], "--journal needs --sweep, or --replay sweep:"),
-        (["--sweep", "5", "--gates"], "--gates does not go with --sweep"),
+        (["--sweep", "5", "--gates", "--replay", "sweep:1"], "--replay does not go with --gates"),
         (["--sweep", "5"], "the folder has no `config/uncertainty.json`; write `uncertainty: {}` in the spec"),
         (["--replay", "sweep:x"], "the folder has no `config/uncertainty.json`"),
         (["--sweep", "5", "--seed", str(1 << 64)], "that of a sweep must be below 2^64"),

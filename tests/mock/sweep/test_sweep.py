@@ -13,6 +13,7 @@ import pytest
 from cellc.compute.processes import processes
 from cellc.contract.uncertainty import UncertainQuantity
 from cellc.mock import MockCell, MockError
+from cellc.mock.plant import Plant
 from cellc.mock.sweep.draws import draw
 from cellc.mock.sweep.figures import confidence_of_look, explain, interval
 from cellc.mock.sweep.journal import Journal
@@ -51,6 +52,21 @@ def test_a_tip_is_as_far_from_the_goal_as_the_fixture_was_displaced(nest: MockCe
         assert run.distances_m["put"] == pytest.approx(distance, abs=1e-7)
         assert run.outcome == ("succeeded" if distance <= TOLERANCE_M else "missed put")
     assert {run.outcome for run in twelve.runs} == {"succeeded", "missed put"}
+
+
+def test_how_near_a_joint_came_to_its_end_is_told_of_each_goal(nest: MockCell, twelve: Sweep) -> None:
+    watched: list[Plant] = []
+    assert nest.rehearse(nest.entry("put"), watch=watched.append).passed
+    (arrival,) = watched[0].arrivals
+    stood = watched[0].world.joint_positions(arrival.stamp_ns)
+    # Joints of a UR5e turn 360 degrees to either side, and its elbow 180 (UR5e technical specification).
+    ends = {name: math.radians(180 if "elbow" in name else 360) for name in nest.contract.groups["manipulator"].joints}
+    used = max(abs(stood[name]) / end for name, end in ends.items())
+    assert arrival.joint_room is not None
+    assert 1.0 - 2.0 * arrival.joint_room == pytest.approx(used)
+    assert {tuple(run.joint_room) for run in twelve.runs} == {("put",)}
+    assert all(run.joint_room["put"] == pytest.approx(arrival.joint_room, abs=0.01) for run in twelve.runs)
+    assert all(run.oldest_joints_s is not None for run in twelve.runs)
 
 
 def test_a_run_is_the_same_alone_and_by_any_number_of_processes(nest: MockCell, twelve: Sweep) -> None:
