@@ -54,7 +54,9 @@ def _at(tree: Tree, path: str) -> Tree:
             wanted = rest.partition(".")[0]
             if not wanted:
                 raise click.UsageError(f"`{path}` has an empty name beside a dot")
-            raise click.UsageError(f"there is no `{wanted}` in `{path}`: {did_you_mean(wanted, tree, 'names here')}")
+            above = path.removesuffix(rest).rstrip(".")
+            place = f"in `{above}`" if above else "at the top of the cell"
+            raise click.UsageError(f"there is no `{wanted}` {place}: {did_you_mean(wanted, tree, 'names here')}")
         key = max(keys, key=len)
         tree, rest = tree[key], rest[len(key) + 1 :]
     return tree

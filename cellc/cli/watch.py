@@ -53,7 +53,7 @@ def watch(files: tuple[str, ...], builds: bool, output: Path, select: tuple[str,
         clear()
         for spec in changed:
             watched.packages[spec] = _answer(spec, wanted, output if builds else None)
-        number = len(watched.specs())
+        number = sum(not os.path.isdir(spec) for spec in watched.specs())
         show(f"watching {number} {'cell' if number == 1 else 'cells'}; Ctrl-C ends it", to=Stream.ERR)
         # Folders that a cell names only now have no past; what changed meanwhile has one.
         before, changed = watched.next_change({**watched.look(), **before})

@@ -19,6 +19,9 @@ from cellc.review.rules import APPROVAL, AREA_OF_FILE, THINGS, Fit, Row, Rule, T
 from cellc.review.units import difference, shown
 from cellc.vocabulary import Grade, ReviewArea
 
+_MADE_FROM = re.compile(r"\bcellc build (?:'[^']*'|[^\s`]+)")
+"""A spec that was moved makes the same package: its path stands in the head of every file."""
+
 _SHOWN_LINES = 3
 _SHOWS = ("graph/", "README.md")
 """Files that show people what the others say, in the order of the spec: they are told where a hand edited them."""
@@ -103,11 +106,14 @@ def _told(before: Facts, after: Facts) -> list[Change]:
 
 
 def _lines_of(facts: Facts, renamed: bool) -> Mapping[str, Sequence[str]]:
-    """Return the lines of every file, with the name of the cell left open where it changed: each file repeats it."""
+    """Return the lines of every file, without what each repeats: where the spec lies, and a name that changed."""
+    opened = {
+        file: tuple(_MADE_FROM.sub("cellc build SPEC", line) for line in lines) for file, lines in facts.lines.items()
+    }
     if not renamed:
-        return facts.lines
+        return opened
     name = re.compile(rf"(?<!\w){re.escape(facts.contract.cell)}(?!\w)")
-    return {file: tuple(name.sub("CELL", line) for line in lines) for file, lines in facts.lines.items()}
+    return {file: tuple(name.sub("CELL", line) for line in lines) for file, lines in opened.items()}
 
 
 def _ids(facts: Facts) -> frozenset[str]:

@@ -59,6 +59,8 @@ def read_subject(path: Path) -> Subject:
         ViewError: the folder is none that `cellc build` wrote, or not as it was written beyond what edits explain.
     """
     spec = path / SPEC_FILE
+    if not path.exists():
+        raise ViewError(f"{path.as_posix()}: there is no such file or folder")
     try:
         if path.is_dir() and (not spec.is_file() or (path / CONTRACT_FILE).exists()):
             return _of_folder(path)

@@ -156,7 +156,12 @@ def test_one_cell_named_twice_is_no_fault(tmp_path: Path) -> None:
         (("schema", "cel"), "there is no schema `cel`"),
         (("explain", ""), "there is no code"),
         (("show", MINIMAL, "devices..arm"), "`devices..arm` has an empty name beside a dot"),
-        (("show", MINIMAL, "control.update_rate"), "did you mean `update_rate_hz`?"),
+        (
+            ("show", MINIMAL, "control.update_rate"),
+            "there is no `update_rate` in `control`: did you mean `update_rate_hz`?",
+        ),
+        (("show", MINIMAL, "device.arm"), "there is no `device` at the top of the cell: did you mean `devices`?"),
+        (("view", "nowhere.yaml"), "nowhere.yaml: there is no such file or folder"),
     ],
 )
 def test_argument_that_means_nothing_is_a_usage_error(

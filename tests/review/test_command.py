@@ -9,7 +9,7 @@ import jsonschema
 import pytest
 
 from cellc.spec.schema import schema_files
-from tests.cells import generated
+from tests.cells import ROOT, generated
 from tests.cli.run import run
 from tests.review.revisions import SMALL, Repository, edited, new_repository
 
@@ -47,6 +47,14 @@ def test_a_diff_ends_with_one_and_begins_with_its_sum() -> None:
     # Tolerances are looked at by G2 and L6, and everything after them rests on that.
     again = lines[lines.index("to be passed again, for their evidence counts no longer") + 1 :]
     assert [line.split()[0] for line in again] == ["G2", "G3", "G4", "G5", "G6", "G7", "L6"]
+
+
+def test_a_spec_that_was_moved_makes_the_same_cell(tmp_path: Path) -> None:
+    moved = tmp_path / "moved here" / "line.yaml"
+    moved.parent.mkdir()
+    moved.write_text((ROOT / SMALL).read_text(encoding="utf-8"), encoding="utf-8")
+    ran = run("diff", generated("minimal").as_posix(), moved.as_posix())
+    assert (ran.code, ran.out.partition(";")[0]) == (0, f"{moved.as_posix()}: no change")
 
 
 @pytest.mark.usefixtures("_inside")
