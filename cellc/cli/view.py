@@ -31,7 +31,8 @@ from cellc.printing import refuse, show
 def view(folder: str, output: Path | None, names: tuple[str, ...], against: str | None, seed: int) -> None:
     """Write one HTML page of CELL, a spec or a generated folder: 3D, rehearsals played back, findings, gates.
 
-    The page needs nothing else, neither network nor server: it opens from a file, on a phone too, and prints.
+    The page needs nothing else, neither network nor server: it opens from a file, on a phone too, and prints. Of a spec
+    with errors, what can be linked is drawn, and the rest is listed; a URDF or xacro file is drawn as a robot alone.
 
     \b
     cellc view cells/bench/cell.yaml                       writes bench.html
@@ -65,6 +66,8 @@ def view(folder: str, output: Path | None, names: tuple[str, ...], against: str 
         refuse(f"{place.as_posix()}: cannot be written: {(error.strerror or 'unknown reason').lower()}")
         raise click.exceptions.Exit(2) from None
     show(f"wrote {place.as_posix()}, {len(page) / 1e6:.1f} MB")
+    if against is not None and subject.folder is None:
+        show(f"not compared with {against}: there is no package of {folder}")
     if library is None:
         show("without 3D: the installed trimesh ships no three.js that cellc knows")
     if subject.findings is not None and not subject.findings.ok:

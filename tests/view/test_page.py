@@ -142,8 +142,9 @@ def _home(scene: dict[str, Any]) -> list[float]:
 
 
 def test_a_spec_that_is_no_yaml_is_shown_with_its_findings_alone(tmp_path: Path) -> None:
-    ran, found = _viewed(tmp_path, "format: 1\ncell: bench\nframes: { <b>tip: {}\n")
+    ran, found = _viewed(tmp_path, "format: 1\ncell: bench\nframes: { <b>tip: {}\n", "--against", PICK)
     assert ran.code == 1
+    assert f"not compared with {PICK}: there is no package of {tmp_path.as_posix()}/cell.yaml" in ran.out
     assert found.scripts == []
     assert "3 | frames: { <b>tip" in found.text
     assert "nothing is drawn: an error keeps the cell from being linked" in found.text
@@ -203,8 +204,8 @@ def test_a_robot_alone_is_drawn(tmp_path: Path) -> None:
     assert "a robot alone: a cell that mounts it" in found.text
 
 
-def _viewed(folder: Path, text: str) -> tuple[Ran, Page]:
-    ran = run("view", written_spec(folder, text).as_posix(), "-o", (folder / "x.html").as_posix())
+def _viewed(folder: Path, text: str, *more: str) -> tuple[Ran, Page]:
+    ran = run("view", written_spec(folder, text).as_posix(), "-o", (folder / "x.html").as_posix(), *more)
     return ran, Page((folder / "x.html").read_text(encoding="utf-8"))
 
 
