@@ -14,7 +14,7 @@ from cellc.mock.assemble import assemble, start_nodes
 from cellc.mock.bringup import Bringup
 from cellc.mock.bus.qos import unmatched_pairs
 from cellc.mock.control import ManagerAbortedError
-from cellc.mock.errors import LimitReachedError, MockError
+from cellc.mock.errors import LimitReachedError, MockError, OversleptError
 from cellc.mock.faults.ports import FaultPorts, fault_ports
 from cellc.mock.faults.registry import Injection, any_begun, build_fault
 from cellc.mock.folder import GeneratedFolder, read_folder
@@ -36,7 +36,8 @@ class _Run:
     """One run of a rehearsal.
 
     Attributes:
-        watch: sees the plant first; it may listen, and must not change anything.
+        watch: sees the plant first; it may listen, and must not change anything. It sees another plant where the run
+            is made again.
         reality: where the cell differs from what its folder says.
         standing: copies of the cell that the run may begin with; None where it must begin with a cell that is off.
     """
@@ -56,12 +57,15 @@ class _Run:
             MockError: a fault names what the contract does not have.
         """
         try:
-            result = self._executed()
+            try:
+                result = self._executed(may_oversleep=self.standing is not None and not self.rehearsal.faults)
+            except OversleptError:
+                result = self._executed(may_oversleep=False)
         except LimitReachedError as error:
             result = _not_run(self.rehearsal, error)
         return replace(result, edited=self.folder.edited, unseen=self.memory.model.unseen)
 
-    def _executed(self) -> RehearsalResult:
+    def _executed(self, *, may_oversleep: bool) -> RehearsalResult:
         rehearsal = self.rehearsal
         injections = [Injection(entry, build_fault(entry, self.folder.contract)) for entry in rehearsal.faults]
         alike = rehearsal.bring_up == "mock" and all(entry.phase is None for entry in rehearsal.faults)
@@ -69,7 +73,7 @@ class _Run:
         copied = None if standing is None else self._resumed(standing)
         if copied is not None:
             plant, evidence = copied
-            return _run_task(plant, fault_ports(plant), rehearsal, self.seed, injections, evidence)
+            return _run_task(plant, fault_ports(plant), rehearsal, self.seed, injections, evidence, may_oversleep)
         try:
             plant = assemble(self.folder, self.memory, self.seed, rehearsal.bring_up, self.reality)
         except ManagerAbortedError as aborted:
@@ -92,7 +96,7 @@ class _Run:
             failed = AttemptOutcome.CLAIM_FAILURE if plant.effects.refused else RunFailure.BRINGUP_FAILURE
             outcome = AttemptOutcome.UNCOMMANDED_MOTION if plant.effects.motions else failed
             return _not_up(rehearsal, evidence, _findings(plant), outcome)
-        return _run_task(plant, ports, rehearsal, self.seed, injections, evidence)
+        return _run_task(plant, ports, rehearsal, self.seed, injections, evidence, may_oversleep)
 
     def _resumed(self, standing: StandingMemory) -> tuple[Plant, tuple[StageEvidence, ...]] | None:
         """Return a plant that stands after its bring-up; None where it must be brought up."""
@@ -116,6 +120,7 @@ def _run_task(
     seed: int,
     injections: Sequence[Injection],
     evidence: tuple[StageEvidence, ...],
+    may_oversleep: bool,
 ) -> RehearsalResult:
     """Inject the faults at their times, and run the task to its named end."""
     begun_ns = plant.now_ns
@@ -125,7 +130,8 @@ def _run_task(
         if injection.entry.phase is None:
             injection.schedule(ports, begun_ns)
     disturbed = partial(any_begun, injections)
-    task = Task(rehearsal, TaskContext(plant, begun_ns + round(rehearsal.timeout_s * 1e9), seed, disturbed))
+    deadline_ns = begun_ns + round(rehearsal.timeout_s * 1e9)
+    task = Task(rehearsal, TaskContext(plant, deadline_ns, seed, disturbed, may_oversleep))
     plant.simulation.run_process(task.run())
     absent = tuple(injection.describe_absence() for injection in injections if injection.begun_ns is None)
     return RehearsalResult(
@@ -291,7 +297,8 @@ class MockCell:
         """Run a rehearsal that need not stand in the folder; ``watch`` sees the plant before anything runs.
 
         Args:
-            from_off: bring the cell up where ``watch`` is given, so that it sees that too; else a copy may do.
+            from_off: bring the cell up where ``watch`` is given, so that it sees that too, and run once; else a copy
+                may do, and a run that is made again, whose plant ``watch`` sees last.
 
         Raises:
             MockError: it names what the contract does not have.

@@ -36,3 +36,7 @@ class LimitReachedError(Exception):
 
 class FaultMissedError(Exception):
     """A fault that was to begin has nothing to begin with; the message says why."""
+
+
+class OversleptError(Exception):
+    """A task slept over what it would have seen by looking all the time; the run is made again, with every look."""

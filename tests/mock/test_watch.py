@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 import pytest
 
 from cellc.mock import MockCell
@@ -46,3 +49,27 @@ def test_a_quiet_rehearsal_ends_bit_by_bit_as_with_every_look_and_needs_fewer(
     monkeypatch.setattr(context, "next_look_ns", always)
     assert repr(calm) == repr(cell.run("pick_and_place"))
     assert looks["seldom"] < 0.7 * looks["always"]
+
+
+def _bound_observations(contract: Any) -> None:
+    """Let an observation be too old before the next one comes, which is 100 ms later."""
+    contract["interfaces"]["/object_pose"]["max_age_s"] = 0.14
+
+
+def test_a_task_that_slept_over_a_stale_observation_runs_again_with_every_look(
+    edit_contract: Callable[[Callable[[Any], None]], MockCell],
+) -> None:
+    cell, plants = edit_contract(_bound_observations), list[Plant]()
+    entry = cell.entry("pick_and_place")
+    slept = cell.rehearse(entry, watch=plants.append, from_off=False)
+    assert slept.outcome == "stale_state"
+    assert len(plants) == 2
+    assert repr(slept) == repr(cell.rehearse(entry, watch=plants.append))
+    assert len(plants) == 3
+
+
+def test_a_task_whose_observations_come_in_time_runs_once_and_ends_as_with_every_look(cell: MockCell) -> None:
+    entry, plants = cell.entry("pick_and_place"), list[Plant]()
+    slept = cell.rehearse(entry, watch=plants.append, from_off=False)
+    assert len(plants) == 1
+    assert repr(slept) == repr(cell.rehearse(entry, watch=plants.append))

@@ -29,6 +29,7 @@ def execute(cell: MockCell, run: CampaignRun, seed: int) -> RunEnd:
     journals: list[CommandJournal] = []
 
     def watch(plant: Plant) -> None:
+        journals.clear()
         for server in plant.control.servers():
             server.journal.listening = True
             journals.append(server.journal)

@@ -24,6 +24,7 @@ class ObservationInbox:
         newest: the pose that arrived last.
         max_age_s: older observations are stale.
         on_stale: what the contract says to do with a stale one.
+        lapsed_ns: when one came last that found the one before too old, or was itself; None where none did.
     """
 
     def __init__(self, interface: ContractInterface | None, clock: Clock, simulation: Simulation) -> None:
@@ -35,6 +36,7 @@ class ObservationInbox:
         max_age_s = None if interface is None else interface.max_age_s
         self.arrived = Signal(from_background=True)
         self.newest: ObjectPose | None = None
+        self.lapsed_ns: int | None = None
         self.max_age_s = DEFAULT_MAX_AGE_S if max_age_s is None else max_age_s
         self.on_stale = "reject_goal" if interface is None or interface.on_stale is None else interface.on_stale
         self._clock = clock
@@ -68,6 +70,11 @@ class ObservationInbox:
         """Return the first simulated instant, from now on, at which an observation of this stamp is too old."""
         return self._clock.when(stamp_ns + round(self.max_age_s * 1e9) + 1, self._simulation.now_ns)
 
+    def lapsed_since(self, since_ns: int) -> bool:
+        """Tell whether at some instant since then, or now, the newest observation was none to act on."""
+        stale = self.newest is None or self.is_stale(self.newest.stamp_ns)
+        return stale or (self.lapsed_ns is not None and self.lapsed_ns >= since_ns)
+
     def describe(self, frame: str) -> str:
         """Say how old the newest observation of ``frame`` is."""
         if self.newest is None:
@@ -77,7 +84,9 @@ class ObservationInbox:
 
     def accept(self, pose: ObjectPose) -> None:
         """Take note of a pose that has reached the task."""
-        self.newest = pose
+        before, self.newest = self.newest, pose
+        if self.is_stale(pose.stamp_ns) or (before is not None and self.is_stale(before.stamp_ns)):
+            self.lapsed_ns = self._simulation.now_ns
         self.arrived.fire(self._simulation.now_ns)
         for listener in self._listeners:
             listener(pose)

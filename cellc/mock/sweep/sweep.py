@@ -118,7 +118,7 @@ def execute(cell: MockCell, entry: RehearsalEntry, uncertainty: Uncertainty, see
         raise
     except Exception as bug:  # a run that breaks the mock must not hide the runs after it
         return SweepRun(number, RunFailure.CRASHED.value, False, {}, None, type(bug).__name__)
-    arrivals = watched[0].arrivals if watched else []
+    arrivals = watched[-1].arrivals if watched else []
     distances: dict[str, float] = {}
     room: dict[str, float] = {}
     for each in arrivals:

@@ -9,11 +9,13 @@ from cellc.contract.contract import Contract
 from cellc.mock.control import ControlEvent, ControllerChanged, GripperEnded, TrajectoryEnded
 from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.engine.process import Signal, Wait, Waiting
+from cellc.mock.errors import OversleptError
+from cellc.mock.nodes.observations import ObservationInbox
 from cellc.mock.plant import Plant, TaskNode
 from cellc.mock.result import AttemptRecord, CancelRecord, PacketStep, ResultRecord, TracePoint
 from cellc.mock.stops import EMERGENCY_STOP, FAULT, PROTECTIVE_STOP
 from cellc.mock.task.bounds import joint_state_age_s
-from cellc.mock.task.watch import WATCH_NS, next_look_ns
+from cellc.mock.task.watch import WATCH_NS, is_calm, next_look_ns
 from cellc.transforms import Pose
 from cellc.vocabulary import AttemptOutcome
 
@@ -164,6 +166,7 @@ class TaskContext:
         deadline_ns: end of the whole rehearsal.
         seed: told to whatever draws numbers.
         is_disturbed: tells whether a fault has begun.
+        may_oversleep: no fault can begin, and a run whose task slept too long is made again.
         observed: stamp of the kept observation, by dynamic frame.
         retreats: pose of the tip link in the base from which a group's goal was approached, while it stands there.
         held: object in each gripper.
@@ -176,6 +179,7 @@ class TaskContext:
     deadline_ns: int
     seed: int
     is_disturbed: Callable[[], bool]
+    may_oversleep: bool = False
     observed: dict[str, int] = field(default_factory=dict)
     retreats: dict[str, Pose] = field(default_factory=dict)
     held: dict[str, str] = field(default_factory=dict)
@@ -217,12 +221,27 @@ class TaskContext:
         Raises:
             AttemptError: the cell stopped, missed cycles, or the rehearsal's time is over.
         """
-        until_ns = min(until_ns, self.deadline_ns, self._observed_until_ns())
+        slept_ns, trusted = self.now_ns, self._trusted()
+        until_ns = min(until_ns, self.deadline_ns)
+        if trusted is None:
+            until_ns = min(until_ns, self._observed_until_ns())
         if until_ns > self.now_ns + WATCH_NS:
             disturbed = self.is_disturbed() or any(signal.from_background for signal in signals)
             until_ns = min(until_ns, next_look_ns(self.plant, disturbed=disturbed))
         yield Wait(until_ns, (self.control.changed, *signals))
+        if trusted is not None and trusted.lapsed_since(slept_ns):
+            raise OversleptError
         self.check_cell()
+
+    def _trusted(self) -> ObservationInbox | None:
+        """Return what brings the observation that is acted on, where it is asked afterwards whether it came in time.
+
+        That is where a run may be made again, and nothing else can happen.
+        """
+        if not self.may_oversleep or self.acting_on is None or not is_calm(self.plant):
+            return None
+        inbox = self.node.observations.get(self.acting_on)
+        return None if inbox is None or inbox.newest is None else inbox
 
     def let_take_effect(self) -> Waiting[None]:
         """Wait until what was asked of controller managers and adapters at this instant has been carried out."""

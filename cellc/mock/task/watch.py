@@ -7,8 +7,11 @@ vain. A wait then ends at the instant of the same raster at which the task would
 nothing is seen earlier or later than by looking all the time. Evidence is written in pieces that these looks part: the
 task looks as ever where it is kept.
 
-11 s of a six-joint arm took 78 looks and 110 ms of processor time; with this, and blocks as long as the wait, they take
-50 looks and 83 ms.
+An observation that a motion rests on may turn stale without an event. Where no fault can begin the task trusts that it
+does not, and asks afterwards; a run in which it did is made again, with every look.
+
+11 s of a six-joint arm took 78 looks; with this they take 20, and with blocks as long as the wait half the processor
+time.
 """
 
 from __future__ import annotations
