@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from tests.cells import CORPUS, build_into
+from tests.cli.run import run
 
 CELL = """format: 1
 cell: line
@@ -51,6 +52,7 @@ def _committed(tmp_path_factory: pytest.TempPathFactory) -> Path:
     cell = folder / "cells" / "line"
     shutil.copytree(CORPUS / "invalid" / "base" / "stage", cell / "stage")
     (cell / "cell.yaml").write_text(CELL, encoding="utf-8")
+    assert run("format", str(folder)).code == 0
     build_into(folder / "generated" / "line", cell / "cell.yaml")
     git(folder, "init", "-q", "-b", "main")
     git(folder, "add", "-A")
