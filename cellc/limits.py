@@ -93,6 +93,7 @@ class Limits:
     )
     mock_stop_cycles: int = _row(20_000, "cycles", 10_000_000, "update cycles that a stop of a trajectory takes")
     campaign_runs: int = _row(10_000, "runs", 1_000_000, "runs of a campaign, and pairs and processes asked for")
+    sweep_runs: int = _row(1_000_000, "runs", 100_000_000, "runs of a sweep, each of which is kept with about 1 kB")
     mock_events: int = _row(1_000_000, "events", 1_000_000_000, "images, messages and timers of one run")
 
 

@@ -131,6 +131,11 @@ def load_checked(options: MockOptions) -> MockCell:
     for name, value in (("number of pairs", options.pairs), ("number of jobs", options.jobs)):
         if value is not None and value > most:
             raise MockError("", f"the {name} is {value}; it must be at most {most}; {option('campaign-runs')}")
+    if options.sweep > limits().sweep_runs:
+        raise MockError(
+            "",
+            f"the number of runs is {options.sweep}; it must be at most {limits().sweep_runs}; {option('sweep-runs')}",
+        )
     return load(Path(options.folder), edited=options.edited)
 
 

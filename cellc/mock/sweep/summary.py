@@ -115,8 +115,15 @@ def _margin_table(sweep: Sweep) -> Table:
 
 
 def _drawn_table(quantities: Sequence[UncertainQuantity]) -> Table:
-    drawn = ((one.name, f"{_WORDS[one.distribution]} {_shown(one.spread, one.unit)}", one.source) for one in quantities)
-    return [("drawn", "distribution", "by"), *drawn]
+    """Return what is drawn; axes of one thing that are drawn alike share a row."""
+    alike: dict[tuple[str, str, str], list[str]] = {}
+    for one in quantities:
+        thing, _, axis = one.name.rpartition(" ")
+        thing, axis = (one.name, "") if one.axis == "offset" else (thing, axis)
+        drawn = f"{_WORDS[one.distribution]} {_shown(one.spread, one.unit)}"
+        alike.setdefault((thing, drawn, one.source), []).append(axis)
+    rows = ((f"{thing} {', '.join(axes)}".strip(), drawn, source) for (thing, drawn, source), axes in alike.items())
+    return [("drawn", "distribution", "by"), *rows]
 
 
 def _explained_table(sweep: Sweep) -> Table:

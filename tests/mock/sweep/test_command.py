@@ -20,7 +20,7 @@ def test_a_sweep_says_rate_margins_draws_and_verdict_and_a_run_is_made_again(nes
     assert ran.code == 1, ran.out
     assert lines[0] == "put: 6 runs with seed 0, 5 succeeded"
     assert lines[1].endswith("with confidence 0.975 (Clopper-Pearson)")
-    drawn = "nest x normal, deviation in space 1 mm calibrations.nest.residual"
+    drawn = "nest x, y, z normal, deviation in space 1 mm calibrations.nest.residual"
     assert drawn in [" ".join(line.split()) for line in lines]
     assert lines[-1] == "UNKNOWN: 85.0000% of the runs must succeed, with confidence 0.95; 6 runs do not decide it"
     failed = next(line.split()[1].rstrip(":") for line in lines if line.startswith("FAILED"))
@@ -50,6 +50,7 @@ def test_a_sweep_says_rate_margins_draws_and_verdict_and_a_run_is_made_again(nes
         (["--sweep", "5", "--gates", "--replay", "sweep:1"], "--replay does not go with --gates"),
         (["--sweep", "5"], "the folder has no `config/uncertainty.json`; write `uncertainty: {}` in the spec"),
         (["--replay", "sweep:x"], "the folder has no `config/uncertainty.json`"),
+        (["--sweep", "1000001"], "must be at most 1000000; `--limit sweep-runs="),
         (["--sweep", "5", "--seed", str(1 << 64)], "that of a sweep must be below 2^64"),
         (["--sweep", "5", "--jobs", "2", "--cluster", "tcp://127.0.0.1:1"], "--jobs does not go with --cluster"),
     ],
