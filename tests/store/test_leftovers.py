@@ -16,6 +16,7 @@ from cellc.mock.errors import MockError
 from cellc.mock.evidence.folder import EvidenceFolder
 from cellc.output.write import write
 from cellc.store.cache import read_entry, write_entry
+from cellc.store.cache_key import cache_key
 from cellc.store.swap import write_whole
 from tests.output.building import as_contents, build_of, contents
 
@@ -41,6 +42,7 @@ def test_half_an_entry_of_a_killed_process_goes_with_the_next_one(
 ) -> None:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     monkeypatch.delenv("CELLC_NO_CACHE", raising=False)
+    assert cache_key(None) is not None  # that was made before
     with monkeypatch.context() as killed:
         killed.setattr(os, "getpid", lambda: _DEAD)
         killed.setattr(os, "replace", lambda *_paths: None)
