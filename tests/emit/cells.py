@@ -29,10 +29,15 @@ def emitted(folder: Path, text: str) -> dict[str, str]:
 
 
 @cache
+def emitted_once(text: str) -> dict[str, str]:
+    """Return the text of every artifact of a spec that several tests read; nobody changes them."""
+    with tempfile.TemporaryDirectory() as folder:
+        return emitted(Path(folder), text)
+
+
 def artifacts_of(cell: str, distro: str = "jazzy") -> dict[str, str]:
     """Return the artifacts of a cell of the repository, for any distribution."""
-    with tempfile.TemporaryDirectory() as folder:
-        return emitted(Path(folder), spec_text(cell).replace("ros: jazzy", f"ros: {distro}"))
+    return emitted_once(spec_text(cell).replace("ros: jazzy", f"ros: {distro}"))
 
 
 def contract_data(text: str) -> Any:

@@ -12,7 +12,7 @@ import pytest
 import xmlschema
 
 from tests.cells import DISTROS, spec_text
-from tests.emit.cells import artifacts_of, emitted
+from tests.emit.cells import artifacts_of, emitted, emitted_once
 from tests.foreign_yaml import safe_load
 from tests.oracles import UPSTREAM, needs_upstream
 
@@ -41,15 +41,15 @@ def _of_middleware(artifacts: dict[str, str]) -> dict[str, str]:
 @needs_upstream
 @pytest.mark.parametrize("distro", DISTROS)
 @pytest.mark.parametrize("discovery", ["multicast", "unicast", "localhost", "off"])
-def test_fast_dds_profile_is_what_fast_dds_declares(distro: str, discovery: str, tmp_path: Path) -> None:
-    files = emitted(tmp_path, _text("rmw_fastrtps_cpp", discovery, distro))
+def test_fast_dds_profile_is_what_fast_dds_declares(distro: str, discovery: str) -> None:
+    files = emitted_once(_text("rmw_fastrtps_cpp", discovery, distro))
     _holds_for_both(files, distro)
 
 
 @needs_upstream
 @pytest.mark.parametrize("distro", ["kilted", "lyrical"])  # version 3, which is that of the schema
-def test_clients_of_discovery_servers_are_what_fast_dds_declares(distro: str, tmp_path: Path) -> None:
-    files = emitted(tmp_path, _text("rmw_fastrtps_cpp", SERVERS, distro))
+def test_clients_of_discovery_servers_are_what_fast_dds_declares(distro: str) -> None:
+    files = emitted_once(_text("rmw_fastrtps_cpp", SERVERS, distro))
     # The parser has had it since 2.6 (Fast DDS 3.2.5, XMLElementParser.cpp:3940); the schema beside it has not.
     _holds_for_both({path: text.replace("SUPER_CLIENT", "CLIENT") for path, text in files.items()}, distro)
 
@@ -66,16 +66,16 @@ def _holds_for_both(files: dict[str, str], distro: str) -> None:
 
 @needs_upstream
 @pytest.mark.parametrize("discovery", ["multicast", "unicast", "localhost", "off"])
-def test_cyclone_profile_is_what_cyclone_declares(discovery: str, tmp_path: Path) -> None:
-    files = emitted(tmp_path, _text("rmw_cyclonedds_cpp", discovery))
+def test_cyclone_profile_is_what_cyclone_declares(discovery: str) -> None:
+    files = emitted_once(_text("rmw_cyclonedds_cpp", discovery))
     schema = xmlschema.XMLSchema(UPSTREAM / "xsd" / "cyclonedds.xsd")
     for host in ("control_pc", "vision_pc"):
         schema.validate(files[f"middleware/{host}.cyclonedds.xml"])
 
 
 @pytest.mark.parametrize("distro", ["humble", "kilted"])
-def test_every_host_asks_every_discovery_server(distro: str, tmp_path: Path) -> None:
-    files = emitted(tmp_path, _text("rmw_fastrtps_cpp", SERVERS, distro))
+def test_every_host_asks_every_discovery_server(distro: str) -> None:
+    files = emitted_once(_text("rmw_fastrtps_cpp", SERVERS, distro))
     for host in ("control_pc", "vision_pc"):
         tree = ElementTree.fromstring(files[f"middleware/{host}.fastdds.xml"])
         (discovery,) = tree.iterfind(".//{*}builtin/{*}discovery_config")
@@ -92,8 +92,8 @@ def test_every_host_asks_every_discovery_server(distro: str, tmp_path: Path) -> 
         assert prefixes == (known if distro == "humble" else [])
 
 
-def test_discovery_server_is_started_on_its_host_where_the_others_ask_it(tmp_path: Path) -> None:
-    files = emitted(tmp_path, _text("rmw_fastrtps_cpp", SERVERS))
+def test_discovery_server_is_started_on_its_host_where_the_others_ask_it() -> None:
+    files = emitted_once(_text("rmw_fastrtps_cpp", SERVERS))
     starts = {path: text.splitlines()[-1] for path, text in files.items() if "discovery_server" in path}
     assert starts == {
         "middleware/control_pc.discovery_server_0": "exec fastdds discovery -i 0 -l 10.10.0.10 -p 11811",
@@ -103,15 +103,15 @@ def test_discovery_server_is_started_on_its_host_where_the_others_ask_it(tmp_pat
         assert f"generated/ur5e_pick/{path}" in files["README.md"]
 
 
-def test_cell_without_discovery_server_starts_none(tmp_path: Path) -> None:
-    files = emitted(tmp_path, _text("rmw_fastrtps_cpp", "multicast, servers: [{host: control_pc}]"))
+def test_cell_without_discovery_server_starts_none() -> None:
+    files = emitted_once(_text("rmw_fastrtps_cpp", "multicast, servers: [{host: control_pc}]"))
     assert not any("discovery_server" in path or "discovery_config" in text for path, text in files.items())
 
 
 @pytest.mark.parametrize("rmw", ["rmw_fastrtps_cpp", "rmw_cyclonedds_cpp", "rmw_zenoh_cpp"])
 @pytest.mark.parametrize("discovery", ["multicast", "unicast", "localhost"])
-def test_no_ros_traffic_is_bound_to_the_control_card(rmw: str, discovery: str, tmp_path: Path) -> None:
-    files = _of_middleware(emitted(tmp_path, _text(rmw, discovery)))
+def test_no_ros_traffic_is_bound_to_the_control_card(rmw: str, discovery: str) -> None:
+    files = _of_middleware(emitted_once(_text(rmw, discovery)))
     assert not any(CONTROL_CARD in text for text in files.values())
     profile = "".join(text for path, text in files.items() if "control_pc." in path and not path.endswith(".sh"))
     assert ("10.10.0.10" in profile) is (discovery != "localhost")
@@ -139,24 +139,24 @@ def test_no_ros_traffic_is_bound_to_the_control_card(rmw: str, discovery: str, t
     ],
 )
 def test_environment_speaks_the_words_of_the_distribution(
-    rmw: str, distro: str, discovery: str, lines: list[str], tmp_path: Path
+    rmw: str, distro: str, discovery: str, lines: list[str]
 ) -> None:
-    shell = emitted(tmp_path, _text(rmw, discovery, distro))["middleware/control_pc.sh"].splitlines()
+    shell = emitted_once(_text(rmw, discovery, distro))["middleware/control_pc.sh"].splitlines()
     about_discovery = [line for line in shell if "DISCOVERY" in line or "LOCALHOST_ONLY" in line or "PEERS" in line]
     assert about_discovery == lines
     assert 'export ROS_DOMAIN_ID="42"' in shell
 
 
-def test_profiles_that_the_environment_names_are_in_the_package(tmp_path: Path) -> None:
+def test_profiles_that_the_environment_names_are_in_the_package() -> None:
     for rmw in ("rmw_fastrtps_cpp", "rmw_cyclonedds_cpp", "rmw_zenoh_cpp"):
-        files = emitted(tmp_path, _text(rmw, "unicast"))
+        files = emitted_once(_text(rmw, "unicast"))
         named = re.findall(r"\$\{_cell_share\}/([^\"]+)", files["middleware/control_pc.sh"])
         assert named
         assert set(named) <= set(files)
 
 
-def test_zenoh_router_listens_and_sessions_connect_to_it_alone(tmp_path: Path) -> None:
-    files = emitted(tmp_path, _text("rmw_zenoh_cpp", "unicast"))
+def test_zenoh_router_listens_and_sessions_connect_to_it_alone() -> None:
+    files = emitted_once(_text("rmw_zenoh_cpp", "unicast"))
     # JSON5 with bare keys and trailing commas, brought back to JSON by hand.
     documents = {}
     for kind in ("router", "session"):

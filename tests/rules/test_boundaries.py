@@ -15,6 +15,6 @@ from tests.rules.examples import Example, diagnose_example
     BOUNDARIES,
     ids=[f"{code}-{number}" for number, (code, *_) in enumerate(BOUNDARIES)],
 )
-def test_rule_turns_at_its_bound(code: str, fragment: Example, reported: bool, tmp_path: Path) -> None:
-    found = {diagnostic.code for diagnostic in diagnose_example(fragment, tmp_path)}
+def test_rule_turns_at_its_bound(code: str, fragment: Example, reported: bool, folder: Path) -> None:
+    found = {diagnostic.code for diagnostic in diagnose_example(fragment, folder)}
     assert (code in found) is reported, found

@@ -17,12 +17,6 @@ _OWN = re.compile(r"docs/principles\.md#([\w-]+)")
 FOLDER = Path(__file__).resolve().parents[2] / "cellc" / "rules"
 
 
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return the folder that each example is written to: the devices beside the cells are read once."""
-    return tmp_path_factory.mktemp("examples")
-
-
 def test_the_complete_cell_is_clean(folder: Path) -> None:
     assert diagnose_example(Example("yaml", "{}"), folder) == ()
 

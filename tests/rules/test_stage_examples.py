@@ -54,12 +54,12 @@ def test_commands_of_an_example_lead_to_the_code(
 
 
 @pytest.mark.parametrize("page", _pages("spec", "link"), ids=lambda page: page.code)
-def test_example_of_a_stage_is_reported_at_its_mark_and_nowhere_else(page: CodePage, tmp_path: Path) -> None:
+def test_example_of_a_stage_is_reported_at_its_mark_and_nowhere_else(page: CodePage, folder: Path) -> None:
     example = Example("yaml", page.example.lstrip("\n"))
     lines = enumerate(example.text.splitlines(), start=1)
     marked = [(number, mark[1]) for number, line in lines if (mark := re.search("# expect at (.+)", line))]
     expected = [Place(page.code, number, key) for number, key in marked]
-    found = places(diagnose_example(example, tmp_path), example, tmp_path)
+    found = places(diagnose_example(example, folder), example, folder)
     assert len(found) == len(expected) > 0
     assert all(matches(one, wanted) for one, wanted in zip(found, expected, strict=True)), found
 

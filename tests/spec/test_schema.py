@@ -23,6 +23,7 @@ from tests.spec.reading import ARM, CELLS, HEAD, as_yaml, document_of, parsed
 from tests.spec.test_parse import CASES
 
 SCHEMA = cell_schema()
+FILES = schema_files()
 
 
 def _is_integer(checker: object, value: object) -> bool:
@@ -52,14 +53,14 @@ def compiler_accepts(data: Plain) -> bool:
         return parsed(as_yaml(data), Path(folder)).ok
 
 
-@pytest.mark.parametrize("name", sorted(schema_files()))
+@pytest.mark.parametrize("name", sorted(FILES))
 def test_committed_schema_is_the_one_of_the_models(name: str) -> None:
-    assert (ROOT / "schemas" / name).read_text(encoding="utf-8") == schema_files()[name]
+    assert (ROOT / "schemas" / name).read_text(encoding="utf-8") == FILES[name]
 
 
-@pytest.mark.parametrize("name", sorted(schema_files()))
+@pytest.mark.parametrize("name", sorted(FILES))
 def test_schema_is_legal(name: str) -> None:
-    jsonschema.Draft202012Validator.check_schema(json.loads(schema_files()[name]))
+    jsonschema.Draft202012Validator.check_schema(json.loads(FILES[name]))
 
 
 def _name_of(value: object) -> str:
@@ -94,7 +95,7 @@ def test_example_of_a_field_is_legal(name: str, field: Mapping[str, Any]) -> Non
 
 
 def test_schema_names_no_python_type() -> None:
-    text = schema_files()["cell.schema.json"]
+    text = FILES["cell.schema.json"]
     assert not re.search(r'"title": "\w*Spec"|NoneType|"null"', text)
 
 
@@ -139,5 +140,5 @@ def test_schema_is_the_same_in_every_run() -> None:
 
 @pytest.mark.parametrize("name", ["contract", "manifest", "rehearsals", "review", "uncertainty", "upgrade"])
 def test_field_of_a_generated_file_tells_its_meaning(name: str) -> None:
-    schema = json.loads(schema_files()[f"{name}.schema.json"])
+    schema = json.loads(FILES[f"{name}.schema.json"])
     assert [field for field, value in _fields(schema) if not value.get("description", "").endswith(".")] == []
