@@ -12,7 +12,6 @@ from cellc.contract.contract import (
     ContractClock,
     ContractEndpoint,
     ContractFrame,
-    ContractInterface,
     ContractSimulatedJoint,
 )
 from cellc.mock.adapter.server import AdapterServer
@@ -29,10 +28,9 @@ from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.engine.simulation import Simulation
 from cellc.mock.folder import GeneratedFolder
 from cellc.mock.nodes.motion_planner import MotionPlanner, PlanMemory
-from cellc.mock.nodes.observations import ObservationInbox
+from cellc.mock.nodes.observations import ObservationInbox, pose_interface
 from cellc.mock.nodes.perception import (
     DEFAULT_RATE_HZ,
-    POSE_TYPE,
     TF,
     Camera,
     Image,
@@ -265,7 +263,9 @@ def _add_object(
     )
     if hears(plant.contract, TF, frame.authority, plant.task.name):
         plant.task.buffer.add(name, transform)
-    topic, interface = _pose_topic(plant, frame)
+    stated = pose_interface(plant.contract, name)
+    topic = None if stated is None else Topic[ObjectPose](*stated, plant.network)
+    interface = None if stated is None else stated[1]
     inbox = ObservationInbox(interface, plant.clocks.of(plant.task.name), plant.simulation)
     plant.task.observations[name] = inbox
     if topic is not None and interface is not None and interface.sinks:
@@ -287,15 +287,6 @@ def _add_object(
                 name, frame, subscription, max_age_s, publish, sender, plant.world, clock, plant.simulation
             )
             break
-
-
-def _pose_topic(plant: Plant, frame: ContractFrame) -> tuple[Topic[ObjectPose] | None, ContractInterface | None]:
-    """Return the topic on which a dynamic frame's publisher states its pose in the frame's parent."""
-    for name, interface in sorted(plant.contract.interfaces.items()):
-        sources = [source.node for source in interface.sources]
-        if interface.type == POSE_TYPE and interface.frame == frame.parent and frame.authority in sources:
-            return Topic[ObjectPose](name, interface, plant.network), interface
-    return None, None
 
 
 def start_nodes(plant: Plant) -> None:

@@ -43,13 +43,19 @@ AS_STATED = Reality()
 
 @dataclass(frozen=True, slots=True)
 class Arrival:
-    """A motion to a goal has ended: how far the tip really is from where the goal really is.
+    """A motion to a goal has ended: how far the tip really is from where the goal really is, and what room is left.
 
     Attributes:
+        singular_value: least of the tip's Jacobian, rows in m and rad: 0 at the end of the arm's reach.
         joint_room: least share of its range that a joint of the group has left to the nearer end; None without limits.
+        clearance_m: from what the group moves to what it does not, where the description has that; None without shapes.
+        transform_age_s: of the transform that the goal was looked up by.
     """
 
     goal: str
     stamp_ns: int
     distance_m: float
-    joint_room: float | None = None
+    singular_value: float
+    joint_room: float | None
+    clearance_m: float | None
+    transform_age_s: float | None

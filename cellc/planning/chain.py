@@ -150,6 +150,24 @@ class GroupChain:
         """Tell whether the cell is in collision with the group at a configuration."""
         return self.scene.collides(self.full(configuration))
 
+    def clearance_m(self, configuration: Array) -> float | None:
+        """Return the least distance from what the group moves to what stands around; None where nothing is checked.
+
+        The arm's own base does not stand around: links from the base of the group on.
+        """
+        moved = np.asarray(self._rates.any(axis=1), dtype=np.bool_)
+        own = set(self._upwards())
+        around = np.array([shape.parentFrame not in own for shape in self.scene.shapes()], dtype=np.bool_)
+        return self.scene.clearance_m(self.full(configuration), moved, around & ~moved)
+
+    def _upwards(self) -> Iterator[int]:
+        """Yield the frames of pinocchio from the tip up to the base of the group."""
+        frame = self._tip
+        while frame not in (0, self._base):
+            yield frame
+            frame = int(self._model.frames[frame].parentFrame)
+        yield self._base
+
     def describe_contact(self, configuration: Array) -> str:
         """Say which names touch first in alphabetical order; for the detail of a failure."""
         pairs = self.scene.contacts(self.full(configuration))

@@ -74,6 +74,13 @@ class Planner:
         """Return the least singular value of the tip's Jacobian (rows in m and rad); 0 at a singularity."""
         return float(singular_values(self._chain, _array(configuration))[-1])
 
+    def clearance_m(self, configuration: Sequence[float]) -> float | None:
+        """Return the least distance from what the group moves to what stands around, m; None where nothing is checked.
+
+        Its own base and what may touch it do not stand around. Negative where shapes are in each other.
+        """
+        return self._chain.clearance_m(_array(configuration))
+
     def inverse_kinematics(
         self, target_in_base: Pose, current: Sequence[float], *, seeds: int = 8, rng_seed: int = 0
     ) -> IkSolution | IkFailure:

@@ -90,9 +90,14 @@ class CollisionScene:
         rest: Array = self._rest.copy()
         return rest
 
+    def shapes(self) -> Sequence[PinShape]:
+        """Return pinocchio's shapes, boxes last."""
+        found: Sequence[PinShape] = self._geometry.geometryObjects
+        return found
+
     def box_shapes(self) -> Iterator[PinShape]:
         """Yield pinocchio's shape of each box."""
-        shapes = self._geometry.geometryObjects
+        shapes = self.shapes()
         yield from (shapes[index] for index in range(len(shapes) - len(self.boxes), len(shapes)))
 
     def collides(self, configuration: Array) -> bool:
@@ -100,6 +105,32 @@ class CollisionScene:
         return bool(
             pinocchio.computeCollisions(self.model.kinematics, self._data, self._boxes_around, configuration, True)
         )
+
+    def clearance_m(
+        self, configuration: Array, these: npt.NDArray[np.bool_], others: npt.NDArray[np.bool_]
+    ) -> float | None:
+        """Return the least distance of these shapes from others at a configuration of pinocchio, in whole µm.
+
+        Args:
+            these: of each shape, boxes last, whether it is one.
+            others: the same; pairs that are not checked are left out.
+
+        Returns:
+            None where no pair is left; negative where shapes are in each other.
+        """
+        geometry = self._geometry
+        # What is computed with has no past: a search that begins where the last one ended comes out otherwise.
+        data, geometry_data = self.model.kinematics.createData(), geometry.createData()
+        pinocchio.updateGeometryPlacements(self.model.kinematics, data, geometry, geometry_data, configuration)
+        pairs = enumerate(geometry.collisionPairs)
+        between = [
+            index
+            for index, pair in pairs
+            if (these[pair.first] and others[pair.second]) or (others[pair.first] and these[pair.second])
+        ]
+        found = (pinocchio.computeDistance(geometry, geometry_data, index).min_distance for index in between)
+        least = min(found, default=None)
+        return None if least is None else round(float(least), 6)
 
     def touching(self, box: Box, configuration: Array) -> tuple[str, ...]:
         """Return the names of links and boxes that another box would touch at a configuration of pinocchio, sorted.

@@ -51,6 +51,18 @@ def dh_tool_to_base(configuration: npt.NDArray[np.float64]) -> npt.NDArray[np.fl
     return transform
 
 
+def dh_singular_values(configuration: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    """Return the singular values of a numeric Jacobian of the DH matrices, largest first; rows in m and rad."""
+    columns = []
+    for joint in range(6):
+        shift = np.zeros(6)
+        shift[joint] = 1e-6
+        before, after = dh_tool_to_base(configuration - shift), dh_tool_to_base(configuration + shift)
+        turn = (after[:3, :3] - before[:3, :3]) @ dh_tool_to_base(configuration)[:3, :3].T / 2e-6
+        columns.append([*((after - before)[:3, 3] / 2e-6), turn[2, 1], turn[0, 2], turn[1, 0]])
+    return np.asarray(np.linalg.svd(np.array(columns).T, compute_uv=False), dtype=np.float64)
+
+
 def _cylinder(length: float, radius: float, xyz: str, rpy: str = "0 0 0") -> str:
     return (
         f'<collision><origin xyz="{xyz}" rpy="{rpy}"/>'

@@ -24,7 +24,7 @@ from cellc.planning.inverse_kinematics import Descent, descend, undo_turns
 from cellc.planning.model import from_pose
 from cellc.transforms import Pose, from_xyz_rpy
 
-from .arm import ADJACENT, GROUP, HOME, JOINTS, LIMITS, arm_urdf, dh_tool_to_base
+from .arm import ADJACENT, GROUP, HOME, JOINTS, LIMITS, arm_urdf, dh_singular_values, dh_tool_to_base
 
 
 @pytest.fixture(name="planner")
@@ -140,15 +140,7 @@ def test_solution_with_the_arm_stretched_is_singular(planner: Planner) -> None:
 def test_manipulability_is_the_product_of_singular_values_of_a_numeric_jacobian(planner: Planner) -> None:
     solution = planner.inverse_kinematics(planner.tip_pose(HOME), HOME)
     assert isinstance(solution, IkSolution)
-    at = np.array(solution.configuration)
-    columns = []
-    for joint in range(6):
-        shift = np.zeros(6)
-        shift[joint] = 1e-6
-        before, after = dh_tool_to_base(at - shift), dh_tool_to_base(at + shift)
-        turn = (after[:3, :3] - before[:3, :3]) @ dh_tool_to_base(at)[:3, :3].T / 2e-6
-        columns.append([*((after - before)[:3, 3] / 2e-6), turn[2, 1], turn[0, 2], turn[1, 0]])
-    values = np.linalg.svd(np.array(columns).T, compute_uv=False)
+    values = dh_singular_values(np.array(solution.configuration))
     assert solution.min_singular_value == pytest.approx(values[-1], abs=1e-6)
     assert solution.manipulability == pytest.approx(np.prod(values), abs=1e-6)
 

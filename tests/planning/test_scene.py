@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from cellc.planning import Box, CollisionScene, ModelError, RobotModel
+from cellc.planning import Box, CollisionScene, JointLimits, ModelError, Planner, PlanningGroup, RobotModel
 from cellc.planning.pair_sampling import draw_configurations
 from cellc.transforms import Pose, Vector3
 from tests.planning.arm import ADJACENT, arm_urdf
@@ -111,3 +111,37 @@ def test_unknown_names_are_refused(scene: CollisionScene) -> None:
         scene.attach("part", "claw", (0.1, 0.1, 0.1), _at((0.0, 0.0, 0.0)))
     with pytest.raises(ModelError, match="`post` has the name of a link"):
         scene.attach("post", "hand", (0.1, 0.1, 0.1), _at((0.0, 0.0, 0.0)))
+
+
+@pytest.mark.parametrize(
+    ("slide", "clearance_m"),
+    [(0.0, 0.1), (0.8, 0.05), (1.3, 0.1), (1.24, 0.09), (0.9, -0.05)],  # of ball and floor, or of ball and post
+)
+def test_clearance_is_from_what_the_group_moves_to_what_stands_around(
+    scene: CollisionScene, slide: float, clearance_m: float
+) -> None:
+    assert _slider(scene).clearance_m((slide,)) == pytest.approx(clearance_m, abs=2e-6)
+
+
+def test_clearance_knows_what_is_carried_and_not_what_may_be_touched(scene: CollisionScene) -> None:
+    carrying = scene.attach("part", "hand", (0.4, 0.1, 0.1), _at((0.0, 0.0, -0.1)))
+    assert _slider(carrying).clearance_m((0.5,)) == pytest.approx(0.1, abs=2e-6)  # the ball and the floor
+    assert _slider(carrying).clearance_m((0.62,)) == pytest.approx(0.03, abs=2e-6)  # the part and the post
+    assert _slider(carrying.allow_touch("part", ["post"])).clearance_m((0.62,)) == pytest.approx(0.1, abs=2e-6)
+    assert _slider(scene.allow_touch("ball", ["post", "floor"])).clearance_m((0.0,)) is None
+
+
+def test_what_carries_an_arm_does_not_stand_around(scene: CollisionScene) -> None:
+    on_the_post = SLIDER.replace(
+        '<parent link="world"/><child link="ball"/>', '<parent link="post"/><child link="ball"/>'
+    )
+    raised = CollisionScene(RobotModel.from_urdf(on_the_post))
+    # Seen from the post the ball begins at x = 1 and 0.1 higher: inside the post, and 0.2 above the floor.
+    assert raised.collides(raised.model.configuration({"slide": 0.0}))
+    assert _slider(raised, base="post").clearance_m((0.0,)) == pytest.approx(0.2, abs=2e-6)
+    assert _slider(raised, base="world").clearance_m((0.0,)) == pytest.approx(0.2, abs=2e-6)
+
+
+def _slider(scene: CollisionScene, base: str = "world") -> Planner:
+    limits = JointLimits(("slide",), (-2.0,), (2.0,), (1.0,), (1.0,), (1.0,))
+    return Planner(scene.model, PlanningGroup("slider", ("slide",), base, "hand"), limits, scene)

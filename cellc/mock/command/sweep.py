@@ -20,10 +20,19 @@ from cellc.mock.errors import MockError
 from cellc.mock.sweep.figures import interval
 from cellc.mock.sweep.journal import Journal
 from cellc.mock.sweep.summary import run_lines, sweep_json, sweep_lines
-from cellc.mock.sweep.sweep import USUAL_CONFIDENCE, Sweep, SweepRun, execute, reality, sweep, uncertainty_of
+from cellc.mock.sweep.sweep import (
+    SWEPT,
+    USUAL_CONFIDENCE,
+    Sweep,
+    SweepRun,
+    execute,
+    name_of,
+    reality,
+    sweep,
+    uncertainty_of,
+)
 from cellc.printing import progress, remark, show, show_document
 
-SWEPT = "sweep:"
 _EVIDENCE = 5
 """Failed runs whose evidence is kept; the others are made again by their number."""
 
@@ -44,9 +53,9 @@ def run_sweep(options: MockOptions) -> int:
     except MockError as stop:
         return stopped(stop)
     if options.as_json:
-        show_document(sweep_json(cell.contract.configuration_id, sweeps, cell.notes))
+        show_document(sweep_json(cell.contract, sweeps, cell.notes))
     else:
-        lines = (line for each in sweeps for line in sweep_lines(each, partial(_replay, options, each)))
+        lines = (line for each in sweeps for line in sweep_lines(each, cell.contract, partial(_replay, options, each)))
         show(*(f"note: {note}" for note in cell.notes), *lines)
     return 0 if all(each.verdict or each.expected is None for each in sweeps) else 1
 
@@ -111,7 +120,7 @@ def replay_swept(options: MockOptions) -> int:
     if options.as_json:
         rate = interval(sum(run.passed for run in runs), len(runs), USUAL_CONFIDENCE)
         alone = Sweep(entry.name, options.seed, uncertainty, len(runs), tuple(runs), rate, None, None)
-        show_document(sweep_json(cell.contract.configuration_id, (alone,), cell.notes))
+        show_document(sweep_json(cell.contract, (alone,), cell.notes))
     else:
         lines = (line for run in runs for line in run_lines(run, uncertainty, options.seed))
         show(*(f"note: {note}" for note in cell.notes), *lines)
@@ -141,7 +150,7 @@ def _write_evidence(
     """Run the runs once more as rehearsals of the cell, and write what they leave, with a report over the sweeps."""
     assert options.evidence is not None  # asked for
     uncertainty = uncertainty_of(cell)
-    added = {f"{entry.name}/{SWEPT}{run.number}": (entry, run) for entry, run in runs}
+    added = {name_of(entry.name, run): (entry, run) for entry, run in runs}
     entries = tuple(entry.model_copy(update={"name": name}) for name, (entry, _) in added.items())
     folder = replace(cell.folder, rehearsals=(*cell.folder.rehearsals, *entries))
     widened = cell.with_realities(

@@ -309,6 +309,18 @@ class MotionPlanner:
         start = tuple(positions[joint] for joint in joints)
         return self._memory.plan(MotionRequest(group, start, others, self._scene, goal, retreat, self._rng_seed))
 
+    def room(self, group: str, positions: Mapping[str, float]) -> tuple[float, float | None]:
+        """Return the least singular value of the tip's Jacobian where a group stands, and its clearance in m.
+
+        Args:
+            positions: of all joints, rad or m.
+        """
+        planner = self._model.groups[group].planner.in_scene(
+            build_scene(self._model, self._scene, tuple(self._independent(positions)))
+        )
+        stands = tuple(positions[joint] for joint in planner.group.joints)
+        return planner.min_singular_value(stands), planner.clearance_m(stands)
+
     def meeting(self, motions: Sequence[TimedTrajectory], positions: Mapping[str, float]) -> PlanFailure | None:
         """Tell when motions that begin at once would touch on their way; None where they keep clear of each other.
 

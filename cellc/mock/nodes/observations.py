@@ -4,16 +4,32 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from cellc.contract.contract import ContractInterface
+from cellc.contract.contract import Contract, ContractInterface
 from cellc.mock.bus.edge import Subscription
 from cellc.mock.bus.topic import Topic
 from cellc.mock.clocks import Clock
 from cellc.mock.engine.process import Signal
 from cellc.mock.engine.simulation import Simulation
-from cellc.mock.nodes.perception import ObjectPose
+from cellc.mock.nodes.perception import POSE_TYPE, ObjectPose
 
 DEFAULT_MAX_AGE_S = 0.2
 """Where no interface states how old an observation may be."""
+
+
+def pose_interface(contract: Contract, frame: str) -> tuple[str, ContractInterface] | None:
+    """Return the topic on which a dynamic frame's publisher states its pose in the frame's parent, with its name."""
+    entry = contract.frames[frame]
+    for name, interface in sorted(contract.interfaces.items()):
+        sources = [source.node for source in interface.sources]
+        if interface.type == POSE_TYPE and interface.frame == entry.parent and entry.authority in sources:
+            return name, interface
+    return None
+
+
+def oldest_observation_s(interface: ContractInterface | None) -> float:
+    """Return how old an observation may be; without an interface where poses reach the task by /tf alone."""
+    stated_s = None if interface is None else interface.max_age_s
+    return DEFAULT_MAX_AGE_S if stated_s is None else stated_s
 
 
 class ObservationInbox:
@@ -33,11 +49,10 @@ class ObservationInbox:
         Args:
             clock: of the task, on which ages are measured.
         """
-        max_age_s = None if interface is None else interface.max_age_s
         self.arrived = Signal(from_background=True)
         self.newest: ObjectPose | None = None
         self.lapsed_ns: int | None = None
-        self.max_age_s = DEFAULT_MAX_AGE_S if max_age_s is None else max_age_s
+        self.max_age_s = oldest_observation_s(interface)
         self.on_stale = "reject_goal" if interface is None or interface.on_stale is None else interface.on_stale
         self._clock = clock
         self._simulation = simulation

@@ -15,8 +15,8 @@ from cellc.mock.evidence.kpis import Kpi
 from cellc.mock.gates.gate import GateCheck, GateResult, Verdict
 from cellc.mock.report_page.html import Child, cards, count, plain, seconds, tag, to_page
 from cellc.mock.report_page.run_section import RunEvidence, run_section
-from cellc.mock.sweep.summary import count_lines, tables, verdict_line
-from cellc.mock.sweep.sweep import Sweep
+from cellc.mock.report_page.sweep_section import sweep_section, sweep_verdict
+from cellc.mock.sweep.sweep import Sweep, SweepRun, name_of
 
 _NAMES = {
     "plan_to_execute_s": "plan to execute",
@@ -78,53 +78,38 @@ def header(content: ReportContent) -> Element:
         ("configuration", contract.configuration_id),
         ("ROS 2", contract.distro),
         ("seed", str(content.seed)),
-        ("simulated", seconds(sum(run.result.sim_time_s for run in content.runs))),
     ]
+    if content.runs or not content.sweeps:
+        facts.append(("simulated", seconds(sum(run.result.sim_time_s for run in content.runs))))
     pairs = [tag("div", tag("dt", name), tag("dd", value)) for name, value in facts]
     return tag(
         "header",
         tag("p", "Rehearsed on the mock", class_="kicker"),
         tag("h1", contract.cell),
         tag("p", contract.summary, class_="summary"),
-        *(_verdict(sweep) for sweep in content.sweeps),
+        *(sweep_verdict(sweep) for sweep in content.sweeps),
         *(() if content.sweeps else (verdict,)),
         tag("dl", *pairs, class_="facts"),
         *(tag("p", tag("b", "Note: "), note, class_="note") for note in content.notes),
     )
 
 
-def sweep_section(sweep: Sweep) -> Element:
-    """Return how often a rehearsal succeeded, its margins, what was drawn, and what explains the failures."""
-    hint = (
-        "A run that missed its goal may look as if it had succeeded in its own section below: that is what the robot "
-        "believed. How a part slips or turns between the fingers is not simulated."
-    )
-    lines = [tag("p", line) for line in count_lines(sweep)]
-    found = [cards(head, rows) for head, *rows in tables(sweep)]
-    return tag("section", tag("h2", f"Sweep of {sweep.rehearsal}"), *lines, *found, tag("p", hint, class_="hint"))
-
-
-def _verdict(sweep: Sweep) -> Element:
-    return tag(
-        "p", tag("span", verdict_line(sweep), class_={None: "unknown", True: "good", False: "bad"}[sweep.verdict])
-    )
-
-
 def outcomes(content: ReportContent) -> Element:
     """Return the matrix of rehearsals and their ends."""
     names = ("rehearsal", "verdict", "outcome", "expected", "injected", "response", "bound", "simulated")
-    rows = [_outcome_row(number, run) for number, run in enumerate(content.runs, start=1)]
+    swept = {name_of(each.rehearsal, run): run for each in content.sweeps for run in each.failed}
+    rows = [_outcome_row(number, run, swept.get(run.result.name)) for number, run in enumerate(content.runs, start=1)]
     return tag("section", tag("h2", "Outcomes"), cards(names, rows))
 
 
-def _outcome_row(number: int, run: RunEvidence) -> tuple[Child, ...]:
+def _outcome_row(number: int, run: RunEvidence, swept: SweepRun | None) -> tuple[Child, ...]:
     result = run.result
     faults = ", ".join(f"{fault.kind} {fault.target}" for fault in run.entry.faults) or "nothing"
-    cells = [result.outcome, result.expected, faults]
+    cells = [result.outcome if swept is None else swept.outcome, result.expected, faults]
     numbers = [seconds(result.response_s), seconds(result.within_s), seconds(result.sim_time_s)]
     return (
         tag("a", result.name, href=f"#run-{number}"),
-        _mark(result.passed),
+        _mark(result.passed and swept is None),
         *cells,
         *(tag("td", cell, class_="number") for cell in numbers),
     )
@@ -289,7 +274,7 @@ def to_report(content: ReportContent) -> str:
     main = tag(
         "main",
         header(content),
-        *map(sweep_section, content.sweeps),
+        *(sweep_section(sweep, content.contract) for sweep in content.sweeps),
         *((outcomes(content), key_figures(content)) if content.runs or not content.sweeps else ()),
         *campaign_section(content.campaign),
         gate_section(content.gates),

@@ -10,10 +10,10 @@ from types import TracebackType
 from typing import Any, BinaryIO
 
 from cellc.mock.errors import MockError
-from cellc.mock.sweep.sweep import SweepRun
+from cellc.mock.sweep.sweep import GoalRoom, SweepRun
 from cellc.store.regular_file import open_regular
 
-_FORMAT = "cellc sweep 1"
+_FORMAT = "cellc sweep 2"
 
 
 class Journal:
@@ -50,7 +50,7 @@ class Journal:
         try:
             head, *runs = map(json.loads, whole or [b"{}"])
             found = [_run(each) for each in runs]
-        except (ValueError, KeyError, TypeError, RecursionError):
+        except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
             head, found = None, []
         if whole and head != self._head:
             of = "of another sweep" if isinstance(head, dict) and head.get("journal") == _FORMAT else "no journal"
@@ -95,7 +95,7 @@ class Journal:
 
 
 def _run(line: Mapping[str, Any]) -> SweepRun:
-    run = SweepRun(**line)
-    if not isinstance(run.number, int) or not isinstance(run.distances_m, dict):
+    run = SweepRun(**{**line, "goals": {goal: GoalRoom(**room) for goal, room in line["goals"].items()}})
+    if not isinstance(run.number, int):
         raise TypeError(line)
     return run

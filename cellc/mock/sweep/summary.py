@@ -9,10 +9,12 @@ from dataclasses import asdict
 
 import numpy as np
 
-from cellc.contract.uncertainty import UncertainQuantity, Uncertainty
+from cellc.contract.contract import Contract
+from cellc.contract.uncertainty import Uncertainty
 from cellc.diagnostics.unsafe_text import harmless_json
 from cellc.mock.sweep.draws import draw
 from cellc.mock.sweep.figures import METHOD_INTERVAL, METHOD_SENSITIVITY, Explanation, explain
+from cellc.mock.sweep.margins import Margin, margins
 from cellc.mock.sweep.sweep import Sweep, SweepRun
 
 _SHOWN = 5
@@ -27,6 +29,7 @@ _SHOWN_UNITS: Mapping[str, tuple[str, float]] = {
     "rad": ("deg", 180.0 / np.pi),
     "s": ("ms", 1e3),
     "1": ("%", 100.0),
+    "": ("", 1.0),
 }
 
 
@@ -38,29 +41,10 @@ def explanations(sweep: Sweep) -> tuple[Explanation, ...]:
     return explain(quantities, values, np.array([not run.passed for run in sweep.runs], dtype=np.bool_))
 
 
-def _margins(sweep: Sweep) -> Iterator[tuple[str, str, Sequence[float], float | None]]:
-    """Yield name and unit of each margin, its quantiles, and what is allowed."""
-    goals = sorted({goal for run in sweep.runs for goal in run.distances_m})
-    for goal in goals:
-        found = [run.distances_m[goal] for run in sweep.runs if goal in run.distances_m]
-        yield f"distance at {goal}", "m", _quantiles(found), sweep.uncertainty.tolerances.get(goal)
-    for goal in sorted({goal for run in sweep.runs for goal in run.joint_room}):
-        used = [1.0 - 2.0 * run.joint_room[goal] for run in sweep.runs if goal in run.joint_room]
-        yield f"way to a joint's end used at {goal}", "1", _quantiles(used), 1.0
-    for name, of in (("transforms", lambda run: run.oldest_s), ("joint states", lambda run: run.oldest_joints_s)):
-        ages = [age for age in map(of, sweep.runs) if age is not None]
-        if ages:
-            yield f"age of {name}", "s", _quantiles(ages), None
-
-
-def _quantiles(values: Sequence[float]) -> list[float]:
-    return [float(value) for value in np.quantile(values, _QUANTILES, method="inverted_cdf")]
-
-
-def sweep_lines(sweep: Sweep, replay: Callable[[int], str]) -> Iterator[str]:
+def sweep_lines(sweep: Sweep, contract: Contract, replay: Callable[[int], str]) -> Iterator[str]:
     """Yield the summary for people."""
     yield from count_lines(sweep)
-    for table in tables(sweep):
+    for table in (margin_table(tuple(margins(sweep, contract))), drawn_table(sweep), explained_table(sweep)):
         yield from _aligned(table)
     for run in sweep.failed[:_SHOWN]:
         yield f"FAILED  sweep:{run.number}: {run.outcome}"
@@ -81,17 +65,11 @@ def count_lines(sweep: Sweep) -> Iterator[str]:
     counted = Counter(run.outcome for run in sweep.runs)
     yield "outcomes: " + ", ".join(f"{name} {number}" for name, number in counted.most_common())
     if sweep.failed and not any(one.explains for one in explanations(sweep)):
-        yield f"nothing that is drawn explains the failures ({METHOD_SENSITIVITY})"
+        yield f"nothing that is drawn stands out in the failures; more runs may tell more ({METHOD_SENSITIVITY})"
 
 
 Table = Sequence[tuple[str, ...]]
-"""Rows of texts, of which the first names the columns."""
-
-
-def tables(sweep: Sweep) -> Iterator[Table]:
-    """Yield margins, draws, and what explains failures; none without a row."""
-    every = (_margin_table(sweep), _drawn_table(sweep.uncertainty.quantities), _explained_table(sweep))
-    return (table for table in every if len(table) > 1)
+"""Rows of texts, of which the first names the columns; empty where there is nothing to tell."""
 
 
 def verdict_line(sweep: Sweep) -> str:
@@ -99,78 +77,82 @@ def verdict_line(sweep: Sweep) -> str:
     expected, runs = sweep.expected, len(sweep.runs)
     if expected is None:
         return f"no verdict: the cell expects no rate of success of `{sweep.rehearsal}`"
-    wanted = f"{expected.success:.4%} of the runs must succeed, with confidence {expected.confidence:.4g}"
+    wanted = f"{100.0 * expected.success:.6g}% of the runs must succeed, with confidence {expected.confidence:.4g}"
     if sweep.verdict is None:
         return f"UNKNOWN: {wanted}; {runs} runs do not decide it"
     after = f"certain after {runs} of {sweep.asked} runs" if runs < sweep.asked else f"certain after {runs} runs"
     return f"{'passed' if sweep.verdict else 'FAILED'}: {wanted}; {after}"
 
 
-def _margin_table(sweep: Sweep) -> Table:
-    rows: list[tuple[str, ...]] = [("margins", "5 %", "median", "95 %", "most", "allowed")]
-    for name, unit, quantiles, allowed in _margins(sweep):
-        limit = "not stated" if allowed is None else _shown(allowed, unit)
-        rows.append((name, *(_shown(value, unit) for value in quantiles), limit))
-    return rows
+def margin_table(found: Sequence[Margin]) -> Table:
+    """Return a row for each margin; a share of the runs is as good as its figure, or better."""
+    rows = [(one.name, *(_shown(one.quantile(share), one.unit) for share in _QUANTILES), _bound(one)) for one in found]
+    return [("margins", "best 5 %", "median", "95 %", "worst", "bound"), *rows] if rows else ()
 
 
-def _drawn_table(quantities: Sequence[UncertainQuantity]) -> Table:
+def _bound(margin: Margin) -> str:
+    if margin.bound is None:
+        return "none stated"
+    return f"at {'least' if margin.falling else 'most'} {_shown(margin.bound, margin.unit)}"
+
+
+def drawn_table(sweep: Sweep) -> Table:
     """Return what is drawn; axes of one thing that are drawn alike share a row."""
     alike: dict[tuple[str, str, str], list[str]] = {}
-    for one in quantities:
+    for one in sweep.uncertainty.quantities:
         thing, _, axis = one.name.rpartition(" ")
         thing, axis = (one.name, "") if one.axis == "offset" else (thing, axis)
         drawn = f"{_WORDS[one.distribution]} {_shown(one.spread, one.unit)}"
         alike.setdefault((thing, drawn, one.source), []).append(axis)
-    rows = ((f"{thing} {', '.join(axes)}".strip(), drawn, source) for (thing, drawn, source), axes in alike.items())
-    return [("drawn", "distribution", "by"), *rows]
+    rows = [(f"{thing} {', '.join(axes)}".strip(), drawn, source) for (thing, drawn, source), axes in alike.items()]
+    return [("drawn", "distribution", "by"), *rows] if rows else ()
 
 
-def _explained_table(sweep: Sweep) -> Table:
-    rows = [("explains failures", "distance", "by chance", "if half as uncertain")]
+def explained_table(sweep: Sweep) -> Table:
+    """Return what explains the failures, the most first."""
+    rows = []
     for one in explanations(sweep) if sweep.failed else ():
         if one.explains:
             half = "not known" if one.halved is None else f"{one.halved:.2%} fail"
             rows.append((one.name, f"{one.statistic:.2f}", f"{one.critical:.2f}", half))
-    return rows
+    return [("explains failures", "distance", "by chance", "if half as uncertain"), *rows] if rows else ()
 
 
 def _aligned(rows: Table) -> Iterator[str]:
-    widths = [max(len(row[place]) for row in rows) for place in range(len(rows[0]))]
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     for row in rows:
         yield "  ".join(text.ljust(width) for text, width in zip(row, widths, strict=True)).rstrip()
 
 
 def _shown(value: float, unit: str) -> str:
     shown, factor = _SHOWN_UNITS[unit]
-    return f"{value * factor:.3g} {shown}"
+    return f"{value * factor:.3g} {shown}".rstrip()
 
 
 def run_lines(run: SweepRun, uncertainty: Uncertainty, seed: int) -> Iterator[str]:
     """Yield how one run ended that was run alone, and what it drew."""
     yield f"{'passed' if run.passed else 'FAILED'}  sweep:{run.number}: {run.outcome}"
-    for goal, distance in run.distances_m.items():
+    for goal, room in run.goals.items():
         limit = uncertainty.tolerances.get(goal)
         allowed = "" if limit is None else f", {_shown(limit, 'm')} allowed"
-        yield f"        distance at {goal}: {_shown(distance, 'm')}{allowed}"
+        yield f"        distance at {goal}: {_shown(room.distance_m, 'm')}{allowed}"
     values = draw(uncertainty.quantities, seed, run.number)
     for one in uncertainty.quantities:
         yield f"        {one.name}: {_shown(values[one.name], one.unit)}"
     yield f"        digest: {run.digest}"
 
 
-def sweep_json(configuration_id: str, sweeps: Sequence[Sweep], notes: Sequence[str]) -> str:
+def sweep_json(contract: Contract, sweeps: Sequence[Sweep], notes: Sequence[str]) -> str:
     """Return sweeps of a cell as JSON: rate, margins, draws, explanations, and every run with its digest."""
     content = {
-        "configuration_id": configuration_id,
-        "sweeps": [_sweep(each) for each in sweeps],
+        "configuration_id": contract.configuration_id,
+        "sweeps": [_sweep(each, contract) for each in sweeps],
         "notes": list(notes),
     }
     return harmless_json(json.dumps(content, ensure_ascii=False, indent=2))
 
 
-def _sweep(sweep: Sweep) -> dict[str, object]:
-    quantiles = [str(share) for share in _QUANTILES]
+def _sweep(sweep: Sweep, contract: Contract) -> dict[str, object]:
     return {
         "rehearsal": sweep.rehearsal,
         "seed": sweep.seed,
@@ -181,8 +163,13 @@ def _sweep(sweep: Sweep) -> dict[str, object]:
         "expected": None if sweep.expected is None else sweep.expected.model_dump(),
         "verdict": sweep.verdict,
         "margins": [
-            {"name": name, "unit": unit, "quantiles": dict(zip(quantiles, values, strict=True)), "allowed": most}
-            for name, unit, values, most in _margins(sweep)
+            {
+                "name": one.name,
+                "unit": one.unit,
+                "quantiles": {str(share): one.quantile(share) for share in _QUANTILES},
+                "least" if one.falling else "most": one.bound,
+            }
+            for one in margins(sweep, contract)
         ],
         "explanations": {
             "method": METHOD_SENSITIVITY,

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
 from contextlib import closing
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from math import inf
 
 from cellc.compute.work import Hire, Work, stream
 from cellc.contract.rehearsals import RehearsalEntry
@@ -14,13 +15,26 @@ from cellc.mock.campaign.campaign import Assignment
 from cellc.mock.cell import MockCell
 from cellc.mock.errors import MockError
 from cellc.mock.plant import Plant
-from cellc.mock.reality import Reality
+from cellc.mock.reality import Arrival, Reality
 from cellc.mock.result import RunFailure
 from cellc.mock.sweep.draws import LINKS, draw, reality_of
 from cellc.mock.sweep.figures import Interval, confidence_of_look, interval, looks
 
+SWEPT = "sweep:"
+"""Before the number of a run that is named."""
 USUAL_CONFIDENCE = 0.95
 """Of the interval where the cell expects nothing of the rehearsal."""
+
+
+@dataclass(frozen=True, slots=True)
+class GoalRoom:
+    """The worst of all arrivals at a goal in one run; see ``Arrival``."""
+
+    distance_m: float
+    singular_value: float
+    joint_room: float | None
+    clearance_m: float | None
+    transform_age_s: float | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,21 +44,17 @@ class SweepRun:
     Attributes:
         number: from 0; with the seed it gives all draws.
         outcome: of the rehearsal, or ``missed GOAL`` where that ended as it should and the tip was too far off.
-        distances_m: goal → farthest that the tip really was from it when it had arrived.
-        oldest_s: age of the oldest transform that a goal was looked up by; None without such a goal.
+        goals: where the tip arrived.
+        joint_state_age_s: of the oldest joint state that a motion was planned from; None without one.
         digest: over attempts and arrivals, so that a replay can be compared bit for bit.
-        joint_room: goal → least share of its range that a joint had left when the tip had arrived.
-        oldest_joints_s: age of the oldest joint state that a motion was planned from; None without one.
     """
 
     number: int
     outcome: str
     passed: bool
-    distances_m: Mapping[str, float]
-    oldest_s: float | None
+    goals: Mapping[str, GoalRoom]
+    joint_state_age_s: float | None
     digest: str
-    joint_room: Mapping[str, float] = field(default_factory=dict)
-    oldest_joints_s: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,6 +82,11 @@ class Sweep:
     def failed(self) -> tuple[SweepRun, ...]:
         """The runs that did not succeed."""
         return tuple(run for run in self.runs if not run.passed)
+
+
+def name_of(rehearsal: str, run: SweepRun) -> str:
+    """Return the name by which a run of a sweep is told from its rehearsal."""
+    return f"{rehearsal}/{SWEPT}{run.number}"
 
 
 def uncertainty_of(cell: MockCell) -> Uncertainty:
@@ -119,21 +134,28 @@ def execute(cell: MockCell, entry: RehearsalEntry, uncertainty: Uncertainty, see
     except Exception as bug:  # a run that breaks the mock must not hide the runs after it
         return SweepRun(number, RunFailure.CRASHED.value, False, {}, None, type(bug).__name__)
     arrivals = watched[-1].arrivals if watched else []
-    distances: dict[str, float] = {}
-    room: dict[str, float] = {}
-    for each in arrivals:
-        distances[each.goal] = max(distances.get(each.goal, 0.0), each.distance_m)
-        if each.joint_room is not None:
-            room[each.goal] = min(room.get(each.goal, 1.0), each.joint_room)
-    missed = next((goal for goal, most in uncertainty.tolerances.items() if distances.get(goal, 0.0) > most), None)
+    goals = {goal: _worst([one for one in arrivals if one.goal == goal]) for goal in {one.goal: 0 for one in arrivals}}
+    missed = next((name for name, one in goals.items() if one.distance_m > uncertainty.tolerances.get(name, inf)), None)
     outcome = result.outcome.value if missed is None or not result.passed else f"missed {missed}"
-    ages = [each.tf_lookup_age for each in result.attempts if each.tf_lookup_age is not None]
     digest = hashlib.sha256(repr((result.attempts, arrivals)).encode()).hexdigest()[:16]
     passed = result.passed and missed is None
-    planned = [each.joint_state_age for each in result.attempts if each.joint_state_age is not None]
-    return SweepRun(
-        number, outcome, passed, distances, max(ages, default=None), digest, room, max(planned, default=None)
+    age_s = _stated(max, (each.joint_state_age for each in result.attempts))
+    return SweepRun(number, outcome, passed, goals, age_s, digest)
+
+
+def _worst(arrivals: Sequence[Arrival]) -> GoalRoom:
+    return GoalRoom(
+        max(each.distance_m for each in arrivals),
+        min(each.singular_value for each in arrivals),
+        _stated(min, (each.joint_room for each in arrivals)),
+        _stated(min, (each.clearance_m for each in arrivals)),
+        _stated(max, (each.transform_age_s for each in arrivals)),
     )
+
+
+def _stated(worst: Callable[[list[float]], float], values: Iterable[float | None]) -> float | None:
+    found = [value for value in values if value is not None]
+    return worst(found) if found else None
 
 
 @dataclass(frozen=True, slots=True)

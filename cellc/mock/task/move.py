@@ -200,25 +200,35 @@ def _move_to_goal(context: TaskContext, attempt: Attempt, name: str) -> Waiting[
         stamp_ns = context.observed[located.observed_frame]
         check_observation(context, located.observed_frame, stamp_ns, allowance_s=PLANNING_LATENCY_S)
     yield from _drive(context, attempt, {group: motion}, located.observed_frame)
-    _note_arrival(context, name)
+    _note_arrival(context, name, attempt.tf_lookup_age)
 
 
-def _note_arrival(context: TaskContext, name: str) -> None:
+def _note_arrival(context: TaskContext, name: str, transform_age_s: float | None) -> None:
     """Note how far the tip really is from where the goal really is, which no node of the cell knows."""
     plant, goal = context.plant, context.contract.goals[name]
     place = _really(plant, goal.frame)
     tip = _really(plant, context.contract.groups[goal.group].tip_frame)
     if place is not None and tip is not None:
-        distance_m = math.dist(tip.position, place.apply(goal.pose.xyz))
-        plant.arrivals.append(Arrival(name, plant.now_ns, distance_m, _joint_room(plant, goal.group)))
+        positions = plant.world.joint_positions(plant.now_ns)
+        singular_value, clearance_m = plant.planner.room(goal.group, positions)
+        plant.arrivals.append(
+            Arrival(
+                name,
+                plant.now_ns,
+                math.dist(tip.position, place.apply(goal.pose.xyz)),
+                singular_value,
+                _joint_room(context.contract, goal.group, positions),
+                clearance_m,
+                transform_age_s,
+            )
+        )
 
 
-def _joint_room(plant: Plant, group: str) -> float | None:
+def _joint_room(contract: Contract, group: str, positions: Mapping[str, float]) -> float | None:
     """Return how near the joints of a group are to an end: the least share of its range that one has left."""
-    positions = plant.world.joint_positions(plant.now_ns)
     shares = []
-    for joint in plant.contract.groups[group].joints:
-        limit = plant.contract.joint_limits.get(joint)
+    for joint in contract.groups[group].joints:
+        limit = contract.joint_limits.get(joint)
         if limit is not None and limit.lower is not None and limit.upper is not None and joint in positions:
             left = min(positions[joint] - limit.lower, limit.upper - positions[joint])
             shares.append(left / (limit.upper - limit.lower))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from urllib.parse import unquote
 
@@ -22,7 +23,7 @@ def test_a_sweep_says_rate_margins_draws_and_verdict_and_a_run_is_made_again(nes
     assert lines[1].endswith("with confidence 0.975 (Clopper-Pearson)")
     drawn = "nest x, y, z normal, deviation in space 1 mm calibrations.nest.residual"
     assert drawn in [" ".join(line.split()) for line in lines]
-    assert lines[-1] == "UNKNOWN: 85.0000% of the runs must succeed, with confidence 0.95; 6 runs do not decide it"
+    assert lines[-1] == "UNKNOWN: 85% of the runs must succeed, with confidence 0.95; 6 runs do not decide it"
     failed = next(line.split()[1].rstrip(":") for line in lines if line.startswith("FAILED"))
     told = json.loads(run("mock", str(nest_folder), "--sweep", "6", "--jobs", "1", "--journal", journal, "--json").out)
     number = int(failed.removeprefix("sweep:"))
@@ -37,7 +38,12 @@ def test_a_sweep_says_rate_margins_draws_and_verdict_and_a_run_is_made_again(nes
     kept = tmp_path / "kept"
     run("mock", str(nest_folder), "--sweep", "6", "--jobs", "1", "--journal", journal, "--evidence", str(kept))
     assert [unquote(file.stem) for file in kept.glob("*.mcap")] == [f"put/{failed}"]  # of failures alone
-    assert "Sweep of put" in (kept / "report.html").read_text(encoding="utf-8")
+    page = (kept / "report.html").read_text(encoding="utf-8")
+    assert "Sweep of put" in page
+    assert page.count('class="runs beyond"') == 1  # one run of six is beyond the tolerance
+    (row,) = re.findall(rf"<tr>(?:(?!</tr>).)*put/{failed}(?:(?!</tr>).)*</tr>", page)[:1]
+    assert "missed put" in row
+    assert "✓" not in row
 
 
 @pytest.mark.parametrize(

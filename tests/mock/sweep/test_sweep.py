@@ -12,13 +12,16 @@ import pytest
 
 from cellc.compute.processes import processes
 from cellc.contract.uncertainty import UncertainQuantity
-from cellc.mock import MockCell, MockError
+from cellc.mock import MockCell, MockError, load
 from cellc.mock.plant import Plant
 from cellc.mock.sweep.draws import draw
 from cellc.mock.sweep.figures import confidence_of_look, explain, interval
 from cellc.mock.sweep.journal import Journal
+from cellc.mock.sweep.margins import margins
 from cellc.mock.sweep.sweep import Sweep, SweepRun, execute, sweep, uncertainty_of
+from tests.cells import generated
 from tests.mock.sweep.conftest import RESIDUAL_M, TOLERANCE_M
+from tests.planning.arm import dh_singular_values
 
 NEST = ("nest x", "nest y", "nest z")
 
@@ -49,12 +52,12 @@ def test_a_tip_is_as_far_from_the_goal_as_the_fixture_was_displaced(nest: MockCe
     for run in twelve.runs:
         drawn = draw(quantities, 0, run.number)
         distance = math.sqrt(sum(drawn[name] ** 2 for name in NEST))
-        assert run.distances_m["put"] == pytest.approx(distance, abs=1e-7)
+        assert run.goals["put"].distance_m == pytest.approx(distance, abs=1e-7)
         assert run.outcome == ("succeeded" if distance <= TOLERANCE_M else "missed put")
     assert {run.outcome for run in twelve.runs} == {"succeeded", "missed put"}
 
 
-def test_how_near_a_joint_came_to_its_end_is_told_of_each_goal(nest: MockCell, twelve: Sweep) -> None:
+def test_what_joints_and_reach_had_left_is_told_of_each_goal(nest: MockCell, twelve: Sweep) -> None:
     watched: list[Plant] = []
     assert nest.rehearse(nest.entry("put"), watch=watched.append).passed
     (arrival,) = watched[0].arrivals
@@ -64,9 +67,39 @@ def test_how_near_a_joint_came_to_its_end_is_told_of_each_goal(nest: MockCell, t
     used = max(abs(stood[name]) / end for name, end in ends.items())
     assert arrival.joint_room is not None
     assert 1.0 - 2.0 * arrival.joint_room == pytest.approx(used)
-    assert {tuple(run.joint_room) for run in twelve.runs} == {("put",)}
-    assert all(run.joint_room["put"] == pytest.approx(arrival.joint_room, abs=0.01) for run in twelve.runs)
-    assert all(run.oldest_joints_s is not None for run in twelve.runs)
+    assert {tuple(run.goals) for run in twelve.runs} == {("put",)}
+    assert all(run.goals["put"].joint_room == pytest.approx(arrival.joint_room, abs=0.01) for run in twelve.runs)
+    assert all(run.joint_state_age_s is not None for run in twelve.runs)
+    # The end of the reach is where the least singular value is 0; here it is taken from the vendor's DH parameters.
+    at = np.array([stood[name] for name in nest.contract.groups["manipulator"].joints])
+    assert arrival.singular_value == pytest.approx(dh_singular_values(at)[-1], abs=1e-4)
+
+
+def test_margins_go_from_the_best_run_to_the_worst_up_to_their_bounds(nest: MockCell, twelve: Sweep) -> None:
+    found = {one.name: one for one in margins(twelve, nest.contract)}
+    distances = sorted(run.goals["put"].distance_m for run in twelve.runs)
+    off, near = found["distance at put"], found["least singular value at put"]
+    assert (off.values, off.bound) == (tuple(distances), TOLERANCE_M)
+    # Of 12 runs, 1 is the best 5 %, 6 are half of them, and 95 % are all of them.
+    assert [off.quantile(share) for share in (0.05, 0.5, 0.95, 1.0)] == [distances[place] for place in (0, 5, 11, 11)]
+    assert near.values[-1] == min(run.goals["put"].singular_value for run in twelve.runs)
+    # Nothing stands around this arm, so that it has no clearance.
+    assert {name: one.bound for name, one in found.items() if one.bound is not None} == {
+        "distance at put": TOLERANCE_M,
+        "way to a joint's end at put": 1.0,
+        "least singular value at put": 0.005,  # docs/mock.md, Sweeps
+        "age of joint states": 0.1,
+    }
+
+
+def test_a_margin_of_what_is_observed_ends_where_an_observation_is_too_old() -> None:
+    pick = load(generated("ur5e_pick"))
+    stated = pick.contract.interfaces["/object_pose"].max_age_s
+    swept_twice = sweep(pick, pick.entry("pick_and_place"), seed=0, most=2, hire=None, known={}, keep=lambda _: None)
+    found = {one.name: one.bound for one in margins(swept_twice, pick.contract)}
+    assert stated is not None
+    assert (found["age of transforms at pick"], found["age of transforms at place"]) == (stated, None)
+    assert (found["clearance at pick"], found["clearance at place"]) == (0.0, 0.0)
 
 
 def test_a_run_is_the_same_alone_and_by_any_number_of_processes(nest: MockCell, twelve: Sweep) -> None:
