@@ -223,7 +223,7 @@ CODES: tuple[CodePage, ...] = (
     _unknown(
         "unknown-group",
         "planning group",
-        "poses and goals belong to an entry of `motion.groups`",
+        "poses and goals belong to an entry of `motion.groups`, and a goal says to which unless there is only one",
         "MoveIt would drop the pose with a line in its log, and refuse each request for the group",
     ),
     _unknown(

@@ -113,8 +113,10 @@ def link_goals(
         frame = names.bind(written.frame, (*path, "frame"))
         problems += frame.diagnostics
         group = written.group or (next(iter(spec.motion.groups)) if len(spec.motion.groups) == 1 else None)
-        if group is None or group not in spec.motion.groups:
-            problems.append(_unknown_group(group or "", spec, document, (*path, "group")))
+        if group is None:
+            problems.append(_without_group(name, spec, document, path))
+        elif group not in spec.motion.groups:
+            problems.append(_unknown_group(group, spec, document, (*path, "group")))
         elif frame.value is not None:
             goals.append(
                 CartesianGoal(
@@ -170,3 +172,15 @@ def _not_a_chain(name: str, base: str, tip: str, document: SourceDocument, circl
 
 def _unknown_group(name: str, spec: CellSpec, document: SourceDocument, path: tuple[str, ...]) -> Diagnostic:
     return unknown_name("unknown-group", name, "group", spec.motion.groups, document, path)
+
+
+def _without_group(goal: str, spec: CellSpec, document: SourceDocument, path: tuple[str, ...]) -> Diagnostic:
+    groups, declare = list(spec.motion.groups), "declare one in `motion.groups`"
+    return Diagnostic(
+        code="unknown-group",
+        severity=Severity.ERROR,
+        message=f"goal `{goal}` must name its group: the cell has {len(groups) or 'none'}",
+        span=document.locate(path),
+        yaml_path=path,
+        help=f"write `group:` with one of {', '.join(f'`{group}`' for group in groups)}" if groups else declare,
+    )
