@@ -23,7 +23,7 @@ from cellc.mock.plant import Plant
 from cellc.mock.report_page.page import ReportContent, to_report
 from cellc.mock.report_page.run_section import RunEvidence
 from cellc.mock.result import RehearsalResult, to_json_lines
-from cellc.mock.sweep.sweep import Sweep
+from cellc.mock.sweep.sweep import Sweep, SweepRun
 from cellc.mock.task.bounds import joint_state_age_s
 
 REPORT = "report.html"
@@ -56,8 +56,8 @@ class EvidenceCollector:
     ) -> None:
         self._folder.discard()
 
-    def run(self, name: str) -> RehearsalResult:
-        """Run a rehearsal, and keep its evidence.
+    def run(self, name: str, swept: SweepRun | None = None) -> RehearsalResult:
+        """Run a rehearsal, or a run of a sweep again, and keep its evidence.
 
         Raises:
             MockError: it names what the contract does not have.
@@ -70,7 +70,7 @@ class EvidenceCollector:
         self._folder.write(records_file, to_json_lines(result.attempts))
         self._folder.write(kpis_file, to_kpi_json(entry, result, figures))
         files = (bag_file, records_file, kpis_file)
-        self._runs.append(RunEvidence(entry, result, trace, figures, self._tolerances, files))
+        self._runs.append(RunEvidence(entry, result, trace, figures, self._tolerances, files, swept))
         return result
 
     def settle(self, campaign: Campaign | None = None, sweeps: Sequence[Sweep] = ()) -> None:

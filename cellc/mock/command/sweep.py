@@ -157,6 +157,6 @@ def _write_evidence(
         folder, {name: reality(uncertainty, options.seed, run.number) for name, (_, run) in added.items()}
     )
     with begin_evidence(widened, Path(options.evidence), tuple(added), options.seed) as collector:
-        for name in added:
-            collector.run(name)
+        for name, (_, run) in added.items():
+            collector.run(name, run)
         collector.settle(sweeps=sweeps)

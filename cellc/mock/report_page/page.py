@@ -16,7 +16,7 @@ from cellc.mock.gates.gate import GateCheck, GateResult, Verdict
 from cellc.mock.report_page.html import Child, cards, count, plain, seconds, tag, to_page
 from cellc.mock.report_page.run_section import RunEvidence, run_section
 from cellc.mock.report_page.sweep_section import sweep_section, sweep_verdict
-from cellc.mock.sweep.sweep import Sweep, SweepRun, name_of
+from cellc.mock.sweep.sweep import Sweep
 
 _NAMES = {
     "plan_to_execute_s": "plan to execute",
@@ -69,7 +69,7 @@ class ReportContent:
 def header(content: ReportContent) -> Element:
     """Return the title, the verdict and the identity of what was judged."""
     contract = content.contract
-    passed = sum(run.result.passed for run in content.runs)
+    passed = sum(run.passed for run in content.runs)
     good = 0 < passed == len(content.runs)
     verdict = tag(
         "p", _mark(good), f" {passed} of {count(len(content.runs), 'rehearsal')} ended as expected, within the bounds"
@@ -97,19 +97,18 @@ def header(content: ReportContent) -> Element:
 def outcomes(content: ReportContent) -> Element:
     """Return the matrix of rehearsals and their ends."""
     names = ("rehearsal", "verdict", "outcome", "expected", "injected", "response", "bound", "simulated")
-    swept = {name_of(each.rehearsal, run): run for each in content.sweeps for run in each.failed}
-    rows = [_outcome_row(number, run, swept.get(run.result.name)) for number, run in enumerate(content.runs, start=1)]
+    rows = [_outcome_row(number, run) for number, run in enumerate(content.runs, start=1)]
     return tag("section", tag("h2", "Outcomes"), cards(names, rows))
 
 
-def _outcome_row(number: int, run: RunEvidence, swept: SweepRun | None) -> tuple[Child, ...]:
+def _outcome_row(number: int, run: RunEvidence) -> tuple[Child, ...]:
     result = run.result
     faults = ", ".join(f"{fault.kind} {fault.target}" for fault in run.entry.faults) or "nothing"
-    cells = [result.outcome if swept is None else swept.outcome, result.expected, faults]
+    cells = [run.outcome, result.expected, faults]
     numbers = [seconds(result.response_s), seconds(result.within_s), seconds(result.sim_time_s)]
     return (
         tag("a", result.name, href=f"#run-{number}"),
-        _mark(result.passed and swept is None),
+        _mark(run.passed),
         *cells,
         *(tag("td", cell, class_="number") for cell in numbers),
     )

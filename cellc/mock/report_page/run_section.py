@@ -14,6 +14,7 @@ from cellc.mock.report_page.axes import TimeAxis, ticks
 from cellc.mock.report_page.html import Child, at, cards, count, seconds, tag
 from cellc.mock.report_page.plots import age_plot, joint_plot, state_plot
 from cellc.mock.result import AttemptRecord, PacketStep, RehearsalResult
+from cellc.mock.sweep.sweep import SweepRun
 from cellc.vocabulary import AttemptOutcome
 
 _WORDS = {
@@ -35,6 +36,7 @@ class RunEvidence:
     Attributes:
         tolerances: path tolerance of each joint that has one, rad or m.
         files: names of the files beside the report.
+        swept: the run of a sweep that was made again; it may have missed a goal that the robot believed it reached.
     """
 
     entry: RehearsalEntry
@@ -43,6 +45,17 @@ class RunEvidence:
     kpis: tuple[Kpi, ...]
     tolerances: Mapping[str, float]
     files: tuple[str, ...]
+    swept: SweepRun | None = None
+
+    @property
+    def outcome(self) -> str:
+        """How it ended."""
+        return self.result.outcome if self.swept is None else self.swept.outcome
+
+    @property
+    def passed(self) -> bool:
+        """Whether it ended as it must."""
+        return self.result.passed and (self.swept is None or self.swept.passed)
 
 
 @dataclass(frozen=True, slots=True)
@@ -241,11 +254,11 @@ def _event_ns(event: FaultEvent, attempts: Sequence[AttemptRecord]) -> int | Non
 def run_section(number: int, run: RunEvidence, contract: Contract) -> Element:
     """Return the section of a rehearsal."""
     result = run.result
-    verdict = "passed" if result.passed else "FAILED"
+    verdict = "passed" if run.passed else "FAILED"
     title = tag(
         "h2",
         f"Rehearsal {result.name}",
-        tag("span", f" {result.outcome}, {verdict}", class_="good" if result.passed else "bad"),
+        tag("span", f" {run.outcome}, {verdict}", class_="good" if run.passed else "bad"),
     )
     problems = [
         tag("p", f"{stage.stage}: {text}", class_="note") for stage in result.bringup for text in stage.problems

@@ -44,6 +44,11 @@ def test_a_sweep_says_rate_margins_draws_and_verdict_and_a_run_is_made_again(nes
     (row,) = re.findall(rf"<tr>(?:(?!</tr>).)*put/{failed}(?:(?!</tr>).)*</tr>", page)[:1]
     assert "missed put" in row
     assert "✓" not in row
+    alone = tmp_path / "alone"
+    run("mock", str(nest_folder), "--replay", failed, "--evidence", str(alone))
+    page = (alone / "report.html").read_text(encoding="utf-8")
+    assert "0 of 1 rehearsal ended as expected" in page
+    assert "missed put, FAILED" in page
 
 
 @pytest.mark.parametrize(
