@@ -312,6 +312,8 @@ class MotionPlanner:
     def room(self, group: str, positions: Mapping[str, float]) -> tuple[float, float | None]:
         """Return the least singular value of the tip's Jacobian where a group stands, and its clearance in m.
 
+        Six decimals of the value: the last bits of a decomposition are others with another numpy.
+
         Args:
             positions: of all joints, rad or m.
         """
@@ -319,7 +321,7 @@ class MotionPlanner:
             build_scene(self._model, self._scene, tuple(self._independent(positions)))
         )
         stands = tuple(positions[joint] for joint in planner.group.joints)
-        return planner.min_singular_value(stands), planner.clearance_m(stands)
+        return round(planner.min_singular_value(stands), 6), planner.clearance_m(stands)
 
     def meeting(self, motions: Sequence[TimedTrajectory], positions: Mapping[str, float]) -> PlanFailure | None:
         """Tell when motions that begin at once would touch on their way; None where they keep clear of each other.
