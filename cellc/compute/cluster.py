@@ -10,16 +10,14 @@ A unit takes some 10 ms, and a task costs Dask about 1 ms (docs.dask.org, "Best 
 
 from __future__ import annotations
 
-import hashlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import BrokenExecutor, CancelledError, Future
 from contextlib import contextmanager, suppress
-from functools import cache, partial
-from importlib.metadata import PackageNotFoundError, version
-from pathlib import Path
+from functools import partial
 from time import monotonic
 from typing import Any
 
+from cellc.compute.versions import versions
 from cellc.compute.work import ComputeError, Crew, Hire, Sent, answer
 
 _PACKET = 50
@@ -28,8 +26,6 @@ _CONNECTS_S = 10.0
 _LOOK_S = 0.5
 _AWAY_S = 3.0
 """How long a scheduler may be out of reach: Dask connects again after a break, and has forgotten what it was asked."""
-_PACKAGES = ("cellc", "numpy", "pin")
-"""What computes the figures: another version may give other bits."""
 
 
 def cluster(address: str) -> Hire:
@@ -59,7 +55,7 @@ def _crew(address: str, sent: Sent, units: int) -> Iterator[Crew]:
             hands = _HANDS_OF_A_WORKER * max(1, len(client.nthreads()))
 
             def ask(packet: Sequence[Any]) -> Future[Any]:
-                asked: Future[Any] = executor.submit(_answer, told, _versions(), packet)
+                asked: Future[Any] = executor.submit(_answer, told, versions(), packet)
                 return asked
 
             packet = max(1, min(_PACKET, units // (2 * hands)))
@@ -107,33 +103,14 @@ def _same(sent: Sent) -> Sent:
     return sent
 
 
-def _answer(sent: Sent, expected: dict[str, str], units: Sequence[Any]) -> list[Any]:
+def _answer(sent: Sent, expected: Mapping[str, str], units: Sequence[Any]) -> list[Any]:
     """Answer some units in a worker that computes as the caller would.
 
     Raises:
         ComputeError: it has another version of what computes.
     """
-    found = _versions()
+    found = versions()
     for name, wanted in expected.items():
         if found[name] != wanted:
             raise ComputeError(f"a worker has {name} {found[name]}, here is {wanted}; both must be the same")
     return answer(sent, units)
-
-
-@cache
-def _versions() -> dict[str, str]:
-    """Return what computes here; of cellc with a digest of its modules, since a version may be under work."""
-    found = {name: _version(name) for name in _PACKAGES}
-    digest = hashlib.sha256()
-    root = Path(__file__).parents[1]
-    for file in sorted(root.rglob("*.py")):
-        digest.update(file.relative_to(root).as_posix().encode() + b"\0" + file.read_bytes())
-    found["cellc"] += f" ({digest.hexdigest()[:12]})"
-    return found
-
-
-def _version(package: str) -> str:
-    try:
-        return version(package)
-    except PackageNotFoundError:
-        return "UNKNOWN"

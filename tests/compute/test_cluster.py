@@ -15,6 +15,7 @@ from cellc.cli.batch import results
 from cellc.cli.fleet import Fan, Task
 from cellc.compute import cluster as of_dask
 from cellc.compute.cluster import cluster
+from cellc.compute.versions import versions
 from cellc.compute.work import ComputeError, Work, stream
 from cellc.mock import load
 from cellc.mock.campaign.campaign import conduct, make_plan
@@ -100,8 +101,8 @@ def test_a_worker_of_a_cluster_that_dies_costs_time_alone(dask: Dask, tmp_path: 
 
 
 def test_a_worker_with_other_versions_is_refused(dask: Dask, monkeypatch: pytest.MonkeyPatch) -> None:
-    there = dict(of_dask._versions())
-    monkeypatch.setattr(of_dask, "_versions", lambda: there | {"numpy": "1.0.0"})
+    there = dict(versions())
+    monkeypatch.setattr(of_dask, "versions", lambda: there | {"numpy": "1.0.0"})
     with pytest.raises(ComputeError, match=rf"a worker has numpy {there['numpy']}, here is 1\.0\.0; both must be"):
         list(stream(Work(_squares, 5), range(3), cluster(dask.address)))
 

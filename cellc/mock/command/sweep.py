@@ -21,6 +21,7 @@ from cellc.mock.sweep.figures import interval
 from cellc.mock.sweep.journal import Journal
 from cellc.mock.sweep.summary import run_lines, sweep_json, sweep_lines
 from cellc.mock.sweep.sweep import (
+    MOST_DIGITS,
     SWEPT,
     USUAL_CONFIDENCE,
     Sweep,
@@ -82,8 +83,7 @@ def sweep_entry(cell: MockCell, entry: RehearsalEntry, options: MockOptions) -> 
     with progress("sweep") as update, ExitStack() as stack:
         journal: Journal | None = None
         if options.journal is not None:
-            identity = cell.contract.configuration_id
-            journal = stack.enter_context(Journal(Path(options.journal), identity, entry.name, options.seed))
+            journal = stack.enter_context(Journal(Path(options.journal), cell.contract, entry.name, options.seed))
 
         def keep(run: SweepRun) -> None:
             nonlocal done, failed
@@ -110,7 +110,7 @@ def replay_swept(options: MockOptions) -> int:
         uncertainty = uncertainty_of(cell)
         (entry,) = entries_to_sweep(cell, options)[:1]
         if options.journal is not None:
-            Journal(Path(options.journal), cell.contract.configuration_id, entry.name, options.seed)  # or it refuses
+            Journal(Path(options.journal), cell.contract, entry.name, options.seed)  # or it refuses
         numbers = [_number(text) for text in dict.fromkeys(options.replay)]
         runs = [execute(cell, entry, uncertainty, options.seed, number) for number in numbers]
         if options.evidence is not None:
@@ -129,7 +129,7 @@ def replay_swept(options: MockOptions) -> int:
 
 def _number(text: str) -> int:
     number = text.removeprefix(SWEPT)
-    if text == number or not (number.isascii() and number.isdigit()) or len(number) > 18:
+    if text == number or not (number.isascii() and number.isdigit()) or len(number) > MOST_DIGITS:
         raise MockError("", f"there is no run `{text}`; a run of a sweep is `{SWEPT}NUMBER`")
     return int(number)
 

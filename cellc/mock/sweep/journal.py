@@ -3,35 +3,73 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict
 from pathlib import Path
 from types import TracebackType
-from typing import Any, BinaryIO
+from typing import BinaryIO
 
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from cellc.compute.versions import difference, versions
+from cellc.contract.contract import Contract
 from cellc.mock.errors import MockError
-from cellc.mock.sweep.sweep import GoalRoom, SweepRun
+from cellc.mock.sweep.sweep import MOST_DIGITS, GoalRoom, SweepRun
 from cellc.store.regular_file import open_regular
 
-_FORMAT = "cellc sweep 2"
+_FORMAT = "cellc sweep 3"
+_OF_ANY_VERSION = "cellc sweep "
+_AWAY = "name another file, or move it away"
+
+
+class _Line(BaseModel):
+    model_config = ConfigDict(strict=True, extra="forbid", allow_inf_nan=False, frozen=True)
+
+
+class _Room(_Line):
+    distance_m: float = Field(ge=0.0)
+    singular_value: float = Field(ge=0.0)
+    joint_room: float | None
+    clearance_m: float | None
+    transform_age_s: float | None
+
+
+class _Run(_Line):
+    number: int = Field(ge=0, lt=10**MOST_DIGITS)
+    outcome: str = Field(min_length=1)
+    passed: bool
+    goals: dict[str, _Room]
+    joint_state_age_s: float | None
+    digest: str = Field(min_length=1)
+
+    def run(self) -> SweepRun:
+        goals = {name: GoalRoom(**room.model_dump()) for name, room in self.goals.items()}
+        return SweepRun(self.number, self.outcome, self.passed, goals, self.joint_state_age_s, self.digest)
 
 
 class Journal:
-    """A file of runs; used as a context. The first line says which sweep they are of.
+    """A file of runs; used as a context. The first line says which sweep they are of, and what computed them.
 
     Attributes:
         runs: that stood there already, by number. A last line that was cut off is none.
     """
 
-    def __init__(self, path: Path, configuration_id: str, rehearsal: str, seed: int) -> None:
+    def __init__(self, path: Path, contract: Contract, rehearsal: str, seed: int) -> None:
         """Read what is there.
 
         Raises:
-            MockError: the file cannot be read, or is of another sweep or of something else.
+            MockError: the file cannot be read, is of another sweep or of something else, or a line of it is no run.
         """
         self.runs: dict[int, SweepRun] = {}
         self._path = path
-        self._head = {"journal": _FORMAT, "configuration_id": configuration_id, "rehearsal": rehearsal, "seed": seed}
+        self._head = {
+            "journal": _FORMAT,
+            "configuration_id": contract.configuration_id,
+            "rehearsal": rehearsal,
+            "seed": seed,
+            "versions": dict(versions()),
+        }
+        self._goals = contract.goals
         self._kept = 0
         self._file: BinaryIO | None = None
         if path.is_symlink():
@@ -46,16 +84,44 @@ class Journal:
         except OSError as error:
             raise self._unusable("read", error) from None
         whole = [line for line in lines if line.endswith(b"\n")]
+        if not whole:
+            if not _line(self._head).startswith(b"".join(lines)):  # it was cut off as it began, or it is none of ours
+                raise self._refused(f"is no journal; {_AWAY}")
+            return
+        problem = self._other_head(whole[0])
+        if problem:
+            raise self._refused(f"{problem}; {_AWAY}")
         self._kept = sum(map(len, whole))
+        self._take(whole[1:])
+
+    def _other_head(self, line: bytes) -> str:
+        """Say what else a file is of than of this sweep; empty where it is of this one."""
         try:
-            head, *runs = map(json.loads, whole or [b"{}"])
-            found = [_run(each) for each in runs]
-        except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
-            head, found = None, []
-        if whole and head != self._head:
-            of = "of another sweep" if isinstance(head, dict) and head.get("journal") == _FORMAT else "no journal"
-            raise MockError(self._path.as_posix(), f"is {of}; name another file, or move it away")
-        self.runs = {run.number: run for run in found}
+            head = json.loads(line)
+        except (ValueError, RecursionError):
+            head = None
+        name = head.get("journal") if isinstance(head, dict) else None
+        if not isinstance(name, str) or not name.startswith(_OF_ANY_VERSION):
+            return "is no journal"
+        if name != _FORMAT:
+            return "was written by another version of cellc"
+        there = head.get("versions")
+        if head != self._head | {"versions": there}:
+            return "is of another sweep"
+        other = difference(there if isinstance(there, dict) else {})
+        return f"has runs that were made with {other}" if other else ""
+
+    def _take(self, lines: Iterable[bytes]) -> None:
+        for number, line in enumerate(lines, start=2):
+            try:
+                run = _Run.model_validate_json(line).run()
+            except ValidationError as invalid:
+                raise self._refused(f"line {number} is no run: {_first(invalid)}") from None
+            unknown = next((name for name in run.goals if name not in self._goals), None)
+            if unknown is not None:
+                raise self._refused(f"line {number} is no run of this cell: there is no goal `{unknown}`")
+            if self.runs.setdefault(run.number, run) != run:
+                raise self._refused(f"line {number} contradicts another line of run {run.number}")
 
     def __enter__(self) -> Journal:
         try:
@@ -65,14 +131,25 @@ class Journal:
             if not self._kept:
                 self._write(self._head)
         except OSError as error:
+            self._close()
             raise self._unusable("written", error) from None
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
     ) -> None:
-        if self._file is not None:
-            self._file.close()
+        problem = self._close()
+        if problem is not None and error is None:
+            raise self._unusable("written", problem)
+
+    def _close(self) -> OSError | None:
+        """Close the file, and return why what it still held could not be written; it is closed all the same."""
+        try:
+            if self._file is not None:
+                self._file.close()
+        except OSError as error:
+            return error
+        return None
 
     def keep(self, run: SweepRun) -> None:
         """Write a run that has ended.
@@ -87,15 +164,23 @@ class Journal:
 
     def _write(self, value: Mapping[str, object]) -> None:
         assert self._file is not None  # used as a context
-        self._file.write(json.dumps(value, allow_nan=False, separators=(",", ":")).encode() + b"\n")
+        self._file.write(_line(value))
         self._file.flush()
 
+    def _refused(self, reason: str) -> MockError:
+        return MockError(self._path.as_posix(), reason)
+
     def _unusable(self, what: str, error: OSError) -> MockError:
-        return MockError(self._path.as_posix(), f"cannot be {what}: {(error.strerror or 'unknown reason').lower()}")
+        return self._refused(f"cannot be {what}: {(error.strerror or 'unknown reason').lower()}")
 
 
-def _run(line: Mapping[str, Any]) -> SweepRun:
-    run = SweepRun(**{**line, "goals": {goal: GoalRoom(**room) for goal, room in line["goals"].items()}})
-    if not isinstance(run.number, int):
-        raise TypeError(line)
-    return run
+def _line(value: Mapping[str, object]) -> bytes:
+    return json.dumps(value, allow_nan=False, separators=(",", ":")).encode() + b"\n"
+
+
+def _first(invalid: ValidationError) -> str:
+    """Say what is wrong first: where, and what must be there."""
+    error = invalid.errors(include_url=False, include_input=False)[0]
+    where = ".".join(map(str, error["loc"]))
+    said = error["msg"][:1].lower() + error["msg"][1:]
+    return f"`{where}`: {said}" if where else said

@@ -22,6 +22,8 @@ from cellc.mock.sweep.figures import Interval, confidence_of_look, interval, loo
 
 SWEPT = "sweep:"
 """Before the number of a run that is named."""
+MOST_DIGITS = 18
+"""Of the number of a run: with the seed beside it, it is one of the 2^64 keys of the generator."""
 USUAL_CONFIDENCE = 0.95
 """Of the interval where the cell expects nothing of the rehearsal."""
 
