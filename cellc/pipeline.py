@@ -7,7 +7,7 @@ on an error, so that one mistake does not cascade; rules all run.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from cellc.artifact import Artifact
@@ -29,10 +29,15 @@ _ON_MODELS = tuple(one for one in ALL_RULES if one.family == "MOD" or one.code =
 
 @dataclass(frozen=True, slots=True)
 class Checked:
-    """What checking one spec gave: all findings, and the graph where the stages before it found no error."""
+    """What checking one spec gave: all findings, and the graph where the stages before it found no error.
+
+    Attributes:
+        excused: what rules found, and comments in the spec take out of the findings.
+    """
 
     findings: Findings
     graph: CellGraph | None
+    excused: tuple[Diagnostic, ...] = ()
 
     @property
     def diagnostics(self) -> tuple[Diagnostic, ...]:
@@ -72,7 +77,9 @@ def check(path: str | Path, edited: Mapping[str, str] | None = None) -> Checked:
         return _checked(file, texts, _unexcused(found, texts))
     graph = build_graph(cell.value)
     found += run_rules(graph)
-    return _checked(file, texts, _excused(found, texts), graph)
+    kept = _excused(found, texts)
+    known = frozenset(kept)
+    return replace(_checked(file, texts, kept, graph), excused=tuple(one for one in found if one not in known))
 
 
 def _check_description(path: Path) -> Checked:

@@ -8,11 +8,11 @@ from dataclasses import dataclass, field, replace
 from pathlib import PurePosixPath
 
 from cellc.contract.review import ReviewChange
-from cellc.review.edges import edge_changes
-from cellc.review.facts import Facts
+from cellc.review.edges import edge_changes, offers_less
+from cellc.review.facts import OF_SPEC, Facts
 from cellc.review.geometry import moved_places
 from cellc.review.grading import grade
-from cellc.review.leaves import Delta, Leaf, Path, differences, prefixes, same, words
+from cellc.review.leaves import Delta, Leaf, Path, as_json, differences, flatten, prefixes, same, words
 from cellc.review.lines import Known, LinesLeft, lines_left
 from cellc.review.rows import FOLLOWS, ROWS
 from cellc.review.rules import APPROVAL, AREA_OF_FILE, THINGS, Fit, Row, Rule, Thing, fits
@@ -22,6 +22,8 @@ from cellc.vocabulary import Grade, ReviewArea
 _MADE_FROM = re.compile(r"\bcellc build (?:'[^']*'|[^\s`]+)")
 """A spec that was moved makes the same package: its path stands in the head of every file."""
 
+_SAID_ELSEWHERE = ("places", "summary", "owners")
+"""Of a cell: where its author wrote what, and what its configuration does not rest on."""
 _SHOWN_LINES = 3
 _SHOWS = ("graph/", "README.md")
 """Files that show people what the others say, in the order of the spec: they are told where a hand edited them."""
@@ -53,7 +55,7 @@ class Change:
 def changes_between(before: Facts, after: Facts) -> tuple[ReviewChange, ...]:
     """Return every change, the worst first, those that are alike as one."""
     told = _told(before, after)
-    owners = after.contract.approvals
+    owners = _approvers(before, after)
     merged: dict[Change, list[str]] = {}
     for change in told:
         merged.setdefault(replace(change, subject=""), []).append(change.subject)
@@ -61,6 +63,15 @@ def changes_between(before: Facts, after: Facts) -> tuple[ReviewChange, ...]:
         _reviewed(change, tuple(subjects), owners.get(APPROVAL[change.area], "")) for change, subjects in merged.items()
     ]
     return tuple(sorted(found, key=_order))
+
+
+def _approvers(before: Facts, after: Facts) -> Mapping[str, str]:
+    """Return who approves: who did before the change, so that none chooses whom to ask; who is new beside them."""
+    were, are = before.contract.approvals, after.contract.approvals
+    return {
+        area: " and ".join(dict.fromkeys(owner for owner in (were.get(area, ""), are.get(area, "")) if owner))
+        for area in {*were, *are}
+    }
 
 
 def _order(change: ReviewChange) -> tuple[int, int, str, tuple[str, ...]]:
@@ -86,8 +97,8 @@ def _reviewed(change: Change, subjects: Sequence[str], owner: str) -> ReviewChan
 
 def _told(before: Facts, after: Facts) -> list[Change]:
     # What only specs say is compared where both sides were made of one.
-    both = before.of_spec and after.of_spec
-    deltas = [one for one in differences(before.leaves, after.leaves) if both or one.path[0] != "spec"]
+    both = before.cell is not None and after.cell is not None
+    deltas = [one for one in differences(before.leaves, after.leaves) if both or one.path[0] not in OF_SPEC]
     came_or_went, rest = _things(deltas, before, after)
     primary = [delta for delta in rest if not _follows(delta.path)]
     told = [*came_or_went, *_effects(before, after)]
@@ -102,7 +113,28 @@ def _told(before: Facts, after: Facts) -> list[Change]:
     edited = before.edited | after.edited
     renamed = before.contract.cell != after.contract.cell
     left = lines_left(_lines_of(before, renamed), _lines_of(after, renamed), known)
-    return told + [_of_lines(one) for one in left if one.file in edited or not one.file.startswith(_SHOWS)]
+    told += [_of_lines(one) for one in left if one.file in edited or not one.file.startswith(_SHOWS)]
+    return told or list(_unexplained(before, after))
+
+
+def _unexplained(before: Facts, after: Facts) -> Iterator[Change]:
+    """Yield that two cells are not the same, where no file of theirs shows in what."""
+    was, now = before.manifest.configuration_inputs.cell_sha256, after.manifest.configuration_inputs.cell_sha256
+    if not was or not now or was == now:
+        return
+    found = list[Delta]()
+    if before.cell is not None and after.cell is not None:
+        cells = (dict(flatten(as_json(before.cell))), dict(flatten(as_json(after.cell))))
+        found = [one for one in differences(*cells) if one.path[0] not in _SAID_ELSEWHERE]
+    for one in found or [Delta(("cell",), was[:12], now[:12])]:
+        yield Change(
+            ReviewArea.GATES,
+            " ".join(one.path),
+            "value that no file of the package shows",
+            shown(one.before, _unit_in(one.path[-1])),
+            shown(one.after, _unit_in(one.path[-1])),
+            Grade.REVIEW,
+        )
 
 
 def _lines_of(facts: Facts, renamed: bool) -> Mapping[str, Sequence[str]]:
@@ -159,8 +191,15 @@ def _things(deltas: Sequence[Delta], before: Facts, after: Facts) -> tuple[list[
         else:
             folded.setdefault(place, []).append(delta)
     things = [(thing, _of_thing(path, thing, inner)) for (path, thing), inner in folded.items()]
-    names = _spelt(name for thing, change in things if not thing.follows for name in change.names)
-    return [one for thing, one in things if not (thing.follows and names & _spelt(one.names))], rest
+    told = [one for thing, one in things if not thing.follows]
+    return told + [one for thing, one in things if thing.follows and not _told_by(one, told)], rest
+
+
+def _told_by(following: Change, told: Sequence[Change]) -> bool:
+    """Tell whether something that came or went says of another that it did too, and no less gravely."""
+    grades = tuple(Grade)
+    worst = [grades.index(one.grade) for one in told if _spelt(one.names) & _spelt(following.names)]
+    return max(worst, default=-1) >= grades.index(following.grade)
 
 
 def _folds(path: Path, old: frozenset[Path], new: frozenset[Path]) -> Iterator[tuple[Path, Thing]]:
@@ -258,6 +297,9 @@ def _effects(before: Facts, after: Facts) -> Iterator[Change]:
         yield Change(
             ReviewArea.MOTION, one.subject, one.quantity, *sides, Grade.REVIEW, difference(one.before, one.after, "")
         )
+    for subject, missed in offers_less(before.contract, after.contract):
+        why = "subscribers outside of the cell that ask for what was offered hear it no more"
+        yield Change(ReviewArea.QOS, subject, "offer", "as asked", missed, Grade.REVIEW, breaking=True, why=why)
     for edge in edge_changes(before.contract, after.contract):
         taken = Grade.SAFE if edge.connects else Grade.DANGEROUS
         why = "" if edge.connects else "samples no longer arrive" if edge.before else "no sample arrives"

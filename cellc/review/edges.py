@@ -28,6 +28,17 @@ def edge_changes(before: Contract, after: Contract) -> Iterator[EdgeChange]:
             yield EdgeChange(edge, known, said, said == _CONNECTED)
 
 
+def offers_less(before: Contract, after: Contract) -> Iterator[tuple[str, str]]:
+    """Yield publishers that offer less than they did, and what a subscriber misses that asks for what was offered."""
+    for name, interface in after.interfaces.items():
+        known = before.interfaces.get(name)
+        offered = {} if known is None else {source.node: source.qos for source in known.sources}
+        for source in interface.sources:
+            missed = incompatibilities(source.qos, offered[source.node]) if source.node in offered else ()
+            if missed:
+                yield f"{name}: {source.node}", "; ".join(map(str, missed))
+
+
 _CONNECTED = "connected"
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -21,6 +21,7 @@ from cellc.contract.rehearsals import Rehearsals
 from cellc.description.model import Box, Collision, Cylinder, Description, Joint, Sphere
 from cellc.description.urdf_reader import read_urdf
 from cellc.description.xml_tree import read_xml
+from cellc.diagnostics import Diagnostic
 from cellc.limits import limits
 from cellc.review.leaves import Leaf, Leaves, Path, Prose, as_json, flatten
 from cellc.review.units import shown
@@ -43,6 +44,8 @@ _CHECKS = (
 _VERSIONS = "\n## Version tuple\n"
 _MIDDLEWARE = re.compile(r"middleware/(.+)\.sh")
 _EXPORT = re.compile(r"^export (\w+)=(.*)$", re.MULTILINE)
+OF_SPEC = ("spec", "area", "reference_points", "mounted", "excused")
+"""First parts of the paths of what a spec says and a package does not."""
 _Model = TypeVar("_Model", bound=BaseModel)
 
 
@@ -59,7 +62,8 @@ class Facts:
         lines: lines of every file that is no data, by file.
         joints: joints of the description for the real target, by the link that they carry.
         edited: files that are not as the manifest has them.
-        of_spec: the package was made of a spec, which says more than it: paths that begin with `spec`.
+        cell: what the package was made of, which says more than it (``OF_SPEC``); None where only the package is
+            there.
     """
 
     contract: Contract
@@ -68,15 +72,16 @@ class Facts:
     lines: Mapping[str, tuple[str, ...]]
     joints: Mapping[str, Joint]
     edited: frozenset[str]
-    of_spec: bool
+    cell: Cell | None
 
 
-def facts_of(files: Mapping[str, str], cell: Cell | None = None) -> Facts:
+def facts_of(files: Mapping[str, str], cell: Cell | None = None, excused: Sequence[Diagnostic] = ()) -> Facts:
     """Return what a package says.
 
     Args:
         files: text by path in the package.
         cell: what it was made of; None where only the package is there.
+        excused: findings of the check that comments of the spec excuse.
 
     Raises:
         FactsError: a file is missing or not what its name says.
@@ -98,6 +103,7 @@ def facts_of(files: Mapping[str, str], cell: Cell | None = None) -> Facts:
         _of_texts(files, contract.cell),
         _of_pairs(files, named.srdf),
         () if cell is None else _of_spec(cell),
+        _of_excuses(excused),
     ):
         leaves.update(found)
     of_manager = {path: ("parameters", of) for of, path in named.parameters.items()}
@@ -111,7 +117,7 @@ def facts_of(files: Mapping[str, str], cell: Cell | None = None) -> Facts:
     }
     joints = {joint.child: joint for joint in real.joints}
     edited = {path for path, known in manifest.files.items() if path in files and _sha256(files[path]) != known}
-    return Facts(contract, manifest, leaves, lines, joints, frozenset(edited), cell is not None)
+    return Facts(contract, manifest, leaves, lines, joints, frozenset(edited), cell)
 
 
 def _sha256(text: str) -> str:
@@ -305,10 +311,23 @@ def _of_spec(cell: Cell) -> Iterator[tuple[Path, Leaf]]:
     yield from flatten(as_json(cell.network), ("spec", "network"))
     yield from flatten(as_json(cell.targets), ("spec", "targets"))
     yield from flatten(as_json({**cell.mock_plugins, **cell.mock_programs}), ("spec", "mock_statements"))
+    for frame in cell.frames:
+        if frame.reference_points:
+            yield ("reference_points", frame.name), frame.reference_points
+    for area in cell.areas:
+        yield from flatten(_without_place(as_json(area)), ("area", area.name))
+    for device in cell.devices:
+        if device.mounted_on is not None:
+            yield ("mounted", device.name), str(device.mounted_on)
     for name, host in cell.hosts.items():
         yield from flatten(_without_place(as_json(host)), ("spec", "hosts", name))
     for node in cell.nodes:
         yield from flatten(_without_place(as_json(node)), ("spec", "nodes", node.full_name))
+
+
+def _of_excuses(excused: Sequence[Diagnostic]) -> Iterator[tuple[Path, Leaf]]:
+    for one in excused:
+        yield ("excused", one.severity.value, f"{one.code}: {one.message}"), "by a comment in the spec"
 
 
 def _without_place(entity: Json) -> Json:

@@ -74,6 +74,7 @@ _GRADES = {
     Rule.MORE: _more,
     Rule.LESS: _less,
     Rule.LOOSER: _looser,
+    Rule.FEWER: _back,
     Rule.BACK: _back,
     Rule.NAMED: _named,
     Rule.MATRIX: _matrix,

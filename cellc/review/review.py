@@ -22,7 +22,7 @@ def review(before: Package, after: Package, rehearsals: Sequence[ReviewRehearsal
         after=_side(after),
         changes=changes,
         new_findings=_more(after.findings, before.findings) if specs else (),
-        gone_findings=_more(before.findings, after.findings) if specs else (),
+        gone_findings=_more(before.findings, (*after.findings, *after.excused)) if specs else (),
         rehearsals=tuple(rehearsals),
         gates=gates_again(tuple(dict.fromkeys(change.area for change in changes))),
         files=tuple(

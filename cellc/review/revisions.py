@@ -30,6 +30,8 @@ _GIT = (
 )
 _ENVIRONMENT = {"GIT_TERMINAL_PROMPT": "0", "GIT_OPTIONAL_LOCKS": "0", "GIT_NO_LAZY_FETCH": "1", "LC_ALL": "C"}
 _FILES = ("100644", "100755")
+_NAMING = (".yaml", ".yml", ".xacro", ".urdf")
+"""Files that name others by their path."""
 
 
 class RevisionError(Exception):
@@ -70,6 +72,8 @@ class Repository:
     def taken(self, revision: str, path: str) -> Iterator[Taken]:
         """Give a path of a revision with the folder that it stands in, or is, in a folder that is removed afterwards.
 
+        Where a file of that folder leads out of it, all of the revision is taken: what is named lies beside it.
+
         Args:
             path: from the top of the repository, with forward slashes.
 
@@ -87,13 +91,23 @@ class Repository:
         if not is_folder and name not in {entry.name for entry in entries if entry.mode in _FILES}:
             raise RevisionError(f"`{revision}:{path}` is a link, which is not followed")
         _refuse_too_much(f"{revision}:{folder}", entries)
+        files = self._files(entries)
         with tempfile.TemporaryDirectory(prefix="cellc-diff-") as private:
-            kept = [entry for entry in entries if entry.mode in _FILES]
-            for entry, content in zip(kept, self._contents(kept), strict=True):
-                target = Path(private, *PurePosixPath(entry.name).parts)
+            place = top = Path(private)
+            if folder != "." and any(_leads_out(name, content) for name, content in files.items()):
+                entries = tuple(self._entries(f"{commit}:"))
+                _refuse_too_much(f"{revision}:", entries)
+                files, place = self._files(entries), Path(top, *PurePosixPath(folder).parts)
+                (top / ".git").mkdir()  # where the repository ends, and with it what a spec may name
+            for inside, content in files.items():
+                target = Path(top, *PurePosixPath(inside).parts)
                 target.parent.mkdir(parents=True, exist_ok=True)
                 target.write_bytes(content)
-            yield Taken(Path(private) if is_folder else Path(private, name), Path(private), len(entries) - len(kept))
+            yield Taken(place if is_folder else place / name, place, top, len(entries) - len(files))
+
+    def _files(self, entries: Sequence[_Entry]) -> dict[str, bytes]:
+        kept = [entry for entry in entries if entry.mode in _FILES]
+        return {entry.name: content for entry, content in zip(kept, self._contents(kept), strict=True)}
 
     def _entries(self, tree: str) -> Iterator[_Entry]:
         found = _asked(self.top, "ls-tree", "-r", "-z", "-l", "--full-tree", tree)
@@ -116,10 +130,18 @@ class Repository:
 
 @dataclass(frozen=True, slots=True)
 class Taken:
-    """What was taken out of a revision: the path asked for, the private folder, and how many links were left out."""
+    """What was taken out of a revision.
+
+    Attributes:
+        path: what was asked for.
+        folder: that it stands in, or is.
+        top: the private folder; that of the whole repository where all of it was taken, else ``folder``.
+        links: how many were left out.
+    """
 
     path: Path
     folder: Path
+    top: Path
     links: int
 
 
@@ -143,6 +165,12 @@ def repository_of(folder: Path) -> Repository:
     if found is None:
         raise RevisionError(f"`{folder.as_posix()}` is in no git repository that may be read")
     return Repository(Path(os.fsdecode(found.removesuffix(b"\n"))))
+
+
+def _leads_out(name: str, content: bytes) -> bool:
+    if PurePosixPath(name).suffix not in _NAMING or b"../" not in content:
+        return False
+    return any(b"../" in line.partition(b"#")[0] for line in content.splitlines())  # an editor's schema is a comment
 
 
 def _refuse_too_much(shown: str, entries: Sequence[_Entry]) -> None:

@@ -17,6 +17,8 @@ _LIMIT = "the joint may go further or faster than people at the cell know it"
 _STALE = "older data may be used, or a failure goes unseen for longer"
 _PLANNED = "planned motion is another one"
 _BURNS = "a tool that takes less is destroyed"
+_MEET = "arms may meet in it"
+_OTHER = "another device may answer there"
 _SECOND = "something else commands the joints"
 
 ROWS: Sequence[Row] = (
@@ -28,6 +30,11 @@ ROWS: Sequence[Row] = (
     Row("contract safety on_reconnect", _A.SAFETY, "what becomes of an old goal", Rule.DANGEROUS),
     Row("spec safety stop {what}", _A.SAFETY, "the stop", Rule.DANGEROUS, ordered=False),
     Row("spec safety recovery {what}", _A.SAFETY, "recovery", Rule.DANGEROUS, ordered=False),
+    Row("area {area} size", _A.SAFETY, "size of the shared area", Rule.DANGEROUS, "m", why=_MEET),
+    Row("area {area} transform_to_parent", _A.SAFETY, "place of the shared area", Rule.DANGEROUS, why=_MEET),
+    Row("area {area} granted_by", _A.SAFETY, "who lets one arm in", Rule.DANGEROUS, why=_MEET),
+    Row("area {area} {what}", _A.SAFETY, "shared area", Rule.DANGEROUS, why=_MEET),
+    Row("contract approvals safety", _A.SAFETY, "who approves changes of safety", Rule.DANGEROUS),
     Row("watch {watch} ...", _A.SAFETY, "watch that deactivates controllers", Rule.DANGEROUS),
     Row("check payload {device}", _A.PAYLOAD, "payload that the robot is told", Rule.DANGEROUS, why="the arm may sag"),
     Row("check tcp {device}", _A.PAYLOAD, "TCP that the robot is told", Rule.DANGEROUS, why="it is another point"),
@@ -39,6 +46,8 @@ ROWS: Sequence[Row] = (
     Row("spec payload {device} ...", _A.PAYLOAD, "payload", Rule.DANGEROUS, why="the arm may sag"),
     # Frames and what measured them.
     Row("placement {frame}", _A.FRAMES, "pose in its parent", Rule.PLACED),
+    Row("reference_points {frame}", _A.CALIBRATION, "reference points", Rule.FEWER),
+    Row("mounted {device}", _A.CALIBRATION, "day of its mounting", Rule.REVIEW),
     Row("contract root_frame", _A.FRAMES, "root of the tree", Rule.DANGEROUS, breaking=True),
     Row("contract frames {frame} parent", _A.FRAMES, "parent", Rule.REVIEW, breaking=True),
     Row("contract frames {frame} authority", _A.FRAMES, "publisher", Rule.DANGEROUS, why="another node places it"),
@@ -127,6 +136,16 @@ ROWS: Sequence[Row] = (
     Row("parameters {_} {node} ros__parameters ...", _A.CONTROL, "parameter", Rule.REVIEW),
     Row("real hardware {component} plugin", _A.CONTROL, "hardware plugin", Rule.DANGEROUS),
     Row("mock hardware {component} plugin", _A.CONTROL, "hardware plugin of the mock", Rule.DANGEROUS),
+    *(
+        Row(
+            f"real hardware {{component}} parameters {name}",
+            _A.NETWORK,
+            "where it is reached",
+            Rule.DANGEROUS,
+            why=_OTHER,
+        )
+        for name in ("robot_ip", "ip_address", "COM_port", "can_interface")
+    ),
     Row("real hardware {component} parameters {what}", _A.CONTROL, "parameter of the hardware", Rule.REVIEW),
     Row("real hardware {component} ...", _A.CONTROL, "hardware", Rule.REVIEW),
     Row("contract adapters {device} command_timeout_s", _A.CONTROL, "watchdog", Rule.LOOSER, "s", why=_STALE),
@@ -222,6 +241,13 @@ ROWS: Sequence[Row] = (
     Row("rehearsals {rehearsal} within_s", _A.REHEARSALS, "bound of the outcome", Rule.LOOSER, "s", why=_STALE),
     Row("rehearsals {rehearsal} {what}", _A.REHEARSALS, "rehearsal", Rule.REVIEW),
     Row("file config/uncertainty.json tolerances {goal}", _A.REHEARSALS, "tolerance of a sweep", Rule.LOOSER, "m"),
+    Row(
+        "file config/uncertainty.json expected {rehearsal} success",
+        _A.REHEARSALS,
+        "share of runs that must succeed",
+        Rule.FEWER,
+    ),
+    Row("file config/uncertainty.json expected {rehearsal} confidence", _A.REHEARSALS, "confidence of it", Rule.FEWER),
     Row("file config/uncertainty.json ...", _A.REHEARSALS, "sweep", Rule.REVIEW),
     Row("contract responsibilities {responsibility}", _A.OWNERS, "owner", Rule.NAMED),
     Row("contract approvals {area}", _A.OWNERS, "owner of the approval", Rule.NAMED),

@@ -27,6 +27,7 @@ class Rule(Enum):
     MORE = "dangerous where it grew or vanished, else safe"
     LESS = "dangerous where it shrank or vanished, else safe"
     LOOSER = "dangerous where it grew or vanished, else review"
+    FEWER = "dangerous where it shrank or vanished, else review"
     BACK = "dangerous where it went back, else review"
     NAMED = "dangerous where it became UNKNOWN or vanished, else review"
     MATRIX = "dangerous where it was OK and is not any more, safe where it became OK, else review"
@@ -128,7 +129,10 @@ THINGS: Sequence[Thing] = (
     Thing("check tool_impedance {device}", _A.SAFETY, "impedance at the tool", _R, _D),
     Thing("check tool_voltage {device}", _A.SAFETY, "voltage of the tool connector", _D, _R),
     Thing("check thresholds {device}", _A.SAFETY, "collision thresholds of the robot", _R, _D),
-    Thing("real shapes {link}", _A.MODEL, "collision shapes", _R, _D, follows=True),
+    Thing("area {area}", _A.SAFETY, "shared area", _R, _D, why="arms may meet in it"),
+    Thing("excused blocker {finding}", _A.GATES, "excuse of a blocker", _D, _S, why="nothing asks for it any more"),
+    Thing("excused {_} {finding}", _A.GATES, "excuse of a finding", _R, _S),
+    Thing("real shapes {link}", _A.MODEL, "collision shapes", _R, _D, why="nothing is planned round it", follows=True),
     Thing("real inertia {link}", _A.MODEL, "mass and inertia", _R, _R, follows=True),
     Thing("real joint {joint}", _A.MODEL, "joint", _R, _R, shown="type"),
     Thing("real hardware {component}", _A.CONTROL, "hardware component", _R, _D, shown="plugin"),

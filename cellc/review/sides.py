@@ -51,6 +51,7 @@ class Package:
     Attributes:
         files: text by path in the package.
         findings: what the check says, where the side is a spec.
+        excused: what it would say without the comments of the spec.
         is_spec: whether it is one.
     """
 
@@ -58,6 +59,7 @@ class Package:
     files: Mapping[str, str]
     facts: Facts
     findings: tuple[ReviewFinding, ...] = ()
+    excused: tuple[ReviewFinding, ...] = ()
     is_spec: bool = False
     notes: tuple[str, ...] = ()
 
@@ -139,15 +141,18 @@ def _package(side: Side, stack: ExitStack) -> tuple[Package, Path]:
     taken = stack.enter_context(repository.taken(revision, path))
     found = _read(side.name, taken.path, taken.path.as_posix())
     shown = f"{side.revision}:{PurePosixPath(path).parent.as_posix()}/"
-    findings = tuple(_shown_from(one, f"{taken.folder.as_posix()}/", shown) for one in found.findings)
+    named = {f"{taken.folder.as_posix()}/": shown, f"{taken.top.as_posix()}/": f"{side.revision}:"}
+    findings, excused = (tuple(_shown_from(one, named) for one in each) for each in (found.findings, found.excused))
     links = (f"{side.name}: {taken.links} links or submodules were left out",) if taken.links else ()
-    return replace(found, findings=findings, notes=(*found.notes, *links)), taken.path
+    return replace(found, findings=findings, excused=excused, notes=(*found.notes, *links)), taken.path
 
 
-def _shown_from(found: ReviewFinding, folder: str, name: str) -> ReviewFinding:
+def _shown_from(found: ReviewFinding, named: Mapping[str, str]) -> ReviewFinding:
     """Return a finding of a spec in a private folder as one of the revision."""
-    texts = {key: getattr(found, key).replace(folder, name) for key in ("message", "place")}
-    return found.model_copy(update=texts)
+    message, place = found.message, found.place
+    for folder, name in named.items():
+        message, place = message.replace(folder, name), place.replace(folder, name)
+    return found.model_copy(update={"message": message, "place": place})
 
 
 def _read(name: str, path: Path, shown: str) -> Package:
@@ -181,7 +186,8 @@ def package_of(name: str, checked: Checked) -> Package:
         raise SideError(f"{name}:{first.span.line}:{first.span.column}: {first.message}{more}; see `cellc check`")
     files = {artifact.path: artifact.text for artifact in emitted.value}
     told = tuple(as_review_finding(one) for one in checked.diagnostics)
-    return Package(name, files, facts_of(files, checked.graph.cell), told, is_spec=True)
+    excused = tuple(as_review_finding(one) for one in checked.excused)
+    return Package(name, files, facts_of(files, checked.graph.cell, checked.excused), told, excused, is_spec=True)
 
 
 def as_review_finding(found: Diagnostic) -> ReviewFinding:

@@ -61,6 +61,9 @@ is told with its file. A zero is no bound: ros2_control checks no tolerance and 
 A transform that was measured does not change without another measurement: a frame with a calibration whose pose
 changed is dangerous where the calibration has no new revision. How far tips move in each named pose and goals in
 the root frame follows by forward kinematics, with dynamic frames where the mock puts them.
+
+A finding that a comment in the spec excuses did not go: the excuse is told. Where two cells are not the same and no
+file shows in what, each value is told by its name in the linked cell; of two folders alone that much is said.
 """
 
 
@@ -73,8 +76,9 @@ def _areas() -> Iterator[str]:
     yield ""
     yield "## Areas"
     yield ""
-    yield "The owner is that of the approval area in `owners.approvals` after the change. Gates and layers rest"
-    yield "on those before them: from the first one on, the evidence counts no longer."
+    yield "The owner is that of the approval area in `owners.approvals` before the change, with a new one beside them:"
+    yield "nobody chooses who approves their own change. Gates and layers rest on those before them: from the first one"
+    yield "on, the evidence counts no longer."
     yield ""
     yield "| area | approval | gate | layer |"
     yield "|---|---|---|---|"

@@ -179,9 +179,9 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "dangerous time | control_pc | bound of its offset | 1 ms -> 2 ms | +100 %",
             "dangerous versions | arm.driver | what the matrix says | OK: jazzy knows 3.8.0: rosdistro, as of 2026-08-"
             "22 -> UNKNOWN: jazzy knows 3.8.0: rosdistro, as of 2026-08-22",
+            "dangerous network | arm_hardware | where it is reached | 192.168.56.101 -> 192.168.56.102",
             "review control | arm_trajectory | parameter constraints.stopped_velocity_tolerance | 0.2 -> 0.01 | -95 %",
             "review control | camera | parameter depth_module.exposure | 8000 -> 10000",
-            "review control | arm_hardware | parameter of the hardware robot_ip | 192.168.56.101 -> 192.168.56.102",
             "review control | camera | parameter rgb_camera.exposure | 80 -> 100",
             "review control | arm_dashboard_client, arm_state_helper | parameter robot_ip | "
             "192.168.56.101 -> 192.168.56.102",

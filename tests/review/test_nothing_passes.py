@@ -1,0 +1,144 @@
+"""What no file of a package shows is told too, and nobody chooses who approves their own change."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from cellc.review.compare import changes_between
+from cellc.review.facts import facts_of
+from cellc.review.sides import Package, Side, packages
+from tests.cells import spec_text
+from tests.cli.run import run
+from tests.link.test_packages import CELL, CUBE, DEVICE
+from tests.review.revisions import Edit, Repository, changes_of, edited, new_repository, package_of, reviewed
+
+DUAL = "cells/dual_ur/cell.yaml"
+AREA = "parent: nest, xyz: 0 0 250 mm, box: 500 400 500 mm, granted_by: safety_plc"
+
+
+def _changes(repository: Repository, main: Package, *edits: Edit) -> list[str]:
+    return changes_of(main, package_of(repository, repository.commit(edited(*edits))))
+
+
+def _of_two_arms(tmp_path: Path, new: str) -> list[str]:
+    repository = new_repository(tmp_path, DUAL)
+    commit = repository.commit(spec_text("dual_ur").replace(AREA, new), DUAL)
+    sides = (Side(name, DUAL, name, repository.folder) for name in ("main", commit))
+    with packages(*sides) as ((before, _), (after, _)):
+        return changes_of(before, after)
+
+
+def test_an_area_that_arms_share_is_told_in_mm_and_is_a_matter_of_safety(tmp_path: Path) -> None:
+    assert AREA in spec_text("dual_ur")
+    smaller = AREA.replace("500 400 500 mm", "50 40 50 mm").replace("safety_plc", "nobody")
+    assert _of_two_arms(tmp_path, smaller) == [
+        "dangerous safety | over_nest | size of the shared area | 500 400 500 mm -> 50 40 50 mm",
+        "dangerous safety | over_nest | who lets one arm in | safety_plc -> nobody",
+    ]
+
+
+def test_an_area_that_went_is_a_matter_of_safety(repository: Repository, tmp_path: Path) -> None:
+    other = new_repository(tmp_path, DUAL)
+    lines = [line for line in spec_text("dual_ur").splitlines() if not line.startswith(("areas:", "  over_nest:"))]
+    commit = other.commit("\n".join(lines) + "\n", DUAL)
+    with packages(*(Side(name, DUAL, name, other.folder) for name in ("main", commit))) as ((before, _), (after, _)):
+        assert changes_of(before, after) == ["dangerous safety | over_nest | shared area went | there -> None"]
+
+
+def test_what_a_calibration_rests_on_is_told(repository: Repository, main: Package) -> None:
+    mount = "mount: {parent: arm/tool0, xyz: 0 0 11"
+    found = _changes(
+        repository,
+        main,
+        ("reference_points: 3", "reference_points: 1"),
+        (mount, mount.replace("{", "{since: 2026-09-01, ")),
+    )
+    assert found == [
+        "dangerous calibration | fixture_A | reference points | 3 -> 1",
+        "review calibration | gripper | day of its mounting | None -> 2026-09-01",
+    ]
+
+
+def test_a_blocker_that_a_comment_silences_did_not_go(repository: Repository, main: Package) -> None:
+    rollback = "rollback: {image: UNKNOWN, configuration: UNKNOWN}"
+    silenced = (rollback, f"{rollback}  # cellc: ignore missing-rollback no image yet")
+    after = package_of(repository, repository.commit(edited(silenced)))
+    found = reviewed(main, after)
+    assert [(str(one.grade), one.quantity, one.approval) for one in found.changes] == [
+        ("dangerous", "excuse of a blocker came", "safety")
+    ]
+    assert "missing-rollback" not in {one.code for one in found.gone_findings}
+    back = reviewed(after, main)
+    assert [(str(one.grade), one.quantity) for one in back.changes] == [("safe", "excuse of a blocker went")]
+    assert "missing-rollback" in {one.code for one in back.new_findings}
+
+
+def test_who_approved_before_a_change_approves_it(repository: Repository, main: Package) -> None:
+    text = edited(
+        ("safety: safety", "safety: integration"),
+        ("states: [protective_stop, safeguard_stop, ", "states: [protective_stop, "),
+    )
+    found = reviewed(main, package_of(repository, repository.commit(text)))
+    of_safety = {one.quantity: (str(one.grade), one.owner) for one in found.changes if one.area == "safety"}
+    assert of_safety["states that need recovery"] == ("dangerous", "safety and integration")
+    assert of_safety["who approves changes of safety"] == ("dangerous", "safety and integration")
+
+
+def test_an_obstacle_that_planning_knows_no_more_is_dangerous(repository: Repository, main: Package) -> None:
+    lines = "scene:\n  table: {parent: world, xyz: 350 0 780 mm, box: 900 1200 40 mm}\n"
+    found = _changes(repository, main, (lines, ""))
+    assert "dangerous model | table | collision shapes went | there -> None" in found
+
+
+def test_an_offer_that_shrinks_breaks_who_asked_for_it(main: Package) -> None:
+    # Both ends in the cell ask for less; who asks for reliable elsewhere hears nothing (DDS 1.4, 2.2.3.14).
+    contract = json.loads(main.files["contract.json"])
+    for end in ("sources", "sinks"):
+        for one in contract["interfaces"]["/object_pose"][end]:
+            one["qos"]["reliability"] = "best_effort"
+    weaker = facts_of({**main.files, "contract.json": json.dumps(contract)})
+    broken = [one for one in changes_between(main.facts, weaker) if one.breaking]
+    assert [(one.subjects, one.quantity) for one in broken] == [(("/object_pose: perception",), "offer")]
+    assert not [one for one in changes_between(weaker, main.facts) if one.breaking]
+
+
+def test_a_rate_of_success_that_sinks_is_dangerous(repository: Repository, main: Package) -> None:
+    found = _changes(repository, main, ("success: 99 %", "success: 50 %"), ("confidence: 95 %", "confidence: 99 %"))
+    assert found == [
+        "dangerous rehearsals | pick_and_place | share of runs that must succeed | 0.99 -> 0.5 | -49.5 %",
+        "review rehearsals | pick_and_place | confidence of it | 0.95 -> 0.99 | +4.21 %",
+    ]
+
+
+def test_two_folders_whose_cells_differ_are_never_the_same(main: Package) -> None:
+    manifest = json.loads(main.files["manifest.json"])
+    was = manifest["configuration_inputs"]["cell_sha256"]
+    manifest["configuration_inputs"]["cell_sha256"] = "0" * len(was)
+    other = facts_of({**main.files, "manifest.json": json.dumps(manifest)})
+    (change,) = changes_between(facts_of(main.files), other)
+    assert (str(change.area), change.before, change.after) == ("gates", was[:12], "0" * 12)
+
+
+def test_packages_beside_the_folder_of_a_spec_are_found_in_a_revision(tmp_path: Path) -> None:
+    repository = Repository(tmp_path)
+    repository.git("init", "-q", "-b", "main")
+    spec, parts = "cells/bench/cell.yaml", "vendor/src/repo/arm_parts"
+    arm = (
+        '<robot name="arm"><link name="base"/><link name="hand"><collision><geometry>'
+        '<mesh filename="package://arm_parts/hand.stl"/></geometry></collision></link>'
+        '<joint name="turn" type="revolute"><parent link="base"/><child link="hand"/><axis xyz="0 0 1"/>'
+        '<limit lower="-2" upper="2" velocity="1" effort="10"/></joint></robot>'
+    )
+    repository.write(CUBE, f"{parts}/hand.stl")
+    repository.write(arm, "cells/bench/arm/arm.xacro")
+    repository.write(DEVICE, "cells/bench/arm/device.yaml")
+    repository.write(CELL.replace("PLACES", "../../vendor"), spec)
+    repository.git("add", "-A")
+    repository.git("commit", "-q", "-m", "the cell")
+    file = repository.folder / spec
+    assert run("diff", str(file)).code == 0
+    file.write_text(file.read_text(encoding="utf-8").replace("away: {all: 0.2 rad}", "away: {all: 0.3 rad}"))
+    ran = run("diff", str(file))
+    assert ran.code == 1, ran.err
+    assert "away all: joint positions" in ran.out
