@@ -10,6 +10,7 @@ import pytest
 
 from cellc.contract.uncertainty import UncertainQuantity, Uncertainty
 from cellc.emit.contract.uncertainty import uncertainty
+from cellc.limits import limits
 from cellc.mock.sweep.draws import draw, reality_of
 from tests.cells import ROOT, linked, spec_of, spec_text, written
 
@@ -39,6 +40,38 @@ def test_a_repeatability_that_was_measured_stands_in_place_of_the_catalogs(tmp_p
     four_times = [4.0 * one.spread for one in _of(_drawn(spec_of("ur5e_pick")), "repeatability")]
     assert [one.spread for one in found] == pytest.approx(four_times, rel=1e-3)
     assert {one.source for one in found} == {"uncertainty.repeatability.arm"}
+
+
+def test_two_devices_that_move_one_tip_are_told_apart_and_add_up(tmp_path: Path) -> None:
+    text = spec_text("rail_arm").replace("uncertainty: {", "uncertainty: {repeatability: {rail: 0.1 mm}, ")
+    found = _drawn(written(tmp_path, text))
+    tips = [one.name for one in _of(found, "repeatability")]
+    assert tips == [f"rail_and_arm tip by {device} {axis}" for device in ("rail", "arm") for axis in "xyz"]
+    values = {one.name: 0.0 for one in found.quantities}
+    values |= {"rail_and_arm tip by rail x": 1e-3, "rail_and_arm tip by arm x": 2e-3}
+    assert reality_of(found.quantities, values, 0, 0).links["tcp"].position == pytest.approx((3e-3, 0.0, 0.0))
+
+
+def test_two_frames_of_one_calibration_and_an_object_of_its_name_are_told_apart(tmp_path: Path) -> None:
+    text = spec_text("rail_arm").replace("calibration: deburring", "calibration: press")
+    found = _drawn(written(tmp_path, text))
+    assert [one.name for one in _of(found, "calibration") if one.source == "calibrations.press.residual"] == [
+        f"press of frame {frame} {axis}" for frame in ("press", "deburring") for axis in "xyz"
+    ]
+    text = spec_text("ur5e_pick").replace("calibration: fixture_a", "calibration: object")
+    names = [
+        one.name
+        for one in _drawn(written(tmp_path, text.replace("\n  fixture_a: {rev", "\n  object: {rev"))).quantities
+    ]
+    assert len(set(names)) == len(names)
+    assert {"object of frame object x", "object of frame object rz"} <= set(names)
+
+
+def test_what_is_too_small_for_the_mock_is_not_drawn(tmp_path: Path) -> None:
+    text = spec_text("rail_arm").replace("box: 6 6 0 mm, yaw: 6 deg", "box: 6 0.000001 0 mm, yaw: 0.00000001 deg")
+    found = _drawn(written(tmp_path, text))
+    assert [one.name for one in _of(found, "place")] == ["part at press x"]
+    Uncertainty.model_validate_json(found.model_dump_json(), context=limits())
 
 
 def test_what_lies_on_a_calibrated_frame_adds_to_where_that_frame_stands() -> None:

@@ -66,7 +66,8 @@ def reality_of(quantities: Sequence[UncertainQuantity], values: Mapping[str, flo
     """Return what is different in a run with these values."""
     parts: dict[tuple[str, str], dict[str, float]] = {}
     for one in quantities:
-        parts.setdefault((one.kind, one.target), {})[one.axis] = values[one.name]
+        axes = parts.setdefault((one.kind, one.target), {})
+        axes[one.axis] = axes.get(one.axis, 0.0) + values[one.name]  # two devices that move one tip add up
     links: dict[str, Pose] = {}
     for kind in LINKS:
         for target, axes in _of(kind, parts):
