@@ -153,6 +153,13 @@ motion:
   groups:
     manipulator: {ik: bio_ik}  # expect at ik
 """,
+    "confidence-of-nothing": """
+rehearsals:
+  pick_and_place: {confidence: 99 %}  # expect at confidence
+""",
+    "repeatability-of-nothing": """
+uncertainty: {repeatability: {gripper: 0.05 mm}}  # expect at gripper
+""",
     "rehearsal-cycle": """
 rehearsals:
   first: {use: second}  # expect at use
@@ -373,6 +380,20 @@ CODES: tuple[CodePage, ...] = (
         "rehearsals use each other's steps in a circle",
         "Following `use` would never reach a list of steps.",
         "give one of them its own `steps`",
+    ),
+    _page(
+        "confidence-of-nothing",
+        "a rehearsal says how sure a verdict must be, and asks for none",
+        "A sweep gives a verdict on `success`. Without it a confidence changes nothing, and whoever wrote it waits for "
+        "a verdict that never comes.",
+        "write `success` beside it, or delete it",
+    ),
+    _page(
+        "repeatability-of-nothing",
+        "a repeatability is stated of a device that no group moves",
+        "A sweep draws where the tip of a group stands when it has arrived. Of a camera or a gripper nothing is drawn, "
+        "and the figure would be believed to count.",
+        "name a device whose joints a group moves, or delete it",
     ),
     _page(
         "unknown-controller-kind",

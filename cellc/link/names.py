@@ -21,13 +21,14 @@ def unknown_name(
 
     Args:
         kind: singular noun, such as ``frame``, or several: ``camera or device with joints``.
-        path: where the reference is written.
+        path: where the reference is written; marked at the key where that is the name.
     """
+    is_key = path[-1:] == (name,) and document.text_at(path) != name
     return Diagnostic(
         code=code,
         severity=Severity.ERROR,
         message=f"there is no {kind} `{name}`",
-        span=document.locate(path),
+        span=document.locate_key(path) if is_key else document.locate(path),
         yaml_path=path,
         help=did_you_mean(name, candidates, f"{_plural(kind)} of this cell"),
     )

@@ -236,7 +236,7 @@ def _scaled(number: str, factor: Decimal | None) -> float:
 def _shown(si: float, factor: Decimal | None) -> str:
     """Write a bound in the unit that the user chose, without exponent where it is large."""
     value = math.degrees(si) if factor is None else float(Decimal(str(si)) / factor)
-    return f"{value:.0f}" if abs(value) >= 1.0 else f"{value:g}"
+    return f"{value:.0f}" if abs(value) >= 100.0 else f"{value:g}"
 
 
 def _written(value: Quantity | QuantityVector) -> str:
@@ -249,6 +249,8 @@ SLOWEST_HZ = 1e-6
 Length = Annotated[Quantity, QuantityType((LENGTH,), "162 mm", least=0.0)]
 # What is divided by, or stepped in: a map of cells without an edge, a loop without a period, has no end.
 Edge = Annotated[Quantity, QuantityType((LENGTH,), "25 mm", least=1e-3)]
+# Of a tip: zero is exceeded by the last bit of a sum, and no arm is told apart finer than this.
+Allowance = Annotated[Quantity, QuantityType((LENGTH,), "5 mm", least=1e-6)]
 Period = Annotated[Quantity, QuantityType((DURATION,), "4 ms", least=1e-4, most=1.0)]
 Duration = Annotated[Quantity, QuantityType((DURATION,), "200 ms", least=0.0, most=LONGEST_S)]
 # Ahead or behind: a clock without a battery starts in 1970. Where a length of time has this type, a rule judges it.
@@ -259,7 +261,8 @@ UpdateRate = Annotated[Quantity, QuantityType((FREQUENCY,), "500 Hz", least=1.0)
 DataRate = Annotated[Quantity, QuantityType((DATA_RATE,), "1 Gbit/s", least=1.0)]
 Mass = Annotated[Quantity, QuantityType((MASS,), "0.9 kg", least=0.0)]
 Ratio = Annotated[Quantity, QuantityType((RATIO,), "50 %")]
-Chance = Annotated[Quantity, QuantityType((RATIO,), "99.5 %", least=0.0, most=1.0)]
+# No number of runs shows that all succeed: one in a million may fail, which ten million runs can tell.
+Rate = Annotated[Quantity, QuantityType((RATIO,), "99.5 %", least=0.0, most=0.999999)]
 Confidence = Annotated[Quantity, QuantityType((RATIO,), "95 %", least=0.5, most=0.9999)]
 Drift = Annotated[Quantity, QuantityType((DRIFT,), "20 ppm")]
 Force = Annotated[Quantity, QuantityType((FORCE,), "60 N", least=0.0)]
@@ -283,6 +286,7 @@ JointJerk = Annotated[Quantity, QuantityType((ANGULAR_JERK, JERK), "20 rad/s^3",
 JointPositions = Annotated[QuantityVector, QuantityType((ANGLE, LENGTH), "0 -90 90 -90 -90 0 deg", size=0, mixed=True)]
 # One figure for joints that turn, one for joints that slide, or both.
 JointTolerances = Annotated[QuantityVector, QuantityType((ANGLE, LENGTH), "0.2 rad", mixed=True)]
+Edges = Annotated[QuantityVector, QuantityType((LENGTH,), "80 120 0 mm", size=3, least=0.0)]
 Position = Annotated[QuantityVector, QuantityType((LENGTH,), "0 0 162 mm", size=3)]
 FieldAngle = Annotated[Quantity, QuantityType((ANGLE,), "69 deg", least=0.0)]
 RollPitchYaw = Annotated[QuantityVector, QuantityType((ANGLE,), "0 90 0 deg", size=3)]

@@ -6,7 +6,7 @@ from pydantic import Discriminator, Field, Tag
 
 from cellc.spec.base import MOST, Name, Pin, SpecModel, StandardOr, Text
 from cellc.spec.faults import FaultsSpec, first_key
-from cellc.spec.quantity import Chance, Confidence, Duration, Ratio
+from cellc.spec.quantity import Confidence, Duration, Rate, Ratio
 from cellc.vocabulary import AttemptOutcome
 
 
@@ -108,7 +108,7 @@ class RehearsalSpec(SpecModel):
         None, description="Bound from the fault (or its effect's start) to the outcome.", examples=["200 ms"]
     )
     timeout: Duration | None = Field(None, description="Bound of the whole run in simulated time.", examples=["120 s"])
-    success: Chance | None = Field(
+    success: Rate | None = Field(
         None, description="Least share of the runs of a sweep that must succeed.", examples=["99.5 %"]
     )
     confidence: Confidence | None = Field(

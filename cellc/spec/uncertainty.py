@@ -3,7 +3,7 @@
 from pydantic import Field
 
 from cellc.spec.base import Name, SpecModel
-from cellc.spec.quantity import FieldAngle, Length, Position
+from cellc.spec.quantity import Allowance, Edges, FieldAngle, Length
 
 
 class CalibrationUncertaintySpec(SpecModel):
@@ -21,7 +21,7 @@ class RegionSpec(SpecModel):
     at: it lies elsewhere, and the robot does not know.
     """
 
-    box: Position = Field(
+    box: Edges = Field(
         ...,
         description="Full edge lengths along x, y, z of the parent of its simulated pose; of a fixed frame its own.",
         examples=["80 120 0 mm"],
@@ -41,10 +41,10 @@ class UncertaintySpec(SpecModel):
     )
     repeatability: dict[Name, Length] = Field(
         default_factory=dict,
-        description="Arms by name, with a repeatability (ISO 9283) that was measured; else the catalog's is drawn.",
+        description="Arms that a group moves, with repeatability (ISO 9283) as measured; else the catalog's is drawn.",
         examples=[{"arm": "0.05 mm"}],
     )
-    tolerances: dict[Name, Length] = Field(
+    tolerances: dict[Name, Allowance] = Field(
         default_factory=dict,
         description="Goals by name, with the farthest that the tip may really be from where the goal really is.",
         examples=[{"pick": "5 mm"}],

@@ -24,7 +24,7 @@ from tests.cells import linked, linking, spec_of, spec_text, written
             "{object: {box",
             "{objekt: {box",
             "unknown-frame",
-            "there is no fixed frame, or dynamic one with `simulated_pose`, `objekt`",
+            "there is no fixed frame or object with a simulated pose `objekt`",
             "object",
         ),
     ],
@@ -38,6 +38,37 @@ def test_a_name_that_nothing_has_is_reported_where_it_is_written(
     assert (found.code, found.message) == (code, message)
     assert found.help == f"did you mean `{nearest}`?"
     assert found.span.line == text[: text.index(before)].count("\n") + 1
+    line = text.replace(before, after).splitlines()[found.span.line - 1]
+    assert line[found.span.column - 1 :].startswith(after.strip("{").split(":")[0].split("{")[-1])  # at the key
+
+
+def test_what_a_region_may_be_of_is_told_in_a_sentence(tmp_path: Path) -> None:
+    text = spec_text("ur5e_pick").replace("{object: {box", "{world: {box")
+    (found,) = linking(written(tmp_path, text)).diagnostics
+    assert found.message == "there is no fixed frame or object with a simulated pose `world`"
+    assert found.help is not None
+    assert "fixed frames or objects with a simulated pose of this cell" in found.help
+
+
+@pytest.mark.parametrize("device", ["camera", "gripper"])
+def test_the_repeatability_of_a_device_that_no_group_moves_is_refused(device: str, tmp_path: Path) -> None:
+    text = spec_text("ur5e_pick").replace(
+        "  tolerances: {pick", f"  repeatability: {{{device}: 1 mm}}\n  tolerances: {{pick"
+    )
+    (found,) = linking(written(tmp_path, text)).diagnostics
+    assert found.code == "repeatability-of-nothing"
+    assert found.message == f"`{device}` must be a device that a group moves; of another one no repeatability is drawn"
+    assert found.help == "name one of: arm"
+
+
+def test_a_confidence_without_a_rate_of_success_is_told(tmp_path: Path) -> None:
+    text = spec_text("ur5e_pick")
+    assert "    success: 99 %\n" in text
+    (found,) = linking(written(tmp_path, text.replace("    success: 99 %\n", ""))).diagnostics
+    assert (found.code, found.message) == (
+        "confidence-of-nothing",
+        "`pick_and_place` must state `success` too; without it no verdict needs a confidence",
+    )
 
 
 def test_figures_are_halves_in_si_and_a_confidence_is_95_percent_unless_stated(tmp_path: Path) -> None:

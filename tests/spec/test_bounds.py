@@ -15,6 +15,10 @@ FRAME = "frames: {{part: {{parent: world, xyz: {}}}}}\n"
 PAYLOAD = "devices: {{arm: {{model: ur5e, payload: {{mass: {}, center_of_mass: 0 0 0 m}}}}}}\n"
 QUEUE = "interfaces: {{/pose: {{topic: a/msg/B, from: {{x: {{depth: {}}}}}, to: y}}}}\n"
 FAULT = "rehearsals: {{late: {{inject: {{jump_clock: ros, by: {}, at: 1 s}}}}}}\n"
+RATE = "rehearsals: {{pick: {{steps: [{{wait: 1 s}}], success: {}}}}}\n"
+SURE = "rehearsals: {{pick: {{steps: [{{wait: 1 s}}], success: 99 %, confidence: {}}}}}\n"
+TOLERANCE = "uncertainty: {{tolerances: {{pick: {}}}}}\n"
+REGION = "regions: {{part: {{box: {}}}}}\n"
 PARAMETER = "nodes: {{task: {{run: a/b, parameters: {{p: {}}}}}}}\n"
 
 
@@ -41,6 +45,12 @@ def _found(text: str, folder: Path) -> list[tuple[str, str]]:
         (PAYLOAD, "-1 kg", "between 0 and 100000 kg"),
         (PAYLOAD, "1e99 g", "between 0 and 100000000 g"),
         (FAULT, "1e10 s", "between -4000000000 and 4000000000 s"),
+        # The lower end of an interval never reaches 1, however many runs succeed.
+        (RATE, "100 %", "between 0 and 99.9999 %"),
+        (SURE, "100 %", "between 50 and 99.99 %"),
+        (TOLERANCE, "0 mm", "between 0.001 and 100000000 mm"),
+        (TOLERANCE, "0.0000004 mm", "between 0.001 and 100000000 mm"),
+        (REGION, "-80 80 0 mm", "between 0 and 100000000 mm"),
     ],
 )
 def test_quantity_out_of_the_bounds_of_its_kind_is_refused(
