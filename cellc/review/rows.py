@@ -248,6 +248,7 @@ ROWS: Sequence[Row] = (
         Rule.FEWER,
     ),
     Row("file config/uncertainty.json expected {rehearsal} confidence", _A.REHEARSALS, "confidence of it", Rule.FEWER),
+    Row("file config/uncertainty.json quantities {quantity} {what}", _A.REHEARSALS, "drawn in sweeps:", Rule.REVIEW),
     Row("file config/uncertainty.json ...", _A.REHEARSALS, "sweep", Rule.REVIEW),
     Row("contract responsibilities {responsibility}", _A.OWNERS, "owner", Rule.NAMED),
     Row("contract approvals {area}", _A.OWNERS, "owner of the approval", Rule.NAMED),

@@ -138,6 +138,16 @@ THINGS: Sequence[Thing] = (
     Thing("real hardware {component}", _A.CONTROL, "hardware component", _R, _D, shown="plugin"),
     Thing("parameters {_} {node}", _A.CONTROL, "parameters of a node", _R, _R, follows=True),
     Thing("spec nodes {node}", _A.CONTROL, "node", _R, _R, shown="package"),
+    Thing("file config/frames.yaml calibrations {calibration}", _A.CALIBRATION, "measurement", _R, _D, follows=True),
+    Thing("file config/recording_qos.yaml {topic}", _A.FIGURES, "recording", _R, _R, follows=True),
+    Thing(
+        "file config/uncertainty.json quantities {quantity}",
+        _A.REHEARSALS,
+        "quantity that sweeps draw",
+        _R,
+        _R,
+        shown="source",
+    ),
     Thing("file {file}", _A.CONTROL, "parameter file", _R, _R, follows=True),
     Thing("contract clock_of {node}", _A.TIME, "clock of its stamps", _R, _R, follows=True),
 )

@@ -142,3 +142,23 @@ def test_packages_beside_the_folder_of_a_spec_are_found_in_a_revision(tmp_path: 
     ran = run("diff", str(file))
     assert ran.code == 1, ran.err
     assert "away all: joint positions" in ran.out
+
+
+def test_a_calibration_of_another_name_is_told_in_a_few_lines(repository: Repository, main: Package) -> None:
+    text = spec_text("ur5e_pick").replace("hand_eye", "wrist_eye")
+    found = changes_of(main, package_of(repository, repository.commit(text)))
+    drawn = "uncertainty.calibrations.{}.rotation"
+    assert found == [
+        "dangerous calibration | hand_eye | calibration went | 4 -> None",
+        "review calibration | wrist_eye | calibration came | None -> 4",
+        "review calibration | camera_bottom_screw_frame | calibration that measured it | hand_eye -> wrist_eye",
+        *(
+            f"review rehearsals | {name} {first}, {name} {second}, {name} {third} | quantity that sweeps draw {told}"
+            for name, first, second, third, told in (
+                ("wrist_eye", "rx", "ry", "rz", f"came | None -> {drawn.format('wrist_eye')}"),
+                ("wrist_eye", "x", "y", "z", "came | None -> calibrations.wrist_eye.residual"),
+                ("hand_eye", "rx", "ry", "rz", f"went | {drawn.format('hand_eye')} -> None"),
+                ("hand_eye", "x", "y", "z", "went | calibrations.hand_eye.residual -> None"),
+            )
+        ),
+    ]
