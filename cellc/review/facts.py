@@ -32,7 +32,7 @@ _AUDIT, _PROMOTION = "audit.md", "gates/promotion.md"
 _MATRIX = re.compile(r"\| ([^|]+) \| ([^|]+) \| ([^|]+) \| ([A-Z]+) \| (.*) \|")
 # What stands in a checklist alone, and must not pass as one line of many.
 _CHECKS = (
-    ("payload", re.compile(r"- \[ \] (.+) is told payload (.+)")),
+    ("payload", re.compile(r"- \[ \] (.+) is told payload (.+?)(?:, by .*)?")),
     ("tcp", re.compile(r"- \[ \] (.+) holds its TCP (.+); what it shows then .*")),
     ("tool_voltage", re.compile(r"- \[ \] The tool connector of (.+) gives (.+): each was told .*")),
     ("thresholds", re.compile(r"- \[ \] (.+): collision thresholds are set (.+)")),

@@ -76,6 +76,8 @@ def sides(arguments: Sequence[str]) -> tuple[Side, Side]:
     if len(arguments) == 1 and ".." in arguments[0] and "/" not in arguments[0] and not Path(arguments[0]).exists():
         raise SideError(f"expected a spec or a folder after `{arguments[0]}`")
     if len(arguments) == 1:
+        if not Path(arguments[0]).exists():
+            raise SideError(f"there is no file or folder `{arguments[0]}`")
         return _revised("HEAD", arguments[0]), _stated(arguments[0])
     first, second = arguments
     if not Path(first).exists():
@@ -196,6 +198,10 @@ def as_review_finding(found: Diagnostic) -> ReviewFinding:
 
 
 def _of_folder(name: str, folder: Path) -> Package:
+    if not (folder / MANIFEST).exists():
+        raise SideError(
+            f"{name} has no `{MANIFEST}`: it is no generated folder; name the spec or the folder of one cell"
+        )
     try:
         manifest = read_json(read_text(folder, MANIFEST), Manifest)
     except FormatError as problem:

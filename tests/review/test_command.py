@@ -102,14 +102,14 @@ def test_json_is_what_its_schema_says() -> None:
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (("nowhere.yaml",), "revision `HEAD` has no `nowhere.yaml`"),
+        (("nowhere.yaml",), "there is no file or folder `nowhere.yaml`"),
         (("main..longer",), "expected a spec or a folder after `main..longer`"),
         (("nosuch..main", SMALL), "there is no revision `nosuch`"),
         (("--", "-x..main", SMALL), "`-x` is no revision"),
         (("main:nowhere.yaml", SMALL), "revision `main` has no `nowhere.yaml`"),
         (("main", SMALL, SMALL), "expected one or two of spec, folder and revision, got 3"),
         (("/dev/null", SMALL), "/dev/null"),
-        (("cells", SMALL), "manifest.json: is missing from the generated folder"),
+        (("cells", SMALL), "has no `manifest.json`: it is no generated folder"),
     ],
 )
 @pytest.mark.usefixtures("_inside")

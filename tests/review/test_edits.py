@@ -19,7 +19,7 @@ from tests.review.revisions import Edit, Repository, changes_of, edited, package
 ARM = "arm_elbow_joint, arm_shoulder_lift_joint, arm_shoulder_pan_joint, arm_wrist_1_joint, arm_wrist_2_joint, "
 ARM += "arm_wrist_3_joint"
 OF_TRAJECTORY = ", ".join(f"arm_trajectory {joint}" for joint in ARM.split(", "))
-LOOKED_AT = "in arm_tool0, by its installation; what it shows then stands in the evidence"
+LOOKED_AT = "in arm_tool0"
 # The bring-up asks a node of a lifecycle, and what is asked must be there once.
 ALONE = "alone nodes /robot_state_publisher, /controller_manager"
 STATES = "controller /controller_manager joint_states active"
