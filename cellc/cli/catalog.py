@@ -10,9 +10,9 @@ import click
 from cellc.browse.search import Wanted, found, kilograms, listed, metres
 from cellc.catalog.device_model import device_kinds
 from cellc.catalog.load import device_names, load_device
+from cellc.cli.handbook import write_pages
 from cellc.cli.words import complete_model
 from cellc.printing import refuse, show, show_document
-from cellc.store.swap import write_whole
 from cellc.vocabulary import Distro
 
 
@@ -60,8 +60,7 @@ def catalog(
     from cellc.browse.page import page, pages
 
     if output is not None:
-        for name, text in pages().items():
-            write_whole(output / name, text)
+        write_pages(output, pages())
         show(f"wrote {output.as_posix()}")
         return
     entry = load_device(words[0]).value if len(words) == 1 and words[0] in device_names() else None

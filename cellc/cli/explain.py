@@ -6,11 +6,11 @@ from pathlib import Path
 
 import click
 
+from cellc.cli.handbook import write_pages
 from cellc.cli.words import complete_code
 from cellc.diagnostics import did_you_mean
 from cellc.printing import show, show_document
 from cellc.report.pages import all_pages, render_handbook, render_page
-from cellc.store.swap import write_whole
 
 
 @click.command()
@@ -33,8 +33,7 @@ def explain(code: str | None, everything: bool, output: Path | None) -> None:
     if output is not None:
         if not everything:
             raise click.UsageError("--output writes the pages of all codes: give --all too")
-        for name, text in render_handbook().items():
-            write_whole(output / name, text)
+        write_pages(output, render_handbook())
         show(f"wrote {output.as_posix()}")
     elif everything:
         show_document("\n".join(render_page(page) for page in pages.values()))

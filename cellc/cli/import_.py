@@ -77,11 +77,15 @@ def import_(
     found, chain = _read(robot, dict(map(_argument, arguments)))
     from cellc.importing.beside import controllers_near, read_controllers, semantic_file
     from cellc.importing.cell_text import FirstCell
-    from cellc.importing.device_text import model_name
+    from cellc.importing.device_text import DESCRIPTION, model_name
     from cellc.importing.folder import write_folder
     from cellc.importing.source import packages_elsewhere
 
     folder = output or Path(model_name(found))
+    if (folder / DESCRIPTION).exists() and (folder / DESCRIPTION).samefile(found.file):
+        raise click.UsageError(
+            f"`{found.file.as_posix()}` would be replaced by what is made of it: name another folder"
+        )
     semantic = srdf or semantic_file(found.file, found.description.name)
     joints = [joint.name for joint in chain.joints]
     moved = controllers_near(found.file, joints) if controllers is None else read_controllers(controllers, joints)

@@ -10,6 +10,10 @@ import click
 from cellc.cli.limit_option import limit_option
 from cellc.cli.words import complete_rehearsal
 from cellc.printing import refuse, show
+from cellc.store.regular_file import open_regular
+
+_HEADS = (b"<!doctype html", b"<html")
+_HEAD_BYTES = 200
 
 
 @click.command()
@@ -41,6 +45,7 @@ def view(folder: str, output: Path | None, names: tuple[str, ...], against: str 
     """
     # Drawing loads the compiler, and playing back the planning.
     from cellc.mock.errors import MockError
+    from cellc.report.text_report import summed_errors
     from cellc.review.sides import SideError
     from cellc.store.swap import replace_whole
     from cellc.view.content import before_of, content_of
@@ -50,7 +55,11 @@ def view(folder: str, output: Path | None, names: tuple[str, ...], against: str 
     try:
         if output is not None and not output.absolute().parent.is_dir():
             raise ViewError(f"{output.as_posix()}: cannot be written: no such folder")
+        if output is not None:
+            _hold_replaceable(output)
         subject = read_subject(Path(folder))
+        place = output or Path(subject.page_name)
+        _hold_replaceable(place)
         content = content_of(subject, names, seed)
         if against is not None and subject.folder is not None:
             content = replace(content, before=before_of(against, folder))
@@ -59,7 +68,6 @@ def view(folder: str, output: Path | None, names: tuple[str, ...], against: str 
         raise click.exceptions.Exit(2) from None
     library = three_js()
     page = to_html(content, library).encode()
-    place = output or Path(f"{Path(folder).absolute().parent.name if subject.folder is None else subject.name}.html")
     try:
         replace_whole(place, page)
     except OSError as error:
@@ -71,4 +79,26 @@ def view(folder: str, output: Path | None, names: tuple[str, ...], against: str 
     if library is None:
         show("without 3D: the installed trimesh ships no three.js that cellc knows")
     if subject.findings is not None and not subject.findings.ok:
+        show(*summed_errors(subject.findings.diagnostics, subject.findings.file))
         raise click.exceptions.Exit(1)
+
+
+def _hold_replaceable(place: Path) -> None:
+    """Refuse to put a page in the place of anything but a page, such as the spec itself.
+
+    Raises:
+        ViewError: something else stands there.
+    """
+    from cellc.view.subject import ViewError
+
+    try:
+        with open_regular(place) as stream:
+            head = stream.read(_HEAD_BYTES).lstrip().lower()
+    except FileNotFoundError:
+        return
+    except OSError as error:
+        raise ViewError(
+            f"{place.as_posix()}: cannot be written: {(error.strerror or 'unknown reason').lower()}"
+        ) from None
+    if head and not head.startswith(_HEADS):
+        raise ViewError(f"{place.as_posix()}: is not an HTML page; move it away, or name another file")

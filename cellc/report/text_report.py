@@ -101,6 +101,19 @@ def summed_blockers(diagnostics: Iterable[Diagnostic], file: str) -> list[Line]:
     ]
 
 
+def summed_errors(diagnostics: Iterable[Diagnostic], file: str) -> list[Line]:
+    """Return in two lines how many errors there are and where the first is, and who shows each of them."""
+    errors = sorted((one for one in diagnostics if one.severity is Severity.ERROR), key=Diagnostic.sort_key)
+    if not errors:
+        return []
+    first = errors[0]
+    told = "" if len(errors) == 1 else ", the first"
+    return [
+        (_part(Severity.ERROR, len(errors)), f"{told} at {first.span}: {first.message}"),
+        f"`cellc check {shlex.quote(file)}` shows {'it' if len(errors) == 1 else 'each'}",
+    ]
+
+
 def _part(severity: Severity, number: int) -> Styled:
     singular, plural = _NOUNS[severity]
     return Styled(f"{number} {singular if number == 1 else plural}", SEVERITY_STYLES[severity])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tempfile
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
@@ -24,6 +25,8 @@ SPEC_FILE = "cell.yaml"
 """What a spec is called where its folder is named."""
 PICTURES = ("graph/cell.svg", "graph/nodes.svg", "graph/responsibility.svg")
 """Files of a package that the page shows as pictures."""
+_FILE_NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.-]{0,99}", re.ASCII)
+_CELL_NAME = re.compile(r"^cell[ ]*:[ ]+[\"']?([A-Za-z][A-Za-z0-9_]{0,99})[\"']?[ ]*(?:#.*)?$", re.ASCII | re.MULTILINE)
 
 
 class ViewError(Exception):
@@ -41,6 +44,7 @@ class Subject:
         wanted: what the cell names and a reader looks for in the drawing.
         views: what cameras see, by optical frame.
         pictures: text of the package's pictures, by file.
+        stem: what a file of the page is called; the name where that is empty.
     """
 
     name: str
@@ -50,6 +54,12 @@ class Subject:
     wanted: Wanted = field(default_factory=dict)
     views: Mapping[str, FieldOfView] = field(default_factory=dict)
     pictures: Mapping[str, str] = field(default_factory=dict)
+    stem: str = ""
+
+    @property
+    def page_name(self) -> str:
+        """Name of a file for the page."""
+        return f"{self.stem or self.name}.html"
 
 
 def read_subject(path: Path) -> Subject:
@@ -115,20 +125,29 @@ def _of_description(path: Path, findings: Findings) -> Subject:
     root = root_of(path)
     read = read_description(path, {}, root)
     cell = None if read.value is None else bare_cell(read.value, path.as_posix(), root.as_posix())
-    return _linked(path, findings, cell, {})
+    named = None if cell is None else _FILE_NAME.fullmatch(cell.name)
+    return _linked(path, findings, cell, {}, path.stem if named is None else named[0])
 
 
 def _of_errors(path: Path, findings: Findings, linked: Cell | None) -> Subject:
     from cellc.view.partial import cell_as_far
 
     found, wanted = cell_as_far(path)
-    return _linked(path, findings, linked or found, wanted)
+    return _linked(path, findings, linked or found, wanted, _stem(path, findings.texts.get(path.as_posix(), "")))
 
 
-def _linked(path: Path, findings: Findings, cell: Cell | None, wanted: Wanted) -> Subject:
+def _stem(path: Path, text: str) -> str:
+    """Return the name of the cell that a spec with errors states; where none is legible, that of its file or folder."""
+    named = _CELL_NAME.search(text)
+    if named is not None:
+        return named[1]
+    return path.absolute().parent.name if path.name == SPEC_FILE else path.stem
+
+
+def _linked(path: Path, findings: Findings, cell: Cell | None, wanted: Wanted, stem: str) -> Subject:
     if cell is None:
-        return Subject(path.as_posix(), findings, None, None, wanted)
-    return Subject(cell.name, findings, None, of_cell(cell), wanted, dict(_views(cell)))
+        return Subject(path.as_posix(), findings, None, None, wanted, stem=stem)
+    return Subject(cell.name, findings, None, of_cell(cell), wanted, dict(_views(cell)), stem=stem)
 
 
 def _pictures(path: Path, folder: GeneratedFolder) -> dict[str, str]:

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import os
 import resource
+import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
-from tests.cells import ROOT
+from tests.cells import CORPUS, ROOT
 from tests.cli.refused import assert_refused, everything_below
-from tests.cli.run import MINIMAL, Ran, run
+from tests.cli.run import MINIMAL, PICK, Ran, run
 
 INIT = ("init", "bench", "ur5e", "-o")
 _AS_ROOT = pytest.mark.skipif(os.geteuid() == 0, reason="root may write where nobody may")
@@ -84,6 +85,57 @@ def test_nothing_is_written_through_a_link(arguments: tuple[str, ...], name: str
     assert code("out") != 0
     assert (tmp_path / "victim").read_text() == "mine"
     assert not (tmp_path / "new").exists()
+
+
+def _demo_cell(folder: Path) -> list[Path]:
+    """Write a cell with an include, a device of its own and a measured file; return every file of it."""
+    (folder / "parts").mkdir()
+    (folder / "parts/hosts.yaml").write_text("hosts:\n  pc: {scheduling: generic}\n")
+    (folder / "measured.yaml").write_text("transform: {}\n")
+    shutil.copytree(CORPUS / "invalid/base/stage", folder / "stage")
+    spec = "format: 1\ncell: line\ninclude: parts/hosts.yaml\nversions: {ros: jazzy}\ndevices:\n"
+    (folder / "cell.yaml").write_text(f"{spec}  stage: {{model: ./stage}}\n")
+    return sorted(path for path in folder.rglob("*") if path.is_file())
+
+
+def test_a_page_replaces_a_page_and_no_file_of_a_cell(tmp_path: Path) -> None:
+    files = _demo_cell(tmp_path)
+    before = [file.read_bytes() for file in files]
+    for file in files:
+        ran = run("view", (tmp_path / "cell.yaml").as_posix(), "-o", file.as_posix())
+        assert (ran.code, ran.err.count("is not an HTML page")) == (2, 1), file
+    assert [file.read_bytes() for file in files] == before
+    for text in ("", "<!doctype html>\n<p>before\n"):
+        (tmp_path / "page.html").write_text(text)
+        assert run("view", PICK, "-o", (tmp_path / "page.html").as_posix()).code == 0
+        assert (tmp_path / "page.html").read_bytes().startswith(b"<!DOCTYPE html>\n<html")
+
+
+def test_a_page_does_not_replace_a_pipe(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    assert_refused(
+        run("view", PICK, "-o", (tmp_path / "pipe").as_posix()), "pipe: cannot be written: not a regular file"
+    )
+    assert (tmp_path / "pipe").is_fifo()
+
+
+@pytest.mark.parametrize("command", ["explain", "catalog"])
+def test_pages_do_not_replace_the_readme_of_a_project(command: str, tmp_path: Path) -> None:
+    (tmp_path / "README.md").write_text("# My project\n")
+    ran = run(command, "--all", "-o", tmp_path.as_posix())
+    assert (ran.code, everything_below(tmp_path)) == (2, ["README.md"])
+    assert f"`{tmp_path.as_posix()}/README.md` is not a page that cellc wrote" in ran.err
+    assert (tmp_path / "README.md").read_text() == "# My project\n"
+    assert [run(command, "--all", "-o", (tmp_path / "pages").as_posix()).code for _ in range(2)] == [0, 0]
+
+
+def test_import_does_not_replace_the_robot_that_it_reads(tmp_path: Path) -> None:
+    shutil.copy(CORPUS / "valid/parts/demo_arm/demo_arm.urdf", tmp_path / "robot.urdf")
+    before = (tmp_path / "robot.urdf").read_bytes()
+    ran = run("import", (tmp_path / "robot.urdf").as_posix(), "-o", tmp_path.as_posix())
+    assert_refused(ran, "robot.urdf` would be replaced by what is made of it")
+    assert (ran.code, everything_below(tmp_path)) == (2, ["robot.urdf"])
+    assert (tmp_path / "robot.urdf").read_bytes() == before
 
 
 def test_full_disk_leaves_nothing_of_a_first_build(tmp_path: Path) -> None:

@@ -152,6 +152,43 @@ def test_a_spec_that_is_no_yaml_is_shown_with_its_findings_alone(tmp_path: Path)
     assert [tag for tag, _ in found.elements].count("b") == 2  # that of the note and that of what is not drawn
 
 
+def test_the_errors_of_a_spec_are_counted_and_the_first_has_its_place(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    text = spec_text("minimal")
+    line = text[: text.index("  update_rate")].count("\n") + 1
+    (tmp_path / "cell.yaml").write_text(text.replace("  update_rate", "  upate_rate"), encoding="utf-8")
+    ran = run("view", "cell.yaml")
+    wrote, *told = ran.out.splitlines()
+    assert (ran.code, wrote.partition(",")[0]) == (1, "wrote minimal.html")
+    assert told == [
+        f"1 error at cell.yaml:{line}:3: `control` has no key `upate_rate`",
+        "`cellc check cell.yaml` shows it",
+    ]
+    (tmp_path / "cell.yaml").write_text("format: 1\ncell: 'bench' # of two\nframes: { a\nhosts: }\n", encoding="utf-8")
+    ran = run("view", "cell.yaml")
+    assert (ran.code, ran.out.partition(",")[0]) == (1, "wrote bench.html")
+    assert re.search(
+        r"\n(\d errors, the first|1 error) at cell\.yaml:[34]:\d+: .+\n`cellc check cell\.yaml` shows", ran.out
+    )
+
+
+def test_the_name_of_a_page_leads_nowhere_else(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "here").mkdir()
+    monkeypatch.chdir(tmp_path / "here")
+    robot = '<robot name="../../x"><link name="base"/></robot>'
+    for name, text in (("cell.yaml", "format: 1\ncell: ../../x\n"), ("arm.urdf", robot)):
+        (tmp_path / "here" / name).write_text(text, encoding="utf-8")
+        run("view", name)
+    assert sorted(path.name for path in (tmp_path / "here").iterdir()) == [
+        "arm.html",
+        "arm.urdf",
+        "cell.yaml",
+        "here.html",
+    ]
+
+
 def test_a_spec_with_mistakes_of_every_kind_is_drawn_as_far_as_it_can_be_linked(tmp_path: Path) -> None:
     mistakes = {
         "ros: jazzy": "ros: jazy",
