@@ -10,6 +10,7 @@ from pydantic import ValidationError
 from cellc.catalog.load import load_distros
 from cellc.catalog.tables import DistroFacts
 from cellc.cell.cell import Cell
+from cellc.diagnostics import Span
 from cellc.edit.rewrite import Edit, apply_edits
 from cellc.graph.versions import Pin
 from cellc.link.link import link
@@ -22,6 +23,9 @@ from cellc.spec.parse import parse
 from cellc.vocabulary import Distro
 
 _SCALAR = re.compile(r"((?:[&!]\S* +)*)(.*)")
+
+_Place = tuple[str, int, int]
+"""File, line and column."""
 
 PARTS = tuple(name for name in VersionsSpec.model_fields if name != "rollback")
 """The parts of the tuple that belong to the whole cell."""
@@ -110,20 +114,46 @@ def edited_check(
 
 
 def _edits(cell: Cell, pins: Sequence[tuple[Pin, str]], texts: Mapping[str, str]) -> Iterator[Edit]:
-    """Yield the edit of each pin that the spec writes and that becomes another; an alias may bring one to several."""
-    taken: dict[tuple[str, int, int], str] = {}
+    """Yield the edit of each text that pins become another by; an alias becomes what its anchor does by itself."""
+    taken: dict[_Place, str] = {}
+    written = {pin: cell.locate(*pin.path) for pin, _ in pins if cell.states(*pin.path)}
+    becomes = {_place(written[pin]): text for pin, text in pins if pin in written}
     for pin, text in pins:
-        if not cell.states(*pin.path) or text == pin.text:
+        if pin not in written:
             continue
-        span = cell.locate(*pin.path)
-        place = (span.file, span.line, span.column)
+        span = written[pin]
+        place = _place(span)
+        anchor = _anchor(span, texts[span.file].split("\n"))
+        if text == (pin.text if anchor is None else becomes.get(anchor, pin.text)) or taken.get(place) == text:
+            continue
         if span.line != span.end_line:
             raise UpgradeError(f"{span}: `{pin.part}` stands over several lines; write it in one")
         if taken.setdefault(place, text) != text:
             raise UpgradeError(f"{span}: one text pins several parts, which become different ones; write each out")
-        written = texts[span.file].split("\n")[span.line - 1][span.column - 1 : span.end_column - 1]
         said = f"`{pin.part}` of `{pin.holder}`: `{pin.text}` becomes `{text}`"
-        yield Edit(*place, span.end_column, _as_yaml(text, written), said)
+        yield Edit(*place, span.end_column, _as_yaml(text, _written(span, texts[span.file].split("\n"))), said)
+
+
+def _place(span: Span) -> _Place:
+    return span.file, span.line, span.column
+
+
+def _written(span: Span, lines: Sequence[str]) -> str:
+    return lines[span.line - 1][span.column - 1 : span.end_column - 1]
+
+
+def _anchor(span: Span, lines: Sequence[str]) -> _Place | None:
+    """Return where the anchor of an alias is written; None for what is no alias."""
+    written = _written(span, lines)
+    if not written.startswith("*"):
+        return None
+    before = (*lines[: span.line - 1], lines[span.line - 1][: span.column - 1])
+    named = re.compile(rf"&{re.escape(written[1:])}(?=[\s,\]}}]|$)")
+    for number in range(len(before), 0, -1):
+        found = [match.start() + 1 for match in named.finditer(before[number - 1])]
+        if found:
+            return span.file, number, found[-1]
+    return None
 
 
 def _as_yaml(text: str, written: str) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import groupby
 from pathlib import Path
 
@@ -57,12 +57,15 @@ def plan_upgrade(file: str, target: Distro) -> Planned:
     """Return what another distribution makes of a cell.
 
     Raises:
-        UpgradeError: the spec cannot be edited.
-        SideError: it holds errors as it is.
+        UpgradeError: the spec cannot be edited, or holds errors as it is.
+        SideError: nothing can be made of it.
     """
     checked = check(file)
-    before = package_of(f"{file} on {_distro(checked)}", checked)
-    assert checked.graph is not None  # it has a package
+    errors = [one for one in checked.diagnostics if one.severity is Severity.ERROR]
+    if errors or checked.graph is None:
+        more = f"; {len(errors) - 1} more" if len(errors) > 1 else ""
+        raise UpgradeError(f"{errors[0].span}: {errors[0].message}{more}; see `cellc check`")
+    before = replace(package_of(file, checked), name=f"{file} on {checked.graph.cell.distro}")
     cell = checked.graph.cell
     moves = moved_pins(cell, target, facts_of_distro(target))
     edits, moved = edited_check(file, cell, checked.findings.texts, [(move.pin, move.text) for move in moves])
@@ -72,10 +75,6 @@ def plan_upgrade(file: str, target: Distro) -> Planned:
     except SideError:
         after = None
     return Planned(_upgrade(cell, target, moves, before, after, moved), edits, checked.findings.texts)
-
-
-def _distro(checked: Checked) -> str:
-    return "" if checked.graph is None else checked.graph.cell.distro.value
 
 
 def _upgrade(

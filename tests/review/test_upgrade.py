@@ -179,6 +179,37 @@ def test_quotes_anchors_and_included_files_are_kept(tmp_path: Path) -> None:
     assert '  ros2_control: "5.17.0"  # as tested\n' in (tmp_path / "tuple.yaml").read_text(encoding="utf-8")
 
 
+def _moved_to_kilted(tmp_path: Path, *edits: tuple[str, str]) -> list[str]:
+    """Return the lines of the cell with two arms that an upgrade writes, trimmed."""
+    spec = written(tmp_path, edited(*edits, cell="dual_ur"))
+    before = spec.read_text(encoding="utf-8").split("\n")
+    assert run("upgrade", spec.as_posix(), "--ros", "kilted", "--write").code == 1
+    after = spec.read_text(encoding="utf-8").split("\n")
+    return [new.strip() for new, old in zip(after, before, strict=True) if new != old]
+
+
+_ANCHORS = [
+    "firmware: polyscope 5.21.0, driver: &driver ur_robot_driver 4.8.0, sdk: &sdk ur_client_library 2.14.1,",
+    "description: &description ur_description 4.3.1,",
+]
+"""Versions of kilted, as in the first test."""
+
+
+def test_an_alias_stays_where_its_anchor_becomes_the_same(tmp_path: Path) -> None:
+    assert _moved_to_kilted(tmp_path)[4:] == _ANCHORS
+    assert "driver: *driver, sdk: *sdk, description: *description," in (tmp_path / "cell.yaml").read_text()
+
+
+def test_an_alias_of_what_is_no_pin_is_written_out(tmp_path: Path) -> None:
+    summary = ("summary: UR10e loads blanks", "summary: &driver ur_robot_driver 3.8.0 #")
+    own = ("driver: &driver ur_robot_driver", "driver: ur_robot_driver")
+    moved = _moved_to_kilted(tmp_path, summary, own)
+    assert moved[4:6] == [_ANCHORS[0].replace("&driver ", ""), _ANCHORS[1]]
+    assert moved[6:] == [
+        "firmware: polyscope 5.21.0, driver: ur_robot_driver 4.8.0, sdk: *sdk, description: *description,"
+    ]
+
+
 def test_json_is_what_its_schema_says_and_markdown_is_a_comment() -> None:
     ran = run("upgrade", MINIMAL, "--ros", "jazzy", "--format", "json")
     schema = json.loads(schema_files()["upgrade.schema.json"])
@@ -197,3 +228,16 @@ def test_a_spec_with_errors_is_not_upgraded(tmp_path: Path) -> None:
     ran = run("upgrade", spec.as_posix(), "--ros", "kilted", "--write")
     assert (ran.code, ran.out) == (2, "")
     assert "must be 500 Hz, got 250 Hz; see `cellc check`" in ran.err
+    line = spec.read_text(encoding="utf-8").split("update_rate:")[0].count("\n") + 1
+    assert ran.err.startswith(f"error: {spec.as_posix()}:{line}:")
+
+
+def test_a_spec_that_is_not_there_and_an_error_of_an_included_file_are_named_with_their_place(tmp_path: Path) -> None:
+    ran = run("upgrade", "nofile", "--ros", "kilted")
+    assert (ran.code, ran.err) == (2, "error: nofile:1:1: there is no file `nofile`; see `cellc check`\n")
+    text = spec_text("ur5e_pick")
+    start, end = text.index("versions:"), text.index("hosts:")
+    (tmp_path / "tuple.yaml").write_text("versions:\n  ros: jazy\n", encoding="utf-8")
+    spec = written(tmp_path, text[:start] + "include: tuple.yaml\n" + text[end:])
+    ran = run("upgrade", spec.as_posix(), "--ros", "kilted")
+    assert (ran.code, ran.err.partition("tuple.yaml")[2][:5]) == (2, ":2:8:")
