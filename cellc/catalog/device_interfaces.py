@@ -24,7 +24,7 @@ from cellc.catalog.effects import EffectFacts, StartFacts, ToldFacts
 from cellc.catalog.programs import EndpointFacts, InnerNodeFacts
 from cellc.pins import same_version
 from cellc.spec.base import MOST
-from cellc.spec.quantity import Duration, FieldAngle, Frequency, Length
+from cellc.spec.quantity import Duration, FieldAngle, Frequency, Length, PositiveDuration
 from cellc.vocabulary import Distro
 
 InterfaceName = BareName
@@ -108,7 +108,7 @@ class HardwareFacts(CatalogModel):
     effects: dict[MomentName, EffectFacts] = Field(default_factory=dict)
     start: StartFacts | None = None
     told: dict[NeedName, ToldFacts] = Field(default_factory=dict)
-    command_timeout: Duration | None = None
+    command_timeout: PositiveDuration | None = None
     nodes: tuple[InnerNodeFacts, ...] = ()
     modes: CommandModes | None = None
     fixed_joint_names: bool = False

@@ -18,7 +18,7 @@ from cellc.catalog.catalog_model import (
     Text,
     UnmetName,
 )
-from cellc.spec.quantity import JointPosition
+from cellc.spec.quantity import JointWay
 from cellc.vocabulary import CommandAuthority, Distro, ManagerLock, Need, Unmet
 
 ComponentState = Literal["unconfigured", "inactive", "active"]
@@ -40,7 +40,7 @@ class EffectFacts(CatalogModel):
     drops_part: bool = False
     needs: dict[NeedName, Union[UnmetName, dict[DistroName, UnmetName]]] = Field(default_factory=dict)
     leaves: ComponentState | None = None
-    largest_step: JointPosition | None = None
+    largest_step: JointWay | None = None
     does: Text
     source: Text
 

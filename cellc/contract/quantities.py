@@ -96,7 +96,7 @@ Magnitude = Annotated[float, AfterValidator(_Range(0.0, LARGEST))]
 """A distance, an effort or another size, where zero says none."""
 PositiveMagnitude = Annotated[float, AfterValidator(_Range(SMALLEST, LARGEST))]
 """A speed, an acceleration or a jerk that something moves with."""
-Count = Annotated[int, AfterValidator(_Range(0, LARGEST))]
-"""How many."""
+Count = Annotated[int, AfterValidator(_Range(0, 2**31 - 1))]
+"""How many; a spec may state as many."""
 UnitQuaternion = Annotated[tuple[float, float, float, float], AfterValidator(_check_unit)]
 """A rotation x, y, z, w."""

@@ -11,6 +11,7 @@ from cellc.spec.quantity import (
     JointPosition,
     JointVelocity,
     Position,
+    PositiveDuration,
     Ratio,
     RollPitchYaw,
     TimeShift,
@@ -152,7 +153,7 @@ class SwitchingSpec(SpecModel):
     time: Duration | None = Field(
         None, description="Time from the output to the end of the way; at once if absent.", examples=["150 ms"]
     )
-    within: Duration | None = Field(
+    within: PositiveDuration | None = Field(
         None, description="How long its client waits for the sensors; 1 s if absent.", examples=["500 ms"]
     )
     power_lost: Literal["holds", "drops", "UNKNOWN"] = Field(

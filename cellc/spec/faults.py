@@ -5,7 +5,7 @@ from typing import Annotated, ClassVar, Literal, Union
 from pydantic import Discriminator, Field, Tag
 
 from cellc.spec.base import MOST, FrameReference, Name, SpecModel, Text, shape_of
-from cellc.spec.quantity import Duration, JointPosition, JointVelocity, Ratio, TimeShift
+from cellc.spec.quantity import Duration, JointPosition, JointSpeed, Share, TimeShift
 from cellc.vocabulary import FaultKind
 
 
@@ -140,7 +140,7 @@ class SlowFault(FaultFields):
     """A joint follows its command no faster than it can."""
 
     slow: FrameReference = Field(..., description="Joint, as `device/joint`.", examples=["arm/elbow_joint"])
-    to: JointVelocity = Field(..., description="Its speed.", examples=["2 deg/s"])
+    to: JointSpeed = Field(..., description="Its speed.", examples=["2 deg/s"])
 
 
 class DisplaceFault(FaultFields):
@@ -154,7 +154,7 @@ class ScaleSpeedFault(FaultFields):
     """A device scales its speed, as with a slider or a safety function."""
 
     scale_speed: Name = Field(..., description="Device with speed scaling.", examples=["arm"])
-    to: Ratio = Field(..., description="Share of the programmed speed.", examples=["0 %"])
+    to: Share = Field(..., description="Share of the programmed speed.", examples=["0 %"])
 
 
 class SkipCyclesFault(FaultFields):

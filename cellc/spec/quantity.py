@@ -244,7 +244,7 @@ def _written(value: Quantity | QuantityVector) -> str:
 
 
 LONGEST_S = 1e6  # eleven days: no budget, timeout or step of a cell is longer
-SLOWEST_HZ = 1e-6
+SLOWEST_HZ = 1e-4  # once in three hours; the mock plays nothing slower
 
 Length = Annotated[Quantity, QuantityType((LENGTH,), "162 mm", least=0.0)]
 # What is divided by, or stepped in: a map of cells without an edge, a loop without a period, has no end.
@@ -253,6 +253,8 @@ Edge = Annotated[Quantity, QuantityType((LENGTH,), "25 mm", least=1e-3)]
 Allowance = Annotated[Quantity, QuantityType((LENGTH,), "5 mm", least=1e-6)]
 Period = Annotated[Quantity, QuantityType((DURATION,), "4 ms", least=1e-4, most=1.0)]
 Duration = Annotated[Quantity, QuantityType((DURATION,), "200 ms", least=0.0, most=LONGEST_S)]
+# A wait that zero would end before it begins.
+PositiveDuration = Annotated[Quantity, QuantityType((DURATION,), "200 ms", least=1e-6, most=LONGEST_S)]
 # Ahead or behind: a clock without a battery starts in 1970. Where a length of time has this type, a rule judges it.
 TimeShift = Annotated[Quantity, QuantityType((DURATION,), "-1.5 ms")]
 Frequency = Annotated[Quantity, QuantityType((FREQUENCY,), "500 Hz", least=SLOWEST_HZ)]
@@ -261,6 +263,7 @@ UpdateRate = Annotated[Quantity, QuantityType((FREQUENCY,), "500 Hz", least=1.0)
 DataRate = Annotated[Quantity, QuantityType((DATA_RATE,), "1 Gbit/s", least=1.0)]
 Mass = Annotated[Quantity, QuantityType((MASS,), "0.9 kg", least=0.0)]
 Ratio = Annotated[Quantity, QuantityType((RATIO,), "50 %")]
+Share = Annotated[Quantity, QuantityType((RATIO,), "100 %", least=0.0, most=1.0)]
 # No number of runs shows that all succeed: one in a million may fail, which ten million runs can tell.
 Rate = Annotated[Quantity, QuantityType((RATIO,), "99.5 %", least=0.0, most=0.999999)]
 Confidence = Annotated[Quantity, QuantityType((RATIO,), "95 %", least=0.5, most=0.9999)]
@@ -281,6 +284,9 @@ JointStiffnesses = Annotated[
 ]
 JointPosition = Annotated[Quantity, QuantityType((ANGLE, LENGTH), "0.2 rad")]
 JointVelocity = Annotated[Quantity, QuantityType((ANGULAR_VELOCITY, VELOCITY), "30 deg/s")]
+# Of what moves: nothing takes time without end.
+JointSpeed = Annotated[Quantity, QuantityType((ANGULAR_VELOCITY, VELOCITY), "30 deg/s", least=1e-6)]
+JointWay = Annotated[Quantity, QuantityType((ANGLE, LENGTH), "5 deg", least=1e-6)]
 JointAcceleration = Annotated[Quantity, QuantityType((ANGULAR_ACCELERATION, ACCELERATION), "2 rad/s^2", least=1e-6)]
 JointJerk = Annotated[Quantity, QuantityType((ANGULAR_JERK, JERK), "20 rad/s^3", least=1e-6)]
 JointPositions = Annotated[QuantityVector, QuantityType((ANGLE, LENGTH), "0 -90 90 -90 -90 0 deg", size=0, mixed=True)]

@@ -6,7 +6,7 @@ from pydantic import Discriminator, Field, Tag
 
 from cellc.spec.base import MOST, Name, Pin, SpecModel, StandardOr, Text
 from cellc.spec.faults import FaultsSpec, first_key
-from cellc.spec.quantity import Confidence, Duration, Rate, Ratio
+from cellc.spec.quantity import Confidence, Duration, PositiveDuration, Rate, Share
 from cellc.vocabulary import AttemptOutcome
 
 
@@ -107,7 +107,9 @@ class RehearsalSpec(SpecModel):
     within: Duration | None = Field(
         None, description="Bound from the fault (or its effect's start) to the outcome.", examples=["200 ms"]
     )
-    timeout: Duration | None = Field(None, description="Bound of the whole run in simulated time.", examples=["120 s"])
+    timeout: PositiveDuration | None = Field(
+        None, description="Bound of the whole run in simulated time.", examples=["120 s"]
+    )
     success: Rate | None = Field(
         None, description="Least share of the runs of a sweep that must succeed.", examples=["99.5 %"]
     )
@@ -126,7 +128,7 @@ class KpisSpec(SpecModel):
     missed_cycles: int | None = Field(
         None, description="Missed update cycles allowed in a run.", examples=[0], ge=0, le=MOST
     )
-    stale_state_rejection: Ratio | None = Field(
+    stale_state_rejection: Share | None = Field(
         None, description="Share of stale samples rejected.", examples=["100 %"]
     )
     protective_stops: int | None = Field(

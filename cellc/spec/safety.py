@@ -5,7 +5,7 @@ from typing import Literal
 from pydantic import Field
 
 from cellc.spec.base import FrameReference, Name, SpecModel, StandardOr, Text
-from cellc.spec.quantity import Duration, JointPosition, JointVelocity
+from cellc.spec.quantity import Duration, JointSpeed, JointWay
 
 _UNKNOWN = "UNKNOWN"
 
@@ -110,8 +110,8 @@ class FirstMotionSpec(SpecModel):
 
     joint: FrameReference = Field(..., description="The one joint, as `device/joint`.", examples=["arm/wrist_3_joint"])
     direction: Literal["+", "-"] = Field(..., description="Sign of the first move.", examples=["+"])
-    max_delta: JointPosition = Field(..., description="Largest change of position.", examples=["5 deg"])
-    velocity: JointVelocity = Field(..., description="Speed of the move.", examples=["5 deg/s"])
+    max_delta: JointWay = Field(..., description="Largest change of position.", examples=["5 deg"])
+    velocity: JointSpeed = Field(..., description="Speed of the move.", examples=["5 deg/s"])
     timeout: Duration = Field(..., description="Bound of the move.", examples=["5 s"])
     stop_if: tuple[Text, ...] = Field(
         ..., description="What makes the observer stop.", examples=[["wrong direction"]], min_length=1

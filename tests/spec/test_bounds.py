@@ -6,6 +6,10 @@ from pathlib import Path
 
 import pytest
 
+from cellc.mock.cell import read_to_run
+from cellc.output.write import write
+from cellc.pipeline import check, emit_cell
+from tests.cells import spec_text, written
 from tests.spec.reading import ARM, HEAD, parsed
 
 CONTROL = "control: {{update_rate: {}, controllers: {{states: {{type: joint_state_broadcaster}}}}}}\n"
@@ -19,6 +23,14 @@ RATE = "rehearsals: {{pick: {{steps: [{{wait: 1 s}}], success: {}}}}}\n"
 SURE = "rehearsals: {{pick: {{steps: [{{wait: 1 s}}], success: 99 %, confidence: {}}}}}\n"
 TOLERANCE = "uncertainty: {{tolerances: {{pick: {}}}}}\n"
 REGION = "regions: {{part: {{box: {}}}}}\n"
+KPI = "kpis: {{stale_state_rejection: {}}}\n"
+SCALE = "rehearsals: {{slow: {{inject: {{scale_speed: arm, to: {}, at: 1 s}}}}}}\n"
+SLOW = "rehearsals: {{slow: {{inject: {{slow: arm/elbow_joint, to: {}, at: 1 s}}}}}}\n"
+WITHIN = "devices: {{door: {{model: digital_io, switching: {{within: {}}}}}}}\n"
+TIMEOUT = "rehearsals: {{slow: {{timeout: {}}}}}\n"
+_MOTION = "{{joint: a/j, direction: -, max_delta: %s, velocity: %s, timeout: 1 s, stop_if: [a]}}"
+_FIRST = f"bringup: {{{{first_motion: {_MOTION}}}}}\n"
+FIRST_WAY, FIRST_SPEED = _FIRST % ("{}", "5 deg/s"), _FIRST % ("5 deg", "{}")
 PARAMETER = "nodes: {{task: {{run: a/b, parameters: {{p: {}}}}}}}\n"
 
 
@@ -36,8 +48,8 @@ def _found(text: str, folder: Path) -> list[tuple[str, str]]:
         (CONTROL, "-1 Hz", "between 1 and 1000000 Hz"),
         (CONTROL, "1e9 Hz", "between 1 and 1000000 Hz"),
         (CONTROL, "0 kHz", "between 0.001 and 1000 kHz"),
-        (TOPIC, "0 Hz", "between 1e-06 and 1000000 Hz"),
-        (TOPIC, "1e-99 Hz", "between 1e-06 and 1000000 Hz"),
+        (TOPIC, "0 Hz", "between 0.0001 and 1000000 Hz"),
+        (TOPIC, "1e-99 Hz", "between 0.0001 and 1000000 Hz"),
         (ACTION, "-1 s", "between 0 and 1000000 s"),
         (ACTION, "1e99 h", "between 0 and 278 h"),
         (FRAME, "0 0 1e9 m", "between -100000 and 100000 m"),
@@ -51,6 +63,18 @@ def _found(text: str, folder: Path) -> list[tuple[str, str]]:
         (TOLERANCE, "0 mm", "between 0.001 and 100000000 mm"),
         (TOLERANCE, "0.0000004 mm", "between 0.001 and 100000000 mm"),
         (REGION, "-80 80 0 mm", "between 0 and 100000000 mm"),
+        # A share is of a whole, and what goes with no speed takes time without end.
+        (KPI, "101 %", "between 0 and 100 %"),
+        (KPI, "-1 %", "between 0 and 100 %"),
+        (SCALE, "101 %", "between 0 and 100 %"),
+        (SLOW, "0 rad/s", "between 1e-06 and 100000 rad/s"),
+        (SLOW, "-2 rad/s", "between 1e-06 and 100000 rad/s"),
+        (FIRST_SPEED, "0 rad/s", "between 1e-06 and 100000 rad/s"),
+        (FIRST_SPEED, "-1 rad/s", "between 1e-06 and 100000 rad/s"),
+        (FIRST_WAY, "0 rad", "between 1e-06 and 100000 rad"),
+        (FIRST_WAY, "-1 rad", "between 1e-06 and 100000 rad"),
+        (WITHIN, "0 s", "between 1e-06 and 1000000 s"),
+        (TIMEOUT, "0 s", "between 1e-06 and 1000000 s"),
     ],
 )
 def test_quantity_out_of_the_bounds_of_its_kind_is_refused(
@@ -67,6 +91,26 @@ def test_quantity_out_of_the_bounds_of_its_kind_is_refused(
 )
 def test_quantity_within_the_bounds_of_its_kind_is_taken(section: str, written: str, tmp_path: Path) -> None:
     assert _found(section.format(written), tmp_path) == []
+
+
+@pytest.mark.parametrize(
+    ("before", "extreme"),
+    [
+        ("missed_cycles: 0", "missed_cycles: 2147483647"),
+        ("protective_stops: 0", "protective_stops: 2147483647"),
+        ("hand_eye: {revision: 4", "hand_eye: {revision: 2147483647"),
+        ("{task: {reliability: reliable, depth: 1}}", "{task: {reliability: reliable, depth: 2147483647}}"),
+        ("    rate: 10 Hz\n    buffer", "    rate: 0.0001 Hz\n    buffer"),
+        ("place: 3 mm}", "place: 0.001 mm}"),
+    ],
+)
+def test_what_a_check_takes_at_its_bound_the_mock_reads(before: str, extreme: str, tmp_path: Path) -> None:
+    text = spec_text("ur5e_pick")
+    assert text.count(before) == 1
+    emitted = emit_cell(check(written(tmp_path, text.replace(before, extreme))))
+    assert emitted.value is not None, extreme
+    write(emitted.value, tmp_path / "package")
+    assert read_to_run(tmp_path / "package").contract.cell == "ur5e_pick"
 
 
 def test_count_that_no_system_can_hold_is_refused(tmp_path: Path) -> None:

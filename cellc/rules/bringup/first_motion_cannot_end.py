@@ -42,9 +42,9 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 def check(graph: CellGraph) -> Findings:
     """Yield a first motion whose delta needs more time at its velocity than allowed."""
     motion = graph.cell.bringup.first_motion
-    if motion is None or motion.velocity.value == 0.0:
+    if motion is None:
         return
-    needed = abs(motion.max_delta.value / motion.velocity.value)
+    needed = motion.max_delta.value / motion.velocity.value
     if needed > motion.timeout_s:
         max_delta, velocity, timeout = (
             graph.cell.text("bringup", "first_motion", key) for key in ("max_delta", "velocity", "timeout")

@@ -50,7 +50,7 @@ def check(graph: CellGraph) -> Findings:
     if motion is None:
         return
     for field, value in (("max_delta", motion.max_delta), ("velocity", motion.velocity)):
-        if abs(value.value) > (_LARGEST_M if value.linear else _LARGEST_RAD):
+        if value.value > (_LARGEST_M if value.linear else _LARGEST_RAD):
             path = ("bringup", "first_motion", field)
             largest = "50 mm" if value.linear else "15 deg"
             per = " per second" if field == "velocity" else ""
