@@ -1,16 +1,30 @@
-"""A crew of processes on this machine: fresh interpreters, which hear no signal of the terminal."""
+"""A crew of processes on this machine: fresh interpreters, which hear no signal of the terminal.
+
+They end with who hired them, however that ends: each would hold its output open, and go on for nobody.
+"""
 
 from __future__ import annotations
 
+import ctypes
 import os
-from collections.abc import Iterator, Sequence
+import signal
+import sys
+from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import Future
 from contextlib import contextmanager
 from functools import partial
-from typing import Any
+from threading import Thread, Timer
+from typing import TYPE_CHECKING, Any
 
 from cellc.compute.work import Crew, Hire, Sent, answer
 from cellc.signals import deaf_children, start_deaf_tracker
+
+if TYPE_CHECKING:
+    from multiprocessing.process import BaseProcess
+
+_ENDS_S = 5.0
+"""How long a process may take to end before it is killed: one that is stopped hears nothing else."""
+_PR_SET_PDEATHSIG = 1
 
 
 def usable_cores() -> int:
@@ -47,9 +61,19 @@ def _crew(number: int, sent: Sent, units: int) -> Iterator[Crew]:
         yield Crew(ask, hands=2 * size)
         ended = True
     finally:
-        for child in () if ended else set(active_children()) - others:
+        mine = set(active_children()) - others
+        for child in () if ended else mine:
             child.terminate()
-        pool.shutdown(cancel_futures=True)
+        patience = Timer(_ENDS_S, _kill, (mine,))
+        patience.daemon = True
+        patience.start()
+        pool.shutdown(cancel_futures=True)  # where Ctrl-C comes meanwhile, what is left is killed all the same
+        patience.cancel()
+
+
+def _kill(children: Iterable[BaseProcess]) -> None:
+    for child in children:
+        child.kill()
 
 
 _sent: Sent | None = None
@@ -58,6 +82,25 @@ _sent: Sent | None = None
 def _told(sent: Sent) -> None:
     global _sent
     _sent = sent
+    _end_with_parent()
+
+
+def _end_with_parent() -> None:
+    """End this process as soon as its parent is gone, killed too."""
+    from multiprocessing import parent_process
+    from multiprocessing.connection import wait
+
+    parent = parent_process()
+    assert parent is not None  # this one was started by another
+    gone = [parent.sentinel]
+
+    def watch() -> None:
+        wait(gone)
+        os._exit(1)
+
+    if sys.platform == "linux":  # at once, in the middle of what holds the interpreter too; prctl(2)
+        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+    Thread(target=watch, name="parent", daemon=True).start()
 
 
 def _answer(units: Sequence[Any]) -> list[Any]:

@@ -5,11 +5,16 @@ from __future__ import annotations
 import multiprocessing
 import os
 import re
+import signal
+import subprocess
+import sys
+import time
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
+from cellc.compute import processes as of_machine
 from cellc.compute.processes import processes
 from cellc.compute.work import ComputeError, Work, in_order, stream
 
@@ -33,6 +38,14 @@ def _deadly(folder: str) -> Callable[[int], int]:
 
 def _refused(_: None) -> Callable[[int], int]:
     raise ValueError("not with this shared value")
+
+
+def _endless(_: None) -> Callable[[int], int]:
+    def do(unit: int) -> int:
+        time.sleep(600.0 if unit else 0.0)
+        return unit
+
+    return do
 
 
 def test_every_unit_is_answered_once_and_no_process_is_left() -> None:
@@ -67,3 +80,40 @@ def test_what_work_raises_is_raised_and_a_caller_that_stops_early_leaves_no_proc
     next(found)
     found.close()
     assert multiprocessing.active_children() == []
+
+
+_HIRES = """
+from cellc.compute.processes import processes
+from cellc.compute.work import Work, stream
+from tests.compute.test_work import _endless
+for answer in stream(Work(_endless, None), range(5), processes(2)):
+    print("begun", flush=True)
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no SIGKILL")
+@pytest.mark.parametrize("before", ["", "import sys; sys.platform = 'other'"], ids=["by the system", "by a watch"])
+def test_processes_end_with_who_hired_them_though_that_was_killed(before: str, tmp_path: Path) -> None:
+    script = tmp_path / "hires.py"
+    script.write_text(f"{before}\nif __name__ == '__main__':\n    exec({_HIRES!r})\n", encoding="utf-8")
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
+    hiring = subprocess.Popen([sys.executable, str(script)], stdout=subprocess.PIPE, env=environment)
+    assert hiring.stdout is not None
+    assert hiring.stdout.readline() == b"begun\n"
+    hiring.kill()
+    # It ends as soon as nobody holds the other end any more, and every process of the crew does.
+    assert hiring.communicate(timeout=20.0)[0] == b""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no SIGSTOP")
+def test_a_process_that_was_stopped_is_killed_when_it_does_not_end(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(of_machine, "_ENDS_S", 0.5)
+    found = stream(Work(_endless, None), range(5), processes(2))
+    assert next(found) == (0, 0)
+    for child in multiprocessing.active_children():
+        assert child.pid is not None
+        os.kill(child.pid, signal.SIGSTOP)
+    begun = time.monotonic()
+    found.close()
+    assert multiprocessing.active_children() == []
+    assert time.monotonic() - begun < 20.0
