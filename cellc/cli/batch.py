@@ -21,7 +21,7 @@ from cellc.cli.fleet import USUAL, Fan, Task
 from cellc.description.packages import package_path, use_packages
 from cellc.diagnostics.diagnostic import Findings
 from cellc.limits import Limits, limits, use
-from cellc.printing import progress, time_left
+from cellc.printing import progress, remark, time_left
 from cellc.rules.shared_domain import Presence, presence_of, shared_domains
 from cellc.store.regular_file import open_regular
 
@@ -162,7 +162,7 @@ def _hire(fan: Fan, kind: Kind, tasks: int) -> Hire | None:
     if fan.cluster is not None:
         from cellc.compute.cluster import cluster
 
-        return cluster(fan.cluster)
+        return cluster(fan.cluster, remark)
     number = number_of_workers(kind, tasks) if fan.jobs is None else fan.jobs
     if number <= 1:
         return None

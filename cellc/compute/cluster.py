@@ -10,7 +10,9 @@ A unit takes some 10 ms, and a task costs Dask about 1 ms (docs.dask.org, "Best 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+import asyncio
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import BrokenExecutor, CancelledError, Future
 from contextlib import contextmanager, suppress
 from functools import partial
@@ -24,17 +26,27 @@ _PACKET = 50
 _HANDS_OF_A_WORKER = 3
 _CONNECTS_S = 10.0
 _LOOK_S = 0.5
+_ASK_S = 2.0
+_IDLE_S = 60.0
+"""How long a scheduler may be without a worker: who starts them by hand, or a batch system, takes a while."""
+_ADDRESS = re.compile(r"(?:(?:tcp|tls|wss?|ucx)://)?(?:\[[0-9a-fA-F:.%]+\]|[^\s/:\[\]]+):[0-9]{1,5}/?")
 _AWAY_S = 3.0
 """How long a scheduler may be out of reach: Dask connects again after a break, and has forgotten what it was asked."""
 
 
-def cluster(address: str) -> Hire:
-    """Return who hires all workers of a scheduler, such as ``tcp://10.0.0.7:8786``."""
-    return partial(_crew, address)
+def cluster(address: str, tell: Callable[[str], None] = lambda _: None) -> Hire:
+    """Return who hires all workers of a scheduler, such as ``tcp://10.0.0.7:8786``.
+
+    Args:
+        tell: called with what a person should know while nothing is done.
+    """
+    return partial(_crew, address, tell)
 
 
 @contextmanager
-def _crew(address: str, sent: Sent, units: int) -> Iterator[Crew]:
+def _crew(address: str, tell: Callable[[str], None], sent: Sent, units: int) -> Iterator[Crew]:
+    if not _ADDRESS.fullmatch(address):
+        raise ComputeError(f"`{address}` is not the address of a scheduler; write one such as `tcp://10.0.0.7:8786`")
     try:
         from dask import config
 
@@ -44,10 +56,11 @@ def _crew(address: str, sent: Sent, units: int) -> Iterator[Crew]:
         if missing.name not in ("distributed", "dask"):
             raise
         raise ComputeError("`--cluster` needs Dask; install it with `pip install 'cellc[cluster]'`") from None
+    _find_scheduler(address)
     try:
         client = Client(address, timeout=_CONNECTS_S, set_as_default=False)
     except (OSError, ValueError, TimeoutError):
-        raise ComputeError(f"no scheduler of Dask answers at `{address}`") from None
+        raise _unanswered(address) from None
     try:
         with _in_words(address, KilledWorker):
             told = client.submit(_same, sent, key=f"cellc-{sent.digest}", pure=True)
@@ -59,27 +72,73 @@ def _crew(address: str, sent: Sent, units: int) -> Iterator[Crew]:
                 return asked
 
             packet = max(1, min(_PACKET, units // (2 * hands)))
-            yield Crew(ask, hands, packet, _LOOK_S, _Watch(client, address).look)
+            yield Crew(ask, hands, packet, _LOOK_S, _Watch(client, address, tell).look)
     finally:
         with suppress(Exception):  # a scheduler that is gone cannot be told
             client.close(timeout=1)
 
 
+def _find_scheduler(address: str) -> None:
+    """Raise ComputeError where no scheduler answers: a client of Dask that finds none ends in tracebacks, or never."""
+    from distributed.core import rpc
+
+    async def kind() -> object:
+        async with rpc(address, timeout=_CONNECTS_S) as remote:
+            return (await remote.identity()).get("type")
+
+    async def in_time() -> object:
+        return await asyncio.wait_for(kind(), _CONNECTS_S)
+
+    try:
+        found = asyncio.run(in_time())
+    except Exception as problem:  # whatever else listens there may answer anything
+        if isinstance(problem, TypeError) and "ssl_context" in str(problem):
+            raise ComputeError(f"`{address}` needs TLS, of which the configuration of Dask says nothing") from None
+        raise _unanswered(address) from None
+    if found != "Scheduler":
+        raise _unanswered(address)
+
+
+def _unanswered(address: str) -> ComputeError:
+    return ComputeError(f"no scheduler of Dask answers at `{address}`")
+
+
 class _Watch:
     """Looks whether a scheduler is there, and whether it has workers."""
 
-    def __init__(self, client: Any, address: str) -> None:
+    def __init__(self, client: Any, address: str, tell: Callable[[str], None]) -> None:
         self._client = client
         self._address = address
-        self._seen_s = monotonic()
+        self._tell = tell
+        self._seen_s = self._asked_s = self._manned_s = monotonic()
+        self._told = False
 
     def look(self) -> None:
-        """Raise ComputeError where the scheduler has been away for longer than a break lasts."""
+        """Raise ComputeError where the scheduler has been away, or without a worker, for longer than a break lasts."""
         now_s = monotonic()
         if self._client.status == "running":
             self._seen_s = now_s
+            if now_s - self._asked_s > _ASK_S:
+                self._look_for_workers(now_s)
         elif now_s - self._seen_s > _AWAY_S:
             raise _lost(self._address)
+
+    def _look_for_workers(self, now_s: float) -> None:
+        self._asked_s = now_s
+        try:
+            manned = bool(self._client.nthreads(callback_timeout=_AWAY_S))
+        except (OSError, TimeoutError):  # the scheduler is away, which is seen by its status
+            return
+        if manned:
+            self._manned_s, self._told = now_s, False
+        elif now_s - self._manned_s > _IDLE_S:
+            raise ComputeError(f"the scheduler at `{self._address}` has had no worker for {_IDLE_S:g} s")
+        elif not self._told:
+            self._told = True
+            self._tell(
+                f"the scheduler at `{self._address}` has no worker; one is waited for, at most {_IDLE_S:g} s. "
+                f"Start it with `dask worker {self._address}`"
+            )
 
 
 @contextmanager

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import re
 import socket
+import socketserver
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -21,6 +24,7 @@ from cellc.mock import load
 from cellc.mock.campaign.campaign import conduct, make_plan
 from cellc.mock.faults.registry import possible_faults
 from tests.cells import ROOT, written
+from tests.cli.refused import process
 from tests.compute.test_work import _deadly, _squares
 
 pytest.importorskip("distributed")
@@ -31,7 +35,7 @@ LOOPBACK = "127.0.0.1"
 class Dask:
     """The programs of a cluster, by their own commands."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, workers: int = 2) -> None:
         with socket.socket() as free:
             free.bind((LOOPBACK, 0))
             self.address = f"tcp://{LOOPBACK}:{free.getsockname()[1]}"
@@ -40,7 +44,8 @@ class Dask:
             "scheduler", "--host", LOOPBACK, "--port", self.address.rpartition(":")[2], "--no-dashboard"
         )
         self.workers = [
-            self._start("worker", self.address, "--nthreads", "1", "--no-dashboard", "--no-nanny") for _ in range(2)
+            self._start("worker", self.address, "--nthreads", "1", "--no-dashboard", "--no-nanny")
+            for _ in range(workers)
         ]
 
     def _start(self, *words: str) -> subprocess.Popen[bytes]:
@@ -49,10 +54,10 @@ class Dask:
             return subprocess.Popen(command, cwd=self._folder, stdout=log, stderr=log)
 
     def end(self) -> None:
-        for process in (*self.workers, self.scheduler):
-            process.terminate()
-        for process in (*self.workers, self.scheduler):
-            process.wait()
+        for program in (*self.workers, self.scheduler):
+            program.terminate()
+        for program in (*self.workers, self.scheduler):
+            program.wait()
 
 
 @pytest.fixture(scope="module")
@@ -100,6 +105,28 @@ def test_a_worker_of_a_cluster_that_dies_costs_time_alone(dask: Dask, tmp_path: 
     assert list(tmp_path.iterdir()) == []
 
 
+def test_a_scheduler_without_workers_is_told_and_not_waited_for_without_end(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(of_dask, "_IDLE_S", 2.0)
+    monkeypatch.setattr(of_dask, "_ASK_S", 0.2)
+    told: list[str] = []
+    alone = Dask(tmp_path, workers=1)
+    try:
+        answers = stream(Work(_slow, None), range(100_000), cluster(alone.address, told.append))
+        next(answers)
+        assert told == []
+        alone.workers[0].kill()
+        with pytest.raises(ComputeError, match=rf"^the scheduler at `{alone.address}` has had no worker for 2 s$"):
+            list(answers)
+    finally:
+        alone.end()
+    (line,) = told
+    assert line.startswith(
+        f"the scheduler at `{alone.address}` has no worker; one is waited for, at most 2 s. Start it"
+    )
+
+
 def test_a_worker_with_other_versions_is_refused(dask: Dask, monkeypatch: pytest.MonkeyPatch) -> None:
     there = dict(versions())
     monkeypatch.setattr(of_dask, "versions", lambda: there | {"numpy": "1.0.0"})
@@ -120,3 +147,27 @@ def test_no_scheduler_at_all_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(of_dask, "_CONNECTS_S", 0.5)
     with pytest.raises(ComputeError, match=r"no scheduler of Dask answers at `tcp://127\.0\.0\.1:9`"):
         list(stream(Work(_squares, 5), range(3), cluster("tcp://127.0.0.1:9")))
+
+
+@pytest.mark.parametrize("address", ["foo", "", "http://127.0.0.1:8786", "inproc://x", "tcp://127.0.0.1", "tcp://x:y"])
+def test_what_is_no_address_is_told_at_once(address: str) -> None:
+    with pytest.raises(
+        ComputeError, match=rf"^`{re.escape(address)}` is not the address of a scheduler; write one such"
+    ):
+        list(stream(Work(_squares, 5), range(3), cluster(address)))
+
+
+def test_what_is_no_scheduler_is_told_in_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(of_dask, "_CONNECTS_S", 1.0)
+    with socketserver.TCPServer((LOOPBACK, 0), socketserver.BaseRequestHandler) as other:
+        threading.Thread(target=other.serve_forever, daemon=True).start()
+        address = f"tcp://{LOOPBACK}:{other.server_address[1]}"
+        with pytest.raises(ComputeError, match=rf"^no scheduler of Dask answers at `{address}`$"):
+            list(stream(Work(_squares, 5), range(3), cluster(address)))
+        other.shutdown()
+
+
+def test_nothing_of_a_wrong_address_is_told_beside_the_one_line() -> None:
+    ran = process("mock", "generated/ur5e_pick", "--sweep", "3", "--cluster", f"tls://{LOOPBACK}:9")
+    assert ran.code == 2
+    assert ran.err == f"error: `tls://{LOOPBACK}:9` needs TLS, of which the configuration of Dask says nothing\n"

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, BinaryIO
 
 from cellc.mock.errors import MockError
 from cellc.mock.result import AttemptRecord, to_json_lines
-from cellc.printing import refuse
+from cellc.printing import refuse, remark
 from cellc.store.regular_file import open_regular
 from cellc.store.swap import replace_whole
 
@@ -145,7 +145,7 @@ class MockOptions:
         if self.cluster is not None:
             from cellc.compute.cluster import cluster
 
-            return cluster(self.cluster), f"workers of {self.cluster}"
+            return cluster(self.cluster, remark), f"workers of {self.cluster}"
         jobs = usable_cores() if self.jobs is None else self.jobs
         return (processes(jobs) if jobs > 1 else None), f"{jobs} processes"
 
