@@ -80,6 +80,56 @@ def test_what_is_generated_or_hidden_does_not_count(cells: Path, file: str) -> N
     assert watched.look() == before
 
 
+@pytest.mark.parametrize(
+    "file", ["log.txt", "notes.yaml", "parts/old.yaml", "bag/metadata.yaml", "shared/x/values.yaml"]
+)
+def test_what_no_cell_reads_does_not_count(cells: Path, file: str) -> None:
+    watched = Watched([str(cells)], cells / "generated")
+    spec = str(cells / "cells/one/cell.yaml")
+    watched.packages[spec] = (str(cells / "shared"),)
+    before = watched.look()
+    _touch(cells / "cells/one" / file)
+    _touch(cells / file)
+    assert watched.look() == before
+
+
+def test_what_a_cell_names_counts_before_it_is_there_and_as_soon_as_it_is_named(cells: Path) -> None:
+    spec = cells / "cells/one/cell.yaml"
+    named = "include: [parts/hosts.yaml, parts/more.yaml]\ncalibrations: {hand_eye: {from: measured/eye.json}}"
+    spec.write_text(_CELL.replace("line", "one").replace("include: parts/hosts.yaml", named))
+    watched = Watched([str(cells)], cells / "generated")
+    before = watched.look()
+    for file in (
+        "parts/more.yaml",
+        "measured/eye.json",
+        "src/arm_description/package.xml",
+        "src/arm_description/a.yaml",
+    ):
+        _touch(spec.parent / file)
+        before, changed = watched.next_change(before)
+        assert changed == (str(spec),), file
+    spec.write_text(spec.read_text().replace("parts/more.yaml", "parts/other.yaml"))
+    before, changed = watched.next_change(before)
+    watched.learn(str(spec))
+    before = {**watched.look(), **before}
+    _touch(spec.parent / "parts/more.yaml")
+    (spec.parent / "parts/other.yaml").write_text("kpis: {cancel: 1 s}\n")
+    assert watched.next_change(before)[1] == (str(spec),)
+    watched.learn(str(spec))
+    assert str(spec.parent / "parts/more.yaml") not in watched.look()
+
+
+def test_an_error_of_yaml_does_not_hide_what_the_cell_read_before(cells: Path) -> None:
+    spec = cells / "cells/one/cell.yaml"
+    watched = Watched([str(spec)], cells / "generated")
+    before = watched.look()
+    spec.write_text("cell: [\n")
+    before, _ = watched.next_change(before)
+    watched.learn(str(spec))
+    _touch(spec.parent / "stage/device.yaml")
+    assert watched.next_change(before)[1] == (str(spec),)
+
+
 def test_packages_that_a_cell_names_count(cells: Path) -> None:
     spec = str(cells / "cells/one/cell.yaml")
     watched = Watched([spec], cells / "generated")
@@ -98,7 +148,32 @@ def test_file_that_goes_and_cell_that_comes_are_changes(cells: Path) -> None:
     assert changed == (str(cells / "cells/two/cell.yaml"),)
     (cells / "cells/three").mkdir()
     (cells / "cells/three/cell.yaml").write_text(_CELL)
-    assert watched.next_change(before)[1] == (str(cells / "cells/three/cell.yaml"),)
+    before, changed = watched.next_change(before)
+    assert changed == (str(cells / "cells/three/cell.yaml"),)
+    (cells / "cells/three/cell.yaml").unlink()
+    assert watched.next_change(before)[1] == (), "nothing is left to be checked, and the number of cells is another"
+
+
+@pytest.mark.parametrize("paths", [("nofile",), ("cell.yaml", "nofolder/cell.yaml"), ("none/*/cell.yaml",)])
+def test_a_path_that_is_not_there_is_not_waited_for(
+    paths: tuple[str, ...], cells: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(cells / "cells/one")
+    ran = run("watch", *paths)
+    assert (ran.code, ran.out) == (2, "")
+    assert ran.err.endswith(f"\nError: there is no file or folder `{paths[-1]}`.\n")
+
+
+def test_a_folder_without_a_cell_is_told_and_waited_for(cells: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def come(watched: Watched, before: object) -> None:
+        raise SystemExit(0)
+
+    monkeypatch.setattr(Watched, "next_change", come)
+    (cells / "empty").mkdir()
+    monkeypatch.chdir(cells)
+    ran = run("watch", "empty")
+    assert ran.out == "there is no cell.yaml below `empty` yet\n"
+    assert ran.err == "watching 0 cells; Ctrl-C ends it\n"
 
 
 def test_cell_is_built_once_no_error_is_left(cells: Path, monkeypatch: pytest.MonkeyPatch) -> None:
