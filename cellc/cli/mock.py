@@ -89,9 +89,9 @@ def mock(
     """
     from cellc.mock.command.options import MockOptions, run_mock
 
-    tuples, several = read_matrix(matrix), _several(folders)
+    tuples, (folder, several) = read_matrix(matrix), _meant(folders)
     options = MockOptions(
-        folder=folders[0],
+        folder=folder,
         rehearsals=names,
         campaign=campaign,
         list_only=list_only,
@@ -126,10 +126,10 @@ def mock(
         rehearse_folders(several or (), fleet, options)
 
 
-def _several(folders: tuple[str, ...]) -> tuple[str, ...] | None:
-    """Return the folders that are meant, None for one; what looks for others loads for longer than a folder is read."""
+def _meant(folders: tuple[str, ...]) -> tuple[str, tuple[str, ...] | None]:
+    """Return the first folder that is meant, and all of them where a table is; a pattern stands for what it matches."""
     if len(folders) == 1 and os.path.exists(os.path.join(folders[0], "contract.json")):
-        return None
-    from cellc.cli.batch import several_folders
+        return folders[0], None  # what looks for others loads for longer than a folder is read
+    from cellc.cli.batch import matched, several_folders
 
-    return several_folders(folders)
+    return next(matched(folders)), several_folders(folders)

@@ -23,7 +23,7 @@ def rehearse_folders(folders: Sequence[str], fleet: FleetOptions, options: MockO
     """Execute the rehearsals of generated folders, and leave with 1 where one does not pass."""
     members = [member_of(folder, Path(folder), edited=options.edited) for folder in folders]
     rows = [_row(member, ended, None) for member, ended in zip(members, _rehearsed(members, options), strict=True)]
-    finish_rows(fleet, rows, code=1 if all(member.read for member in members) else 2)
+    finish_rows(fleet, rows, code=1 if all(member.read for member in members) else 2, alone=True)
 
 
 def rehearse_cells(paths: Sequence[str], fleet: FleetOptions, options: MockOptions) -> None:
@@ -42,7 +42,7 @@ def rehearse_cells(paths: Sequence[str], fleet: FleetOptions, options: MockOptio
             members.append(member_of(name, folder, edited=False, spec=Path(task.file).absolute().parent))
         ended = _rehearsed(members, options)
         rows = [_row(member, one, row) for member, one, row in zip(members, ended, rows, strict=True)]
-    finish_rows(fleet, rows)
+    finish_rows(fleet, rows, alone=True)
 
 
 def _rehearsed(members: Sequence[Member], options: MockOptions) -> Iterator[Rehearsed]:

@@ -71,15 +71,21 @@ def show_checked(
         show(f"{hidden} hidden by --select or --ignore")
 
 
-def finish_rows(fleet: FleetOptions, rows: Sequence[FleetRow], output_format: str = "text", code: int = 1) -> None:
-    """Write the table where there are several rows, and leave with a code where one did not pass."""
+def finish_rows(
+    fleet: FleetOptions, rows: Sequence[FleetRow], output_format: str = "text", code: int = 1, *, alone: bool = False
+) -> None:
+    """Write the table where there are several rows, and leave with a code where one did not pass.
+
+    Args:
+        alone: the table is all that is told, so that one row is shown too.
+    """
     passed = all(row.passed for row in rows)
     if fleet.as_json:
         from cellc.contract.fleet import Fleet
 
         document = Fleet(format=1, passed=passed, rows=tuple(rows))
         show_document(harmless_json(document.model_dump_json(indent=2)) + "\n")
-    elif output_format == "text" and (len(rows) > 1 or fleet.moves):
+    elif output_format == "text" and (len(rows) > 1 or fleet.moves or alone):
         from cellc.report.fleet import fleet_lines
 
         show(*fleet_lines(rows))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from shutil import copytree
 from typing import Any
 
 import jsonschema
@@ -151,6 +152,24 @@ def test_the_mock_rehearses_every_generated_folder_below_one(built: Path) -> Non
     assert [line.split()[1:] for line in ran.out.splitlines()[1:-1]] == [
         [name, distro, "1", "of", "1"] for distro in ("humble", "jazzy") for name in ("first", "second")
     ]
+
+
+def test_one_generated_folder_below_another_or_named_twice_is_a_row_too(built: Path, tmp_path: Path) -> None:
+    one = (built / "ros-jazzy/first").as_posix()
+    copytree(one, tmp_path / "one/first")
+    for named in ((tmp_path / "one").as_posix(),), (one, one):
+        ran = run("mock", *named)
+        assert (ran.code, _words(ran, "first")) == (0, ["passed", "first", "jazzy", "1", "of", "1"])
+    (tmp_path / "one/first/contract.json").write_text("{", encoding="utf-8")
+    ran = run("mock", (tmp_path / "one").as_posix())
+    assert ran.code == 2
+    assert "contract.json: is not JSON" in ran.out
+
+
+def test_a_pattern_that_matches_one_folder_stands_for_it(built: Path) -> None:
+    ran = run("mock", (built / "ros-jazzy/fir*").as_posix())
+    assert (ran.code, ran.err) == (0, "")
+    assert ran.out.startswith("passed  close: succeeded (expected succeeded)")
 
 
 def test_a_folder_that_cannot_be_executed_is_a_row_and_the_worst_code_counts(built: Path, tmp_path: Path) -> None:
