@@ -149,8 +149,7 @@ def _link_with_devices(
     source = Derivation(spec, document, distro, loops, devices, all_frames, ends, resolver, planned.value.servo)
     derived = derive_interfaces(source, written)
     rehearsals = link_rehearsals(spec, document, devices, loops, (*written, *derived), names)
-    groups = planned.value.groups if linked_devices.ok and planned.ok else None
-    uncertainty = link_uncertainty(spec, document, devices, groups)
+    uncertainty = link_uncertainty(spec, document, machine, planned.value.groups if planned.ok else None)
     cell = replace(
         _surroundings(spec, document, distro, placed.value.measured, devices),
         devices=devices,

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from cellc.cell.device import Device
 from cellc.cell.motion import PlanningGroup
 from cellc.cell.uncertainty import Region, Uncertainty
 from cellc.diagnostics import Diagnostic, Outcome, Severity
+from cellc.link.motion import Machine
 from cellc.link.names import unknown_name
 from cellc.link.quantities import si
 from cellc.source.document import SourceDocument
@@ -16,7 +16,7 @@ from cellc.spec.uncertainty import RegionSpec, UncertaintySpec
 
 
 def link_uncertainty(
-    spec: CellSpec, document: SourceDocument, devices: Sequence[Device], groups: Sequence[PlanningGroup] | None
+    spec: CellSpec, document: SourceDocument, machine: Machine, groups: Sequence[PlanningGroup] | None
 ) -> Outcome[Uncertainty | None]:
     """Bind the uncertainty of a cell; None where neither it nor a region nor a rate of success is stated.
 
@@ -35,7 +35,8 @@ def link_uncertainty(
         repeatability_m={name: value.si for name, value in written.repeatability.items()},
         tolerances_m={name: value.si for name, value in written.tolerances.items()},
     )
-    still = () if groups is None else _still(spec, written, document, devices, groups)
+    known = groups is not None and machine.placed
+    still = _still(spec, written, document, machine, groups or ()) if known else ()
     return Outcome(bound, (*_unknown(spec, written, document), *still, *alone))
 
 
@@ -64,12 +65,12 @@ def _still(
     spec: CellSpec,
     written: UncertaintySpec,
     document: SourceDocument,
-    devices: Sequence[Device],
+    machine: Machine,
     groups: Sequence[PlanningGroup],
 ) -> Iterator[Diagnostic]:
     """Yield devices whose repeatability would draw nothing: it is that of the tip of a group."""
     driven = {joint for group in groups for joint in group.joints}
-    moved = [device.name for device in devices if driven & {joint.name for joint in device.joints}]
+    moved = [device.name for device in machine.devices if driven & {joint.name for joint in device.joints}]
     for name in written.repeatability:
         if name in spec.devices and name not in moved:
             path = ("uncertainty", "repeatability", name)
