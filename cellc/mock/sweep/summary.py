@@ -65,7 +65,19 @@ def count_lines(sweep: Sweep) -> Iterator[str]:
     counted = Counter(run.outcome for run in sweep.runs)
     yield "outcomes: " + ", ".join(f"{name} {number}" for name, number in counted.most_common())
     if sweep.failed and not any(one.explains for one in explanations(sweep)):
-        yield f"nothing that is drawn stands out in the failures; more runs may tell more ({METHOD_SENSITIVITY})"
+        yield f"{_unexplained(sweep)} ({METHOD_SENSITIVITY})"
+
+
+def _unexplained(sweep: Sweep) -> str:
+    """Say why nothing explains the failures, and what would."""
+    if not sweep.uncertainty.quantities:
+        return "nothing is drawn that could explain the failures"
+    if len(sweep.failed) == len(sweep.runs):
+        return "every run failed, so that there is none to compare what was drawn with"
+    nothing = "nothing that is drawn stands out in the failures"
+    if len(sweep.runs) < sweep.asked:
+        return f"{nothing}; the sweep ended with its verdict, and makes all {sweep.asked} runs without `success` alone"
+    return f"{nothing}; more runs may tell more"
 
 
 Table = Sequence[tuple[str, ...]]

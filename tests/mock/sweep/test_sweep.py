@@ -18,6 +18,7 @@ from cellc.mock.sweep.draws import draw
 from cellc.mock.sweep.figures import confidence_of_look, explain, interval
 from cellc.mock.sweep.journal import Journal
 from cellc.mock.sweep.margins import margins
+from cellc.mock.sweep.summary import count_lines
 from cellc.mock.sweep.sweep import Sweep, SweepRun, execute, sweep, uncertainty_of
 from tests.cells import generated
 from tests.mock.sweep.conftest import RESIDUAL_M, TOLERANCE_M
@@ -212,6 +213,23 @@ def test_a_verdict_comes_as_soon_as_it_is_certain_and_later_runs_change_nothing(
     assert (len(bad.runs), bad.verdict) == (100, False)
     even = swept(nest, 300, known={number: ended(number, number % 100 >= 15) for number in range(300)})
     assert (len(even.runs), even.verdict) == (300, None)
+
+
+def test_more_runs_are_advised_only_where_they_would_be_made_and_would_tell(nest: MockCell, twelve: Sweep) -> None:
+    def told(*, asked: int = 12, passed: tuple[int, ...] = (), drawn: bool = True) -> str:
+        runs = tuple(replace(run, passed=run.number in passed) for run in twelve.runs)
+        quantities = twelve.uncertainty.quantities if drawn else ()
+        uncertainty = twelve.uncertainty.model_copy(update={"quantities": quantities})
+        *_, last = count_lines(replace(twelve, runs=runs, asked=asked, uncertainty=uncertainty))
+        return last.removesuffix(" (Monte Carlo filtering, Kolmogorov-Smirnov)")
+
+    nothing = "nothing that is drawn stands out in the failures; "
+    assert told(passed=(1, 2, 3)) == nothing + "more runs may tell more"
+    assert told(passed=(1, 2, 3), asked=99) == nothing + (
+        "the sweep ended with its verdict, and makes all 99 runs without `success` alone"
+    )
+    assert told() == "every run failed, so that there is none to compare what was drawn with"
+    assert told(passed=(1,), drawn=False) == "nothing is drawn that could explain the failures"
 
 
 def test_a_folder_that_names_what_it_does_not_have_is_refused(nest: MockCell) -> None:
