@@ -70,6 +70,8 @@ def _meant(files: Sequence[str]) -> Iterator[str]:
     seen = set[str]()
     for file in files:
         below = files_below(file, SPEC_FILE, DEVICE_FILE, f"*{FAMILY_FILE}") if os.path.isdir(file) else ()
+        if os.path.isdir(file) and not below:
+            raise click.UsageError(f"there is no {SPEC_FILE}, {DEVICE_FILE} or *{FAMILY_FILE} below `{file}`.")
         for name in below or (file,):
             is_spec = bool(below) and os.path.basename(name) == SPEC_FILE
             for one in with_includes(name) if is_spec else (name,):

@@ -12,9 +12,12 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from io import FileIO
 from pathlib import Path
+from typing import Any
 
 from lsprotocol import types as lsp
+from pygls.exceptions import JsonRpcException
 from pygls.lsp.server import LanguageServer
+from pygls.protocol import LanguageServerProtocol
 from pygls.uris import from_fs_path, to_fs_path
 from pygls.workspace import PositionCodec, TextDocument
 
@@ -42,11 +45,24 @@ _KINDS = {
 }
 
 
+class _Protocol(LanguageServerProtocol):
+    """The protocol of pygls, which itself leaves a request without an answer where its parameters are none."""
+
+    def structure_message(self, data: dict[str, Any]) -> Any:
+        """Return a message that came as a type; what is wrong with a request is answered too."""
+        try:
+            return super().structure_message(data)
+        except JsonRpcException as problem:
+            if "method" in data and "id" in data:
+                self._send_response(data["id"], None, problem.to_response_error())
+            raise
+
+
 class CellServer(LanguageServer):
     """A server with what it knows of the cells of its client."""
 
     def __init__(self) -> None:
-        super().__init__("cellc", __version__)
+        super().__init__("cellc", __version__, protocol_cls=_Protocol)
         self.cells = Cells()
         self._waiting: dict[str, asyncio.Task[None]] = {}
         self._checking = asyncio.Lock()
@@ -69,8 +85,15 @@ class CellServer(LanguageServer):
         end()
 
     def text_of(self, uri: str) -> str:
-        """Return a document with line breaks as ``\\n``."""
-        return normalised(self.workspace.get_text_document(uri).source)
+        """Return a document with line breaks as ``\\n``; empty for one that is neither open nor to be read."""
+        return self.known_text(uri) or ""
+
+    def known_text(self, uri: str) -> str | None:
+        """Return a document with line breaks as ``\\n``; None for one that is neither open nor to be read."""
+        try:
+            return normalised(self.workspace.get_text_document(uri).source)
+        except (OSError, ValueError):
+            return None
 
     def soon(self, uri: str) -> None:
         """Check the cell of a document once nobody types; a later change begins the wait again."""
@@ -211,6 +234,8 @@ def _definition(of: CellServer, params: lsp.DefinitionParams) -> lsp.Location | 
 
 @server.feature(lsp.TEXT_DOCUMENT_COMPLETION, lsp.CompletionOptions(trigger_characters=[":", " ", "{", "[", "/"]))
 def _completion(of: CellServer, params: lsp.CompletionParams) -> list[lsp.CompletionItem]:
+    if of.known_text(params.text_document.uri) is None:
+        return []
     text, ranges = _text(of, params.text_document.uri)
     found = completions(text, *ranges.place(params.position), of.cells.known(file_of(params.text_document.uri)))
     return [

@@ -214,7 +214,7 @@ CODES: tuple[CodePage, ...] = (
         "not-a-file",
         "the path names a folder, a pipe or a device",
         "A spec is read once, whole, and its text is shown in messages, so it must be a regular file.",
-        "name the `.yaml` file itself; `check` and `build` take a folder for each `cell.yaml` below it, if any",
+        "name the `.yaml` file itself; `check`, `build` and `format` take a folder for every `cell.yaml` below it",
     ),
     _page(
         "not-utf8",

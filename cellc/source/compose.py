@@ -75,6 +75,9 @@ class OpenCollection:
         return event_span(self.start, file, lines)
 
 
+_NO_VALUES = "put spaces between the numbers, or quotes round all of them: in `{}` a comma ends a value"
+
+
 def compose(file: str, text: str, *, pure: bool = False) -> Outcome[Node]:
     """Return the root node of a YAML text, or every reason not to trust it.
 
@@ -199,7 +202,8 @@ class _Composer:
         """Return the name of a key, or None after reporting why it cannot be one."""
         if not isinstance(node.data, str):
             shown = f"`{_short(node.text)}`" if node.text else "an empty key" if node.data is None else "a collection"
-            self._report("non-string-key", f"the key is {_kind(node)}: {shown}", span)
+            advice = _NO_VALUES if collection.start.flow_style and self._stands_alone(span) else ""
+            self._report("non-string-key", f"the key is {_kind(node)}: {shown}", span, advice=advice)
             return None
         first = collection.children.get(node.data)
         if first is not None:
@@ -209,6 +213,11 @@ class _Composer:
             )
             return None
         return node.data
+
+    def _stands_alone(self, span: Span) -> bool:
+        """Tell whether a comma or the end follows, as behind a value, and no value of its own."""
+        rest = self._lines[span.end_line - 1][span.end_column - 1 :].lstrip()
+        return rest[:1] in (",", "}")
 
     def _refuse_tag(self, event: yaml.ScalarEvent | yaml.CollectionStartEvent) -> None:
         if event.tag is not None:
@@ -229,9 +238,10 @@ class _Composer:
         related: tuple[Related, ...] = (),
         key: YamlPath = (),
         limit: str = "",
+        advice: str = "",
     ) -> None:
         path = tuple(part for collection in self._open if (part := collection.position) is not None) + key
-        self.findings.append(finding(code, message, span, path=path, limit=limit, related=related))
+        self.findings.append(finding(code, message, span, path=path, advice=advice, limit=limit, related=related))
         self.is_hopeless = self.is_hopeless or len(self.findings) >= MAX_FINDINGS
 
     def _stop(self, code: str, message: str, span: Span, limit: str = "") -> None:

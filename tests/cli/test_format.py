@@ -55,6 +55,12 @@ def test_difference_is_shown_and_nothing_written(spec: Path) -> None:
     assert spec.read_text() == _UGLY
 
 
+def test_a_folder_without_anything_to_format_is_told_as_such(tmp_path: Path) -> None:
+    ran = run("format", str(tmp_path))
+    assert (ran.code, ran.out) == (2, "")
+    assert f"there is no cell.yaml, device.yaml or *.family.yaml below `{tmp_path}`" in ran.err
+
+
 def test_folder_stands_for_cells_what_they_include_and_devices(spec: Path) -> None:
     spec.write_text("format: 1\ncell: x\ninclude: parts/hosts.yaml\n")
     for name in ("parts/hosts.yaml", "arm/device.yaml", "series/a.family.yaml", "other.yaml", "mycell.yaml"):

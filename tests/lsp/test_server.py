@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import asyncio
+import json
 import os
 import shutil
+import subprocess
 import sys
+import threading
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import IO, Any
 
 import pytest
 
@@ -293,3 +297,51 @@ def test_form_and_outline_are_told(session: Session) -> None:
 
 def test_server_ends_in_good_order(session: Session) -> None:
     assert session.code == 0
+
+
+def _asked(stdin: IO[bytes], stdout: IO[bytes], number: int, method: str, params: object) -> dict[str, Any]:
+    """Send a request as it goes over the wire, and return its answer."""
+    body = json.dumps({"jsonrpc": "2.0", "id": number, "method": method, "params": params}).encode()
+    stdin.write(b"Content-Length: %d\r\n\r\n%s" % (len(body), body))
+    stdin.flush()
+    while True:
+        length = 0
+        while (line := stdout.readline().strip()) or not length:
+            length = int(line.partition(b":")[2]) if line.lower().startswith(b"content-length") else length
+        told: dict[str, Any] = json.loads(stdout.read(length))
+        if told.get("id") == number:
+            return told
+
+
+def test_what_cannot_be_answered_is_answered_all_the_same(tmp_path: Path) -> None:
+    place = {"textDocument": {"uri": (tmp_path / "gone.yaml").as_uri()}, "position": {"line": 3, "character": 5}}
+    with subprocess.Popen(
+        [sys.executable, "-m", "cellc", "lsp"],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+    ) as process:
+        too_late = threading.Timer(60, process.kill)
+        too_late.start()
+        stdin, stdout = process.stdin, process.stdout
+        assert stdin is not None
+        assert stdout is not None
+        _asked(stdin, stdout, 1, "initialize", {"processId": None, "rootUri": None, "capabilities": {}})
+        methods = ("hover", "definition", "completion", "documentSymbol", "formatting", "codeAction")
+        whole = {"start": place["position"], "end": place["position"]}
+        more = {
+            "range": whole,
+            "context": {"diagnostics": [], "triggerKind": 1},
+            "options": {"tabSize": 2, "insertSpaces": True},
+        }
+        for number, method in enumerate(methods, start=2):
+            told = _asked(stdin, stdout, number, f"textDocument/{method}", {**place, **more})
+            assert not told.get("error"), method
+            assert not told.get("result"), method
+        # JSON-RPC 2.0, 5.1: -32602 is "Invalid method parameter(s)".
+        told = _asked(stdin, stdout, 20, "textDocument/hover", {"textDocument": 5})
+        assert told["error"]["code"] == -32602
+        assert _asked(stdin, stdout, 21, "shutdown", None).get("error") is None
+        stdin.close()
+        process.wait()
+        too_late.cancel()

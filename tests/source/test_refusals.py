@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from cellc.limits import DEFAULTS, in_force
+from cellc.source import read
 from cellc.source.codes import CODES
 from tests.source.reading import codes, places, read_bytes
 
@@ -106,3 +107,15 @@ def test_every_code_has_a_page_of_its_own() -> None:
     assert names == sorted(set(names))
     assert all(page.title and page.why and page.fix for page in CODES)
     assert all(not page.title.endswith(".") for page in CODES)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [("tcp: {xyz: 0,0,11mm}\n", "put spaces between the numbers"), ("tcp: {0: a}\n", "put the key in double quotes")],
+)
+def test_numbers_with_commas_in_braces_are_told_as_what_they_were_meant_as(
+    text: str, words: str, tmp_path: Path
+) -> None:
+    (tmp_path / "cell.yaml").write_text(text)
+    found = [one for one in read(tmp_path / "cell.yaml").diagnostics if one.code == "non-string-key"]
+    assert [words in one.help for one in found] == [True]
