@@ -76,7 +76,7 @@ def _unexplained(sweep: Sweep) -> str:
         return "every run failed, so that there is none to compare what was drawn with"
     nothing = "nothing that is drawn stands out in the failures"
     if len(sweep.runs) < sweep.asked:
-        return f"{nothing}; the sweep ended with its verdict, and makes all {sweep.asked} runs without `success` alone"
+        return f"{nothing}; the verdict ended the sweep, which makes all {sweep.asked} runs where no `success` stands"
     return f"{nothing}; more runs may tell more"
 
 

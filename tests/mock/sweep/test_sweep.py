@@ -226,7 +226,7 @@ def test_more_runs_are_advised_only_where_they_would_be_made_and_would_tell(nest
     nothing = "nothing that is drawn stands out in the failures; "
     assert told(passed=(1, 2, 3)) == nothing + "more runs may tell more"
     assert told(passed=(1, 2, 3), asked=99) == nothing + (
-        "the sweep ended with its verdict, and makes all 99 runs without `success` alone"
+        "the verdict ended the sweep, which makes all 99 runs where no `success` stands"
     )
     assert told() == "every run failed, so that there is none to compare what was drawn with"
     assert told(passed=(1,), drawn=False) == "nothing is drawn that could explain the failures"
