@@ -8,7 +8,7 @@ from xml.etree.ElementTree import Element
 
 from cellc.contract.contract import Contract
 from cellc.mock.report_page.axes import Scale, line
-from cellc.mock.report_page.html import cards, svg, tag
+from cellc.mock.report_page.html import Child, cards, svg, tag
 from cellc.mock.sweep.margins import Margin, margins
 from cellc.mock.sweep.summary import count_lines, drawn_table, explained_table, margin_table, verdict_line
 from cellc.mock.sweep.sweep import Sweep
@@ -19,10 +19,11 @@ _BARS = 50
 
 def sweep_section(sweep: Sweep, contract: Contract) -> Element:
     """Return the section of one sweep."""
-    found = tuple(margins(sweep, contract))
-    names, *rows = margin_table(found) or ((),)
-    drawn = [cards((*names, "best to worst"), ((*row, histogram(one)) for row, one in zip(rows, found, strict=True)))]
-    drawn += [cards(head, rest) for head, *rest in filter(None, (drawn_table(sweep), explained_table(sweep)))]
+    tables = [cards(head, rest) for head, *rest in filter(None, (drawn_table(sweep), explained_table(sweep)))]
+    if found := tuple(margins(sweep, contract)):
+        names, *rows = margin_table(found)
+        drawn: list[tuple[Child, ...]] = [(*row, histogram(one)) for row, one in zip(rows, found, strict=True)]
+        tables.insert(0, cards((*names, "best to worst"), drawn))
     hint = (
         "95 % of the runs are as good as the figure below it, or better. A drawing ends at the bound, or at a run "
         "beyond it. Clearance is what the planner knows: from an arm and what it carries to what stands around, where "
@@ -30,7 +31,7 @@ def sweep_section(sweep: Sweep, contract: Contract) -> Element:
         "run that missed its goal shows what the robot believed: that it succeeded."
     )
     lines = [tag("p", text) for text in count_lines(sweep)]
-    return tag("section", tag("h2", f"Sweep of {sweep.rehearsal}"), *lines, *drawn, tag("p", hint, class_="hint"))
+    return tag("section", tag("h2", f"Sweep of {sweep.rehearsal}"), *lines, *tables, tag("p", hint, class_="hint"))
 
 
 def sweep_verdict(sweep: Sweep) -> Element:
@@ -41,9 +42,8 @@ def sweep_verdict(sweep: Sweep) -> Element:
 
 def histogram(margin: Margin) -> Element:
     """Return how many runs were how near to the bound: the best on the left, the bound on the right."""
-    best, worst = margin.values[0], margin.values[-1]
-    start = best if margin.falling else min(0.0, best)
-    end = worst if margin.bound is None else (min if margin.falling else max)(worst, margin.bound)
+    shown = (*margin.values, *(() if margin.bound is None else (margin.bound,)), *(() if margin.falling else (0.0,)))
+    start, end = (max(shown), min(shown)) if margin.falling else (min(shown), max(shown))
     x = Scale(start, end if end != start else start + 1.0, 0.0, _WIDTH)
     drawing = svg(_WIDTH, _HEIGHT, f"{margin.name}, from the best run to the worst", *_drawn(margin, x))
     return tag("td", drawing, class_="spread")

@@ -14,10 +14,11 @@ from cellc.compute.processes import processes
 from cellc.contract.uncertainty import UncertainQuantity
 from cellc.mock import MockCell, MockError, load
 from cellc.mock.plant import Plant
+from cellc.mock.report_page.sweep_section import histogram, sweep_section
 from cellc.mock.sweep.draws import draw
 from cellc.mock.sweep.figures import confidence_of_look, explain, interval
 from cellc.mock.sweep.journal import Journal
-from cellc.mock.sweep.margins import margins
+from cellc.mock.sweep.margins import Margin, margins
 from cellc.mock.sweep.summary import count_lines
 from cellc.mock.sweep.sweep import Sweep, SweepRun, execute, sweep, uncertainty_of
 from tests.cells import generated
@@ -91,6 +92,22 @@ def test_margins_go_from_the_best_run_to_the_worst_up_to_their_bounds(nest: Mock
         "least singular value at put": 0.005,  # docs/mock.md, Sweeps
         "age of joint states": 0.1,
     }
+
+
+def test_a_drawing_holds_the_bound_and_every_run(nest: MockCell, twelve: Sweep) -> None:
+    def places(margin: Margin) -> tuple[list[float], float, list[str]]:
+        drawn = list(histogram(margin).iter())
+        bars = [one for one in drawn if one.tag == "rect"]
+        (bound,) = [float(one.attrib["x1"]) for one in drawn if one.attrib.get("class") == "limit"]
+        return [float(bar.attrib["x"]) for bar in bars], bound, [bar.attrib["class"] for bar in bars]
+
+    # 200 wide: 6 of 10 is at 120 of them, 10 at the end, in the last of 50 bars.
+    assert places(Margin("far", "m", (6.0, 10.0), 10.0)) == ([120.0, 196.0], 199.0, ["runs", "runs"])
+    assert places(Margin("far", "m", (4.0, 10.0), 5.0)) == ([80.0, 196.0], 100.0, ["runs", "runs beyond"])
+    assert places(Margin("near", "m", (10.0, 6.0), 0.0, falling=True)) == ([0.0, 80.0], 199.0, ["runs", "runs"])
+    assert places(Margin("near", "m", (-5.0, -10.0), 0.0, falling=True)) == ([100.0, 196.0], 0.0, 2 * ["runs beyond"])
+    nowhere = replace(twelve, runs=tuple(replace(run, goals={}, joint_state_age_s=None) for run in twelve.runs))
+    assert "best to worst" not in {one.text for one in sweep_section(nowhere, nest.contract).iter()}
 
 
 def test_a_margin_of_what_is_observed_ends_where_an_observation_is_too_old() -> None:
