@@ -79,7 +79,7 @@ def difference(before: Leaf | None, after: Leaf | None, unit: str) -> str:
     if isinstance(before, int) and isinstance(after, int):
         return ""
     if before and (unit not in ("m", "rad") or before > 0.0 < after):
-        return f"{100.0 * (after - before) / abs(before):+.3g} %"
+        return f"{_rounded(100.0 * (after - before) / abs(before)):+.10g} %"
     sign = "+" if after > before else ""
     return sign + _with_unit(after - before, unit)
 
@@ -92,7 +92,13 @@ def motion(metres: float, radians: float) -> str:
 
 
 def _length(metres: float) -> str:
-    return f"{metres * 1e3:.3g} mm" if metres < 1.0 else f"{metres:.3g} m"
+    shown = _rounded(metres)
+    return f"{shown * 1e3:.10g} mm" if shown < 1.0 else f"{shown:.10g} m"
+
+
+def _rounded(value: float) -> float:
+    """Return three digits of a value, which is then written without a power of ten."""
+    return float(f"{value:.3g}")
 
 
 def _of_lists(before: tuple[str | float | int | bool, ...], after: tuple[str | float | int | bool, ...]) -> str:

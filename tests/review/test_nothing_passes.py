@@ -5,9 +5,13 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import pytest
+
 from cellc.review.compare import changes_between
 from cellc.review.facts import facts_of
 from cellc.review.sides import Package, Side, packages
+from cellc.review.units import difference
+from cellc.transforms import Pose
 from tests.cells import spec_text
 from tests.cli.run import run
 from tests.link.test_packages import CELL, CUBE, DEVICE
@@ -162,3 +166,16 @@ def test_a_calibration_of_another_name_is_told_in_a_few_lines(repository: Reposi
             )
         ),
     ]
+
+
+@pytest.mark.parametrize(
+    ("metres", "told"),
+    [(0.001, "1 mm"), (0.12345, "123 mm"), (0.9999999, "1 m"), (1.0, "1 m"), (12.345, "12.3 m"), (1234.5, "1230 m")],
+)
+def test_how_far_a_frame_moved_is_told_without_a_power_of_ten(metres: float, told: str) -> None:
+    upright = (0.0, 0.0, 0.0, 1.0)
+    assert difference(Pose((0.0, 0.0, 0.0), upright), Pose((metres, 0.0, 0.0), upright), "") == f"moves {told}"
+
+
+def test_a_large_share_is_told_without_a_power_of_ten() -> None:
+    assert difference(1.0, 21.0, "s") == "+2000 %"

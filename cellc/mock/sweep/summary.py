@@ -138,7 +138,7 @@ def _aligned(rows: Table) -> Iterator[str]:
 
 def _shown(value: float, unit: str) -> str:
     shown, factor = _SHOWN_UNITS[unit]
-    return f"{value * factor:.3g} {shown}".rstrip()
+    return f"{float(f'{value * factor:.3g}'):.10g} {shown}".rstrip()  # three digits, and no power of ten
 
 
 def run_lines(run: SweepRun, uncertainty: Uncertainty, seed: int) -> Iterator[str]:
