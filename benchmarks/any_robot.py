@@ -1,13 +1,16 @@
-"""Every robot of a folder through import, check, build and mock: one row each, and how many moved.
+"""Every robot of a folder or of a list through import, check, build and mock: one row each, and how many moved.
 
-    nice python -m benchmarks.any_robot FOLDER [PART-OF-A-NAME …]
+    nice python -m benchmarks.any_robot FOLDER|LIST [-o FOLDER] [PART-OF-A-NAME …]
 
-FOLDER holds URDF files somewhere below, such as `share/example-robot-data/robots` of the PyPI package
-`example-robot-data`. Each command is a process of its own, with a bound of time; two robots are done at a time.
+A folder holds URDF and xacro files somewhere below, such as `share/example-robot-data/robots` of the PyPI package
+`example-robot-data`. A list has a line `NAME | FILE | NAME:=VALUE …` for each robot, its files relative to the list;
+lines that begin with `#` are left out. What was made of the robots stays in `-o FOLDER`. Each command is a process of
+its own, with a bound of time; two robots are done at a time.
 """
 
 from __future__ import annotations
 
+import argparse
 import re
 import subprocess
 import sys
@@ -20,6 +23,7 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
+from cellc.importing.source import descriptions_in
 from cellc.printing import show
 
 _WITHIN_S = 1200.0
@@ -27,42 +31,76 @@ _STEPS = ("import", "build", "mock")
 
 
 @dataclass(frozen=True, slots=True)
+class Robot:
+    """A description to try, with the arguments of its xacro."""
+
+    name: str
+    file: Path
+    arguments: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
 class Row:
-    """How far a robot came, in how many seconds, and the first line of why no farther."""
+    """How far a robot got, in how many seconds, what it was imported as, and the first line of why no farther."""
 
     robot: str
     outcome: str
     seconds: float
+    kind: str
     why: str
 
 
 def main() -> None:
     """Print the table."""
-    folder, parts = Path(sys.argv[1]).resolve(), sys.argv[2:]
-    files = [file for file in sorted(folder.rglob("*.urdf")) if not parts or any(part in str(file) for part in parts)]
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("robots", type=Path)
+    parser.add_argument("parts", nargs="*")
+    parser.add_argument("-o", "--output", type=Path)
+    given = parser.parse_args()
+    robots = [one for one in _robots(given.robots.resolve()) if not given.parts or _named(one, given.parts)]
     with tempfile.TemporaryDirectory() as place, ThreadPoolExecutor(2) as pool:
         rows = []
-        for row in pool.map(partial(_through, Path(place)), files):
+        for row in pool.map(partial(_through, given.output or Path(place)), robots):
             rows.append(row)
-            show(f"| {row.robot} | {row.outcome} | {row.seconds:.0f} s | {row.why} |")
+            show(f"| {row.robot} | {row.kind} | {row.outcome} | {row.seconds:.0f} s | {row.why} |")
     show(", ".join(f"{count} {outcome}" for outcome, count in Counter(row.outcome for row in rows).most_common()))
 
 
-def _through(place: Path, file: Path) -> Row:
-    begun, name = time.monotonic(), file.stem
-    folder = place / re.sub(r"\W", "_", "_".join(file.parts[-3:]))
-    folder.mkdir()
-    for step, ended in zip(_STEPS, _runs(folder, file), strict=False):
+def _robots(place: Path) -> Iterator[Robot]:
+    if place.is_dir():
+        yield from (Robot(file.stem, file) for file in descriptions_in(place))
+        return
+    for line in place.read_text(encoding="utf-8").splitlines():
+        name, _, rest = line.partition("|")
+        file, _, arguments = rest.partition("|")
+        if file and not name.startswith("#"):
+            yield Robot(name.strip(), place.parent / file.strip(), tuple(arguments.split()))
+
+
+def _named(robot: Robot, parts: list[str]) -> bool:
+    return any(part in robot.name or part in str(robot.file) for part in parts)
+
+
+def _through(place: Path, robot: Robot) -> Row:
+    begun = time.monotonic()
+    folder = place / re.sub(r"\W", "_", "_".join((robot.name, *robot.file.parts[-3:])))
+    folder.mkdir(parents=True)
+    kind, outcome, why = "", "moves", ""
+    for step, ended in zip(_STEPS, _runs(folder, robot), strict=False):
         output = ended.stdout + ended.stderr
+        (folder / f"{step}.txt").write_text(output, encoding="utf-8")
+        told = re.search(r"^kind: (\w+)", output, re.MULTILINE)
+        kind = told[1] if told else kind
         if ended.returncode:
             outcome = next((word for word in ("Traceback", "bug of cellc") if word in output), f"no {step}")
-            return Row(name, outcome, time.monotonic() - begun, _reason(output))
-    return Row(name, "moves", time.monotonic() - begun, "")
+            why = _reason(output)
+            break
+    return Row(robot.name, outcome, time.monotonic() - begun, kind, why)
 
 
-def _runs(folder: Path, file: Path) -> Iterator[subprocess.CompletedProcess[str]]:
+def _runs(folder: Path, robot: Robot) -> Iterator[subprocess.CompletedProcess[str]]:
     for arguments in (
-        ("import", str(file), "--cell", "-o", "robot"),
+        ("import", str(robot.file), *robot.arguments, "--cell", "-o", "robot"),
         ("build", "cell.yaml"),
         ("mock", "generated/robot_cell"),
     ):

@@ -1,15 +1,18 @@
 """cellc: a declarative compiler for robot cells.
 
-What a program calls is here: ``check`` a spec, ``build`` its ROS 2 package, ``load_mock`` to execute that package.
+What a program calls is here: ``check`` a spec, ``build`` its ROS 2 package, ``load_mock`` to execute that package; with
+the types that these return and raise. docs/python.md shows each of them.
 
     import cellc
 
+    for found in cellc.check("cells/bench/cell.yaml"):
+        print(found)
     report = cellc.build("cells/bench/cell.yaml", "generated")
     if report.value is not None:
         result = cellc.load_mock("generated/bench").run("pick_and_place")
         print(result.outcome)
 
-Importing the package loads no stage; each function loads what it needs.
+Importing the package loads no stage; each name loads what it needs.
 """
 
 from __future__ import annotations
@@ -20,26 +23,72 @@ from typing import TYPE_CHECKING
 from cellc.version import __version__
 
 if TYPE_CHECKING:
-    from cellc.diagnostics import Outcome
-    from cellc.mock import MockCell
+    from cellc.diagnostics import Diagnostic, Outcome, Related, Severity, Span
+    from cellc.errors import CellcError
+    from cellc.mock import AttemptRecord, MockCell, MockError, RehearsalResult
     from cellc.output.write import WriteReport
     from cellc.pipeline import Checked
 
-__all__ = ["__version__", "build", "check", "load_mock"]
+__all__ = [
+    "AttemptRecord",
+    "CellcError",
+    "Checked",
+    "Diagnostic",
+    "MockCell",
+    "MockError",
+    "Outcome",
+    "RehearsalResult",
+    "Related",
+    "Severity",
+    "Span",
+    "WriteReport",
+    "__version__",
+    "build",
+    "check",
+    "load_mock",
+]
+
+_HOMES = {
+    "AttemptRecord": "cellc.mock",
+    "CellcError": "cellc.errors",
+    "Checked": "cellc.pipeline",
+    "Diagnostic": "cellc.diagnostics",
+    "MockCell": "cellc.mock",
+    "MockError": "cellc.mock",
+    "Outcome": "cellc.diagnostics",
+    "RehearsalResult": "cellc.mock",
+    "Related": "cellc.diagnostics",
+    "Severity": "cellc.diagnostics",
+    "Span": "cellc.diagnostics",
+    "WriteReport": "cellc.output.write",
+}
+
+if not TYPE_CHECKING:  # a checker of types knows the names above, and no others
+
+    def __getattr__(name: str) -> object:
+        """Load a type where it is first asked for: its stage may be heavy."""
+        if name not in _HOMES:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        from importlib import import_module
+
+        return getattr(import_module(_HOMES[name]), name)
+
+    def __dir__() -> list[str]:
+        return sorted({*globals(), *__all__})
 
 
 def check(spec: str | Path) -> Checked:
     """Read, link and check a cell; nothing is written.
 
     Args:
-        spec: the cell's YAML file.
+        spec: the cell's YAML file; or a `device.yaml`, URDF or xacro file, which is judged by itself.
 
     Returns:
         Its diagnostics, and the linked cell where nothing hides it. A file that cannot be read is a diagnostic too.
     """
-    from cellc.pipeline import check as check_cell
+    from cellc.pipeline import judge
 
-    return check_cell(spec)
+    return judge(spec)
 
 
 def build(spec: str | Path, output: str | Path = "generated", *, force: bool = False) -> Outcome[WriteReport]:
@@ -74,7 +123,7 @@ def load_mock(folder: str | Path, *, edited: bool = False) -> MockCell:
         edited: take a folder that differs from its manifest; every result says so, and no gate is signed.
 
     Raises:
-        cellc.mock.MockError: the folder cannot be executed; the message names the file and the reason.
+        MockError: the folder cannot be executed; the message names the file and the reason.
     """
     from cellc.mock import load
 

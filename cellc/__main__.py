@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 
-if __name__ == "__main__" and not getattr(sys.flags, "safe_path", False):
+if __name__ == "__main__" and not (sys.flags.isolated or getattr(sys.flags, "safe_path", False)):
     # `-m` looks first in the current folder, which may be a checkout of strangers; what is imported next is not theirs.
     sys.path.pop(0)
 

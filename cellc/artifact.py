@@ -3,6 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol
+
+
+class NewFile(Protocol):
+    """What is written into a folder: relative path with forward slashes, content, and whether it is a program."""
+
+    @property
+    def path(self) -> str: ...
+
+    @property
+    def content(self) -> bytes: ...
+
+    @property
+    def executable(self) -> bool: ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,3 +29,8 @@ class Artifact:
     path: str
     text: str
     executable: bool = False
+
+    @property
+    def content(self) -> bytes:
+        """What the file holds."""
+        return self.text.encode()

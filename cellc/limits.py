@@ -16,12 +16,14 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field, fields, replace
 from typing import TypeVar
 
+from cellc.errors import CellcError
+
 KIB = 1024
 MIB = 1024 * KIB
 _Work = TypeVar("_Work")
 
 
-class LimitError(ValueError):
+class LimitError(CellcError, ValueError):
     """An option names no limit, or not a value that it can have; the text says which there are."""
 
 
@@ -81,6 +83,9 @@ class Limits:
     planning_seconds: int = _row(
         60, "s", 36_000, "processor time of what poses and goals of one cell lead to, and of its pairs of links"
     )
+    command_seconds: int = _row(
+        3600, "s", 360_000, "processor time of all specs of one call of `check` or `build`; no further one is started"
+    )
     folder_bytes: int = _row(4 * MIB, "bytes", 64 * MIB, "one file of a generated folder")
     folder_total_bytes: int = _row(256 * MIB, "bytes", 16 * 1024 * MIB, "all files of a generated folder together")
     folder_depth: int = _row(32, "levels", 100, "nesting of values in JSON and parameters of a generated folder")
@@ -92,12 +97,15 @@ class Limits:
         10_000_000, "values", 10_000_000_000, "update cycles of one run times their joints, and what a buffer keeps"
     )
     mock_stop_cycles: int = _row(20_000, "cycles", 10_000_000, "update cycles that a stop of a trajectory takes")
+    rehearsal_seconds: int = _row(
+        600, "s", 360_000, "processor time of the rehearsals of one generated folder, one after the other"
+    )
     campaign_runs: int = _row(10_000, "runs", 1_000_000, "runs of a campaign, and pairs and processes asked for")
     sweep_runs: int = _row(1_000_000, "runs", 100_000_000, "runs of a sweep, each of which is kept with about 1 kB")
     mock_events: int = _row(1_000_000, "events", 1_000_000_000, "images, messages and timers of one run")
 
 
-class PurseError(Exception):
+class PurseError(CellcError):
     """The pieces of work took what they may take together."""
 
 
@@ -166,6 +174,11 @@ def rows() -> Mapping[str, Row]:
 def default(name: str) -> int:
     """Return the default of a row."""
     return _value(DEFAULTS, name)
+
+
+def in_table(name: str) -> int:
+    """Return the value in force of a row."""
+    return _value(limits(), name)
 
 
 def option(name: str) -> str:

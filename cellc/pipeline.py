@@ -6,19 +6,28 @@ on an error, so that one mistake does not cascade; rules all run.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import os
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from cellc.artifact import Artifact
+from cellc.catalog.compiled import DEVICE_FILE
+from cellc.catalog.load import load_device_file
+from cellc.catalog.read_model import is_device
+from cellc.cell.cell import Cell
 from cellc.description.packages import root_of
-from cellc.diagnostics import Diagnostic, Outcome, Severity
-from cellc.diagnostics.diagnostic import CodePage, Findings
+from cellc.diagnostics import Diagnostic, Outcome, Severity, Span
+from cellc.diagnostics.diagnostic import CodePage, Findings, counted, findings_table
+from cellc.diagnostics.unsafe_text import escaped
 from cellc.graph.cell_graph import CellGraph, build_graph
 from cellc.link.link import bare_cell, link
+from cellc.printing import stage
 from cellc.rules.ignores import apply_ignores, ignore_comments, misused_ignores
 from cellc.rules.run import ALL_RULES, run_rules
 from cellc.source import read
+from cellc.source.codes import finding
+from cellc.source.document import SourceDocument
 from cellc.source.text import with_shown_texts
 from cellc.spec.parse import parse
 
@@ -27,9 +36,11 @@ DESCRIPTIONS = (".urdf", ".xacro")
 _ON_MODELS = tuple(one for one in ALL_RULES if one.family == "MOD" or one.code == "missing-velocity-limit")
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Checked:
     """What checking one spec gave: all findings, and the graph where the stages before it found no error.
+
+    It iterates over its findings, sorted by place.
 
     Attributes:
         excused: what rules found, and comments in the spec take out of the findings.
@@ -49,23 +60,47 @@ class Checked:
         """Whether artifacts may be written: no finding is an error."""
         return self.graph is not None and self.findings.ok
 
+    def __iter__(self) -> Iterator[Diagnostic]:
+        return iter(self.diagnostics)
+
+    def __repr__(self) -> str:
+        return f"<Checked {escaped(self.findings.file)}: {counted(self.diagnostics)}>"
+
+    def _repr_html_(self) -> str:
+        return findings_table(f"{self.findings.file}: {counted(self.diagnostics)}", self.diagnostics)
+
+
+def judge(path: str | Path) -> Checked:
+    """Check a cell; or, by itself, the device of a ``device.yaml``, or the robot of a URDF or xacro file.
+
+    What is no cell has no graph: its description is judged by the rules on descriptions alone, after the shape, the
+    names and the figures of the file of a device.
+    """
+    file = Path(path)
+    if file.suffix in DESCRIPTIONS:
+        return _check_description(file)
+    source = read(path)
+    is_read = source.value is not None and source.ok
+    return _check_device(file) if is_read and _is_device(file, source.value) else check(path)
+
 
 def check(path: str | Path, edited: Mapping[str, str] | None = None) -> Checked:
     """Read, parse and link a spec, run every rule on its graph, and take out what comments in the spec excuse.
 
-    A URDF or xacro file is judged as it is, by the rules on descriptions alone.
-
     Args:
         edited: texts that are read in place of files of the spec, by the name that spans carry.
     """
+    stage("reading")
     file = Path(path).as_posix()
-    if file.endswith(DESCRIPTIONS):
-        return _check_description(Path(path))
     source = read(path, edited)
     if source.value is None or not source.ok:
         texts = {} if source.value is None else source.value.texts
         return _checked(file, texts, source.diagnostics)
+    stage("linking")
     texts = source.value.texts
+    if _is_device(Path(path), source.value):
+        told = finding("not-a-cell", f"`{file}` is a device, not a cell", Span(file, 1, 1, 1, 1))
+        return _checked(file, texts, (told,))
     found = list(source.diagnostics)
     spec = parse(source.value)
     found += spec.diagnostics
@@ -76,22 +111,44 @@ def check(path: str | Path, edited: Mapping[str, str] | None = None) -> Checked:
     if cell.value is None or not cell.ok:
         return _checked(file, texts, _unexcused(found, texts))
     graph = build_graph(cell.value)
+    stage("rules")
     found += run_rules(graph)
     kept = _excused(found, texts)
     known = frozenset(kept)
     return replace(_checked(file, texts, kept, graph), excused=tuple(one for one in found if one not in known))
 
 
+def _is_device(path: Path, document: SourceDocument | None) -> bool:
+    return document is not None and (path.name == DEVICE_FILE or is_device(document.data))
+
+
 def _check_description(path: Path) -> Checked:
     # A spec that names devices of the catalog alone is checked without the reader of xacro.
     from cellc.description.read_description import read_description
 
+    stage("reading the description")
     root = root_of(path)
     read = read_description(path, {}, root)
-    found = list(read.diagnostics)
+    cell = None if read.value is None else bare_cell(read.value, path.as_posix(), root.as_posix())
+    return _checked_model(path, read.diagnostics, cell)
+
+
+def _check_device(path: Path) -> Checked:
+    """Check a device by itself; its description and packages may lie beside its folder, as those of a spec there."""
+    stage("reading the device")
+    root = Path(os.path.normpath(path.parent / ".."))
+    read = load_device_file(path, root)
+    cell = None
     if read.value is not None:
-        found += run_rules(build_graph(bare_cell(read.value, path.as_posix(), root.as_posix())), _ON_MODELS)
-    return _checked(path.as_posix(), {}, _sorted(found))
+        excused = {str(code): because for code, because in read.value.model.excused.items()}
+        cell = bare_cell(read.value.description, path.as_posix(), root.as_posix(), excused)
+    return _checked_model(path, read.diagnostics, cell)
+
+
+def _checked_model(path: Path, read: tuple[Diagnostic, ...], cell: Cell | None) -> Checked:
+    stage("rules")
+    ruled = () if cell is None else run_rules(build_graph(cell), _ON_MODELS)
+    return _checked(path.as_posix(), {}, _sorted([*read, *ruled]))
 
 
 def compile_cell(checked: Checked) -> Outcome[tuple[Artifact, ...]]:
@@ -102,6 +159,7 @@ def compile_cell(checked: Checked) -> Outcome[tuple[Artifact, ...]]:
     # Foreign parsers are imported here: a check does not pay for them, nor does who only compares.
     from cellc.verify.verify import verify
 
+    stage("reading back with other parsers")
     return Outcome(emitted.value, verify(emitted.value, checked.graph))
 
 
@@ -114,6 +172,7 @@ def emit_cell(checked: Checked) -> Outcome[tuple[Artifact, ...]]:
     from cellc.emit.emit_all import emit_all
     from cellc.output.manifest import with_manifest
 
+    stage("writing artifacts")
     beyond = _beyond_limits(checked.graph)
     if beyond:
         return Outcome(None, beyond)

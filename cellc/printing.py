@@ -21,6 +21,7 @@ from enum import Enum
 from typing import TextIO
 
 from cellc.diagnostics.unsafe_text import escaped, harmless_line
+from cellc.extras import MissingExtraError
 from cellc.signals import CLOSED_PIPE, drop_output
 
 
@@ -155,6 +156,12 @@ def _piece(piece: str | Styled) -> str:
 
 
 def _write(stream: TextIO, text: str) -> None:
+    if _progress is not None:
+        _progress.hide()
+    _put(stream, text)
+
+
+def _put(stream: TextIO, text: str) -> None:
     stream.write(text)
     stream.flush()
 
@@ -191,6 +198,9 @@ def run_to_end(run: Callable[[], int]) -> int:
         place = f"{error.filename}: " if error.filename else ""
         refuse(f"{place}{(error.strerror or 'unknown reason').lower()}")
         return 1
+    except MissingExtraError as missing:
+        refuse(str(missing))
+        return 2
     except Exception:
         _show_bug()
         return 1
@@ -217,28 +227,45 @@ def _nowhere() -> io.TextIOWrapper:
     return io.TextIOWrapper(io.FileIO(os.devnull, "w"))
 
 
-_SILENT_S = 1.0
+_SILENT_S = 2.0
 _REDRAW_S = 0.1
+_LOOK_S = 0.25
+_clock: Callable[[], float] = time.monotonic
+_progress: _ProgressLine | None = None
+"""What this process tells of its progress; who works deep inside names its stage and knows no command."""
 
 
 @contextmanager
 def progress(
-    label: str, stream: TextIO | None = None, clock: Callable[[], float] = time.monotonic
+    label: str, stream: TextIO | None = None, clock: Callable[[], float] | None = None
 ) -> Iterator[Callable[[str], None]]:
-    """Give a function that tells what is being done; what it says shows after a second and is erased at the end.
+    """Give a function that tells what is being done; it shows after two seconds and is erased at the end.
 
-    Only a terminal gets it. Erasing uses spaces and a carriage return, so that it needs neither colour nor a terminal
-    that knows escape sequences.
+    Only a terminal gets it, on one line that is written anew. Erasing uses spaces and a carriage return, so that it
+    needs no colour. Inside another one, it takes over the line and gives it back.
 
     Args:
         stream: standard error if None.
         clock: time in s, for tests.
     """
-    line = _ProgressLine(label, sys.stderr if stream is None else stream, clock)
+    global _progress
+    outer, line = _progress, _progress
+    if line is None:
+        line = _progress = _ProgressLine(sys.stderr if stream is None else stream, clock or _clock)
+    line.begin(label)
     try:
         yield line.update
     finally:
-        line.erase()
+        line.end()
+        if outer is None:
+            line.close()
+            _progress = None
+
+
+def stage(text: str) -> None:
+    """Tell which stage a command is in, where its progress is shown; nothing is told anywhere else."""
+    if _progress is not None:
+        _progress.stage(text)
 
 
 _MINUTES_FROM_S = 120.0
@@ -257,55 +284,75 @@ def time_left(done: int, total: int, seconds: float) -> str:
 
 
 class _ProgressLine:
-    def __init__(self, label: str, stream: TextIO | None, clock: Callable[[], float]) -> None:
-        self._label = label
-        self._stream = stream if stream is not None and stream.isatty() else None
+    """One line of a terminal: what the innermost of several commands and loops does, and the stage that it is in."""
+
+    def __init__(self, stream: TextIO | None, clock: Callable[[], float]) -> None:
+        shows = stream is not None and stream.isatty() and os.environ.get("TERM") != "dumb"
+        self._stream = stream if shows else None
         self._clock = clock
         self._next_s = clock() + _SILENT_S
-        self._width = 0
-        self._lock = threading.Lock()
-        self._later: threading.Timer | None = None
+        self._told: list[list[str]] = []
+        self._drawn = ""
+        self._lock = threading.RLock()
+        self._closed = threading.Event()
+        if self._stream is not None:
+            threading.Thread(target=self._watch, daemon=True).start()
+
+    def begin(self, label: str) -> None:
+        """Go one deeper: label, step and stage are told from now on."""
+        with self._lock:
+            self._told.append([label, "", ""])
+
+    def end(self) -> None:
+        """Come back to what was told before."""
+        with self._lock:
+            self._told.pop()
 
     def update(self, step: str) -> None:
-        """Show the step that begins now, a second later where it is too early; not if one was drawn a moment ago."""
+        """Tell the step that begins now."""
         with self._lock:
-            if self._later is not None:
-                self._later.cancel()
-                self._later = None
-            if self._stream is not None and not self._shown(step) and not self._width:
-                # Nobody else may call for a long time: one cell with heavy meshes is one step.
-                self._later = threading.Timer(_SILENT_S, self._show_later, (step,))
-                self._later.daemon = True
-                self._later.start()
+            self._told[-1][1:] = [step, ""]
+            self._show()
 
-    def _show_later(self, step: str) -> None:
-        with self._lock, suppress(OSError, ValueError):  # a terminal that was closed
-            if self._later is not None:
-                self._shown(step)
-
-    def _shown(self, step: str) -> bool:
-        now_s = self._clock()
-        if now_s < self._next_s:
-            return False
-        self._next_s = now_s + _REDRAW_S
-        # The last cell stays free: some terminals wrap after it. Escapes of wide text may need two cells a character.
-        room = shutil.get_terminal_size().columns - 1
-        text = harmless_line(escaped(f"{self._label}: {step}"))
-        text = text[: room if text.isascii() else room // 2]
-        self._draw(text)
-        return True
-
-    def erase(self) -> None:
-        """Leave the terminal as it was."""
+    def stage(self, text: str) -> None:
+        """Tell the stage that begins now."""
         with self._lock:
-            if self._later is not None:
-                self._later.cancel()
-                self._later = None
-            if self._width:
+            if self._told:
+                self._told[-1][2] = text
+                self._show()
+
+    def hide(self) -> None:
+        """Leave the terminal as it was; what is told shows again when it changes, or some time later."""
+        with self._lock:
+            if self._drawn:
                 self._draw("")
 
+    def close(self) -> None:
+        """Leave the terminal as it was for good."""
+        self._closed.set()
+        self.hide()
+
+    def _watch(self) -> None:
+        """Show what is told when nobody calls for a long time: one cell with heavy meshes is one step."""
+        while not self._closed.wait(_LOOK_S):
+            with self._lock, suppress(OSError, ValueError):  # a terminal that was closed
+                if not self._closed.is_set():
+                    self._show()
+
+    def _show(self) -> None:
+        if self._stream is None or not self._told or self._clock() < self._next_s:
+            return
+        label, step, stage = self._told[-1]
+        # The last cell stays free: some terminals wrap after it. Escapes of wide text may need two cells a character.
+        room = shutil.get_terminal_size().columns - 1
+        text = harmless_line(escaped(f"{label}: {', '.join(one for one in (step, stage) if one) or 'at work'}"))
+        text = text[: room if text.isascii() else room // 2]
+        if text != self._drawn:
+            self._next_s = self._clock() + _REDRAW_S
+            self._draw(text)
+
     def _draw(self, text: str) -> None:
-        width = len(text) if text.isascii() else 2 * len(text)
+        before, self._drawn = self._drawn, text
         if self._stream is not None:
-            _write(self._stream, "\r" + " " * self._width + "\r" + text)
-        self._width = width
+            blank = len(before) if before.isascii() else 2 * len(before)
+            _put(self._stream, "\r" + " " * blank + "\r" + text)

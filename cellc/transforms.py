@@ -8,6 +8,9 @@ from dataclasses import dataclass
 Vector3 = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]  # x, y, z, w as in geometry_msgs/msg/Quaternion
 
+_NEAR_POLE = 1e-3
+"""Of the half angle between the pitch and a quarter turn: below it, roll and yaw begin to lose digits."""
+
 
 @dataclass(frozen=True, slots=True)
 class Pose:
@@ -37,22 +40,37 @@ class Pose:
         """Return the axis of the turn times its angle, at most pi, in radians."""
         x, y, z, w = self.quaternion
         length = math.sqrt(x * x + y * y + z * z)
-        if length < 1e-12:
+        if length < 1e-15:
             return (0.0, 0.0, 0.0)
         angle = 2.0 * math.atan2(length, abs(w))
         scale = math.copysign(angle / length, w)
         return (scale * x, scale * y, scale * z)
 
     def rpy(self) -> Vector3:
-        """Return fixed-axis roll, pitch, yaw in radians (URDF); at gimbal lock roll carries the whole turn."""
+        """Return fixed-axis roll, pitch, yaw in radians (URDF).
+
+        The pitch lies within a quarter turn, or within 0.2 deg beyond it where roll and yaw are smaller so: vendors
+        write a quarter turn as 1.5708.
+        """
         x, y, z, w = self.quaternion
-        sine = max(-1.0, min(1.0, 2.0 * (w * y - z * x)))
-        # Within a few 1e-8 rad of the pole roll and yaw cannot be told apart: fix yaw at zero.
-        if abs(sine) > 1.0 - 1e-12:
-            return (2.0 * math.atan2(x, w), math.copysign(math.pi / 2.0, sine), 0.0)
-        roll = math.atan2(2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y))
-        yaw = math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
-        return (roll, math.asin(sine), yaw)
+        up, down = math.hypot(w + y, x - z), math.hypot(w - y, x + z)
+        half_sum, half_difference = math.atan2(x + z, w - y), math.atan2(x - z, w + y)
+        roll, yaw = _wrapped(half_sum + half_difference), _wrapped(half_sum - half_difference)
+        pitch = math.pi / 2.0 - 2.0 * math.atan2(down, up)
+        if (weaker := min(up, down)) >= _NEAR_POLE:
+            return (roll, pitch, yaw)
+        if abs(roll) + abs(yaw) > math.pi:
+            yaw, pitch = _wrapped(yaw + math.pi), math.copysign(math.pi, pitch) - pitch
+        # Here only the sum or the difference of roll and yaw is exact. Yaw keeps the digits that turn the frame by
+        # 1e-13 rad or more, so that rounding noise never shows.
+        yaw = _wrapped(round(yaw, 13 + math.floor(math.log10(max(weaker, 1e-300)))))
+        return (_wrapped(yaw + 2.0 * half_difference if down < up else 2.0 * half_sum - yaw), pitch, yaw)
+
+
+def apart(first: Pose, second: Pose) -> tuple[float, float]:
+    """Return how far two poses of one frame are apart, in m and rad."""
+    between = (first.inverse() @ second).rotation_vector()
+    return math.dist(first.position, second.position), math.hypot(*between)
 
 
 def identity() -> Pose:
@@ -80,6 +98,12 @@ def interpolate(start: Pose, end: Pose, fraction: float) -> Pose:
     keep = 1.0 - fraction
     x, y, z = (keep * a + fraction * b for a, b in zip(start.position, end.position, strict=True))
     return Pose((x, y, z), _slerp(start.quaternion, end.quaternion, fraction))
+
+
+def _wrapped(angle: float) -> float:
+    """Return an angle between minus and plus half a turn, which itself is positive however it was rounded."""
+    within = math.remainder(angle, math.tau)
+    return within if within > 1e-12 - math.pi else within + math.tau
 
 
 def _slerp(start: Quaternion, end: Quaternion, fraction: float) -> Quaternion:

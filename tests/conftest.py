@@ -7,8 +7,13 @@ import os
 import signal
 from collections import Counter
 from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
+
+if TYPE_CHECKING:
+    from tests.installed.install import Install
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -38,6 +43,14 @@ def _signals_of_a_terminal() -> None:
             signal.signal(number, handler)
 
 
+@pytest.fixture(scope="session")
+def readme_install(tmp_path_factory: pytest.TempPathFactory) -> Install:
+    """Give what README's first command makes; it takes a minute, so that the workers of one session share it."""
+    from tests.installed.install import installed
+
+    return installed(Path(_shared(tmp_path_factory, "installed")))
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Let the longest files begin, so that no process waits for another at the end: first the one that runs mypy."""
     tests = Counter(item.path for item in items)
@@ -49,6 +62,27 @@ def pytest_collection_finish() -> None:
     gc.collect()
     gc.freeze()
     gc.set_threshold(20_000, 20, 20)
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """Say in one line what was not tested, and why; ``-rs`` names each test."""
+    skipped = terminalreporter.getreports("skipped")
+    missing = Counter((_reason(one), "/".join(one.nodeid.partition("::")[0].split("/")[:2])) for one in skipped)
+    reasons: dict[str, dict[str, int]] = {reason: {} for reason, _ in missing}
+    for (reason, folder), number in sorted(missing.items()):
+        reasons[reason][folder] = number
+    told = [
+        f"{', '.join(f'{number} of {folder}' for folder, number in folders.items())} ({reason})"
+        for reason, folders in sorted(reasons.items(), key=lambda one: -sum(one[1].values()))
+    ]
+    if told:
+        terminalreporter.write_line(f"not tested: {missing.total()} tests, {'; '.join(told)}")
+
+
+def _reason(report: pytest.TestReport | pytest.CollectReport) -> str:
+    """Return why a test was skipped, in the words of its mark."""
+    said = report.longrepr[2] if isinstance(report.longrepr, tuple) else str(report.longrepr)
+    return said.removeprefix("Skipped: ").removeprefix("could not import ")
 
 
 def _shared(factory: pytest.TempPathFactory, name: str) -> str:

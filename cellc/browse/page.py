@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 
+from cellc.browse.controllers import FILE, controllers_page
 from cellc.browse.search import distributions, entries, listed_in_table
 from cellc.catalog.device_model import DeviceModel
 from cellc.catalog.load import CatalogDevice
@@ -18,7 +19,7 @@ from cellc.transforms import Pose
 def pages() -> dict[str, str]:
     """Return every file of the catalog's documentation by its name: an index, and a page and a picture for each."""
     known = tuple(entries())
-    files = {"README.md": _index(known)}
+    files = {"README.md": _index(known), FILE: controllers_page()}
     for entry in known:
         files[f"{entry.model.model}.md"] = page(entry, f"{entry.model.model}.svg")
         files[f"{entry.model.model}.svg"] = picture(entry)
@@ -32,6 +33,7 @@ def _index(known: tuple[CatalogDevice, ...]) -> str:
             "",
             "Every device that a spec can name as `model:`. `cellc catalog` lists them too, and finds them by words,",
             "kind, reach, payload and distribution. A robot that is not here: [own robot](../own_robot.md).",
+            f"What drives them: [kinds of controllers]({FILE}).",
             "",
             listed_in_table(known),
             "",
@@ -45,6 +47,7 @@ def page(entry: CatalogDevice, picture_file: str | None = None) -> str:
     sections: dict[str, str] = {
         "Joints": table(("joint", "type", "range", "velocity", "effort", "home"), _joints(entry)),
         "Frames": table(("name in a spec", "link", ""), _frames(model)),
+        "States": table(("state", "outputs that make it", "sensors that tell it", ""), _states(model)),
         "Packages": table(("part", "ROS 2", "versions", "source"), _versions(model)),
         "What it does": table(("moment", "what moves", "what happens", "source"), _effects(model)),
         "Controllers of its own": table(("kind", "plugin"), _controllers(model)),
@@ -106,6 +109,18 @@ def _limits(joint: Joint) -> tuple[str, str, str]:
 
 def _figure(value: float | None) -> str:
     return "?" if value is None else f"{value:.6g}"
+
+
+def _states(model: DeviceModel) -> Iterator[tuple[TableCell, ...]]:
+    """Yield the states of a switched device: what each output is set to for it, and what each sensor reads in it."""
+    switched = model.switched
+    for name, state in ({} if switched is None else switched.states).items():
+        holds = "holds a part or a tool" if switched is not None and switched.holds == name else ""
+        yield code(name), _levels(state.outputs), _levels(state.sensors), holds
+
+
+def _levels(levels: Mapping[str, bool]) -> str:
+    return ", ".join(f"{code(name)} {'on' if level else 'off'}" for name, level in levels.items()) or "–"
 
 
 def _frames(model: DeviceModel) -> Iterator[tuple[TableCell, ...]]:

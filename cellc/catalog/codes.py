@@ -235,7 +235,7 @@ _XACRO = (
     _page(
         "xacro-missing-argument",
         "a description asks for an argument that nobody gave",
-        "It has no default, so the description cannot be expanded.",
+        "It has no default, so the description cannot be expanded. To be given it needs no `<xacro:arg>`.",
         "give the argument a value, or a default in `<xacro:arg>`",
     ),
     _page(
@@ -261,15 +261,16 @@ _XACRO = (
     _page(
         "xacro-refused-expression",
         "an expression does more than compute a value",
-        "xacro evaluates `${…}` as Python. A description is data: attributes with underscores, comprehensions, huge "
-        "powers and functions beyond arithmetic are refused, so that no description can run a program "
-        "or exhaust the machine.",
+        "xacro evaluates `${…}` as Python. A description is data: attributes with underscores, lambdas, `format`, "
+        "huge numbers, texts and lists, and what depends on the run are refused, so that no description can run a "
+        "program or exhaust the machine.",
         "use numbers, texts, lists and the functions that xacro documents",
     ),
     _page(
         "xacro-refused-substitution",
-        "`$(…)` asks for the environment, the current folder or an evaluation",
-        "The same description would then give different robots on different machines.",
+        "`$(…)` asks for the environment or the current folder",
+        "The same description would then give different robots on different machines. `$(optenv NAME DEFAULT)` is read "
+        "as its default, with a warning.",
         "use `$(arg NAME)`, `$(find PACKAGE)`, `$(dirname)` or `${…}`",
     ),
     _page(

@@ -13,6 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from cellc.diagnostics import Span
+from cellc.store.regular_file import own_bytes, own_text
+from cellc.store.swap import write_whole
 
 CATALOG = Path(__file__).parent
 SHOWN = "cellc/catalog"
@@ -87,7 +89,16 @@ def compile_catalog() -> Iterator[tuple[Path, str]]:
     """
     from cellc.catalog.load import controller_kinds, device_names
 
-    tables = ("distros", "controller_manager", "message_types", "moveit", "programs", "qos_profiles", "releases")
+    tables = (
+        "distros",
+        "controller_manager",
+        "message_types",
+        "moveit",
+        "packages",
+        "programs",
+        "qos_profiles",
+        "releases",
+    )
     symptoms = (f"symptoms/{file.stem}" for file in sorted((CATALOG / "symptoms").glob("*.yaml")))
     for table in (*tables, *(f"controllers/{kind}" for kind in controller_kinds()), *symptoms):
         yield _written(f"{table}.yaml", (CATALOG / f"{table}.yaml",), {"data": _data(CATALOG / f"{table}.yaml")})
@@ -121,7 +132,7 @@ def _device(name: str) -> dict[str, Any]:
 def _data(file: Path) -> object:
     from cellc.source.compose import compose
 
-    root = compose(file.name, file.read_text(encoding="utf-8")).value
+    root = compose(file.name, own_text(file)).value
     assert root is not None  # held valid by the catalog's tests
     return root.data
 
@@ -141,7 +152,7 @@ def _written(name: str, sources: Sequence[Path], content: Mapping[str, object]) 
 
 def _entry(name: str, sources: Sequence[Path]) -> dict[str, Any] | None:
     try:
-        entry = json.loads(_file(name).read_bytes())
+        entry = json.loads(own_bytes(_file(name)))
     except OSError:
         return None
     return entry if isinstance(entry, dict) and entry["made_from"] == _digest(sources) else None
@@ -155,11 +166,10 @@ def _digest(sources: Sequence[Path]) -> str:
     digest = hashlib.sha256()
     for source in sources:
         # Bytes as in the repository: a checkout on another system may end lines in another way.
-        digest.update(f"{source.name}\0".encode() + source.read_bytes().replace(b"\r\n", b"\n") + b"\0")
+        digest.update(f"{source.name}\0".encode() + own_bytes(source).replace(b"\r\n", b"\n") + b"\0")
     return digest.hexdigest()
 
 
 if __name__ == "__main__":
     for _file_, _text in compile_catalog():
-        _file_.parent.mkdir(parents=True, exist_ok=True)
-        _file_.write_text(_text, encoding="utf-8", newline="\n")
+        write_whole(_file_, _text)

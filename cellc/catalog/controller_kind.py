@@ -15,7 +15,8 @@ from cellc.catalog.catalog_model import (
     Text,
     Token,
 )
-from cellc.catalog.device_interfaces import InterfaceName, PluginUse, QosUse
+from cellc.catalog.device_graph import QosUse
+from cellc.catalog.device_interfaces import InterfaceName, PluginUse
 from cellc.catalog.effects import EffectFacts
 from cellc.vocabulary import Distro
 
@@ -25,7 +26,15 @@ ParameterType = Literal[
 
 
 class ParameterVariant(CatalogModel):
-    """What one distribution declares otherwise."""
+    """What one distribution declares otherwise.
+
+    Attributes:
+        default: Default in this distribution.
+        required: Whether this distribution requires a value.
+        read_only: Whether this distribution refuses a change at run time.
+        one_of: Values that this distribution takes.
+        not_empty: Whether this distribution refuses an empty value.
+    """
 
     default: ParameterFact | None = None
     required: bool | None = None
@@ -35,9 +44,22 @@ class ParameterVariant(CatalogModel):
 
 
 class ParameterFacts(CatalogModel):
-    """One declared parameter; dots nest, ``<joint>`` stands for a joint name. ``only`` empty means every distribution.
+    """One declared parameter; dots nest, ``<joint>`` is any joint name.
 
-    Without a default the parameter must be given where ``required``; ``exclusive_minimum`` is not itself allowed.
+    Attributes:
+        type: Type of the value.
+        default: Value if the parameter is not given.
+        required: Whether it must be given if it has no default.
+        read_only: Whether it cannot be changed at run time.
+        minimum: Smallest value that is accepted.
+        exclusive_minimum: Value that must be exceeded.
+        maximum: Largest value that is accepted.
+        one_of: Values that are accepted; empty for any.
+        subset_of: Elements that a list may have; empty for any.
+        not_empty: Whether an empty text or list is refused.
+        unique: Whether the elements of a list must differ.
+        only: Distributions that declare the parameter; empty for all.
+        differs: What one distribution declares otherwise.
     """
 
     type: ParameterType
@@ -65,14 +87,27 @@ class ParameterFacts(CatalogModel):
 
 
 class ControllerAction(CatalogModel):
-    """The action that a controller serves below its own name."""
+    """The action that a controller serves below its own name.
+
+    Attributes:
+        suffix: Last part of its name, such as ``follow_joint_trajectory``.
+        types: Action type in each distribution.
+    """
 
     suffix: Token
     types: dict[DistroName, Text]
 
 
 class ControllerTopic(CatalogModel):
-    """A topic of a controller; ``name`` begins with ``~/`` where it lies below the controller's name."""
+    """A topic of a controller.
+
+    Attributes:
+        name: Name of the topic; one below the controller's name begins with ``~/``.
+        type: Message type, such as ``std_msgs/msg/Bool``.
+        direction: Whether the controller publishes the topic or subscribes to it.
+        qos: Profile of the endpoint: a name such as ``system_default``, or its settings.
+        only: Distributions that have the topic; empty for all.
+    """
 
     name: GraphName
     type: Text
@@ -82,7 +117,13 @@ class ControllerTopic(CatalogModel):
 
 
 class ControllerService(CatalogModel):
-    """A service of a controller; ``effect`` where a call acts in the world."""
+    """A service of a controller.
+
+    Attributes:
+        name: Name of the service; one below the controller's name begins with ``~/``.
+        type: Service type, such as ``std_srvs/srv/Trigger``.
+        effect: What a call does in the world, if it does anything there.
+    """
 
     name: GraphName
     type: Text

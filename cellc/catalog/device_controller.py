@@ -18,11 +18,22 @@ from cellc.vocabulary import OF_ONE_DEVICE
 class DeviceController(CatalogModel):
     """A controller kind that only this device offers.
 
-    ``behaviour`` is the neutral kind that it acts as; then ``command_interfaces`` are what it claims of each joint
-    where the spec says nothing, empty for those of the neutral kind. ``broadcaster``, ``service`` and ``own_motion``
-    act as no other: such a kind tells itself what it ``claims`` and ``reads``, by full interface names, and what it
-    declares, publishes and serves; ``name_[0..3]`` stands for four of them. ``effect`` is what one of ``own_motion``
-    does with the device while it is active. ``real_only`` where the mock lacks what it needs.
+    Kinds of ``broadcaster``, ``service`` and ``own_motion`` act as no neutral kind: they say themselves what they take.
+
+    Attributes:
+        behaviour: Neutral kind that the controller acts as, or ``broadcaster``, ``service`` or ``own_motion``.
+        command_interfaces: Interfaces that it claims of each joint if the spec says nothing; empty for those of the
+            neutral kind.
+        claims: Full names of interfaces that it claims; ``name_[0..3]`` counts for four of them.
+        reads: Full names of interfaces that it reads; ``name_[0..3]`` counts for four of them.
+        topics: Topics of the controller.
+        services: Services of the controller.
+        action: Action of the controller.
+        effect: What a controller of ``own_motion`` does with the device while it is active.
+        parameters: Parameters that the controller declares, by name.
+        plugins: Plugin of each distribution that has the controller.
+        real_only: Whether only the real target runs it, since the mock lacks what it needs.
+        source: Line of code or document from which this was read.
     """
 
     behaviour: BehaviourName

@@ -1,17 +1,16 @@
-"""What a device offers: joints and their interfaces, plugins, drivers, topics, services, actions and cameras."""
+"""What ros2_control has of a device: joints and their interfaces, plugins, and the driver that replaces them."""
 
 import re
 from collections.abc import Iterable, Iterator
-from typing import Annotated, Literal, Union
+from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, StringConstraints
 
 from cellc.catalog.catalog_model import (
     BareName,
     BehaviourName,
     CatalogModel,
     DistroName,
-    FileName,
     GraphName,
     MomentName,
     NeedName,
@@ -21,10 +20,9 @@ from cellc.catalog.catalog_model import (
     Token,
 )
 from cellc.catalog.effects import EffectFacts, StartFacts, ToldFacts
-from cellc.catalog.programs import EndpointFacts, InnerNodeFacts
+from cellc.catalog.programs import InnerNodeFacts
 from cellc.pins import same_version
-from cellc.spec.base import MOST
-from cellc.spec.quantity import Duration, FieldAngle, Frequency, Length, PositiveDuration
+from cellc.spec.quantity import Frequency, PositiveDuration
 from cellc.vocabulary import Distro
 
 InterfaceName = BareName
@@ -45,16 +43,27 @@ def counted(names: Iterable[str]) -> Iterator[str]:
 
 
 class JointInterfaces(CatalogModel):
-    """Command and state interfaces of a joint."""
+    """Command and state interfaces of a joint.
+
+    Attributes:
+        command: Interfaces that a controller can claim, such as ``[position, velocity]``.
+        state: Interfaces that a controller can read, such as ``[position, velocity, effort]``.
+    """
 
     command: tuple[InterfaceName, ...] = ()
     state: tuple[InterfaceName, ...] = ()
 
 
 class HardwareRelease(CatalogModel):
-    """What is so with some releases of the driver alone; ``drivers`` are versions.
+    """What only some releases of the driver have.
 
-    ``parameters`` are given to the plugin beside those of all releases, ``exports`` are further interfaces of gpios.
+    Attributes:
+        distro: Distribution of the releases.
+        drivers: Versions of the driver, such as ``["3.8.0"]``; for any other version the first entry of the
+            distribution counts.
+        parameters: ``<param>`` values besides those of all releases.
+        exports: Further interfaces of gpios that these releases export, by gpio.
+        source: Line of code or document from which this was read.
     """
 
     distro: DistroName
@@ -64,10 +73,18 @@ class HardwareRelease(CatalogModel):
     source: Text
 
 
-class CommandFacts(CatalogModel):
-    """What a kind of controller claims of each joint of this hardware, and is told, where a spec states nothing.
+ParameterText = Annotated[str, StringConstraints(max_length=1000)]
+"""A value of a ``<param>``, which may be empty."""
 
-    ``because`` is what the hardware does with commands of another interface.
+
+class CommandFacts(CatalogModel):
+    """What a kind of controller claims on this hardware and its parameters, where a spec states nothing.
+
+    Attributes:
+        interfaces: Command interfaces that the controller claims of each joint.
+        parameters: Parameters of the controller, by name.
+        because: What the hardware does with commands of another interface.
+        source: Line of code or document from which this was read.
     """
 
     interfaces: tuple[InterfaceName, ...] = Field(min_length=1)
@@ -79,8 +96,11 @@ class CommandFacts(CatalogModel):
 class CommandModes(CatalogModel):
     """Ways of commanding a device of which its plugin takes one at a time.
 
-    ``names`` are interfaces of joints, such as ``position``, and gpios that a controller claims something of; a gpio is
-    named without prefix. The plugin refuses a switch to two of them unless they are a pair of ``together``.
+    Attributes:
+        names: Interfaces of joints, such as ``position``, and names of gpios without prefix that a controller may
+            claim.
+        together: Pairs that the plugin takes at the same time; it refuses every other switch to two of them.
+        source: Line of code from which this was read.
     """
 
     names: tuple[Token, ...] = Field(min_length=2)
@@ -89,19 +109,30 @@ class CommandModes(CatalogModel):
 
 
 class HardwareFacts(CatalogModel):
-    """A hardware plugin, the ``<param>`` values that it is given, and what it does in the world.
+    """A hardware plugin, its ``<param>`` values, and what it does in the world.
 
-    ``component`` is what of ros2_control it is: the manager looks for a plugin of that kind alone.
-    ``left_out_when_empty`` are parameters that the plugin has a default for: an empty ``<param>`` makes the reader
-    of ros2_control complain. ``commands`` is what a kind of controller claims on this hardware. ``command_timeout``
-    is the longest silence of the controller manager before the device ends what it does. ``nodes`` are those that the
-    plugin makes in the manager's process. ``modes`` exclude each other. ``fixed_joint_names`` where the plugin makes
-    the names of its joints in its code: what the description calls them is nothing to it.
+    Attributes:
+        plugin: Name of the plugin as pluginlib knows it, such as ``mock_components/GenericSystem``.
+        component: Type of the component; the controller manager looks for a plugin of that type alone.
+        parameters: ``<param>`` values by name; placeholders such as ``{address}`` are filled.
+        left_out_when_empty: Parameters that are left out if their value is empty, since the plugin has a default for
+            them.
+        releases: What only some releases of the driver have.
+        commands: What a kind of controller claims on this hardware, by kind.
+        effects: What the plugin does in the world at each moment, such as ``activate``.
+        start: How the component must be brought up, if it cannot go to active by itself.
+        told: Topics that say whether a need holds, such as ``program_running``.
+        command_timeout: Longest silence of the controller manager before the device ends what it does.
+        nodes: Nodes that the plugin makes in the process of the controller manager.
+        modes: Ways of commanding that exclude each other.
+        fixed_joint_names: Whether the plugin has the joint names in its code, so that it ignores those of the
+            description.
+        source: Package with its version, or line of code.
     """
 
     plugin: BareName
     component: Literal["system", "sensor", "actuator"] = "system"
-    parameters: dict[Text, Text] = Field(default_factory=dict)
+    parameters: dict[Text, ParameterText] = Field(default_factory=dict)
     left_out_when_empty: tuple[Text, ...] = ()
     releases: tuple[HardwareRelease, ...] = ()
     commands: dict[BehaviourName, CommandFacts] = Field(default_factory=dict)
@@ -122,17 +153,27 @@ class HardwareFacts(CatalogModel):
 
 
 class HardwareByTarget(CatalogModel):
-    """The plugin that moves metal, and the one that pretends; no ``real`` where the driver's own nodes move it."""
+    """The plugin of each target.
+
+    Attributes:
+        real: Plugin that moves the device; absent if nodes of the driver move it.
+        mock: Plugin that pretends to.
+    """
 
     real: HardwareFacts | None = None
     mock: HardwareFacts
 
 
 class GroupInterfaces(CatalogModel):
-    """Interfaces of a ``<sensor>`` or ``<gpio>``; ``initial`` values are what a mock starts from.
+    """Interfaces of a ``<sensor>`` or ``<gpio>``.
 
-    ``fixed_name`` where the hardware exports them under this very name, whatever prefix the device has. ``undeclared``
-    where it exports them although no description lists them.
+    Attributes:
+        command: Interfaces that a controller can claim; ``name_[0..3]`` counts for four of them.
+        state: Interfaces that a controller can read; ``name_[0..3]`` counts for four of them.
+        initial: Values from which the mock starts, by interface.
+        real_only: Whether only the real plugin has the group.
+        fixed_name: Whether the plugin exports the group under this very name, whatever prefix the device has.
+        undeclared: Whether the plugin exports the group although no description lists it.
     """
 
     command: tuple[InterfaceName, ...] = ()
@@ -146,9 +187,15 @@ class GroupInterfaces(CatalogModel):
 class ControlFacts(CatalogModel):
     """One ``<ros2_control>`` tag.
 
-    ``component`` is the tag's name, which is a node name too from Jazzy on; ``update_rates`` are those that the device
-    accepts, none for any; ``joints`` are named without prefix, ``*`` stands for every joint that moves on its own.
-    ``enforce_command_limits`` is what the vendor tells its controller manager where that can enforce limits.
+    Attributes:
+        component: Name of the tag, such as ``{device}_hardware``; from Jazzy on it is also the name of a node.
+        update_rates: Update rates that the device accepts; empty for any.
+        enforce_command_limits: Whether the vendor has the controller manager enforce joint limits; ``false`` turns it
+            off.
+        hardware: Plugin of the real target and of the mock.
+        joints: Interfaces of each joint, named without prefix; ``*`` is every joint that moves by itself.
+        sensors: Groups of state interfaces, by name without prefix.
+        gpios: Groups of interfaces that belong to no joint, by name without prefix.
     """
 
     component: NodeName
@@ -161,9 +208,15 @@ class ControlFacts(CatalogModel):
 
 
 class PluginUse(CatalogModel):
-    """A controller plugin in one distribution; ``behaviour`` where it does otherwise than the kind is called.
+    """A controller plugin in one distribution.
 
-    ``claims`` and ``reads`` are what a passive controller of a device takes besides what it takes everywhere.
+    Attributes:
+        type: Type of the controller, such as ``joint_trajectory_controller/JointTrajectoryController``.
+        package: ROS package that has the plugin.
+        claims: Full names of interfaces that the controller claims in this distribution besides its ``claims`` in all.
+        reads: Full names of interfaces that the controller reads in this distribution besides its ``reads`` in all.
+        behaviour: What the plugin does in this distribution, if that is not the behavior of its kind.
+        parameters: Parameters of the controller in this distribution, by name.
     """
 
     type: BareName
@@ -177,8 +230,12 @@ class PluginUse(CatalogModel):
 class DriverFacts(CatalogModel):
     """What moves the device on the real target where ``hardware`` names no plugin for it.
 
-    ``node`` is one of the device's nodes, ``joint_states`` one of its topics, and ``actions`` tell which of its actions
-    takes the goals of a kind of controller that is not spawned there; ``goal_unit`` says what their figures are.
+    Attributes:
+        node: Name of the node that moves the device, one of ``nodes``.
+        joint_states: Topic of the node that has the joint states; it is remapped to ``/joint_states``.
+        actions: Action of the driver that takes the goals of a kind of controller, by kind.
+        goal_unit: Meaning and unit of the figures of a goal, such as ``m of one finger``.
+        source: Package with its version, or line of code.
     """
 
     node: NodeName
@@ -189,125 +246,12 @@ class DriverFacts(CatalogModel):
 
 
 class SpeedScalingFacts(CatalogModel):
-    """Full name of the state interface in which the device reports how far it slows trajectories down."""
+    """How the device reports how far it slows trajectories down.
+
+    Attributes:
+        state_interface: Full name of the state interface, such as ``{prefix}speed_scaling/speed_scaling_factor``.
+        source: Line of code or document from which this was read.
+    """
 
     state_interface: Text
-    source: Text
-
-
-class QosFacts(CatalogModel):
-    """A profile spelt out where none of the named ones fits."""
-
-    reliability: Literal["reliable", "best_effort"]
-    durability: Literal["volatile", "transient_local"]
-    history: Literal["keep_last", "keep_all"] = "keep_last"
-    depth: int = Field(10, ge=1, le=MOST)
-
-
-QosUse = Union[Token, QosFacts]
-"""Name of a profile in ``qos_profiles.yaml``, or the settings themselves."""
-
-
-class NodeFacts(CatalogModel):
-    """A node of the driver for the real target; ``publishes_tf`` where it is an authority for frames.
-
-    ``remaps`` are names that its program gives to others → the names that they have in the cell. Without a controller
-    of the kind ``needs_controller`` on this device, it would wait for ever and is not started; with a firmware older
-    than ``firmware`` says for a product, its program ends, and it is not started either. ``effect`` is what the start
-    of its process does.
-    """
-
-    name: NodeName
-    package: Token
-    executable: FileName
-    parameters: dict[Text, ParameterFact] = Field(default_factory=dict)
-    remaps: dict[GraphName, GraphName] = Field(default_factory=dict)
-    needs_controller: Token | None = None
-    firmware: dict[Token, Text] = Field(default_factory=dict)
-    endpoints: EndpointFacts | None = None
-    publishes_tf: bool = False
-    provides: Literal["real", "every_target"] = "real"
-    effect: EffectFacts | None = None
-    source: Text
-
-
-class TopicFacts(CatalogModel):
-    """A topic that the device publishes; ``publisher`` is a node of the driver, or ``driver`` for its controllers."""
-
-    name: GraphName
-    type: Text
-    qos: QosUse
-    publisher: GraphName
-    rate: Frequency | None = None
-    frame: Token | None = None
-
-
-class ServiceFacts(CatalogModel):
-    """A service that the device answers."""
-
-    name: GraphName
-    type: Text
-    server: GraphName
-    effect: EffectFacts | None = None
-
-
-class ActionFacts(CatalogModel):
-    """An action that the device executes; ``effect`` where it acts past every controller.
-
-    ``only`` empty means every distribution.
-    """
-
-    name: GraphName
-    type: Text
-    server: GraphName
-    only: tuple[DistroName, ...] = ()
-    effect: EffectFacts | None = None
-
-
-class ViewFacts(CatalogModel):
-    """What a stream can see: whole angles of the sensor, and the distances between which it is used."""
-
-    horizontal: FieldAngle
-    vertical: FieldAngle
-    nearest: Length
-    farthest: Length
-    source: Text
-
-
-class ImageFacts(CatalogModel):
-    """The images of a stream as the node of the device is started."""
-
-    width: int = Field(ge=1, le=100_000)
-    height: int = Field(ge=1, le=100_000)
-    bytes_per_pixel: int = Field(ge=1, le=64)
-    source: Text
-
-
-class StreamFacts(CatalogModel):
-    """One image stream of a camera; ``frame`` is a link name without prefix."""
-
-    topic: GraphName
-    type: Text
-    info_topic: GraphName
-    frame: Token
-    rate: Frequency
-    qos: QosUse
-    info_qos: QosUse
-    view: ViewFacts | None = None
-    image: ImageFacts | None = None
-
-
-class CameraFacts(CatalogModel):
-    """A camera: its streams, and what its stamps mean.
-
-    ``exposure_parameters`` of its node are the exposure in the unit given for each, ``auto_exposure_parameters`` hand
-    it to the camera; ``serial_parameter`` tells the node which camera is meant, a text with an underscore before it.
-    """
-
-    streams: dict[Token, StreamFacts] = Field(min_length=1)
-    exposure: Duration | None = None
-    exposure_parameters: dict[Text, Duration] = Field(default_factory=dict)
-    auto_exposure_parameters: tuple[Text, ...] = ()
-    serial_parameter: Text | None = None
-    hardware_clock: bool
     source: Text

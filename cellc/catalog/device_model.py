@@ -15,112 +15,44 @@ a gripper. Links, joints, sensors and gpios are named without prefix.
 
 from typing import Literal, get_args
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from cellc.catalog.catalog_model import CatalogModel, Date, DistroName, GateName, PartName, Text, Token
+from cellc.catalog.catalog_model import CatalogModel, Date, InnerPath, PartName, Text, Token
+from cellc.catalog.device_bring_up import CommissioningStep, JogFacts, NetworkFacts, RecordFacts, SafetyFacts
 from cellc.catalog.device_controller import DeviceController
-from cellc.catalog.device_interfaces import (
-    ActionFacts,
-    CameraFacts,
-    ControlFacts,
-    DriverFacts,
-    NodeFacts,
-    ServiceFacts,
-    SpeedScalingFacts,
-    TopicFacts,
-)
-from cellc.catalog.robot_facts import DrivenBy, HumanStep, MountFacts, PlugFacts, RobotControllerFacts, StepCondition
+from cellc.catalog.device_graph import ActionFacts, CameraFacts, NodeFacts, ServiceFacts, TopicFacts
+from cellc.catalog.device_interfaces import ControlFacts, DriverFacts, SpeedScalingFacts
+from cellc.catalog.limit_facts import LimitFacts
+from cellc.catalog.robot_facts import MountFacts, PlugFacts, RobotControllerFacts
 from cellc.catalog.version_rows import VersionRow
-from cellc.spec.quantity import (
-    Force,
-    JointAcceleration,
-    JointJerk,
-    JointPosition,
-    JointVelocity,
-    Length,
-    Mass,
-    Velocity,
-)
-from cellc.vocabulary import GateCode
-
-
-class PortFacts(CatalogModel):
-    """One port; ``direction`` tells who opens the connection."""
-
-    port: int = Field(ge=1, le=65535)
-    protocol: Literal["tcp", "udp"]
-    direction: Literal["host_to_device", "device_to_host"]
-    service: Text
-
-
-class NetworkFacts(CatalogModel):
-    """What the device asks of its network."""
-
-    ports: tuple[PortFacts, ...] = ()
-    default_subnet: Text | None = None
-    dedicated_link: bool
-    realtime: Literal["required", "recommended", "not_needed"]
-    source: Text
-
-
-class SafetyStateFacts(CatalogModel):
-    """A state of the device's own safety controller and how its driver reports it.
-
-    ``gate`` is where people look for it: what only an activation or an action shows is seen in no earlier one.
-    """
-
-    name: Token
-    stops: bool
-    reported: Text | None = None
-    gate: GateName = GateCode.G4
-
-
-class StateTopicFacts(CatalogModel):
-    """A topic, below the node of a controller of this kind, that says in which state the device is."""
-
-    controller: Token
-    topic: Token
-    source: Text
-
-
-class RecoveryFacts(CatalogModel):
-    """The way out of one state: steps in order, the human ones first; ``by`` where it is that of one driver alone."""
-
-    state: Token
-    by: DrivenBy | None = None
-    steps: tuple[HumanStep, ...] = Field(min_length=1)
-
-
-class SafetyFacts(CatalogModel):
-    """The vendor's safety boundary; no software of the cell is part of it.
-
-    ``ending`` is what people do at the device once nothing is claimed, before its driver ends, ``ended`` after that.
-    """
-
-    stop_authority: Text
-    states: tuple[SafetyStateFacts, ...] = ()
-    told: tuple[StateTopicFacts, ...] = ()
-    modes: tuple[Text, ...] = ()
-    recovery: tuple[RecoveryFacts, ...] = ()
-    ending: tuple[HumanStep, ...] = ()
-    ended: tuple[HumanStep, ...] = ()
-    watchdog: Text | None = None
-    source: Text
+from cellc.spec.quantity import Force, JointPosition, Length, Velocity
 
 
 class VendorDescriptionFacts(CatalogModel):
-    """The file in the vendor's package, its arguments for this model, and links with other names: theirs to ours."""
+    """The file of the vendor's package that has the shapes of this device.
 
-    file: Text
+    Attributes:
+        file: Path of the URDF or xacro in the package, such as ``urdf/arm.urdf.xacro``.
+        arguments: Values of the xacro arguments that give this model, by name.
+        links: Links that have another name there: their name to the name in this device's description.
+        source: Document or package with its version from which this was read.
+    """
+
+    file: InnerPath
     arguments: dict[Token, Text] = Field(default_factory=dict)
     links: dict[Token, Token] = Field(default_factory=dict)
     source: Text
 
 
 class DescriptionFacts(CatalogModel):
-    """The model of the device: a file beside ``device.yaml``, and the vendor's package that it stands for.
+    """The model of the device: a file beside ``device.yaml``, and the vendor's package that it describes.
 
-    Where that package is at hand, ``vendor`` tells which of its files has the shapes.
+    Attributes:
+        file: URDF or xacro beside ``device.yaml``, such as ``robot.urdf``.
+        package: ROS package that has the vendor's own description; its version is pinned as ``description`` in the
+            spec.
+        vendor: File of that package whose shapes are used where the package is found.
+        arguments: Values of the xacro arguments of ``file``, by name.
     """
 
     file: Text
@@ -129,62 +61,20 @@ class DescriptionFacts(CatalogModel):
     arguments: dict[Token, Text] = Field(default_factory=dict)
 
 
-class CommissioningStep(CatalogModel):
-    """What a person does at the real device in a gate, by its vendor's procedure; ``only`` on some distributions.
-
-    ``shows`` where it is what must be seen once the release of that gate has been made, ``powers`` where drives have
-    power by it, so that the stop can be tried. ``log`` where it stands in the driver's log: what the lines hold of
-    which the newest counts. ``run`` are commands that read; ``{address}`` in them is a word of the shell. ``when``
-    where it is only done if one of these is so, ``by`` where by one driver alone.
-    """
-
-    gate: GateName
-    does: Text
-    log: tuple[Text, ...] = ()
-    run: tuple[Text, ...] = ()
-    shows: bool = False
-    powers: bool = False
-    only: tuple[DistroName, ...] = ()
-    when: tuple[StepCondition, ...] = ()
-    by: DrivenBy | None = None
-    source: Text
-
-
-class RecordFacts(CatalogModel):
-    """Where the record of an attempt with the real device has a field from.
-
-    ``controller`` is a kind of controller of this device, ``topic`` the name below its node, ``field`` what holds it.
-    None of them where no topic of the driver has it: then ``read`` tells where a person reads it.
-    """
-
-    controller: Token | None = None
-    topic: Token | None = None
-    field: Token | None = None
-    read: Text | None = None
-    source: Text
-
-    @model_validator(mode="after")
-    def _by_a_topic_or_a_person(self) -> "RecordFacts":
-        told = (self.controller, self.topic, self.field)
-        if any(part is None for part in told) == (self.read is None) or (self.read and any(told)):
-            raise ValueError("must have `controller`, `topic` and `field`, or `read` alone")
-        return self
-
-
-class JogFacts(CatalogModel):
-    """How people move one joint where the driver cannot run meanwhile, so that positions are read at the device."""
-
-    does: Text
-    source: Text
-
-
 class KinematicsFacts(CatalogModel):
-    """How the vendor's tool writes where the joints of one very robot stand.
+    """How the vendor's tool writes where the joints of one very robot are.
 
-    In the file, each entry of ``joints`` below ``root`` gives the joint that it names x, y, z in m and roll, pitch, yaw
-    in rad in its parent link. ``hash`` is the key of a text that names the robot's own table; the real plugin is told
-    it as ``hash_parameter``, whose value in the catalog is that of the nominal one. ``tool`` is the command that writes
-    the file ``FILE``, ``package`` where it is, and ``state`` what the robot is in meanwhile.
+    Attributes:
+        root: Key of the file below which the entries of the joints are, such as ``kinematics``.
+        joints: Entries of the file and the joint that each describes: x, y, z in m and roll, pitch, yaw in rad in the
+            parent link.
+        hash: Key of the file that has a text which identifies the robot's own table.
+        hash_parameter: Parameter of the real plugin that takes that text; its value in the catalog is that of the
+            nominal table.
+        tool: Command that writes the file, which it names ``FILE``; ``{address}`` is filled.
+        package: ROS package that has the tool.
+        state: State that the robot must be in while the tool runs.
+        source: Documents or lines of code from which this was read.
     """
 
     root: Token
@@ -198,83 +88,33 @@ class KinematicsFacts(CatalogModel):
 
 
 class PackageFacts(CatalogModel):
-    """ROS package or library names as they stand in the version tuple; None where there is none."""
+    """ROS package or library names as in the version tuple; absent where there is none.
+
+    Attributes:
+        driver: ROS package of the driver, such as ``my_arm_driver``; its version is pinned as ``driver`` in the spec.
+        sdk: Library of the vendor below the driver; its version is pinned as ``sdk`` in the spec.
+        description: ROS package of the vendor's description; its version is pinned as ``description`` in the spec.
+    """
 
     driver: Token | None = None
     sdk: Text | None = None
     description: Token | None = None
 
 
-class VelocityLimit(CatalogModel):
-    """A velocity that one joint, or every joint (``*``), may have wherever it stands."""
-
-    value: JointVelocity
-    source: Text
-
-
-class AccelerationLimit(CatalogModel):
-    """An acceleration that one joint, or every joint (``*``), may have."""
-
-    value: JointAcceleration
-    source: Text
-
-
-class JerkLimit(CatalogModel):
-    """A jerk that one joint, or every joint (``*``), may have."""
-
-    value: JointJerk
-    source: Text
-
-
-class PayloadLimit(CatalogModel):
-    """Mass that may hang on the flange, tool included."""
-
-    value: Mass
-    source: Text
-
-
-class ReachFigure(CatalogModel):
-    """How far the arm reaches, as its vendor gives it: from the axis of the first joint."""
-
-    value: Length
-    source: Text
-
-
-class RepeatabilityFigure(CatalogModel):
-    """Pose repeatability of the tip by ISO 9283, half of what a data sheet gives as a range about zero."""
-
-    value: Length
-    source: Text
-
-
-class LimitFacts(CatalogModel):
-    """Limits that URDF cannot hold; keys are joint names or ``*`` for all others.
-
-    ``velocity_everywhere`` where the device allows less near the ends of a joint than its description says.
-    """
-
-    velocity_everywhere: dict[Text, VelocityLimit] = Field(default_factory=dict)
-    acceleration: dict[Text, AccelerationLimit] = Field(default_factory=dict)
-    jerk: dict[Text, JerkLimit] = Field(default_factory=dict)
-    payload: PayloadLimit | None = None
-    reach: ReachFigure | None = None
-    repeatability: RepeatabilityFigure | None = None
-
-    def velocity_of(self, joint: str) -> VelocityLimit | None:
-        """Return the velocity that a joint, named without prefix, may have everywhere."""
-        return self.velocity_everywhere.get(joint, self.velocity_everywhere.get("*"))
-
-    def acceleration_of(self, joint: str) -> AccelerationLimit | None:
-        """Return the limit of a joint, named without prefix."""
-        return self.acceleration.get(joint, self.acceleration.get("*"))
-
-    def jerk_of(self, joint: str) -> JerkLimit | None:
-        """Return the limit of a joint, named without prefix."""
-        return self.jerk.get(joint, self.jerk.get("*"))
-
-
 class GripperFacts(CatalogModel):
-    """A gripper: ``open`` and ``closed`` are joint positions, ``stroke`` and ``max_speed`` are of jaw against jaw."""
+    """A gripper.
+
+    Attributes:
+        joint: Joint that opens and closes the gripper.
+        open: Position of the joint when the gripper is open.
+        closed: Position of the joint when the gripper is closed.
+        stroke: How far one jaw moves relative to the other between closed and open.
+        max_force: Largest grip force.
+        min_force: Smallest grip force that can be set.
+        max_speed: Largest speed of one jaw relative to the other.
+        goal_tolerance: How far the joint may end from its goal.
+        source: Data sheet or manual with its version.
+    """
 
     joint: Token
     open: JointPosition
@@ -288,7 +128,12 @@ class GripperFacts(CatalogModel):
 
 
 class SwitchedState(CatalogModel):
-    """A state of a switched device: what its outputs are set to for it, and what its sensors read in it."""
+    """A state of a switched device.
+
+    Attributes:
+        outputs: What each output is set to for the state, such as ``{run: true}``.
+        sensors: What each sensor reads in the state, such as ``{part: false}``.
+    """
 
     outputs: dict[Token, bool] = Field(default_factory=dict)
     sensors: dict[Token, bool] = Field(default_factory=dict)
@@ -298,7 +143,13 @@ class SwitchedFacts(CatalogModel):
     """A device of a few states that digital outputs of the cell switch, or that its sensors tell.
 
     Which output of which device drives it, how long it takes, and what a loss of power does, is a fact of the cell.
-    ``holds`` is the state in which it holds a part or a tool.
+
+    Attributes:
+        outputs: Names of the inputs of the device that outputs of the cell switch; the spec wires each.
+        sensors: Names of the sensors of the device; the spec wires each.
+        states: States by name, at least two.
+        holds: State in which the device holds a part or a tool.
+        source: Data sheet with its version, or ``own choice``.
     """
 
     outputs: tuple[Token, ...] = ()
@@ -309,7 +160,12 @@ class SwitchedFacts(CatalogModel):
 
 
 class AllowedPair(CatalogModel):
-    """Two links whose contact is looked for nowhere, and why: the vendor's SRDF, or a person, says so."""
+    """Two links whose contact is not looked for.
+
+    Attributes:
+        links: Names of the two links, without prefix.
+        because: Why contact need not be looked for, such as ``adjacent in the vendor's SRDF``.
+    """
 
     links: tuple[PartName, PartName]
     because: Text
@@ -335,18 +191,47 @@ def device_kinds() -> tuple[str, ...]:
 class DeviceModel(CatalogModel):
     """One ``device.yaml``.
 
-    ``format`` is the version of this format. ``family`` names the file that the model's own was laid over, where it
-    has one. ``model`` is the name of the device in specs. ``vendor`` is who makes it. ``summary`` is what it is, in one
-    line for who chooses. ``kind`` is what it is to a cell. ``as_of`` is the day on which the facts were read, and
-    ``sources`` are what they were read from.
-
-    ``base`` is the link that a mount places. ``frames`` are the links that a spec may name, by the names that it uses.
-    ``tool_frame`` is the link that carries tools. ``optical_frames`` are links in which a camera sees, z ahead.
-    ``home`` has the position of each joint in which it rests. ``allowed_collisions`` are pairs of links that may touch.
-    ``excused`` are findings on its description that endanger nobody and that who uses it cannot mend, each with why.
-
-    ``controllers`` are the kinds that the vendor ships. ``record`` has what of its state is recorded.
-    ``mock_cannot_prove`` is what only the real device shows: it stands in the audit.
+    Attributes:
+        format: Version of this format.
+        family: Name of ``FAMILY.family.yaml``, beside this file or in the folder above, over which this file is laid.
+        model: Name of the device, as a spec names it in ``model``.
+        vendor: Who makes the device.
+        summary: What the device is, in one line for the person who chooses.
+        kind: What the device is for.
+        as_of: Day on which the facts were read, such as ``2026-07-23``.
+        sources: Documents and packages with their versions from which the facts were read.
+        description: Links, joints and shapes of the device.
+        base: Link that a mount places in the cell.
+        frames: Links that a spec may name, each by the name that the spec uses, such as ``{tool0: tool0}``.
+        tool_frame: Link that carries tools.
+        mounts: How the vendor mounts the device on an arm; a mount of the spec that differs is reported.
+        optical_frames: Links in which a camera sees, with z ahead.
+        home: Position of each joint at which the device rests, by joint name.
+        allowed_collisions: Pairs of links that may touch.
+        excused: Codes of findings on the description that are accepted, each with the reason.
+        kinematics: How a calibration of one very robot is read.
+        jog: How people move a joint while the driver does not run.
+        limits: Limits that the description lacks or has wrong, and payload, reach and repeatability.
+        packages: Packages and libraries whose versions the spec pins.
+        control: The ``<ros2_control>`` tag: plugins, joints, sensors and gpios.
+        driver: Node that moves the device on the real target without ros2_control.
+        controllers: Kinds of controllers that only this device has, by name.
+        speed_scaling: How the device reports that it slows trajectories down.
+        gripper: Figures of a gripper; absent for other devices.
+        camera: Streams of a camera; absent for other devices.
+        switched: States that outputs switch or sensors report; absent for other devices.
+        nodes: Nodes of the driver.
+        topics: Topics that the device publishes besides those of its controllers.
+        services: Services that the device answers.
+        actions: Actions that the device executes.
+        network: Ports, links and kernel that the device needs.
+        safety: Safety states of the device, and the way out of each.
+        robot: What can be set in the robot's own controller.
+        plug: What the device takes from the tool connector of a robot.
+        record: Where the record of a real attempt has the state of the device from.
+        commissioning: What people do at the real device in each gate.
+        versions: Versions of driver, library, description and firmware that go together.
+        mock_cannot_prove: What only the real device shows, one sentence each; it is listed in the audit.
     """
 
     format: Literal[1]

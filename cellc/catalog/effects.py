@@ -28,10 +28,18 @@ ComponentState = Literal["unconfigured", "inactive", "active"]
 class EffectFacts(CatalogModel):
     """What one moment does.
 
-    ``needs`` are what must hold before it, each with what happens otherwise, for one distribution or for all.
-    ``drops_part`` tells whether what a gripper holds falls. ``leaves`` is the state in which the component is
-    afterwards, where that is not what was asked for; controllers of a component that is not active are deactivated.
-    ``largest_step`` is how far a set point may be from where the device stands; it ignores one that is farther.
+    Attributes:
+        motion: What moves at the moment.
+        authority: Whether the moment takes or returns the authority to command the device.
+        lock: For how long the moment keeps the controller manager from reading and writing its hardware.
+        drops_part: Whether what a gripper holds falls.
+        needs: What must hold before the moment, and what happens otherwise, for all distributions or for each.
+        leaves: State of the component afterwards, if that is not the one asked for; unless active, its controllers are
+            deactivated.
+        largest_step: How far a set point may be from the position of the device; the device ignores one that is
+            farther.
+        does: What happens, in one sentence.
+        source: Line of code with its release from which this was read.
     """
 
     motion: MotionName
@@ -53,8 +61,13 @@ class EffectFacts(CatalogModel):
 class ToldFacts(CatalogModel):
     """Where the cell hears whether a need holds: a topic that a controller of this device publishes.
 
-    ``controller`` is its kind, ``topic`` the name below its node, and ``field`` of the newest message holds ``value``
-    as long as the need holds.
+    Attributes:
+        controller: Kind of the controller.
+        topic: Name of the topic below the node of the controller.
+        type: Message type of the topic.
+        field: Field of the newest message that is compared.
+        value: Value of the field while the need holds.
+        source: Line of code from which this was read.
     """
 
     controller: Text
@@ -66,10 +79,14 @@ class ToldFacts(CatalogModel):
 
 
 class StartFacts(CatalogModel):
-    """How a hardware component is to be brought up where the usual way, active at once, is wrong.
+    """How a hardware component is to be brought up where the usual way, straight to active, is wrong.
 
-    ``at_once`` where it must go from the initial state to active in one call of set_hardware_component_state: a stay
-    in between leaves it with wrong commands.
+    Attributes:
+        initial_state: State in which the component is left at the start.
+        at_once: Whether it must go from ``initial_state`` to active in one call of ``set_hardware_component_state``,
+            because a stay in between leaves it with wrong commands.
+        why: Why the usual way is wrong.
+        source: Line of code from which this was read.
     """
 
     initial_state: ComponentState

@@ -27,6 +27,7 @@ from cellc.catalog.tables import (
     ControllerManagerFacts,
     DistroTable,
     InterfaceTypeTable,
+    PackageTable,
     PlannerTable,
     QosTable,
     ReleaseTable,
@@ -78,7 +79,8 @@ def load_device(name: str) -> Outcome[CatalogDevice]:
     facts, urdf, places = compiled
     description = read_urdf(urdf, f"{SHOWN}/devices/{name}", places)
     assert description.value is not None  # it was valid when it was compiled
-    return Outcome(CatalogDevice(DeviceModel.model_validate_json(facts), description.value))
+    model = DeviceModel.model_validate_json(facts)
+    return Outcome(CatalogDevice(model, model.limits.on(description.value)))
 
 
 def read_device(name: str) -> Outcome[CatalogDevice]:
@@ -106,13 +108,18 @@ def load_device_folder(
         purse: what expansions of the spec may still take; as much as one may where it is absent.
         packages: further folders of packages that the spec names.
     """
+    return load_device_file(folder / DEVICE_FILE, root, purse, packages)
 
+
+def load_device_file(
+    file: Path, root: Path, purse: Purse | None = None, packages: Sequence[str] = ()
+) -> Outcome[CatalogDevice]:
+    """Load a device by its file; arguments as of `load_device_folder`."""
     from cellc.description.read_description import read_description
 
     def read(file: Path, arguments: dict[str, str]) -> Outcome[Description]:
         return read_description(file, arguments, root, purse, packages)
 
-    file = folder / DEVICE_FILE
     return _load(file, file.as_posix(), root, read)
 
 
@@ -133,11 +140,9 @@ def _load(
     profiles = load_qos_profiles().value
     assert profiles is not None  # package data, held valid by the catalog's tests
     known = CatalogNames({*controller_kinds(), *OF_ONE_DEVICE}, set(profiles.profiles))
-    wrong = (
-        *unknown_names(model, description.value, document, known),
-        *wrong_joint_figures(model, description.value, document),
-    )
-    robot = description.value.without_leaderless() if "mimic-of-nothing" in model.excused else description.value
+    limited = model.limits.on(description.value)
+    wrong = (*unknown_names(model, limited, document, known), *wrong_joint_figures(model, limited, document))
+    robot = limited.without_leaderless() if "mimic-of-nothing" in model.excused else limited
     device = None if wrong else CatalogDevice(model, robot)
     return Outcome(device, description.diagnostics + wrong)
 
@@ -181,6 +186,12 @@ def load_controller_manager() -> Outcome[ControllerManagerFacts]:
 def load_message_types() -> Outcome[InterfaceTypeTable]:
     """Load the interface types that are known."""
     return _table("message_types.yaml", InterfaceTypeTable)
+
+
+@lru_cache(maxsize=1)
+def load_packages() -> Outcome[PackageTable]:
+    """Load the packages that no cell is named after."""
+    return _table("packages.yaml", PackageTable)
 
 
 @lru_cache(maxsize=1)

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Set
 from dataclasses import dataclass
 
-from cellc.catalog.device_interfaces import QosUse, counted
+from cellc.catalog.device_graph import QosUse
+from cellc.catalog.device_interfaces import counted
 from cellc.catalog.device_model import DeviceModel
 from cellc.description.model import Description
 from cellc.diagnostics import Diagnostic, Severity, YamlPath, did_you_mean, is_slip
@@ -88,9 +89,8 @@ def _of_description(model: DeviceModel, description: Description) -> Iterator[_R
 
 def _joints_named(model: DeviceModel) -> Iterator[tuple[YamlPath, str]]:
     yield from ((("home", joint), joint) for joint in model.home or {})
-    yield from ((("limits", "velocity_everywhere", joint), joint) for joint in model.limits.velocity_everywhere)
-    yield from ((("limits", "acceleration", joint), joint) for joint in model.limits.acceleration)
-    yield from ((("limits", "jerk", joint), joint) for joint in model.limits.jerk)
+    for key, limits in model.limits.of_joints().items():
+        yield from ((("limits", key, joint), joint) for joint in limits)
     if model.control is not None:
         yield from ((("control", "joints", joint), joint) for joint in model.control.joints)
     if model.gripper is not None:

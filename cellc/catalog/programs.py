@@ -8,7 +8,16 @@ from cellc.catalog.catalog_model import CatalogModel, Date, DistroName, FileName
 
 
 class EndpointFacts(CatalogModel):
-    """What a program has at the ROS graph besides what every node has: names as it says them, ``~/`` below its own."""
+    """What a program has in the ROS graph besides what every node has; a name below its own begins with ``~/``.
+
+    Attributes:
+        publishes: Topics that it publishes.
+        subscribes: Topics that it subscribes to.
+        serves: Services that it answers.
+        requests: Services that it calls.
+        executes: Actions that it executes.
+        source: Line of code or document from which this was read.
+    """
 
     publishes: tuple[GraphName, ...] = ()
     subscribes: tuple[GraphName, ...] = ()
@@ -19,13 +28,22 @@ class EndpointFacts(CatalogModel):
 
 
 class ImpliedFacts(EndpointFacts):
-    """What every node of a kind has; ``only`` empty means every distribution."""
+    """What every node of a kind has.
+
+    Attributes:
+        only: Distributions of which this is so; empty for all.
+    """
 
     only: tuple[DistroName, ...] = ()
 
 
 class InnerNodeFacts(ImpliedFacts):
-    """A node of a process; a name that differs at every start ends with ``*``; ``parameters`` where it serves them."""
+    """A node of a process.
+
+    Attributes:
+        name: Name of the node; one that differs at every start ends with ``*``.
+        parameters: Whether the node serves parameters.
+    """
 
     name: Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_{}/]+\*?\Z", max_length=100)]
     parameters: bool = True

@@ -9,7 +9,7 @@ from typing import TypeVar
 
 from pydantic import BaseModel, ValidationError
 
-from cellc.catalog.catalog_model import DAY
+from cellc.catalog.catalog_model import DAY, INNER, URL
 from cellc.diagnostics import Diagnostic, Outcome, Severity, Span, YamlPath, format_path
 from cellc.limits import Limits, limits
 from cellc.source.compose import compose
@@ -23,9 +23,18 @@ _CODE = "catalogue-entry-invalid"
 _UNKNOWN_KEY = "extra_forbidden"
 _WORDINGS = {_UNKNOWN_KEY: "there is no key `{}`", "missing": "`{}` is missing"}
 _A_NAME = "use letters, digits and `_`, a letter first"
-_SHAPES = {DAY: "write the day as `2026-07-01`"}
+_SHAPES = {
+    DAY: "write the day as `2026-07-01`",
+    INNER: "write the path from the folder down, with forward slashes",
+    URL: "write `https://HOST/PATH`, `ssh://HOST/PATH` or `git@HOST:PATH`",
+}
 _HELP = {"missing": "add it"}
 _KEPT = 32  # files of the devices of a few cells
+
+
+def is_device(data: object) -> bool:
+    """Tell whether a document is a device, by its first keys; a spec has `devices`."""
+    return isinstance(data, dict) and ("model" in data or "family" in data) and "devices" not in data
 
 
 def read_model(path: Path, shown: str, model: type[ModelT]) -> Outcome[tuple[ModelT, SourceDocument]]:

@@ -10,9 +10,14 @@ from cellc.spec.tool import BaudRate, Parity, StopBits
 
 
 class ProgramWay(CatalogModel):
-    """One way in which the program on the robot comes to run.
+    """One way in which the program on the robot starts.
 
-    ``parameters`` are given to the hardware plugin, ``node_parameters`` to nodes of the driver, where it is chosen.
+    Attributes:
+        name: Name of the way: from the pendant, by the dashboard server, or headless.
+        by: Who starts the program; ``played_by`` of the spec chooses it.
+        mode: Whether the robot is in local or remote control; ``mode`` of the spec chooses it.
+        parameters: ``<param>`` values of the real plugin in this way.
+        node_parameters: Parameters of nodes of the driver in this way, by node.
     """
 
     name: Literal["pendant", "dashboard", "headless"]
@@ -23,7 +28,12 @@ class ProgramWay(CatalogModel):
 
 
 class ProgramFacts(CatalogModel):
-    """The program on the robot through which set points pass; the first way is that of a spec that says nothing."""
+    """The program on the robot through which set points pass.
+
+    Attributes:
+        ways: Ways in which it starts; the first counts if the spec says nothing.
+        source: Document or line of code from which this was read.
+    """
 
     ways: tuple[ProgramWay, ...] = Field(min_length=1)
     source: Text
@@ -34,7 +44,15 @@ class ProgramFacts(CatalogModel):
 
 
 class MountFacts(CatalogModel):
-    """How the vendor hangs the device on an arm: on a frame of a model, by its own name, with a fixed transform."""
+    """How the vendor mounts the device on an arm, with a fixed transform.
+
+    Attributes:
+        on: Model of the arm in the catalog.
+        frame: Frame of the arm, by its own name.
+        xyz: Position of the base of the device in that frame, such as ``0 0 10 mm``; zero if absent.
+        rpy: Roll, pitch and yaw of the base of the device in that frame, such as ``0 0 -45 deg``; zero if absent.
+        source: Package or drawing with its version.
+    """
 
     on: Token
     frame: PartName
@@ -44,7 +62,13 @@ class MountFacts(CatalogModel):
 
 
 class CenterFacts(CatalogModel):
-    """Where the robot says where its TCP is: a topic of a kind of controller."""
+    """Where the robot says where its TCP is.
+
+    Attributes:
+        controller: Kind of controller of this device that publishes the topic.
+        topic: Name of the topic below the node of the controller.
+        source: Document or line of code from which this was read.
+    """
 
     controller: Token
     topic: Token
@@ -52,7 +76,13 @@ class CenterFacts(CatalogModel):
 
 
 class IdleFacts(CatalogModel):
-    """Times of silence that mark the end of a serial message, in characters; ``usual`` where a spec says nothing."""
+    """A silence that marks the end of a serial message, in characters.
+
+    Attributes:
+        least: Shortest silence that can be set, in characters.
+        most: Longest silence that can be set, in characters.
+        usual: Silence if the spec says nothing, in characters.
+    """
 
     least: float
     most: float
@@ -62,7 +92,11 @@ class IdleFacts(CatalogModel):
 class ForwardFacts(CatalogModel):
     """The program that gives a computer the serial line of a tool connector, as a device node; no node of ROS.
 
-    ``system`` are what it calls, by their keys of rosdep.
+    Attributes:
+        package: ROS package of the program.
+        program: Name of the program in the package.
+        arguments: Arguments of the program; placeholders are filled.
+        system: System packages that the program calls, by rosdep key, such as ``[socat]``.
     """
 
     package: Token
@@ -74,7 +108,16 @@ class ForwardFacts(CatalogModel):
 class ToolSerialFacts(CatalogModel):
     """The serial line of a tool connector, and the parameters of the plugin that set it up.
 
-    ``parities`` are what the plugin calls them, ``tcp_port`` is that of the robot where a spec says nothing.
+    Attributes:
+        baud_rates: Baud rates that can be set, in bit/s.
+        parities: Parities that can be set, each with the plugin's word for it.
+        stop_bits: Numbers of stop bits that can be set.
+        rx_idle_chars: Silence after which a received message is complete.
+        tx_idle_chars: Silence after a message before the next one is sent.
+        tcp_port: TCP port of the robot that carries the line, if the spec says nothing.
+        parameters: ``<param>`` values of the real plugin that set the line up.
+        forward: Program that makes a device node of the line.
+        source: Document or line of code from which this was read.
     """
 
     baud_rates: tuple[BaudRate, ...] = Field(min_length=1)
@@ -89,7 +132,13 @@ class ToolSerialFacts(CatalogModel):
 
 
 class ToolConnectorFacts(CatalogModel):
-    """The connector at the tool frame of a robot: voltages that it gives, and its serial line if it has one."""
+    """The connector at the tool frame of a robot.
+
+    Attributes:
+        voltages: Voltages that can be set, such as ``[0 V, 12 V, 24 V]``.
+        serial: Serial line of the connector; absent if it has none.
+        source: Manual with its version.
+    """
 
     voltages: tuple[Voltage, ...] = Field(min_length=1)
     serial: ToolSerialFacts | None = None
@@ -97,7 +146,13 @@ class ToolConnectorFacts(CatalogModel):
 
 
 class SerialFacts(CatalogModel):
-    """Settings of the serial line of a device."""
+    """Settings of the serial line of a device.
+
+    Attributes:
+        baud_rate: Baud rate in bit/s, such as ``115200``.
+        parity: Parity of the line.
+        stop_bits: Number of stop bits.
+    """
 
     baud_rate: BaudRate
     parity: Parity
@@ -105,7 +160,13 @@ class SerialFacts(CatalogModel):
 
 
 class PlugFacts(CatalogModel):
-    """What a device takes from the tool connector of a robot: its voltage, and the serial line that it speaks."""
+    """What a device takes from the tool connector of a robot.
+
+    Attributes:
+        voltage: Voltage that the device needs.
+        serial: Serial line of the device; absent if it has none.
+        source: Manual with its version.
+    """
 
     voltage: Voltage
     serial: SerialFacts | None = None
@@ -113,14 +174,27 @@ class PlugFacts(CatalogModel):
 
 
 class StiffnessSpan(CatalogModel):
-    """The least and the most of a stiffness, in N/m or N m/rad."""
+    """The least and the most of a stiffness.
+
+    Attributes:
+        least: Smallest stiffness, in N/m for a translation and N m/rad for a rotation.
+        most: Largest stiffness, in N/m for a translation and N m/rad for a rotation.
+    """
 
     least: float
     most: float
 
 
 class ImpedanceFacts(CatalogModel):
-    """What impedance the robot's own controller takes; ``acts_on`` are the command interfaces that it controls."""
+    """What impedance the robot's own controller takes.
+
+    Attributes:
+        joint: Stiffness of a joint, in N m/rad.
+        translation: Stiffness along an axis of the tool, in N/m.
+        rotation: Stiffness about an axis of the tool, in N m/rad.
+        acts_on: Command interfaces in which the robot's own controller is active, such as ``[position, velocity]``.
+        source: Document or line of code from which this was read.
+    """
 
     joint: StiffnessSpan
     translation: StiffnessSpan
@@ -130,10 +204,16 @@ class ImpedanceFacts(CatalogModel):
 
 
 class RobotControllerFacts(CatalogModel):
-    """What the robot's own controller can be told.
+    """What can be set in the robot's own controller.
 
-    ``payload_service`` says which service tells it the payload, and when; ``thresholds`` which takes those of
-    collisions; ``load_service`` tells it what it carries beside the tool that its installation has.
+    Attributes:
+        program: Program on the robot that passes set points on.
+        tcp: Topic that has the TCP as the robot knows it.
+        payload_service: Which service sets the payload, and when it works.
+        thresholds: Which service sets the thresholds of collisions.
+        load_service: Which service sets the load besides the tool that is installed.
+        impedance: Stiffnesses that the robot's own controller takes.
+        tool_connector: Connector at the tool frame.
     """
 
     program: ProgramFacts | None = None
@@ -170,7 +250,12 @@ DrivenBy = Literal["driver", "adapter"]
 
 
 class GuardedStep(CatalogModel):
-    """What people do only where one of these is so of the device."""
+    """What people do only where one of these is so of the device.
+
+    Attributes:
+        when: What the spec may say of the device; one of them must hold.
+        does: What people do; placeholders are filled.
+    """
 
     when: tuple[StepCondition, ...] = Field(min_length=1)
     does: Text

@@ -8,12 +8,16 @@ from dataclasses import dataclass
 
 from cellc.catalog.device_model import DeviceModel
 from cellc.catalog.load import CatalogDevice
+from cellc.catalog.starter_mounts import mounts_of
+from cellc.catalog.starter_wires import Wires, outputs_controller, switching, wires_of
 from cellc.description.model import Joint
 from cellc.vocabulary import Behaviour, Distro
 
 _ASIDE = {False: math.radians(20.0), True: 0.05}
 """By whether a joint slides: how far the first joint goes, rad or m, where its range is ten times as wide."""
 _UNITS = {False: "rad", True: "m"}
+_MOVED = ("arm", "axis")
+"""Kinds that a first rehearsal moves along their chain."""
 _UPDATE_RATE = "100 Hz"  # the controller manager's own default, for devices that accept any rate
 
 
@@ -44,65 +48,105 @@ def starter_spec(
     Returns:
         YAML text that ends in a newline.
     """
-    arms = [device for device, one in devices.items() if one.model.kind == "arm"]
-    grippers = [device for device, one in devices.items() if one.model.gripper is not None]
+    models = {device: one.model for device, one in devices.items()}
+    movers = [device for device, one in devices.items() if one.model.kind in _MOVED and _chain(one.entry)]
+    grippers = [device for device, model in models.items() if model.gripper is not None]
+    mounts, wires = mounts_of(models), wires_of(models)
     lines = [
         f"# yaml-language-server: $schema={schema}",
         "format: 1",
         f"cell: {name}",
-        f"summary: {', '.join(one.model.model for one in devices.values())}, on the mock",
+        f"summary: {', '.join(model.model for model in models.values())}, on the mock",
         f"versions: {{ros: {distro}}}        # what is missing here is UNKNOWN and blocks the real target",
         *([f"packages: [{', '.join(packages)}]"] if packages else []),
         "devices:",
-        *(line for device, one in devices.items() for line in _device(device, one, arms, devices)),
-        *_control(distro, devices),
-        *_motion(arms, devices),
+        *(line for device, one in devices.items() for line in _device(device, one, mounts[device], wires)),
+        *_managed(distro, devices, mounts, wires),
+        *_motion(movers, devices),
         "rehearsals:",
-        f"  ready: {{steps: [{', '.join(_steps(arms, grippers))}]}}",
+        f"  ready: {{steps: [{', '.join(_steps(movers, grippers))}]}}",
     ]
     return "\n".join(lines) + "\n"
 
 
-def _device(name: str, device: NamedDevice, arms: list[str], devices: Mapping[str, NamedDevice]) -> Iterator[str]:
+def _device(name: str, device: NamedDevice, mount: str, wires: Wires) -> Iterator[str]:
     yield f"  {name}:"
     yield f"    model: {device.named}"
     control = device.model.control
     real = None if control is None else control.hardware.real
     if real is not None and real.fixed_joint_names:
         yield '    prefix: ""    # the driver makes the names of joints in its code'
-    if name in arms:
-        # A metre apart: arms of one cell do not start inside each other.
-        yield f"    mount: {{parent: world, xyz: 0 {arms.index(name)} 0 m}}"
-    elif arms:
-        of_kind = [other for other, one in devices.items() if one.model.kind == device.model.kind]
-        arm = arms[of_kind.index(name) % len(arms)]
-        aside = ", xyz: 0 -110 30 mm" if device.model.camera is not None else ""
-        yield f"    mount: {{parent: {arm}/{devices[arm].model.tool_frame or devices[arm].model.base}{aside}}}"
+    yield f"    mount: {mount}"
+    if name in wires:
+        yield f"    switching: {switching(wires[name])}"
 
 
-def _control(distro: Distro, devices: Mapping[str, NamedDevice]) -> Iterator[str]:
+def _managed(
+    distro: Distro, devices: Mapping[str, NamedDevice], mounts: Mapping[str, str], wires: Wires
+) -> Iterator[str]:
+    """Write the controllers, under a manager of its own for each update rate that devices demand."""
+    groups = _by_rate(devices, mounts)
+    if len(groups) == 1:
+        (rate,) = groups
+        yield "control:"
+        yield from _controllers(rate, "joint_states", distro, groups[rate], wires, "  ")
+    elif groups:
+        yield "managers:"
+        for rate, members in groups.items():
+            first = next(iter(members))
+            yield f"  {first}_manager:"
+            yield f"    namespace: /{first}"
+            yield from _controllers(rate, f"{first}_joint_states", distro, members, wires, "    ")
+
+
+def _by_rate(devices: Mapping[str, NamedDevice], mounts: Mapping[str, str]) -> dict[str, dict[str, NamedDevice]]:
+    """Return the devices with control by the update rate of their manager: that of what carries one that takes any."""
+    groups: dict[str, dict[str, NamedDevice]] = {}
     controlled = {name: one for name, one in devices.items() if one.model.control is not None}
-    if not controlled:
-        return
-    rates = [rate.text for one in controlled.values() if one.model.control for rate in one.model.control.update_rates]
-    yield "control:"
-    yield f"  update_rate: {rates[0] if rates else _UPDATE_RATE}"
-    yield "  controllers:"
-    yield "    joint_states: {type: joint_state_broadcaster}"
+    free = []
     for name, one in controlled.items():
-        if one.model.gripper is not None:
-            yield f"    {name}_action: {{type: parallel_gripper, device: {name}}}"
-        if one.model.kind == "arm":
-            yield f"    {name}_trajectory:"
-            yield f"      type: {_trajectory_kind(one.model, distro)}"
-            yield f"      device: {name}"
-            chain = _chain(one.entry)
-            if len(chain) < len(_driven(one.entry)):
-                yield f"      joints: [{', '.join(f'{name}/{joint.name}' for joint in chain)}]"
-            yield "      goal_time: 1 s"
-            yield f"      path_tolerance: {_tolerance(chain, {False: 0.2, True: 0.02})}"
-            yield f"      goal_tolerance: {_tolerance(chain, {False: 0.01, True: 0.001})}"
-            yield from (f"    {name}_io: {{type: {kind}, device: {name}}}" for kind in _telling_kinds(one.model))
+        rates = [rate.text for rate in one.model.control.update_rates] if one.model.control else []
+        if rates:
+            groups.setdefault(next((rate for rate in rates if rate in groups), rates[0]), {})[name] = one
+        else:
+            free.append(name)
+    for name in free:
+        carrier = mounts[name].partition("parent: ")[2].partition("/")[0]
+        of_carrier = next((rate for rate, members in groups.items() if carrier in members), None)
+        groups.setdefault(of_carrier or next(iter(groups), _UPDATE_RATE), {})[name] = controlled[name]
+    return groups
+
+
+def _controllers(
+    rate: str,
+    states: str,
+    distro: Distro,
+    devices: Mapping[str, NamedDevice],
+    wires: Wires,
+    indent: str,
+) -> Iterator[str]:
+    yield f"{indent}update_rate: {rate}"
+    yield f"{indent}controllers:"
+    yield f"{indent}  {states}: {{type: joint_state_broadcaster}}"
+    for name, one in devices.items():
+        yield from (f"{indent}  {line}" for line in _of_device(name, one, distro, wires))
+
+
+def _of_device(name: str, one: NamedDevice, distro: Distro, wires: Wires) -> Iterator[str]:
+    if one.model.gripper is not None:
+        yield f"{name}_action: {{type: parallel_gripper, device: {name}}}"
+    chain = _chain(one.entry) if one.model.kind in _MOVED else []
+    if chain:
+        yield f"{name}_trajectory:"
+        yield f"  type: {_trajectory_kind(one.model, distro)}"
+        yield f"  device: {name}"
+        if len(chain) < len(_driven(one.entry)):
+            yield f"  joints: [{', '.join(f'{name}/{joint.name}' for joint in chain)}]"
+        yield "  goal_time: 1 s"
+        yield f"  path_tolerance: {_tolerance(chain, {False: 0.2, True: 0.02})}"
+        yield f"  goal_tolerance: {_tolerance(chain, {False: 0.01, True: 0.001})}"
+        yield from (f"{name}_io: {{type: {kind}, device: {name}}}" for kind in _telling_kinds(one.model))
+    yield from outputs_controller(name, wires)
 
 
 def _telling_kinds(model: DeviceModel) -> dict[str, None]:
@@ -122,18 +166,18 @@ def _trajectory_kind(model: DeviceModel, distro: Distro) -> str:
     return "joint_trajectory"
 
 
-def _motion(arms: list[str], devices: Mapping[str, NamedDevice]) -> Iterator[str]:
-    if not arms:
+def _motion(movers: list[str], devices: Mapping[str, NamedDevice]) -> Iterator[str]:
+    if not movers:
         return
     yield "motion:"
     yield "  groups:"
-    for arm in arms:
+    for arm in movers:
         model = devices[arm].model
         yield f"    {arm}_group: {{base: {arm}/{model.base}, tip: {arm}/{model.tool_frame or model.base}}}"
     yield "  poses:"
     for name, aside in (("home", False), ("aside", True)):
         yield f"    {name}:"
-        for arm in arms:
+        for arm in movers:
             yield f"      {arm}_group: {_pose(devices[arm].entry, aside=aside)}"
 
 
@@ -198,15 +242,15 @@ def _ends(joint: Joint) -> tuple[float, float]:
     return (-math.inf, math.inf) if endless or limit is None else (limit.lower or 0.0, limit.upper or 0.0)
 
 
-def _steps(arms: list[str], grippers: list[str]) -> Iterator[str]:
-    if arms:
+def _steps(movers: list[str], grippers: list[str]) -> Iterator[str]:
+    if movers:
         yield "{move: home}"
         yield "{move: aside}"
     for gripper in grippers:
         device = f", device: {gripper}" if len(grippers) > 1 else ""
         yield f"{{grip: close{device}}}"
         yield f"{{grip: open{device}}}"
-    if arms:
+    if movers:
         yield "{move: home}"
-    if not arms and not grippers:
+    if not movers and not grippers:
         yield "{wait: 1 s}"

@@ -91,6 +91,17 @@ def _latest(days: Iterable[str], until: str) -> str:
     return max(day for day in days if day <= until)
 
 
+class PackageTable(CatalogTable):
+    """``catalog/packages.yaml``: packages that others install, by name and by what the names of a family begin with."""
+
+    prefixes: tuple[Token, ...] = Field(min_length=1)
+    packages: tuple[Token, ...] = Field(min_length=1)
+
+    def has(self, name: str) -> bool:
+        """Whether a name is that of a package in the table."""
+        return name in self.packages or name.startswith(self.prefixes)
+
+
 class ControllerManagerFacts(CatalogTable):
     """``catalog/controller_manager.yaml``: parameters of the manager's node and of every controller's node."""
 

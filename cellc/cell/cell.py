@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 
 from cellc.cell.control import AdaptedDevice, Controller, ControllerManager
 from cellc.cell.device import Device
 from cellc.cell.entity import Places
 from cellc.cell.frame import Frame, SceneBox, SharedArea
-from cellc.cell.interface import ImpliedEndpoints, Interface, Node
+from cellc.cell.interface import Endpoint, ImpliedEndpoints, Interface, InterfaceKind, Node, NodeSource
 from cellc.cell.motion import CartesianGoal, NamedPose, Octomap, Pipeline, PlanningGroup, Rehearsal, Servo
 from cellc.cell.site import (
     TARGET_DEFAULTS,
@@ -31,7 +32,17 @@ from cellc.diagnostics import Span
 from cellc.vocabulary import Behaviour, Distro
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
+class InterfaceEnd:
+    """An end of an interface; ``serves`` where it is a source: it publishes, answers or executes."""
+
+    interface: Interface
+    end: Endpoint
+    serves: bool
+
+
+# Without slots, so that what is asked for often is looked up once and kept.
+@dataclass(frozen=True, kw_only=True)
 class Cell:
     """A linked cell; every tuple is sorted as the user wrote it, derived entities after written ones.
 
@@ -115,10 +126,53 @@ class Cell:
 
     def programs_on_mock(self, device: Device) -> tuple[str, ...]:
         """Return the programs that a device runs on every target, as ``package/executable``."""
-        own = (node for node in self.nodes if node.device == device.name and not node.real_only)
+        own = (node for node in self.nodes_of.get(device.name, ()) if not node.real_only)
         return tuple(f"{node.package}/{node.executable}" for node in own)
 
-    @property
+    @cached_property
+    def nodes_of(self) -> Mapping[str, tuple[Node, ...]]:
+        """Nodes of each device that has some, by its name."""
+        found: dict[str, list[Node]] = {}
+        for node in self.nodes:
+            if node.device is not None:
+                found.setdefault(node.device, []).append(node)
+        return {name: tuple(nodes) for name, nodes in found.items()}
+
+    @cached_property
+    def ends_of(self) -> Mapping[str, tuple[InterfaceEnd, ...]]:
+        """Ends of interfaces at which a node stands, by its full name."""
+        found: dict[str, list[InterfaceEnd]] = {}
+        for interface in self.interfaces:
+            for serves, ends in ((True, interface.sources), (False, interface.sinks)):
+                for end in ends:
+                    found.setdefault(end.full_name, []).append(InterfaceEnd(interface, end, serves))
+        return {name: tuple(ends) for name, ends in found.items()}
+
+    @cached_property
+    def planners(self) -> tuple[Node, ...]:
+        """Nodes that are MoveIt's move_group."""
+        return tuple(node for node in self.nodes if node.is_planner)
+
+    @cached_property
+    def movers(self) -> tuple[Node, ...]:
+        """Nodes of the spec that call actions or command controllers, and serve no action themselves."""
+        actions = [one for one in self.interfaces if one.kind is InterfaceKind.ACTION]
+        asking = {one.client for one in self.controllers} | {end.node for one in actions for end in one.sinks}
+        moving = asking - {end.node for one in actions for end in one.sources}
+        written = (one for one in self.nodes if one.source is NodeSource.SPEC and not one.is_planner)
+        return tuple(one for one in written if one.name in moving)
+
+    @cached_property
+    def started_late(self) -> frozenset[str]:
+        """Full names of those that a person starts: the others are managed, and wait unactivated."""
+        return frozenset(node.full_name for node in self.movers if not node.lifecycle)
+
+    @cached_property
+    def mover_names(self) -> frozenset[str]:
+        """Full names of the same."""
+        return frozenset(node.full_name for node in self.movers)
+
+    @cached_property
     def controllers(self) -> tuple[Controller, ...]:
         """Controllers of all managers, in order."""
         return tuple(controller for manager in self.managers for controller in manager.controllers)
@@ -140,7 +194,8 @@ class Cell:
         Raises:
             KeyError: there is none of that name.
         """
-        for device in self.devices:
-            if device.name == name:
-                return device
-        raise KeyError(name)
+        return self._devices[name]
+
+    @cached_property
+    def _devices(self) -> Mapping[str, Device]:
+        return {device.name: device for device in reversed(self.devices)}

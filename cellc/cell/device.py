@@ -40,7 +40,8 @@ class DeviceJoint(Entity):
 
     Limits are the device's own, tightened by the cell; rad and rad/s for revolute, m and m/s for prismatic joints;
     None where neither the description nor the catalog states one. ``velocity_everywhere`` is the device's own where it
-    allows less in some positions. ``mimics`` names the joint that it follows.
+    allows less in some positions. ``assumed`` are the limits, by their keys in ``device.yaml``, without a source.
+    ``mimics`` names the joint that it follows.
     """
 
     local_name: str
@@ -52,6 +53,7 @@ class DeviceJoint(Entity):
     acceleration: float | None
     jerk: float | None
     effort: float | None
+    assumed: tuple[str, ...]
     mimics: str | None
     command_interfaces: tuple[str, ...]
     state_interfaces: tuple[str, ...]

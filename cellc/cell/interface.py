@@ -85,6 +85,11 @@ class Node(Entity):
     inside: tuple[InnerNode, ...] = ()
 
     @property
+    def is_planner(self) -> bool:
+        """Whether it is MoveIt's move_group."""
+        return self.package == "moveit_ros_move_group" and self.executable == "move_group"
+
+    @property
     def full_name(self) -> str:
         """Fully qualified name, with a leading slash."""
         return f"{self.namespace}/{self.name}"

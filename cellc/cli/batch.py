@@ -6,21 +6,23 @@ import hashlib
 import os
 from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
 from contextlib import closing
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fnmatch import fnmatchcase
 from functools import partial
 from glob import glob
 from pathlib import Path
-from time import monotonic
+from time import monotonic, process_time
 from typing import TYPE_CHECKING, Literal
 
 import click
 
 from cellc.artifact import Artifact
+from cellc.catalog.compiled import DEVICE_FILE
 from cellc.cli.fleet import USUAL, Fan, Task
 from cellc.description.packages import package_path, use_packages
+from cellc.diagnostics import Span
 from cellc.diagnostics.diagnostic import Findings
-from cellc.limits import Limits, limits, use
+from cellc.limits import Limits, children_seconds, limits, use
 from cellc.printing import progress, remark, time_left
 from cellc.rules.shared_domain import Presence, presence_of, shared_domains
 from cellc.store.regular_file import open_regular
@@ -46,6 +48,7 @@ class CellResult:
         cell: as the other cells of the call see it; None where an error hides it.
         artifacts: with the manifest over them; None where an error stops them, or where the kind is "check".
         distro: that the cell is for; empty where an error hides it.
+        seconds: processor time that it took, with the children that read descriptions.
         problem: why the spec cannot be taken with the versions of its task; empty where it can.
     """
 
@@ -54,6 +57,7 @@ class CellResult:
     artifacts: tuple[Artifact, ...] | None = None
     distro: str = ""
     problem: str = ""
+    seconds: float = field(default=0.0, compare=False)
 
 
 def cell_files(paths: Sequence[str]) -> tuple[str, ...]:
@@ -61,10 +65,16 @@ def cell_files(paths: Sequence[str]) -> tuple[str, ...]:
 
     A pattern such as ``cells/*/cell.yaml`` stands for what it matches, where no shell has replaced it. Folders that
     begin with a dot and virtual environments are left out, and no link to a folder is followed. A folder without a spec
-    stays what it is, so that it is told like any other file that is none.
+    that is the folder of a device stands for its ``device.yaml``; any other stays what it is, so that it is told like
+    any other file that is none.
     """
     below = ((path, files_below(path, SPEC_FILE) if os.path.isdir(path) else ()) for path in matched(paths))
-    return tuple(dict.fromkeys(spec for path, specs in below for spec in specs or (path,)))
+    return tuple(dict.fromkeys(spec for path, specs in below for spec in specs or (_device_in(path),)))
+
+
+def _device_in(path: str) -> str:
+    file = os.path.join(path, DEVICE_FILE)
+    return file if os.path.isfile(file) else path
 
 
 def several_folders(paths: Sequence[str]) -> tuple[str, ...] | None:
@@ -142,11 +152,16 @@ def results(kind: Kind, tasks: Sequence[Task], fan: Fan = USUAL) -> Iterator[Cel
     computed = (compute(kind, task) for task in tasks) if hire is None else in_workers(kind, tasks, hire, shared)
     earlier: dict[str, list[Presence]] = {}
     label = {"check": "checking", "compile": "building"}[kind]
-    begun = monotonic()
+    begun, spent_s = monotonic(), 0.0
     with progress(label) as update:
         for number, task in enumerate(tasks):
             update(f"{number + 1} of {len(tasks)}, {task.file}{time_left(number, len(tasks), monotonic() - begun)}")
+            if spent_s > limits().command_seconds:
+                computed.close()
+                yield _not_begun(task)
+                continue
             result = next(computed)
+            spent_s += result.seconds
             if result.cell is None:
                 yield result
                 continue
@@ -155,6 +170,15 @@ def results(kind: Kind, tasks: Sequence[Task], fan: Fan = USUAL) -> Iterator[Cel
             beside.append(result.cell)
             # An error stops the artifacts.
             yield replace(result, findings=result.findings.with_more(against), artifacts=None) if against else result
+
+
+def _not_begun(task: Task) -> CellResult:
+    from cellc.source.codes import finding
+
+    most = limits().command_seconds
+    message = f"the specs of one call must take at most {most} s of processor time; those before this one took more"
+    told = finding("command-too-long", message, Span(task.file, 1, 1, 1, 1), limit="command-seconds")
+    return CellResult(Findings(task.file, {}, (told,)))
 
 
 def _hire(fan: Fan, kind: Kind, tasks: int) -> Hire | None:
@@ -172,9 +196,19 @@ def _hire(fan: Fan, kind: Kind, tasks: int) -> Hire | None:
 
 
 def compute(kind: Kind, task: Task) -> CellResult:
-    """Check a spec, or check and compile it."""
+    """Check a spec, or check and compile it, and tell how long that took."""
+    begun = _processor_seconds()
+    result = _computed(kind, task)
+    return replace(result, seconds=_processor_seconds() - begun)
+
+
+def _processor_seconds() -> float:
+    return process_time() + children_seconds()
+
+
+def _computed(kind: Kind, task: Task) -> CellResult:
     # A process that has others compute does not load the compiler.
-    from cellc.pipeline import check, compile_cell
+    from cellc.pipeline import check, compile_cell, judge
 
     if task.versions:
         from cellc.review.moved_spec import UpgradeError, check_with
@@ -184,7 +218,7 @@ def compute(kind: Kind, task: Task) -> CellResult:
         except UpgradeError as problem:
             return CellResult(Findings(task.file, {}, ()), problem=str(problem))
     else:
-        checked = check(task.file)
+        checked = judge(task.file) if kind == "check" else check(task.file)
     if checked.graph is None:
         return CellResult(checked.findings)
     result = CellResult(checked.findings, presence_of(checked.graph), distro=checked.graph.cell.distro.value)

@@ -17,6 +17,7 @@ from cellc.diagnostics import Span
 from cellc.diagnostics.diagnostic import Findings
 from cellc.output.codes import shared_output
 from cellc.output.compare import Difference, compare
+from cellc.output.plan import check_places
 from cellc.output.write import WriteReport, write
 from cellc.printing import Line, show
 from cellc.report.text_report import render_difference
@@ -101,6 +102,8 @@ def _built(result: CellResult, output: Path, only_compare: bool, force: bool) ->
         return _Built(result)
     folder = output / result.cell.name
     if only_compare:
+        if in_the_way := tuple(check_places(result.artifacts, folder)):  # nothing is shown of what a link leads to
+            return _Built(replace(result, findings=result.findings.with_more(in_the_way), artifacts=None))
         differences = compare(result.artifacts, folder)
         problem = f"`{folder.as_posix()}` is not what the cell makes" if differences else ""
         return _Built(replace(result, artifacts=None), tuple(_differences(differences, folder)), problem)

@@ -12,7 +12,7 @@ from cellc.catalog.device_model import device_kinds
 from cellc.catalog.load import device_names, load_device
 from cellc.cli.handbook import write_pages
 from cellc.cli.words import complete_model
-from cellc.printing import refuse, show, show_document
+from cellc.printing import refuse, show, show_document, stage
 from cellc.vocabulary import Distro
 
 
@@ -60,6 +60,7 @@ def catalog(
     from cellc.browse.page import page, pages
 
     if output is not None:
+        stage("drawing the pages")
         write_pages(output, pages())
         show(f"wrote {output.as_posix()}")
         return

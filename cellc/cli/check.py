@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from cellc.cli.batch import cell_files, results
-from cellc.cli.findings import FAIL_ON, FORMAT, IGNORE, SELECT, read_selection, selected
+from cellc.cli.findings import FAIL_ON, FORMAT, IGNORE, SELECT, read_selection, selected, write_sarif
 from cellc.cli.fleet import FleetOptions, fleet_options
 from cellc.cli.limit_option import limit_option
 from cellc.cli.rows import finish_rows, row_of, show_checked
@@ -35,6 +35,9 @@ _PASSES = 16
 @IGNORE
 @FORMAT
 @FAIL_ON
+@click.option(
+    "--sarif", metavar="FILE", type=click.Path(path_type=Path), help="Write the findings to FILE too, as SARIF 2.1.0."
+)
 @fleet_options
 @limit_option
 def check(
@@ -44,13 +47,17 @@ def check(
     ignore: tuple[str, ...],
     output_format: str,
     fail_on: str,
+    sarif: Path | None,
     fleet: FleetOptions,
 ) -> None:
     """Check each cell in FILES and point at what is wrong; a folder stands for every cell.yaml below it.
 
+    The file of a device, or of a robot description, is judged by itself.
+
     \b
     cellc check cells/bench/cell.yaml          one cell
     cellc check .                              every cell of a repository
+    cellc check my_robot                       a device: its folder or its file
     cellc check robot.urdf.xacro               a description alone
     cellc check . --format github              annotations of a pull request
     cellc check . --matrix ros=humble,jazzy    each cell with each distribution
@@ -65,23 +72,27 @@ def check(
     computed = list(results("check", tasks, fleet.fan))
     shown = [selected(one.findings, wanted) for one in computed]
     show_checked(fleet, [(task, one.findings) for task, one in zip(tasks, computed, strict=True)], shown, output_format)
+    if sarif is not None:
+        write_sarif(shown, sarif)
     rows = [row_of(task, one, told, fail_on) for task, one, told in zip(tasks, computed, shown, strict=True)]
     finish_rows(fleet, rows, output_format)
 
 
 def fix_file(file: str) -> None:
     """Mend a spec and what it includes, and say on standard error what was done."""
+    from cellc.catalog.read_model import is_device
     from cellc.edit.fixes import missing_modeline, misspelt_keys, misspelt_units
-    from cellc.pipeline import check as check_cell
+    from cellc.pipeline import judge
     from cellc.source import read
 
     for _ in range(_PASSES):
         document = read(file)
         if document.value is None or not document.ok:
             return
-        found = check_cell(file).diagnostics
+        found = judge(file).diagnostics
         edits: list[Edit] = [*misspelt_keys(found, document.value), *misspelt_units(found, document.value)]
-        edits += missing_modeline(document.value.file, document.value.texts[document.value.file])
+        kind = "device" if is_device(document.value.data) else "cell"
+        edits += missing_modeline(document.value.file, document.value.texts[document.value.file], kind)
         if not edits:
             return
         for name, group in groupby(sorted(edits, key=lambda one: (one.file, one.line)), key=lambda one: one.file):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+
 import click
 
 from cellc.cell.cell import Cell
@@ -11,18 +13,17 @@ from cellc.printing import show
 
 
 @click.command()
-@click.argument("symptom", required=False)
-@click.argument("file", required=False, type=click.Path(path_type=str))
+@click.argument("words", nargs=-1, metavar="[SYMPTOM]... [FILE]", type=click.Path(path_type=str))
 @limit_option
-def diagnose(symptom: str | None, file: str | None) -> None:
+def diagnose(words: tuple[str, ...]) -> None:
     """Classify SYMPTOM, words or log lines, and tell which read-only observation rules each cause out.
 
-    Without it, every symptom that is known is listed. With FILE, a cell spec, the commands name its own controllers,
-    topics and frames. Nothing is executed, and nothing that is told bypasses a protection. Exit code 1 where no known
-    symptom fits; the nearest are named.
+    Without it, every symptom that is known is listed. With FILE behind it, a cell spec, the commands name its own
+    controllers, topics and frames. Nothing is executed, and nothing that is told bypasses a protection. Exit code 1
+    where no known symptom fits; the nearest are named.
 
     \b
-    cellc diagnose "arm sags when it is enabled"
+    cellc diagnose arm sags when it is enabled
     cellc diagnose "goal was rejected" cells/bench/cell.yaml
     """
     from cellc.diagnose.diagnose import diagnose as suspicions_of
@@ -30,7 +31,8 @@ def diagnose(symptom: str | None, file: str | None) -> None:
     from cellc.diagnose.symptoms import knowledge
     from cellc.report.text_report import render_nearest, render_suspicions, render_symptoms
 
-    if symptom is None:
+    symptom, file = _read(words)
+    if not symptom:
         show(*render_symptoms(knowledge()))
         return
     cell = _cell(file)
@@ -39,6 +41,16 @@ def diagnose(symptom: str | None, file: str | None) -> None:
         show(*render_nearest(near(symptom, cell), [layer.title for layer in knowledge()]))
         raise click.exceptions.Exit(1)
     show(*render_suspicions(suspicions))
+
+
+def _read(words: tuple[str, ...]) -> tuple[str, str | None]:
+    """Return the symptom, and the spec where the last word names a file."""
+    *symptom, last = words or ("",)
+    if not last.endswith((".yaml", ".yml")) and not os.path.isfile(last):
+        return " ".join(words), None
+    if not symptom:
+        raise click.UsageError(f"expected a symptom before `{last}`, such as `cellc diagnose arm sags {last}`.")
+    return " ".join(symptom), last
 
 
 def _cell(file: str | None) -> Cell | None:

@@ -14,6 +14,7 @@ from cellc.diagnostics.diagnostic import Findings
 from cellc.printing import show, show_document
 from cellc.report.selection import Selection, UnknownSelectionError, selection
 from cellc.report.text_report import render_text, summary, summed_blockers
+from cellc.store.swap import write_whole
 
 FORMAT = click.option(
     "--format",
@@ -59,8 +60,7 @@ def show_findings(
         sum_blockers: whether people are told the number of blockers only, where nothing is worse.
     """
     if output_format != "text":
-        # A cell with several tuples has most of its findings with each.
-        _show_for_programs(tuple(dict.fromkeys(d for one in found for d in one.diagnostics)), output_format)
+        _show_for_programs(_each_once(found), output_format)
         return
     for one in found:
         summed = sum_blockers and all(each.severity is not Severity.ERROR for each in one.diagnostics)
@@ -72,6 +72,22 @@ def show_findings(
             show(*summed_blockers(one.diagnostics, one.file))
     if hidden:
         show(f"{hidden} hidden by --select or --ignore")
+
+
+def _each_once(found: Sequence[Findings]) -> tuple[Diagnostic, ...]:
+    # A cell with several tuples has most of its findings with each.
+    return tuple(dict.fromkeys(each for one in found for each in one.diagnostics))
+
+
+def write_sarif(found: Sequence[Findings], file: Path) -> None:
+    """Write the findings of all cells to a file, but through no link: in CI the checkout may hold one."""
+    from cellc.report.sarif_report import render_sarif
+
+    try:
+        write_whole(file, render_sarif(_each_once(found), Path.cwd()))
+    except OSError as error:
+        place, reason = error.filename or file.as_posix(), (error.strerror or "unknown reason").lower()
+        raise click.UsageError(f"`{place}` cannot be written: {reason}") from error
 
 
 def number_hidden(found: Sequence[Findings], shown: Sequence[Findings]) -> int:

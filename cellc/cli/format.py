@@ -13,7 +13,7 @@ import click
 from cellc.cli.batch import SPEC_FILE, files_below
 from cellc.cli.findings import show_findings
 from cellc.diagnostics.diagnostic import Findings
-from cellc.printing import Line, Stream, Style, Styled, as_text, refuse, show, show_document
+from cellc.printing import Line, Stream, Style, Styled, as_text, refuse, show, show_document, stage
 
 if TYPE_CHECKING:
     from cellc.layout.files import Taken
@@ -45,7 +45,10 @@ def format(files: tuple[str, ...], check: bool, diff: bool) -> None:
     if _STDIN in files:
         done = [take_content(sys.stdin.buffer.read(), "<stdin>")]
     else:
-        done = [take_file(file) for file in _meant(files)]
+        done = []
+        for file in _meant(files):
+            stage(file)
+            done.append(take_file(file))
     refused = [Findings(one.name, {one.name: one.before}, one.findings) for one in done if one.findings]
     if refused:
         show_findings(refused, "text")

@@ -11,19 +11,20 @@ from typing import TYPE_CHECKING
 
 import click
 
+from cellc.catalog.device_model import device_kinds
 from cellc.cli.findings import show_findings
 from cellc.cli.limit_option import limit_option
 from cellc.diagnostics import Severity
 from cellc.diagnostics.diagnostic import Findings
-from cellc.printing import show
+from cellc.printing import show, stage
 from cellc.store.swap import write_whole
 from cellc.vocabulary import Distro
 
 if TYPE_CHECKING:
     from cellc.importing.cell_text import FirstCell
-    from cellc.importing.chain import Chain
     from cellc.importing.device_text import Pairs
     from cellc.importing.folder import Written
+    from cellc.importing.role import Role
     from cellc.importing.source import Robot
 
 
@@ -46,11 +47,13 @@ if TYPE_CHECKING:
     type=click.Path(path_type=Path, exists=True, dir_okay=False),
     help="Parameters of controllers for the cell; those beside the description if absent.",
 )
+@click.option("--kind", type=click.Choice(device_kinds()), help="What the robot is; by its evidence if absent.")
 @click.option("--cell", "with_cell", is_flag=True, help="Write a cell.yaml beside the folder too, which moves it.")
 @click.option("--check", "only_check", is_flag=True, help="Tell which files of the imported folder ROBOT changed.")
 @click.option(
     "--ros", type=click.Choice([distro.value for distro in Distro]), default="jazzy", help="Distribution of the cell."
 )
+@click.option("--force", is_flag=True, help="Discard edits of files that an earlier import wrote.")
 @limit_option
 def import_(
     robot: str,
@@ -58,9 +61,11 @@ def import_(
     output: Path | None,
     srdf: Path | None,
     controllers: Path | None,
+    kind: str | None,
     with_cell: bool,
     only_check: bool,
     ros: str,
+    force: bool,
 ) -> None:
     """Make a device folder of ROBOT: a URDF or xacro file, the folder of a ROS package, or an installed Python package.
 
@@ -74,7 +79,8 @@ def import_(
         _tell_changes(Path(robot))
         return
     begun = time.monotonic()
-    found, chain = _read(robot, dict(map(_argument, arguments)))
+    stage("reading the robot")
+    found, role = _read(robot, dict(map(_argument, arguments)), kind, output)
     from cellc.importing.beside import controllers_near, read_controllers, semantic_file
     from cellc.importing.cell_text import FirstCell
     from cellc.importing.device_text import DESCRIPTION, model_name
@@ -87,23 +93,35 @@ def import_(
             f"`{found.file.as_posix()}` would be replaced by what is made of it: name another folder"
         )
     semantic = srdf or semantic_file(found.file, found.description.name)
-    joints = [joint.name for joint in chain.joints]
+    joints = [joint.name for joint in role.chain.joints]
     moved = controllers_near(found.file, joints) if controllers is None else read_controllers(controllers, joints)
     if moved is None:
         raise click.UsageError(f"`{controllers}` has no controller of {', '.join(joints)}.")
-    written = write_folder(folder, found, chain, _disabled(semantic, found), date.today().isoformat())
+    stage("copying meshes")
+    disabled = _disabled(semantic, found)
+    outcome = write_folder(folder, found, role, disabled, date.today().isoformat(), force=force)
+    if outcome.value is None:
+        show_findings((Findings(folder.as_posix(), {}, outcome.diagnostics),), "text")
+        raise click.exceptions.Exit(1)
+    written = outcome.value
     took = f"{time.monotonic() - begun:.1f} s"
     show(f"wrote {folder.as_posix()}: {written.files} files, {written.size / 1e6:.1f} MB, in {took}")
     show(*(f"read {file.as_posix()}" for file in (semantic, moved.file) if file is not None))
+    show(*role.lines())
     _tell_kept(folder, written)
+    _stop_at_errors(written.checked)
+    show(f"open questions stand at the head of {folder.as_posix()}/device.yaml")
     if with_cell:
         beside = packages_elsewhere(found, folder)
-        _write_cell(folder, FirstCell(chain, written.away, moved, ros, beside))
-    errors = tuple(one for one in written.checked.diagnostics if one.severity is Severity.ERROR)
+        _write_cell(folder, FirstCell(role, written.away, moved, ros, beside))
+
+
+def _stop_at_errors(found: Findings) -> None:
+    """Show what is wrong with a cell, and end the command where something is."""
+    errors = tuple(one for one in found.diagnostics if one.severity is Severity.ERROR)
     if errors:
-        show_findings((replace(written.checked.findings, diagnostics=errors),), "text")
+        show_findings((replace(found, diagnostics=errors),), "text")
         raise click.exceptions.Exit(1)
-    show(f"open questions stand at the head of {folder.as_posix()}/device.yaml")
 
 
 def _tell_kept(folder: Path, written: Written) -> None:
@@ -121,16 +139,19 @@ def _argument(text: str) -> tuple[str, str]:
     return name, value
 
 
-def _read(named: str, arguments: dict[str, str]) -> tuple[Robot, Chain]:
-    """Return the robot that is meant, and its main chain; what is wrong with it is told and ends the command."""
-    from cellc.importing.chain import chain_of
+def _read(named: str, arguments: dict[str, str], kind: str | None, output: Path | None) -> tuple[Robot, Role]:
+    """Return the robot that is meant, and its part in a cell; what is wrong with it is told and ends the command."""
+    from cellc.importing.device_text import model_name
+    from cellc.importing.folder import kept_kind
+    from cellc.importing.role import role_of
     from cellc.importing.source import ImportRefusedError, read_robot, the_description
 
     try:
         file = the_description(named)
         read = read_robot(file, arguments)
         if read.value is not None:
-            return read.value, chain_of(read.value.description)
+            stated = kind or kept_kind(output or Path(model_name(read.value)))
+            return read.value, role_of(read.value.description, stated)
     except ImportRefusedError as refusal:
         show(f"refused: {refusal}")
         raise click.exceptions.Exit(1) from None
@@ -141,16 +162,21 @@ def _read(named: str, arguments: dict[str, str]) -> tuple[Robot, Chain]:
 def _disabled(srdf: Path | None, robot: Robot) -> Pairs:
     from cellc.importing.device_text import disabled_by_srdf
 
-    links = {link.name for link in robot.description.links}
-    return {} if srdf is None else disabled_by_srdf(srdf.read_text(encoding="utf-8"), links, srdf.as_posix())
+    if srdf is None:
+        return {}
+    read = disabled_by_srdf(srdf, {link.name for link in robot.description.links})
+    if read.value is None:
+        show_findings((Findings(srdf.as_posix(), {}, read.diagnostics),), "text")
+        raise click.exceptions.Exit(1)
+    return read.value
 
 
 def _tell_changes(folder: Path) -> None:
     from cellc.importing.folder import LOCK, changed_files
 
-    if not (folder / LOCK).is_file():
+    changed = changed_files(folder)
+    if changed is None:
         raise click.UsageError(f"`{folder.as_posix()}` holds no {LOCK}: name a folder that `cellc import` wrote")
-    changed = tuple(changed_files(folder))
     show(*(f"changed: {name}" for name in changed))
     if changed:
         raise click.exceptions.Exit(1)
@@ -158,8 +184,9 @@ def _tell_changes(folder: Path) -> None:
 
 
 def _write_cell(folder: Path, first: FirstCell) -> None:
-    """Write the spec beside the folder, unless a person has one there."""
+    """Write the spec beside the folder, unless a person has one there, and check what is there then."""
     from cellc.importing.cell_text import cell_text
+    from cellc.pipeline import check
 
     file, name = folder.parent / "cell.yaml", f"{folder.name}_cell"
     if file.exists():
@@ -167,4 +194,5 @@ def _write_cell(folder: Path, first: FirstCell) -> None:
     else:
         write_whole(file, cell_text(name, f"./{folder.name}", first))
         show(f"wrote {file.as_posix()}")
+    _stop_at_errors(check(file).findings)
     show(f"next: cellc build {shlex.quote(file.as_posix())} && cellc mock generated/{name}")

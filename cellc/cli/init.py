@@ -13,6 +13,7 @@ import click
 from cellc.catalog.compiled import DEVICE_FILE
 from cellc.catalog.load import device_names, load_device, load_device_folder
 from cellc.catalog.starter import NamedDevice, starter_spec
+from cellc.catalog.starter_wires import without_signal
 from cellc.cli.words import complete_named_model
 from cellc.description.packages import folders_elsewhere, lies_under
 from cellc.diagnostics import did_you_mean
@@ -20,6 +21,9 @@ from cellc.printing import show
 from cellc.report.text_report import render_text
 from cellc.store.swap import write_whole
 from cellc.vocabulary import Distro
+
+_SIGNALS = "io"
+"""The kind of device that has digital outputs."""
 
 
 @click.command()
@@ -60,6 +64,7 @@ def init(name: str, devices: tuple[str, ...], ros: str, output: Path | None, for
     if file.exists() and not force:
         raise click.UsageError(f"{file.as_posix()} exists; give --force to replace it, or -o for another file")
     entries = _named(devices, file.parent)
+    _add_signals(entries)
     schema = quote(Path(os.path.relpath("schemas/cell.schema.json", file.parent)).as_posix())
     named = [one.model.description.package for one in entries.values() if one.model.description.package is not None]
     beside = folders_elsewhere(named, file.parent.as_posix())
@@ -87,6 +92,20 @@ def _named(devices: tuple[str, ...], beside: Path) -> dict[str, NamedDevice]:
             raise click.UsageError(f"two devices are called `{name}`: name them apart, such as `{name}_2={model}`")
         entries[name] = device
     return entries
+
+
+def _add_signals(entries: dict[str, NamedDevice]) -> None:
+    """Add the I/O devices that the outputs of switched devices need, and tell of each."""
+    while unwired := without_signal({name: one.model for name, one in entries.items()}):
+        name, model = _free_name(_SIGNALS, entries), _first_of_kind(_SIGNALS)
+        entries[name] = _of_catalog(model)
+        show(f"added {name}: {model}, for the outputs of {', '.join(unwired)}")
+
+
+def _first_of_kind(kind: str) -> str:
+    """Return the first model of the catalog that is of a kind."""
+    loaded = ((name, load_device(name).value) for name in device_names())
+    return next(name for name, entry in loaded if entry is not None and entry.model.kind == kind)
 
 
 def _of_catalog(model: str) -> NamedDevice:

@@ -10,7 +10,7 @@ from keyword import iskeyword
 
 import click
 
-from cellc.printing import Stream, run_to_end, show
+from cellc.printing import Stream, progress, run_to_end, show
 from cellc.version import __version__
 
 # Command → module; the function in it has the command's name.
@@ -36,6 +36,9 @@ _COMMANDS = {
     "watch": "Check cells, and build them, whenever a file is saved.",
 }
 
+_WAITING = ("lsp", "watch")
+"""Commands that wait for somebody for most of their time; what they do then has progress of its own."""
+
 
 class _LazyGroup(click.Group):
     """A group that imports a subcommand's module when it is asked for, so that `check` never pays for `mock`."""
@@ -58,11 +61,15 @@ class _LazyGroup(click.Group):
 
 @click.group(cls=_LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(__version__, prog_name="cellc")
-def cellc() -> None:
+@click.pass_context
+def cellc(context: click.Context) -> None:
     """Compile a declarative robot cell: check it, write its ROS 2 package, rehearse it on a mock.
 
     Exit codes: 0 good, 1 findings, 2 usage, 128 + N ended by signal N. cellc never enables real motion.
     """
+    command = context.invoked_subcommand
+    if command is not None and command not in _WAITING:
+        context.with_resource(progress(command))
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

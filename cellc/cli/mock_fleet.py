@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import click
 
@@ -17,6 +16,7 @@ from cellc.diagnostics import Severity
 from cellc.mock.command.fleet import Member, Rehearsed, member_of, rehearse_all
 from cellc.mock.command.options import MockOptions
 from cellc.output.write import write
+from cellc.store.swap import temporary_folder
 
 
 def rehearse_folders(folders: Sequence[str], fleet: FleetOptions, options: MockOptions) -> None:
@@ -29,7 +29,7 @@ def rehearse_folders(folders: Sequence[str], fleet: FleetOptions, options: MockO
 def rehearse_cells(paths: Sequence[str], fleet: FleetOptions, options: MockOptions) -> None:
     """Build cells with every tuple, execute their rehearsals, and leave nothing of it."""
     tasks = fleet.tasks(cell_files(paths))
-    with TemporaryDirectory(prefix="cellc-") as scratch:
+    with temporary_folder("cellc-") as scratch:
         members, rows = list[Member](), list[FleetRow]()
         for number, (task, result) in enumerate(zip(tasks, results("compile", tasks, fleet.fan), strict=True)):
             rows.append(row_of(task, result, result.findings, Severity.ERROR.value))
@@ -37,7 +37,7 @@ def rehearse_cells(paths: Sequence[str], fleet: FleetOptions, options: MockOptio
             if result.artifacts is None:
                 members.append(Member(name, None, _stopped(result)))
                 continue
-            folder = Path(scratch) / str(number)
+            folder = scratch / str(number)
             write(result.artifacts, folder)
             members.append(member_of(name, folder, edited=False, spec=Path(task.file).absolute().parent))
         ended = _rehearsed(members, options)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
 import click
@@ -16,7 +15,7 @@ from cellc.store.swap import write_whole
 @click.command()
 @click.argument("name", required=False)
 @click.option("-o", "--output", type=click.Path(path_type=Path, file_okay=False), help="Write all schemas to a folder.")
-@click.option("--reference", is_flag=True, help="Print the reference of the spec language as Markdown.")
+@click.option("--reference", is_flag=True, help="Print the reference of a cell or a device as Markdown.")
 def schema(name: str | None, output: Path | None, reference: bool) -> None:
     """Print the schema NAME (the cell's if absent), or write all to a folder.
 
@@ -26,11 +25,17 @@ def schema(name: str | None, output: Path | None, reference: bool) -> None:
     \b
     cellc schema > cell.schema.json
     cellc schema -o schemas                    all of them
+    cellc schema device --reference            every key of device.yaml
     """
+    from cellc.catalog.device_schema import device_reference, device_schema
+
     if reference:
-        show_document(spec_reference())
+        pages = {"cell": spec_reference, "device": device_reference}
+        if (name or "cell") not in pages:
+            raise click.UsageError(f"there is no reference of `{name}`; there are those of {' and '.join(pages)}")
+        show_document(pages[name or "cell"]())
         return
-    files = {**schema_files(), "device.schema.json": _device_schema()}
+    files = {**schema_files(), "device.schema.json": device_schema()}
     if output is not None:
         for file, text in files.items():
             write_whole(output / file, text)
@@ -41,17 +46,3 @@ def schema(name: str | None, output: Path | None, reference: bool) -> None:
         known = ", ".join(file.removesuffix(".schema.json") for file in files)
         raise click.UsageError(f"there is no schema `{name}`; the schemas are {known}")
     show_document(files[wanted])
-
-
-def _device_schema() -> str:
-    """Return the schema of a ``device.yaml``, a folder of the user's own."""
-    from cellc.catalog.device_model import DeviceModel
-    from cellc.contract.base import DIALECT
-
-    whole = DeviceModel.model_json_schema()
-    # What the model of a family does not say, its family does.
-    whole |= {"if": {"required": ["family"]}, "then": {"required": ["model"]}, "else": {"required": whole["required"]}}
-    del whole["required"]
-    schema = {"$schema": DIALECT, **whole, "title": "Device"}
-    # JSON Schema's engines end a text with `$`, Python's with `\\Z`.
-    return json.dumps(schema, indent=2, ensure_ascii=False).replace('\\\\Z"', '$"') + "\n"

@@ -13,6 +13,11 @@ from cellc.printing import refuse, show
 from cellc.store.regular_file import open_regular
 
 _HEADS = (b"<!doctype html", b"<html")
+_OWN = (
+    b'<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><meta http-equiv="content-security-policy" '
+    b"content=\"default-src 'none'"
+)
+"""How a page of this command begins."""
 _HEAD_BYTES = 200
 
 
@@ -59,7 +64,8 @@ def view(folder: str, output: Path | None, names: tuple[str, ...], against: str 
             _hold_replaceable(output)
         subject = read_subject(Path(folder))
         place = output or Path(subject.page_name)
-        _hold_replaceable(place)
+        if output is None:  # the cell chose the name, which may be that of somebody's page
+            _hold_replaceable(place, (_OWN,), "a page of this command")
         content = content_of(subject, names, seed)
         if against is not None and subject.folder is not None:
             content = replace(content, before=before_of(against, folder))
@@ -83,7 +89,7 @@ def view(folder: str, output: Path | None, names: tuple[str, ...], against: str 
         raise click.exceptions.Exit(1)
 
 
-def _hold_replaceable(place: Path) -> None:
+def _hold_replaceable(place: Path, heads: tuple[bytes, ...] = _HEADS, what: str = "an HTML page") -> None:
     """Refuse to put a page in the place of anything but a page, such as the spec itself.
 
     Raises:
@@ -100,5 +106,5 @@ def _hold_replaceable(place: Path) -> None:
         raise ViewError(
             f"{place.as_posix()}: cannot be written: {(error.strerror or 'unknown reason').lower()}"
         ) from None
-    if head and not head.startswith(_HEADS):
-        raise ViewError(f"{place.as_posix()}: is not an HTML page; move it away, or name another file")
+    if head and not head.startswith(heads):
+        raise ViewError(f"{place.as_posix()}: is not {what}; move it away, or name another file")

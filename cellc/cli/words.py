@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING
 import click
 from click.shell_completion import CompletionItem
 
-from cellc.store.regular_file import open_regular
+from cellc.limits import limits
+from cellc.store.regular_file import open_regular, read_regular
 
 if TYPE_CHECKING:
     from cellc.contract.rehearsals import RehearsalEntry
@@ -55,7 +56,9 @@ def _entries(context: click.Context) -> Sequence[RehearsalEntry]:
     from cellc.contract.rehearsals import Rehearsals
 
     try:
-        return Rehearsals.model_validate_json((_folder(context) / "rehearsals.json").read_bytes()).rehearsals
+        return Rehearsals.model_validate_json(
+            read_regular(_folder(context) / "rehearsals.json", limits().folder_bytes)
+        ).rehearsals
     except (OSError, ValueError):
         return ()
 

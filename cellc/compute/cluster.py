@@ -21,6 +21,7 @@ from typing import Any
 
 from cellc.compute.versions import versions
 from cellc.compute.work import ComputeError, Crew, Hire, Sent, answer
+from cellc.extras import CLUSTER, gate
 
 _PACKET = 50
 _HANDS_OF_A_WORKER = 3
@@ -47,15 +48,11 @@ def cluster(address: str, tell: Callable[[str], None] = lambda _: None) -> Hire:
 def _crew(address: str, tell: Callable[[str], None], sent: Sent, units: int) -> Iterator[Crew]:
     if not _ADDRESS.fullmatch(address):
         raise ComputeError(f"`{address}` is not the address of a scheduler; write one such as `tcp://10.0.0.7:8786`")
-    try:
+    with gate(CLUSTER):
         from dask import config
 
         config.set({"logging": dict.fromkeys(("distributed", "distributed.client"), "critical")})  # it is said here
         from distributed import Client, KilledWorker
-    except ModuleNotFoundError as missing:
-        if missing.name not in ("distributed", "dask"):
-            raise
-        raise ComputeError("`--cluster` needs Dask; install it with `pip install 'cellc[cluster]'`") from None
     _find_scheduler(address)
     try:
         client = Client(address, timeout=_CONNECTS_S, set_as_default=False)
@@ -80,7 +77,8 @@ def _crew(address: str, tell: Callable[[str], None], sent: Sent, units: int) -> 
 
 def _find_scheduler(address: str) -> None:
     """Raise ComputeError where no scheduler answers: a client of Dask that finds none ends in tracebacks, or never."""
-    from distributed.core import rpc
+    with gate(CLUSTER):
+        from distributed.core import rpc
 
     async def kind() -> object:
         async with rpc(address, timeout=_CONNECTS_S) as remote:

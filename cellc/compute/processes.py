@@ -13,6 +13,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import Future
 from contextlib import contextmanager
 from functools import partial
+from pathlib import Path
 from threading import Thread, Timer
 from typing import TYPE_CHECKING, Any
 
@@ -45,17 +46,18 @@ def _crew(number: int, sent: Sent, units: int) -> Iterator[Crew]:
     from multiprocessing import active_children, get_context
 
     size = max(1, min(number, units))
-    start_deaf_tracker()
+    with _away():
+        start_deaf_tracker()
     others = set(active_children())
     # Spawned on every platform: nothing of this process, its locks and threads above all, is copied into them.
-    pool = ProcessPoolExecutor(size, get_context("spawn"), _told, (sent,))
+    pool = ProcessPoolExecutor(size, get_context("spawn"), _told, (sent, Path.cwd()))
 
     def ask(packet: Sequence[Any]) -> Future[Any]:
         return pool.submit(_answer, packet)
 
     ended = False
     try:
-        with deaf_children():
+        with deaf_children(), _away():
             for _ in range(size):
                 pool.submit(_answer, ())  # each starts a process, here where it is deaf
         yield Crew(ask, hands=2 * size)
@@ -71,6 +73,20 @@ def _crew(number: int, sent: Sent, units: int) -> Iterator[Crew]:
         patience.cancel()
 
 
+@contextmanager
+def _away() -> Iterator[None]:
+    """Start processes away from the current folder: Python 3.10 imports from it first, and knows no PYTHONSAFEPATH."""
+    if sys.version_info >= (3, 11):
+        yield
+        return
+    here = Path.cwd()
+    os.chdir(sys.prefix)
+    try:
+        yield
+    finally:
+        os.chdir(here)
+
+
 def _kill(children: Iterable[BaseProcess]) -> None:
     for child in children:
         child.kill()
@@ -79,9 +95,10 @@ def _kill(children: Iterable[BaseProcess]) -> None:
 _sent: Sent | None = None
 
 
-def _told(sent: Sent) -> None:
+def _told(sent: Sent, folder: Path) -> None:
     global _sent
     _sent = sent
+    os.chdir(folder)
     _end_with_parent()
 
 

@@ -8,6 +8,8 @@ from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
+from cellc.store.regular_file import own_bytes
+
 _PACKAGES = ("cellc", "numpy", "pin")
 
 
@@ -18,7 +20,7 @@ def versions() -> Mapping[str, str]:
     digest = hashlib.sha256()
     root = Path(__file__).parents[1]
     for file in sorted(root.rglob("*.py")):
-        digest.update(file.relative_to(root).as_posix().encode() + b"\0" + file.read_bytes())
+        digest.update(file.relative_to(root).as_posix().encode() + b"\0" + own_bytes(file))
     found["cellc"] += f" ({digest.hexdigest()[:12]})"
     return found
 

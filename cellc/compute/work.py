@@ -19,6 +19,8 @@ from dataclasses import dataclass
 from itertools import islice
 from typing import Any, Generic, TypeVar
 
+from cellc.errors import CellcError
+
 Shared = TypeVar("Shared")
 Unit = TypeVar("Unit")
 Answer = TypeVar("Answer")
@@ -27,7 +29,7 @@ MOST_DEATHS = 3
 """Workers that may end by themselves with one unit in hand; a machine that is short of memory recovers, a bug stays."""
 
 
-class ComputeError(Exception):
+class ComputeError(CellcError):
     """Work could not be done; the text is one line."""
 
 

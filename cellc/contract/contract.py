@@ -11,6 +11,7 @@ from typing import Literal
 from pydantic import Field
 
 from cellc.contract.base import ContractModel, ContractPose
+from cellc.contract.file_names import BesidePath, CellName, InnerPath
 from cellc.contract.quantities import (
     Coordinate,
     Count,
@@ -30,13 +31,15 @@ from cellc.vocabulary import Behaviour, Distro, ManagerLock, Moment, Motion, Nee
 class ContractFiles(ContractModel):
     """Paths inside the generated folder, with forward slashes."""
 
-    urdf_mock: str = Field(description="Robot description for the mock.")
-    urdf_real: str = Field(description="Robot description for the real cell.")
-    parameters: dict[str, str] = Field(description="Parameter file of each controller manager, by manager.")
-    srdf: str | None = Field(None, description="Pairs of links whose collision is not checked, for planning groups.")
-    rehearsals: str = Field(description="What the mock executes.")
-    bring_up: str = Field(description="Steps from processes to motion, of the mock and of the real target.")
-    packages: tuple[str, ...] = Field(
+    urdf_mock: InnerPath = Field(description="Robot description for the mock.")
+    urdf_real: InnerPath = Field(description="Robot description for the real cell.")
+    parameters: dict[str, InnerPath] = Field(description="Parameter file of each controller manager, by manager.")
+    srdf: InnerPath | None = Field(
+        None, description="Pairs of links whose collision is not checked, for planning groups."
+    )
+    rehearsals: InnerPath = Field(description="What the mock executes.")
+    bring_up: InnerPath = Field(description="Steps from processes to motion, of the mock and of the real target.")
+    packages: tuple[BesidePath, ...] = Field(
         (), description="Folders beside this one in which packages of meshes lie, relative to that of the spec."
     )
 
@@ -363,7 +366,7 @@ class Contract(ContractModel):
     """The whole contract of one cell."""
 
     format: Literal[2] = Field(description="Version of this format.")
-    cell: str = Field(description="Name of the cell and its package.")
+    cell: CellName = Field(description="Name of the cell and its package.")
     summary: str = Field(description="What the cell does.")
     configuration_id: str = Field(description="Id over all that evidence rests on.")
     distro: Distro = Field(description="ROS 2 distribution.")

@@ -5,6 +5,7 @@ from typing import Literal
 from pydantic import Field
 
 from cellc.contract.base import ContractModel
+from cellc.contract.file_names import CellName, InnerPath
 
 
 class ConfigurationInputs(ContractModel):
@@ -22,9 +23,9 @@ class Manifest(ContractModel):
     """Version tuple, hash of every generated file, and the configuration id."""
 
     format: Literal[1] = Field(description="Version of this format.")
-    cell: str = Field(description="Name of the cell.")
+    cell: CellName = Field(description="Name of the cell.")
     cellc_version: str = Field(description="Release of cellc that made the folder.")
     configuration_id: str = Field(description="Id over the configuration inputs.")
     configuration_inputs: ConfigurationInputs = Field(description="What the id is taken over.")
     version_tuple: dict[str, str] = Field(description="Pinned versions by part.")
-    files: dict[str, str] = Field(description="SHA-256 of every generated file but this one, by path.")
+    files: dict[InnerPath, str] = Field(description="SHA-256 of every generated file but this one, by path.")

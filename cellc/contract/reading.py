@@ -10,6 +10,7 @@ from pydantic import BaseModel, ValidationError
 from pydantic_core import from_json
 
 from cellc.contract.base import Json
+from cellc.errors import CellcError
 from cellc.limits import Limits, limits, option
 
 _LARGEST_INTEGER = 2**63 - 1
@@ -18,7 +19,7 @@ _Model = TypeVar("_Model", bound=BaseModel)
 _Path = tuple[str | int, ...]
 
 
-class FormatError(Exception):
+class FormatError(CellcError):
     """A file is not what its name says, or larger than is read; the text says where and why, in one line."""
 
 

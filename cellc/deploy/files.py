@@ -107,9 +107,8 @@ def executes_plans(cell: Cell, one: Controller | AdaptedDevice) -> bool:
     move_group makes a client of each that it is told of as it starts, which shows as a second commander, and which an
     enforced policy refuses.
     """
-    planners = {node.name for node in cell.nodes if is_planner(node)}
     runs = one.active if isinstance(one, Controller) else True
-    return runs and (one.client is None or one.client in planners)
+    return runs and (one.client is None or any(one.client == node.name for node in cell.planners))
 
 
 def control_path(cell: Cell) -> YamlPath:
@@ -126,7 +125,7 @@ def semantic_file(cell: Cell) -> str:
 
 def plans(cell: Cell) -> bool:
     """Tell whether the cell has what MoveIt plans for and the node that does it; otherwise nobody reads its files."""
-    return bool(cell.groups) and any(is_planner(node) for node in cell.nodes)
+    return bool(cell.groups and cell.planners)
 
 
 def is_servo(cell: Cell, node: Node) -> bool:
@@ -136,4 +135,4 @@ def is_servo(cell: Cell, node: Node) -> bool:
 
 def is_planner(node: Node) -> bool:
     """Tell whether a node is MoveIt's move_group, which reads these files."""
-    return node.package == "moveit_ros_move_group" and node.executable == "move_group"
+    return node.is_planner

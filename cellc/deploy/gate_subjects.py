@@ -1,4 +1,4 @@
-"""What the lines of the gates stand for: the things of a cell, each with the fields that a text may name."""
+"""Subjects of gate lines: the things of a cell, each with the fields that a text may name."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from cellc.deploy.gate_motion import (
     stop_reasons,
     unguarded,
 )
-from cellc.deploy.processes import asks_for_motion, description_nodes, motion_clients, started_by_a_person
+from cellc.deploy.processes import asks_for_motion, description_nodes
 from cellc.deploy.recording import record_command
 from cellc.deploy.releases import ACTIVATE, CLAIM, move_mock, move_real, start_mock, start_real
 from cellc.deploy.versions import installed_parts
@@ -41,7 +41,7 @@ from cellc.vocabulary import BringUpPhase, Feature, GateCode, features
 
 Row = Mapping[str, str]
 CELL = "cell"
-"""The subject of a line that stands once."""
+"""The subject of a line that is written once."""
 
 
 def cell_row(cell: Cell, header: Header, code: str) -> Row:
@@ -114,11 +114,11 @@ def _joint_states(graph: CellGraph) -> Iterator[Values]:
 
 
 def _components(graph: CellGraph) -> Iterator[Values]:
-    """Yield in which state each component of the real target comes up, and who says so."""
+    """Yield the startup state of each component of the real target, and who sets it."""
     for manager in graph.cell.managers:
         for device in map(graph.cell.device, manager.devices):
             if device.hardware is not None and "real" in device.hardware.targets:
-                whose = "its vendor has it come up" if device.initial_state is None else "the spec has it come up"
+                whose = "vendor default" if device.initial_state is None else "set in the spec"
                 yield device.hardware.name, device.comes_up, whose
 
 
@@ -133,9 +133,9 @@ def _stopping_devices(graph: CellGraph) -> Iterator[Values]:
         for gate in GateCode:
             stops = [one for one in device.safety.states if one.stops and one.gate is gate]
             if stops:
-                told = (f"timeout 10 ros2 topic echo --once {shell_word(one)}" for one in device.safety.topics)
+                echoes = (f"timeout 10 ros2 topic echo --once {shell_word(one)}" for one in device.safety.topics)
                 states = ", ".join(f"{state.name} ({state.reported})" for state in stops)
-                yield device.name, states, "\n".join(told), gate
+                yield device.name, states, "\n".join(echoes), gate
 
 
 def _loaded_devices(graph: CellGraph) -> Iterator[Values]:
@@ -150,7 +150,7 @@ def _loaded_devices(graph: CellGraph) -> Iterator[Values]:
 
 
 def _tool_centers(graph: CellGraph) -> Iterator[Values]:
-    """Yield where the robot's own controller is to hold its TCP, and what shows where it does."""
+    """Yield the TCP that the robot's own controller must have, and the command that shows it."""
     for device in graph.cell.devices:
         if device.tcp is None or device.tool_frame is None:
             continue
@@ -168,11 +168,11 @@ def _tool_connectors(graph: CellGraph) -> Iterator[Values]:
             voltage = graph.cell.text(*device.path, "tool_connector", "voltage")
             links = ((one.name, one.connection) for one in graph.cell.devices)
             tools = (name for name, link in links if link is not None and link.through == device.name)
-            yield device.name, voltage, ", ".join(tools) or "whatever hangs on it"
+            yield device.name, voltage, ", ".join(tools) or "every connected tool"
 
 
 def _servo(graph: CellGraph) -> Iterator[Values]:
-    """Yield what MoveIt Servo commands, what starts it, and who else could: the ends of that topic."""
+    """Yield what MoveIt Servo commands, what starts it, and the command that shows the ends of its topic."""
     servo = graph.cell.servo
     if servo is not None:
         (node,) = (one for one in graph.cell.nodes if is_servo(graph.cell, one))
@@ -188,7 +188,7 @@ def _figures(values: Iterable[float], digits: int) -> str:
 
 
 def _shows_center(cell: Cell, device: Device) -> str:
-    """Return what prints where the robot says that its TCP is, empty where no controller of the cell publishes it."""
+    """Return the command that prints the robot's own TCP; empty where no controller of the cell publishes it."""
     kind = device.robot.tcp_kind
     telling = (one for one in cell.controllers if (one.kind, one.device) == (kind, device.name) and one.active)
     one = next(telling, None)
@@ -196,9 +196,9 @@ def _shows_center(cell: Cell, device: Device) -> str:
 
 
 def _by_vendors(graph: CellGraph, *, shows: bool = False, powers: bool = False) -> Iterator[Values]:
-    """Yield what the vendors have people do in the gates, or what must show there once something was released.
+    """Yield the vendors' steps for people in the gates, or the signs that must show there after a release.
 
-    What gives drives their power is yielded by itself: a stop is tried on drives that can lose it.
+    Steps that power the drives are yielded separately: a stop is tested on powered drives.
     """
     for device in graph.cell.devices:
         for step in device.commissioning:
@@ -213,7 +213,7 @@ def _addressed(device: Device, command: str) -> str:
 
 
 def _of_this_launch(lines: tuple[str, ...]) -> Iterator[str]:
-    """Yield what prints the last line with one of these texts of the newest launch with a controller manager.
+    """Yield commands that print the last line with one of these texts in the log of the newest hardware launch.
 
     Each launch has a folder of its own below that of the logs. An earlier run's line would be taken for this one's, so
     that no line is an answer too, and the name of the file, with its time, is printed above it.
@@ -244,7 +244,7 @@ def _calibrated_devices(graph: CellGraph) -> Iterator[Values]:
 
 
 def _cards(graph: CellGraph) -> Iterator[Values]:
-    return ((nic.full_name, nic.text, ", ".join(nic.carries) or "nothing stated") for nic in graph.network.nics)
+    return ((nic.full_name, nic.text, ", ".join(nic.carries) or "no declared traffic") for nic in graph.network.nics)
 
 
 def _reached_devices(graph: CellGraph) -> Iterator[Values]:
@@ -263,28 +263,27 @@ def _interfaces(graph: CellGraph) -> Iterator[Values]:
     for one in _on_real(graph):
         starts, ends = _ends_on_real(graph.cell, one)
         command = endpoint_command(graph.cell, one.kind, one.name)
-        yield one.name, ", ".join(starts) or "nobody", ", ".join(ends) or "nobody", command
+        yield one.name, ", ".join(starts) or "none", ", ".join(ends) or "none", command
 
 
 def _ends_on_real(cell: Cell, interface: Interface) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Return the full names of who publishes or serves, and of who subscribes or calls, when the real target runs.
+    """Return the full names of publishers or servers, and of subscribers or clients, on the real target.
 
     A driver's node listens to the controllers of its robot, the stopper of claims to what it watches, and a planner has
     a client of each action that it executes on. A person who compares the graph with the page finds them all.
     """
-    late = {node.full_name for node in motion_clients(cell) if started_by_a_person(cell, node)}
 
     def named(ends: tuple[Endpoint, ...]) -> Iterator[str]:
         for end in ends:
             if "real" in end.targets:
-                yield end.full_name + (" (from G7 on)" if end.full_name in late else "")
+                yield end.full_name + (" (from G7 on)" if end.full_name in cell.started_late else "")
 
     sinks = dict.fromkeys((*named(interface.sinks), *_beside(cell, interface)))
     return tuple(dict.fromkeys(named(interface.sources))), tuple(sinks)
 
 
 def _beside(cell: Cell, interface: Interface) -> Iterator[str]:
-    """Yield who listens or calls though no line of the spec says so."""
+    """Yield subscribers and clients that the spec does not name."""
     for node in cell.nodes if interface.kind is not InterfaceKind.ACTION else ():
         asked = node.endpoints.requests if interface.kind is InterfaceKind.SERVICE else node.endpoints.subscribes
         if interface.name in {node.remaps.get(one, one) for one in asked}:
@@ -297,12 +296,8 @@ def _streams(graph: CellGraph) -> Iterator[Values]:
     for one in _on_real(graph):
         if one.kind is InterfaceKind.TOPIC and one.rate_hz is not None:
             # What is measured is the sum of all sources, and the interface has the rate of the slowest manager.
-            several = f" or more: {len(one.sources)} sources add up" if len(one.sources) > 1 else ""
-            age = (
-                "with no bound on its age"
-                if one.max_age_s is None
-                else f"no sample older than {shortest(one.max_age_s)} s"
-            )
+            several = f" or more ({len(one.sources)} sources)" if len(one.sources) > 1 else ""
+            age = "no age limit" if one.max_age_s is None else f"no sample older than {shortest(one.max_age_s)} s"
             yield one.name, f"{shortest(one.rate_hz)} Hz{several}", age
 
 
@@ -374,7 +369,7 @@ FIELDS: Mapping[str, Values] = {
     CELL: ("gate", *_OF_CELL, "observer", "attempt_fields"),
     **{name: fields for name, (fields, _) in _SUBJECTS.items()},
 }
-"""What a text of each subject may name; what the cell has every text may name."""
+"""Fields that a text of each subject may name. Every text may name those of the cell."""
 
 ROWS: Mapping[str, Callable[[CellGraph], Iterator[Values]]] = {name: rows for name, (_, rows) in _SUBJECTS.items()}
 """The values of the fields, once for each subject that a cell has."""

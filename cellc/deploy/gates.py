@@ -46,12 +46,12 @@ class Gate:
     """One gate of a cell.
 
     Args:
-        shows: what has been shown once it is passed, in one phrase.
+        shows: what the passed gate proves, in one phrase.
         state: state that the robot or its drives are in.
         evidence: name of the file that the gate must leave.
         owner: who signs, from the spec.
-        stop: conditions under which nobody goes on.
-        measured: what is measured or read back, and written down by who signs.
+        stop: conditions that stop the gate.
+        measured: values that are measured or read back, and recorded.
     """
 
     code: GateCode
@@ -66,13 +66,13 @@ class Gate:
 
     @property
     def key_command(self) -> str:
-        """The first plain command that reads, without a pipe; empty for a gate that people alone pass."""
+        """The first command that reads and has no pipe; empty for a gate without one."""
         read = (command for check in self.checks if not check.starts for command in check.commands)
         return next((command for command in read if "|" not in command), "")
 
 
 class Line(CatalogModel):
-    """A text that stands once for each subject, with the commands that belong to it."""
+    """A text that is written once for each subject, with its commands."""
 
     of: str = CELL
     text: Text
@@ -175,7 +175,7 @@ def _checks(line: Line, graph: CellGraph, base: Row) -> Iterator[Check]:
 
 
 def _said(text: str, row: Row) -> str:
-    """Return a text with its fields; what stands between backticks is code, whatever it holds."""
+    """Return a text with its fields filled in; text between backticks is code."""
     return _FIELD.sub(lambda found: code(row[found[1]]) if found[1] else row[found[2]], text)
 
 

@@ -1,4 +1,4 @@
-"""What the arrows of the cell's graph say of an interface, a claim, a driver and the physical stop."""
+"""Labels of the arrows in the cell's graph: interfaces, claims, drivers and the physical stop."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ _UNITS = {
     "effort": ("Nm", "N"),
 }
 
-_NOTHING = "nothing that the catalog names"
+_NOTHING = "no driver in the catalog"
 
 
 def interface_facts(interface: Interface) -> Iterator[str]:
@@ -50,7 +50,7 @@ def interface_facts(interface: Interface) -> Iterator[str]:
 
 
 def unused(cell: Cell) -> tuple[tuple[Interface, ...], ...]:
-    """Return what nobody in the cell reads or calls, together where it is offered by the same and owned alike."""
+    """Return interfaces without a reader or client in the cell, grouped by server and owner."""
     found: dict[tuple[object, ...], list[Interface]] = {}
     for one in cell.interfaces:
         if one.sources and not one.sinks:
@@ -60,13 +60,13 @@ def unused(cell: Cell) -> tuple[tuple[Interface, ...], ...]:
 
 
 def unused_title(group: tuple[Interface, ...]) -> str:
-    """Return what is said of interfaces that nobody uses."""
+    """Return the title of interfaces without a user in the cell."""
     kind, use = group[0].kind, "reads" if group[0].kind is InterfaceKind.TOPIC else "calls"
-    return f"{len(group)} {kind.value}{'s' if len(group) > 1 else ''} that nobody of this cell {use}"
+    return f"{len(group)} {kind.value}{'s' if len(group) > 1 else ''} that no node of this cell {use}"
 
 
 def unused_facts(group: tuple[Interface, ...]) -> Iterator[str]:
-    """Yield the names of interfaces that nobody uses, and their owner; the contract has the rest."""
+    """Yield the names of interfaces without a user, and their owner; the contract has the rest."""
     yield ", ".join(one.name for one in group)
     yield f"owner {group[0].owner or _NOT_STATED}"
 
@@ -77,7 +77,7 @@ def frame_label(interface: Interface) -> str:
 
 
 def _unit(interface: Interface) -> str:
-    return interface.unit or ("none" if interface.type == _PLAIN_TEXT else "as the type")
+    return interface.unit or ("none" if interface.type == _PLAIN_TEXT else "per message type")
 
 
 def _time(interface: Interface) -> str:
@@ -91,9 +91,9 @@ def rate_label(interface: Interface) -> str:
     if interface.kind is not InterfaceKind.TOPIC:
         return "on request"
     if _latched(interface):
-        return "once, kept for whoever comes later"
+        return "once, latched"
     if interface.type == _TRANSFORMS:
-        others = ", dynamic frames at their own" if len(interface.sources) > 1 else ""
+        others = ", dynamic frames at their own rate" if len(interface.sources) > 1 else ""
         return f"{shortest(TF_RATE_HZ)} Hz{others}"
     return "rate not stated"
 
@@ -112,7 +112,7 @@ def _failures(interface: Interface) -> Iterator[str]:
         age = "" if interface.max_age_s is None else f" after {shortest(interface.max_age_s)} s"
         yield f"stale{age}: {interface.on_stale}"
     elif interface.kind is InterfaceKind.TOPIC and _latched(interface):
-        yield "missing: its readers wait"
+        yield "missing: readers wait"
     if interface.timeout_s is not None:
         yield f"timeout after {shortest(interface.timeout_s)} s: {interface.on_timeout or _NOT_STATED}"
     elif interface.kind is InterfaceKind.ACTION:
@@ -137,8 +137,8 @@ def claim_facts(cell: Cell, manager: ControllerManager, controller: Controller) 
     owner = cell.owners.responsibilities.command
     yield f"owner {owner}; on a violation: {controller.on_violation}; watchdog: {watchdog(cell, controller)}"
     if device is not None:
-        state = "from start-up" if controller.active else "as an alternate, inactive at start-up"
-        through = f"through {real_driver(device)}" if "real" in controller.targets else "on the mock alone"
+        state = "active from startup" if controller.active else "alternate, inactive at startup"
+        through = f"through {real_driver(device)}" if "real" in controller.targets else "only on the mock"
         yield f"{through}; {state}; architecture: {device.architecture}"
 
 
@@ -152,7 +152,7 @@ def _claims(controller: Controller) -> Iterator[str]:
 
 
 ON_TARGET = {"mock": "the mock", "real": "real hardware"}
-"""How people are told of a target."""
+"""Names of the targets for people."""
 
 
 def driver_facts(cell: Cell, device: Device, driver: DeviceDriver) -> Iterator[str]:
@@ -166,12 +166,12 @@ def driver_facts(cell: Cell, device: Device, driver: DeviceDriver) -> Iterator[s
 
 
 def watched_stream(cell: Cell, device: Device) -> str | None:
-    """Return what an adapter does where the commands to its device stay away; None for a device without an adapter."""
+    """Return what an adapter does when commands stop arriving; None for a device without an adapter."""
     adapted = next((one for one in cell.adapters if one.device == device.name), None)
     if adapted is None:
         return None
     silence, stop = shortest(adapted.command_timeout_s), shortest(adapted.stop_time_s)
-    return f"{silence} s of silence end in a stop, at a standstill within {stop} s"
+    return f"stops after {silence} s without commands, standstill within {stop} s"
 
 
 def stop_facts(cell: Cell) -> Iterator[str]:
@@ -193,8 +193,8 @@ def units(cell: Cell, controller: Controller) -> str:
         for joint, _, kind in (name.rpartition("/") for name in controller.all_claims)
     )
     if controller.behaviour in PASSIVE:
-        return "as its services"
-    return "as its device moves" if controller.behaviour is Behaviour.OWN_MOTION else ", ".join(dict.fromkeys(found))
+        return "per service type"
+    return "per device" if controller.behaviour is Behaviour.OWN_MOTION else ", ".join(dict.fromkeys(found))
 
 
 def folded(names: Iterable[str]) -> Iterator[str]:
@@ -208,7 +208,7 @@ def folded(names: Iterable[str]) -> Iterator[str]:
 
 
 def watchdog(cell: Cell, controller: Controller) -> str:
-    """Return what stops the device when commands stay away, by its vendor."""
+    """Return the vendor's watchdog of the device, which stops it when commands stop arriving."""
     stated = None if controller.device is None else cell.device(controller.device).safety.watchdog
     return stated or _NOT_STATED
 

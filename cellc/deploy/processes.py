@@ -7,9 +7,8 @@ from collections.abc import Iterator
 from cellc.cell.cell import Cell
 from cellc.cell.control import ControllerManager
 from cellc.cell.device import Device, OfferedInterface
-from cellc.cell.interface import InterfaceKind, Node, NodeSource
+from cellc.cell.interface import Node
 from cellc.contract.bring_up import CLAIM_WATCH, TARGETS, BringUp
-from cellc.deploy.files import is_planner
 from cellc.link.frames import ROBOT_STATE_PUBLISHER
 from cellc.link.nodes import DESCRIPTION_PUBLISHER, description_home
 from cellc.vocabulary import BringUpPhase, Feature, Motion, features
@@ -43,13 +42,7 @@ def asks_for_motion(cell: Cell, node: Node) -> bool:
 
     One that serves an action itself, such as a planner, acts when it is told to; one with neither moves nothing.
     """
-    if node.source is not NodeSource.SPEC or is_planner(node):
-        return False
-    actions = [one for one in cell.interfaces if one.kind is InterfaceKind.ACTION]
-    serves = any(end.node == node.name for action in actions for end in action.sources)
-    asks = any(end.node == node.name for action in actions for end in action.sinks)
-    commands = any(controller.client == node.name for controller in cell.controllers)
-    return (asks or commands) and not serves
+    return node.full_name in cell.mover_names
 
 
 def started_by_a_person(cell: Cell, node: Node) -> bool:
@@ -59,7 +52,7 @@ def started_by_a_person(cell: Cell, node: Node) -> bool:
 
 def motion_clients(cell: Cell) -> tuple[Node, ...]:
     """Return the nodes that a person starts or activates before anything moves."""
-    return tuple(node for node in cell.nodes if asks_for_motion(cell, node))
+    return cell.movers
 
 
 def past_controllers(cell: Cell) -> Iterator[tuple[Device, OfferedInterface, str]]:

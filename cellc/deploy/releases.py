@@ -30,28 +30,29 @@ START = Release(
     "cell",
     "confirm_real",
     "I_HAVE_PASSED_GATES_G0_TO_G2",
-    "Stated by the person who releases the real target: gates G0 to G2 have their evidence, drives are disabled.",
+    "Confirmation of the person who authorizes the hardware launch. Gates G0 to G2 have their evidence. "
+    "The drives are disabled.",
 )
 ACTIVATE = Release(
     "activate",
     "confirm_activation",
     "I_HAVE_PASSED_GATES_G0_TO_G4_AND_THE_AREA_IS_EMPTY",
-    "Stated by the person who releases hardware that moves as it is activated: gates G0 to G4 have their evidence, "
-    "nobody is in reach, nothing is held, no program of the robot is running.",
+    "Confirmation of the person who authorizes hardware that moves on activation. Gates G0 to G4 have their evidence. "
+    "No person is in reach. Nothing is held. No program of the robot is running.",
 )
 CLAIM = Release(
     "claim",
     "confirm_claim",
     "I_HAVE_PASSED_GATES_G0_TO_G6",
-    "Stated by the person who releases claims on the real target: gates G0 to G6 have their evidence, the robot "
-    "listens as its vendor says, nobody will jog it.",
+    "Confirmation of the person who authorizes claims on real hardware. Gates G0 to G6 have their evidence. "
+    "The robot accepts commands as its vendor says. Jogging has ended.",
 )
 MOVE = Release(
     "move",
     "confirm_motion",
     "I_HAVE_PASSED_GATES_G0_TO_G6",
-    "Stated by the person who releases motion on the real target: gates G0 to G6 have their evidence, the observer "
-    "stands at the stop.",
+    "Confirmation of the person who authorizes motion on real hardware. Gates G0 to G6 have their evidence. "
+    "The observer is at the stop.",
 )
 
 
@@ -59,8 +60,8 @@ GOAL = Release(
     "goal",
     "confirm_goal",
     "I_HAVE_PASSED_GATES_G0_TO_G6",
-    "Stated by the person who sends the first goal to the real target: gates G0 to G6 have their evidence, claims are "
-    "released, the speed is low, the observer stands at the stop.",
+    "Confirmation of the person who sends the first goal to real hardware. Gates G0 to G6 have their evidence. "
+    "Claims are authorized. The speed is low. The observer is at the stop.",
 )
 
 
@@ -70,36 +71,36 @@ def start_mock(cell: Cell) -> str:
 
 
 def start_real(cell: Cell) -> Iterator[tuple[str, str]]:
-    """Yield who starts what on each host: it connects and reads; it claims and enables nothing."""
+    """Yield the hardware launch of each host: it connects and reads; it claims and enables nothing."""
     command = f"{start_mock(cell)} target:=real {START.argument}:={START.word}"
     return _on_hosts(command, launch_hosts(cell))
 
 
 def _on_hosts(command: str, hosts: tuple[str, ...]) -> Iterator[tuple[str, str]]:
-    """Yield a command for each computer; the one of a cell that runs in one place is not named."""
-    yield from ((f"On {host}: a person", f"{command} host:={host}") for host in hosts)
+    """Yield a command for each computer, after its name; a cell that runs in one place names none."""
+    yield from ((f"On {host}: ", f"{command} host:={host}") for host in hosts)
     if not hosts:
-        yield "A person", command
+        yield "", command
 
 
 def release_once(cell: Cell, release: Release) -> str:
-    """Return what a person starts once, on one host: it asks, proves and ends."""
+    """Return the command that a person runs once, on one host: it asks, proves and ends."""
     return f"ros2 launch {cell.name} {release.file}.launch.xml {release.argument}:={release.word}"
 
 
 def move_mock(cell: Cell) -> tuple[str, ...]:
-    """Return what starts the nodes that ask for motion, on the mock; none where the cell has no such node."""
+    """Return the launch of the motion clients on the mock; none where the cell has no motion client."""
     return (f"ros2 launch {cell.name} move.launch.xml",) if _launched(cell) else ()
 
 
 def move_real(cell: Cell) -> Iterator[tuple[str, str]]:
-    """Yield who starts or activates what before motion, on each host that has something of it."""
+    """Yield the commands that start or activate motion clients, on each host that has one."""
     command = f"ros2 launch {cell.name} move.launch.xml target:=real {MOVE.argument}:={MOVE.word}"
     movers = {node.host for node in motion_clients(cell) if started_by_a_person(cell, node)}
     if _launched(cell):
         hosts = launch_hosts(cell)
         yield from _on_hosts(command, tuple(host for host in hosts if host in movers) or hosts)
-    yield from (("A person", activation(node)) for node in motion_clients(cell) if node.lifecycle)
+    yield from (("", activation(node)) for node in motion_clients(cell) if node.lifecycle)
 
 
 def _launched(cell: Cell) -> bool:

@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from cellc.cell.cell import Cell
 from cellc.cell.site import UNKNOWN
 from cellc.deploy.configuration import version_tuple
-from cellc.deploy.files import is_planner
 from cellc.deploy.processes import launch_hosts
 from cellc.formats.escape import shell_word
 from cellc.graph.versions import compatibility
@@ -85,4 +84,4 @@ def _is_on(cell: Cell, part: str, host: str) -> bool:
         return cell.hosts[host].scheduling != _GENERIC
     if name == "ros2_control":
         return any(manager.host == host for manager in cell.managers)
-    return name != "moveit" or any(node.host == host for node in cell.nodes if is_planner(node))
+    return name != "moveit" or any(node.host == host for node in cell.planners)

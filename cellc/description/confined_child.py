@@ -12,14 +12,16 @@ import os
 import signal
 import subprocess
 import sys
-import tempfile
 from pathlib import Path
+
+from cellc.errors import CellcError
+from cellc.store.swap import temporary_file
 
 HANG_S = 1800
 """Seconds by the clock after which a child hangs, however busy the machine is; its parent may have been killed too."""
 
 
-class ChildEndedError(Exception):
+class ChildEndedError(CellcError):
     """The child did not end well; the text says what it needed more of than it may use.
 
     Attributes:
@@ -40,7 +42,7 @@ def ask_child(module: str, request: bytes, wall_seconds: float = HANG_S) -> byte
     Raises:
         ChildEndedError: it used up a limit, or crashed.
     """
-    with tempfile.TemporaryFile() as answer:
+    with temporary_file() as answer:
         try:
             child = subprocess.run(
                 [sys.executable, "-m", module],

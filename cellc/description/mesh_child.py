@@ -21,6 +21,7 @@ from cellc.description.confined_child import confine_this_process
 from cellc.description.mesh_numbers import EXPORT_AGAIN, MeshNumbers, pack_fault, pack_numbers
 from cellc.description.meshes import MALFORMED_MESH, MeshError, read_pieces, too_large
 from cellc.limits import MIB, Limits, limits, use
+from cellc.store.swap import remove_file, write_new
 
 _STL_HEAD, _STL_TRIANGLE = 84, 50
 _GLB_HEAD, _GLB_CHUNK = 12, 8
@@ -59,7 +60,8 @@ def _read(file: Path, digest: str, copy: Path) -> MeshNumbers:
         content = b""
     if hashlib.sha256(content).hexdigest() != digest:
         raise MeshError(MALFORMED_MESH, "changes while it is read", "try again", certain=False)
-    copy.write_bytes(_self_contained(content, copy.suffix))
+    remove_file(copy)  # that of the mesh before
+    write_new(copy, _self_contained(content, copy.suffix))
     try:
         # The boxes round its triangles, which the library builds too, are not needed here: the simplest kind of them.
         mesh = coal.MeshLoader(coal.NODE_TYPE.BV_AABB).load(str(copy), np.ones(3))

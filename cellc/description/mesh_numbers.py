@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import struct
-import tempfile
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from functools import lru_cache
@@ -16,6 +15,7 @@ import numpy.typing as npt
 from cellc.description.confined_child import ChildEndedError, ask_child
 from cellc.description.meshes import MALFORMED_MESH, MeshError, MeshFacts, MeshFile, too_large
 from cellc.limits import Limits, limits
+from cellc.store.swap import temporary_folder
 
 _HEAD = struct.Struct("<II")
 """Bytes of the JSON head of an answer, and of the numbers behind it."""
@@ -59,10 +59,10 @@ def read_meshes(files: tuple[MeshFile, ...]) -> tuple[MeshNumbers | MeshError, .
 
 @lru_cache(maxsize=1)
 def _read_within(files: tuple[MeshFile, ...], allowed: Limits) -> tuple[MeshNumbers | MeshError, ...]:
-    with tempfile.TemporaryDirectory(prefix="cellc-mesh-") as folder:
+    with temporary_folder("cellc-mesh-") as folder:
         request = {
             "limits": asdict(allowed),
-            "folder": folder,
+            "folder": folder.as_posix(),
             "files": [[file.path, file.suffix, file.digest] for file in files],
         }
         try:

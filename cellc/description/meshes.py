@@ -16,6 +16,7 @@ from xml.etree import ElementTree
 
 from cellc.description.model import Mesh
 from cellc.description.packages import lies_under, package_folders, package_path, repository_of
+from cellc.errors import CellcError
 from cellc.limits import MIB, limits, option
 from cellc.store.regular_file import open_regular
 from cellc.transforms import Vector3
@@ -36,7 +37,7 @@ _SHELVES = "`--package-path`"
 _SHOWN = 200
 
 
-class MeshError(Exception):
+class MeshError(CellcError):
     """A mesh cannot be used; ``code`` is that of a rule, and the text says why.
 
     Attributes:

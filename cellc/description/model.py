@@ -258,6 +258,19 @@ class Description:
         )
         return replace(self, joints=tuple(joints))
 
+    def with_direct_mimics(self) -> Description:
+        """Let each joint that follows a follower follow the joint at the end of the chain; a circle stays one.
+
+        robot_state_publisher goes over the followers once, in the order of their names: of a follower whose leader
+        has a later name it publishes no transform. Pinocchio and yourdfpy read no chains.
+        """
+        mimics = {joint.name: joint.mimic for joint in self.joints if joint.type != "fixed" and joint.mimic is not None}
+        joints = (
+            replace(joint, mimic=_direct(mimics[joint.name], mimics)) if joint.name in mimics else joint
+            for joint in self.joints
+        )
+        return replace(self, joints=tuple(joints))
+
     def with_link_names(self, names: Mapping[str, str]) -> Description:
         """Return the same with other names of some links, in every reference to one too."""
         if not names:
@@ -273,6 +286,17 @@ class Description:
         """Put ``prefix`` before the name of every link and joint, and in every reference to one."""
         links = tuple(replace(link, name=prefix + link.name) for link in self.links)
         return replace(self, links=links, joints=tuple(_renamed_joint(joint, prefix) for joint in self.joints))
+
+
+def _direct(mimic: Mimic, mimics: Mapping[str, Mimic]) -> Mimic:
+    found = mimic
+    for _ in mimics:
+        above = mimics.get(found.joint)
+        if above is None:
+            return found
+        offset = found.multiplier * above.offset + found.offset
+        found = Mimic(above.joint, found.multiplier * above.multiplier, offset)
+    return mimic if found.joint in mimics else found
 
 
 def _renamed_joint(joint: Joint, prefix: str) -> Joint:

@@ -13,6 +13,7 @@ from __future__ import annotations
 import glob
 import os
 import re
+from collections import deque
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -24,6 +25,10 @@ MANIFEST = "package.xml"
 _MANIFEST_BYTES = 64 * KIB
 _DECLARED = re.compile(rb"<name>\s*([A-Za-z][A-Za-z0-9_-]*)\s*</name>")
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*", re.ASCII)
+_IGNORING = frozenset({"COLCON_IGNORE", "AMENT_IGNORE"})
+_DEEPEST = 6
+_MOST_FOLDERS = 5_000
+"""Of a tree in which a package is looked for: folders below each other, and together."""
 _path: tuple[str, ...] = ()
 
 
@@ -49,6 +54,11 @@ def on_package_path(folders: Sequence[str]) -> Iterator[None]:
         use_packages(before)
 
 
+def is_package_name(name: str) -> bool:
+    """Whether a name may be that of a package."""
+    return _NAME.fullmatch(name) is not None
+
+
 def searched_folders(name: str, root: str) -> tuple[str, ...]:
     """List the folders that may hold a package, in the order of the search."""
     below = (
@@ -72,18 +82,38 @@ def find_package(name: str, *roots: str) -> str | None:
 def package_folders(name: str, root: str) -> Iterator[str]:
     """Yield every folder that may be a package.
 
-    Those of its name come first, then one in a repository of a workspace or of a device, then those whose manifest has
-    the name: some repositories are a package of another name.
+    Those of its name come first, then one in a repository of a workspace or of a device, then all that colcon finds,
+    by the name of the folder or of the manifest: some repositories are a package of another name.
     """
-    if _NAME.fullmatch(name) is None:
+    if not is_package_name(name):
         return
     yield from searched_folders(name, root)
     yield from sorted(glob.glob(os.path.join(glob.escape(root), "src", "*", name)))
     for device in sorted(glob.glob(os.path.join(glob.escape(root), "*", "device.yaml"))):
         yield os.path.join(os.path.dirname(device), name)
-    for below in ("", "*", os.path.join("src", "*"), os.path.join("src", "*", "*")):
-        manifests = sorted(glob.glob(os.path.join(glob.escape(root), below, MANIFEST)))
-        yield from (os.path.dirname(manifest) for manifest in manifests if declared_name(manifest) == name)
+    for folder in _packages_below(root):
+        if name in (os.path.basename(folder), declared_name(os.path.join(folder, MANIFEST))):
+            yield folder
+
+
+def _packages_below(root: str) -> Iterator[str]:
+    """Yield the folders of packages as colcon finds them: in none that is hidden, ignored or a package itself."""
+    waiting = deque([(root, 0)])
+    for _ in range(_MOST_FOLDERS):
+        if not waiting:
+            return
+        folder, depth = waiting.popleft()
+        try:
+            inside = frozenset(os.listdir(folder))
+        except OSError:
+            continue
+        if not _IGNORING.isdisjoint(inside):
+            continue
+        if MANIFEST in inside:
+            yield folder
+        if depth < _DEEPEST and (MANIFEST not in inside or not depth):
+            below = (os.path.join(folder, name) for name in sorted(inside) if not name.startswith("."))
+            waiting += [(path, depth + 1) for path in below if os.path.isdir(path)]  # False for a link to itself
 
 
 def folders_elsewhere(names: Iterable[str], folder: str, candidates: Sequence[str] = ()) -> tuple[str, ...]:
@@ -106,13 +136,13 @@ def folders_elsewhere(names: Iterable[str], folder: str, candidates: Sequence[st
 def root_of(file: Path) -> Path:
     """Return the folder in which a description and the packages that it names lie.
 
-    The workspace of its package, whose `src/` holds it or its repository; else the folder that holds the package; else
-    that of the file. It is relative where the file is.
+    The workspace of its package, whose `src/` holds it, its repository or a folder of that; else the folder that holds
+    the package; else that of the file. It is relative where the file is.
     """
     package = next((above for above in file.absolute().parents if (above / MANIFEST).is_file()), None)
     if package is None:
         return file.parent
-    sources = next((above for above in package.parents[:2] if above.name == "src"), None)
+    sources = next((above for above in package.parents[:3] if above.name == "src"), None)
     root = package.parent if sources is None else sources.parent
     return root if file.is_absolute() else Path(os.path.relpath(root))
 

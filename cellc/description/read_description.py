@@ -12,6 +12,7 @@ from cellc.description.xacro_expansion import Expansion, expand_here, expand_xac
 from cellc.description.xacro_files import ConfinedFiles, XacroRefusedError
 from cellc.diagnostics import Diagnostic, Outcome, Severity, Span
 from cellc.limits import Limits, Purse, limits
+from cellc.printing import stage
 
 _KEPT = 32  # descriptions of the devices of a few cells
 
@@ -28,19 +29,26 @@ def read_description(
         purse: what expansions of the spec may still take; as much as one may where it is absent.
         beside: further folders of packages that the spec names.
     """
+    stage(f"reading {file.as_posix()}")
     if file.suffix == ".xacro":
         return _read_expanded(file, expand_xacro(file, arguments, root, purse=purse, beside=beside))
-    start = Span(file.as_posix(), 1, 1, 1, 1)
     if arguments:
-        message = f"`{file.name}` is URDF and takes no arguments"
+        message, start = f"`{file.name}` is URDF and takes no arguments", Span(file.as_posix(), 1, 1, 1, 1)
         found = Diagnostic("xacro-unknown-argument", Severity.ERROR, message, start, help="remove `arguments:`")
         return Outcome(None, (found,))
+    text = text_under(file, root)
+    return Outcome(None, text.diagnostics) if text.value is None else _read(text.value, file.as_posix(), limits())
+
+
+def text_under(file: Path, root: Path) -> Outcome[str]:
+    """Return the text of a URDF or SRDF that must lie under a folder."""
     try:
-        text = ConfinedFiles(root.as_posix()).read(file.as_posix())
+        return Outcome(ConfinedFiles(root.as_posix()).read(file.as_posix()))
     except XacroRefusedError as refusal:
-        found = Diagnostic(refusal.code, Severity.ERROR, refusal.message, start, help=refusal.help_text)
-        return Outcome(None, (found,))
-    return _read(text, file.as_posix(), limits())
+        start = Span(file.as_posix(), 1, 1, 1, 1)
+        return Outcome(
+            None, (Diagnostic(refusal.code, Severity.ERROR, refusal.message, start, help=refusal.help_text),)
+        )
 
 
 @lru_cache(maxsize=_KEPT)

@@ -210,10 +210,9 @@ def _read_limit(element: XmlElement) -> JointLimit:
     lower, upper, velocity, effort = (
         optional_number(element, attribute) for attribute in ("lower", "upper", "velocity", "effort")
     )
-    if effort is not None and effort < 0.0:  # pinocchio refuses the whole description for it
-        message = f"`effort` of `<limit>` must be 0 or more, got {element.attributes['effort']}"
-        raise refused("urdf-bad-number", element, message, "write the magnitude")
-    return JointLimit(lower, upper, velocity, effort)
+    # Vendors write -1 for one that they do not state; pinocchio refuses a whole description for it.
+    stated = None if effort is not None and effort < 0.0 else effort
+    return JointLimit(lower, upper, velocity, stated)
 
 
 def _read_mimic(element: XmlElement) -> Mimic:

@@ -7,6 +7,7 @@ import re
 
 from cellc.description.xml_tree import XmlElement
 from cellc.diagnostics import Diagnostic, Severity
+from cellc.errors import CellcError
 from cellc.transforms import Pose, Vector3, from_xyz_rpy, identity
 
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?", re.ASCII)
@@ -17,7 +18,7 @@ _LARGEST = 1e20
 """Of every other number; exporters write 1e16 for a limit that there is not."""
 
 
-class UrdfError(Exception):
+class UrdfError(CellcError):
     """One link or joint cannot be read; ``diagnostic`` says why."""
 
     def __init__(self, diagnostic: Diagnostic) -> None:

@@ -18,14 +18,14 @@ from xml.dom import minidom
 import xacro
 
 from cellc.description.packages import find_package, searched_folders
-from cellc.description.xacro_expression import evaluate, functions
+from cellc.description.xacro_expression import evaluate
 from cellc.description.xacro_files import ConfinedFiles, XacroRefusedError
+from cellc.description.xacro_names import known_names, names_of_eval
 from cellc.description.xml_tree import XmlElement, read_xml
 from cellc.diagnostics import Span
 from cellc.limits import limits, option
 
 _PLACE = "cellc-place"
-_NUMBER = re.compile(r"[-+]?(?:\d{1,15}\.?\d{0,15}|\.\d{1,15})(?:[eE][-+]?\d{1,2})?", re.ASCII)
 _SUBSTITUTION = re.compile(r"\$\((\w+)\s*(.*?)\s*\)", re.DOTALL)
 
 
@@ -37,7 +37,7 @@ class Confinement:
         self.files = ConfinedFiles(root, shown_root, beside)
         self._beside = tuple(beside)
         self.warnings: list[str] = []
-        self.declared_arguments: set[str] = set()
+        self.known_arguments: set[str] = set()
         self.elements = 0
         self.failure: BaseException | None = None
         self.place: Span | None = None
@@ -60,7 +60,7 @@ class Confinement:
             "check_attrs": self._touching(xacro.check_attrs),
             "warning": lambda *texts, **_options: self.warnings.append(" ".join(map(str, texts))),
             "print_location": lambda: None,
-            "_global_symbols": {**functions(), "xacro": self._xacro_functions()},
+            "_global_symbols": known_names(self._xacro_functions()),
         }
         originals = {name: getattr(xacro, name) for name in hooks}
         _set_all(hooks)
@@ -118,12 +118,22 @@ class Confinement:
         if command == "dirname":
             return os.path.dirname(xacro.filestack[-1]) or "."
         if command == "eval":
-            return evaluate(operand, {**functions(), **self._typed_arguments()})
+            return str(evaluate(operand, {**self._typed_arguments(), **names_of_eval()}))
+        if command == "optenv" and operand:
+            return self._without_environment(*operand.split())
         raise XacroRefusedError(
             "xacro-refused-substitution",
             f"`{text[:60]}` is refused: a description may not depend on its surroundings",
             "use `$(arg NAME)`, `$(find PACKAGE)`, `$(dirname)`, `$(eval …)` or `${…}`",
         )
+
+    def _without_environment(self, name: str, *default: str) -> str:
+        """Return the default of a variable of the environment: no description may depend on the machine."""
+        value = " ".join(default)
+        told = f"`$(optenv {name})` is read as its default `{value}`: variables of the environment count for nothing"
+        if told not in self.warnings:
+            self.warnings.append(told)
+        return value
 
     def _typed_arguments(self) -> dict[str, Any]:
         """Return the arguments as numbers and truths where they are written so, as roslaunch's ``eval`` has them."""
@@ -145,10 +155,10 @@ class Confinement:
     def argument(self, name: str) -> str:
         """Return the value of a xacro argument."""
         arguments: Mapping[str, str] = xacro.substitution_args_context["arg"]
+        self.known_arguments.add(name)
         if name not in arguments:
-            raise XacroRefusedError(
-                "xacro-missing-argument", f"argument `{name}` has no value", f"give `{name}` under `arguments:`"
-            )
+            help_text = f"give it: `{name}:=VALUE` after `cellc import FILE`, or under `arguments:` in `device.yaml`"
+            raise XacroRefusedError("xacro-missing-argument", f"argument `{name}` has no value", help_text)
         return arguments[name]
 
     def package(self, name: str) -> str:
@@ -184,7 +194,7 @@ class Confinement:
             "arg": self.argument,
             "load_yaml": lambda name: self.files.load_yaml(self.path_of(name)),
             "abs_filename": lambda name: self.files.checked(self.path_of(name)),
-            "dotify": lambda value: value,
+            "dotify": dict,
             "fatal": fatal,
             "warning": tell,
             "error": tell,
@@ -227,16 +237,17 @@ class Confinement:
         def check_attrs(node: Any, *arguments: Any) -> Any:
             self._touched = node
             if node.tagName == "xacro:arg":
-                self.declared_arguments.add(node.getAttribute("name"))
+                self.known_arguments.add(node.getAttribute("name"))
             return original(node, *arguments)
 
         return check_attrs
 
 
 def _typed(value: str) -> Any:
-    if _NUMBER.fullmatch(value):
-        return float(value) if set(value) & set(".eE") else int(value)
-    return {"true": True, "false": False}.get(value.lower(), value)
+    try:
+        return float(value) if "." in value else int(value)
+    except ValueError:
+        return {"true": True, "false": False}.get(value.lower(), value)
 
 
 def place_of(node: Any) -> Span | None:

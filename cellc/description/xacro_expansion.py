@@ -58,7 +58,7 @@ def expand_here(
             text = document.toprettyxml(indent="  ")
         except Exception as error:
             return Outcome(None, (_failure(error, confinement, start),))
-    unknown = _unknown_arguments(arguments, confinement.declared_arguments, start)
+    unknown = _unknown_arguments(arguments, confinement.known_arguments, start)
     if unknown:
         return Outcome(None, unknown)
     if len(text.encode()) > limits().xml_bytes:

@@ -8,21 +8,28 @@ refused, as is every underscored attribute and every result beyond a bound.
 from __future__ import annotations
 
 import ast
-import math
 import operator
-from collections.abc import Callable, Mapping
+import re
+from collections import ChainMap
+from collections.abc import Callable, Iterator, Mapping
 from functools import lru_cache
 from typing import Any
 
+from cellc.errors import CellcError
 from cellc.limits import limits, option
 
 MAX_MAGNITUDE = 10**40
+_WIDE = re.compile(r"%[^a-zA-Z%]*(?:\d{3}|\*)")
 _METHODS: dict[type, frozenset[str]] = {
     str: frozenset({"split", "rsplit", "strip", "lstrip", "rstrip", "lower", "upper", "title", "capitalize",
-                    "startswith", "endswith", "count", "find", "isdigit", "removeprefix", "removesuffix"}),
-    dict: frozenset({"get", "keys", "values", "items"}),
-    list: frozenset({"index", "count"}),
+                    "startswith", "endswith", "count", "find", "rfind", "index", "rindex", "replace", "join",
+                    "partition", "rpartition", "splitlines", "swapcase", "casefold", "isdigit", "isalpha", "isalnum",
+                    "isdecimal", "isnumeric", "isspace", "islower", "isupper", "istitle", "isidentifier",
+                    "removeprefix", "removesuffix", "ljust", "rjust", "center", "zfill"}),
+    dict: frozenset({"get", "keys", "values", "items", "copy"}),
+    list: frozenset({"index", "count", "copy"}),
     tuple: frozenset({"index", "count"}),
+    float: frozenset({"is_integer"}),
 }  # fmt: skip
 _BINARY: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
     ast.Add: operator.add,
@@ -32,11 +39,17 @@ _BINARY: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
     ast.FloorDiv: operator.floordiv,
     ast.Mod: operator.mod,
     ast.Pow: operator.pow,
+    ast.BitAnd: operator.and_,
+    ast.BitOr: operator.or_,
+    ast.BitXor: operator.xor,
+    ast.LShift: operator.lshift,
+    ast.RShift: operator.rshift,
 }
 _UNARY: dict[type[ast.unaryop], Callable[[Any], Any]] = {
     ast.UAdd: operator.pos,
     ast.USub: operator.neg,
     ast.Not: operator.not_,
+    ast.Invert: operator.invert,
 }
 _COMPARE: dict[type[ast.cmpop], Callable[[Any, Any], Any]] = {
     ast.Eq: operator.eq,
@@ -52,7 +65,7 @@ _COMPARE: dict[type[ast.cmpop], Callable[[Any, Any], Any]] = {
 }
 
 
-class ExpressionError(Exception):
+class ExpressionError(CellcError):
     """An expression uses more of Python than a description needs, or its result is beyond bounds."""
 
 
@@ -84,7 +97,7 @@ def bounded(value: Any) -> Any:
         raise ExpressionError("a number is beyond 1e40")
     if isinstance(value, str) and len(value) > limits().xacro_text:
         raise ExpressionError(f"a text is longer than {limits().xacro_text} characters; {option('xacro-text')}")
-    if isinstance(value, (list, tuple, dict)) and len(value) > limits().xacro_items:
+    if isinstance(value, (list, tuple, dict, set, frozenset)) and len(value) > limits().xacro_items:
         raise ExpressionError(f"a list is longer than {limits().xacro_items} items; {option('xacro-items')}")
     return value
 
@@ -123,15 +136,16 @@ def _unary(node: Any, symbols: Mapping[str, Any]) -> Any:
 
 def _check_growth(operation: ast.operator, left: Any, right: Any) -> None:
     # Both would first compute the large result and only then be refused.
-    if isinstance(operation, ast.Pow) and isinstance(left, int) and isinstance(right, int) and abs(right) > 128:
+    whole = isinstance(left, int) and isinstance(right, int)
+    if isinstance(operation, (ast.Pow, ast.LShift)) and whole and abs(right) > 128:
         raise ExpressionError(f"the exponent {right} is beyond 128")
     if isinstance(operation, ast.Mult):
         for items, count in ((left, right), (right, left)):
             repeated = len(items) * count if isinstance(items, (str, list, tuple)) and isinstance(count, int) else 0
             if repeated > limits().xacro_items:
                 raise ExpressionError(f"repetition to {repeated} items, at most {limits().xacro_items}")
-    if isinstance(operation, ast.Mod) and isinstance(left, str):
-        raise ExpressionError("text formatting with `%` is not allowed in an expression")
+    if isinstance(operation, ast.Mod) and isinstance(left, str) and _WIDE.search(left):
+        raise ExpressionError("text formatting with `%` to more than 99 places is not allowed in an expression")
 
 
 def _call(node: Any, symbols: Mapping[str, Any]) -> Any:
@@ -149,10 +163,10 @@ def _attribute(node: Any, symbols: Mapping[str, Any]) -> Any:
     if node.attr.startswith("_"):
         raise ExpressionError(f"the attribute `{node.attr}` is not allowed in an expression")
     owner = _value(node.value, symbols)
-    if isinstance(owner, dict) and node.attr in owner:  # dotted access to namespaces and to values from YAML
-        return owner[node.attr]
     if any(isinstance(owner, kind) and node.attr in methods for kind, methods in _METHODS.items()):
         return getattr(owner, node.attr)
+    if isinstance(owner, dict) and node.attr in owner:  # dotted access to namespaces and to values from YAML
+        return owner[node.attr]
     raise ExpressionError(f"the attribute `{node.attr}` is not allowed in an expression")
 
 
@@ -164,6 +178,42 @@ def _boolean(node: Any, symbols: Mapping[str, Any]) -> Any:
         if bool(value) is stop_at:
             break
     return value
+
+
+def _comprehension(node: Any, symbols: Mapping[str, Any]) -> Any:
+    results = list(_turns(node, node.generators, symbols, [0]))
+    if isinstance(node, ast.DictComp):
+        return dict(results)
+    return set(results) if isinstance(node, ast.SetComp) else results
+
+
+def _turns(
+    node: Any, generators: list[ast.comprehension], symbols: Mapping[str, Any], turns: list[int]
+) -> Iterator[Any]:
+    """Yield the items of a comprehension, all turns of all its loops counted."""
+    if not generators:
+        of = (node.key, node.value) if isinstance(node, ast.DictComp) else (node.elt,)
+        values = tuple(_value(one, symbols) for one in of)
+        yield values if len(values) == 2 else values[0]
+        return
+    first = generators[0]
+    for item in _value(first.iter, symbols):
+        turns[0] += 1
+        if turns[0] > limits().xacro_items:
+            raise ExpressionError(f"a comprehension of more than {limits().xacro_items} turns")
+        inner: Mapping[str, Any] = ChainMap(dict(_bound(first.target, item)), symbols)  # type: ignore[arg-type]
+        if all(_value(condition, inner) for condition in first.ifs):
+            yield from _turns(node, generators[1:], inner, turns)
+
+
+def _bound(target: ast.expr, item: Any) -> Iterator[tuple[str, Any]]:
+    if isinstance(target, ast.Name):
+        yield target.id, item
+    elif isinstance(target, (ast.Tuple, ast.List)):
+        for part, value in zip(target.elts, item, strict=True):
+            yield from _bound(part, value)
+    else:
+        raise ExpressionError(f"`{type(target).__name__}` is not allowed in a comprehension")
 
 
 def _comparison(node: Any, symbols: Mapping[str, Any]) -> bool:
@@ -207,34 +257,13 @@ _EVALUATORS: dict[type[ast.expr], Callable[[Any, Mapping[str, Any]], Any]] = {
     ast.Attribute: _attribute,
     ast.Subscript: _subscript,
     ast.List: lambda node, symbols: [_value(item, symbols) for item in node.elts],
+    ast.ListComp: _comprehension,
+    ast.SetComp: _comprehension,
+    ast.DictComp: _comprehension,
+    ast.GeneratorExp: _comprehension,
+    ast.Set: lambda node, symbols: {_value(item, symbols) for item in node.elts},
     ast.Tuple: lambda node, symbols: tuple(_value(item, symbols) for item in node.elts),
     ast.Dict: lambda node, symbols: {
         _value(key, symbols): _value(value, symbols) for key, value in zip(node.keys, node.values, strict=True)
     },
 }
-
-
-def _bounded_range(*arguments: int) -> list[int]:
-    numbers = range(*arguments)
-    if len(numbers) > limits().xacro_items:
-        raise ExpressionError(f"a range of {len(numbers)} items, at most {limits().xacro_items}")
-    return list(numbers)
-
-
-_MATH = {
-    name: getattr(math, name)
-    for name in ("acos", "asin", "atan", "atan2", "ceil", "copysign", "cos", "degrees", "e", "exp", "fabs", "floor",
-                 "fmod", "hypot", "inf", "isclose", "isfinite", "isinf", "isnan", "log", "log10", "log2", "nan", "pi",
-                 "pow", "radians", "sin", "sqrt", "tan", "tau", "trunc")
-}  # fmt: skip
-_PYTHON: dict[str, Any] = {
-    "abs": abs, "all": all, "any": any, "bool": bool, "dict": dict, "float": float, "int": int, "len": len,
-    "list": list, "map": lambda function, *items: list(map(function, *items)), "max": max, "min": min,
-    "range": _bounded_range, "round": round, "sorted": sorted, "str": lambda value="": str(bounded(value)), "sum": sum,
-    "tuple": tuple, "zip": lambda *items: list(zip(*items, strict=False)), "True": True, "False": False,
-}  # fmt: skip
-
-
-def functions() -> dict[str, Any]:
-    """Return the names that every expression knows, as xacro exposes them: plain and under ``math`` and ``python``."""
-    return {**_MATH, **_PYTHON, "math": dict(_MATH), "python": dict(_PYTHON)}

@@ -15,7 +15,9 @@ from typing import TYPE_CHECKING, Any
 import yaml
 
 from cellc.description.packages import lies_under, package_path, repository_of
-from cellc.description.xacro_expression import evaluate, functions
+from cellc.description.xacro_expression import evaluate
+from cellc.description.xacro_names import known_names
+from cellc.description.yaml_values import TooManyValuesError, load_values
 from cellc.diagnostics import Span
 from cellc.limits import MIB, limits, option
 from cellc.store.regular_file import open_regular
@@ -127,29 +129,13 @@ class ConfinedFiles:
             message = f"`{shown}` is larger than {limits().xacro_yaml_bytes // MIB} MiB"
             raise XacroRefusedError("xacro-too-large", message, option("xacro-yaml-bytes"))
         try:
-            # One alias of an alias of an alias is a text of gigabytes once it is written out.
-            if _written_out(yaml.compose(text, Loader=_UnitLoader)) > limits().xacro_items:
-                message = f"`{shown}` has more than {limits().xacro_items} values where its aliases are written out"
-                raise XacroRefusedError("xacro-bad-yaml", message, option("xacro-items"))
-            return yaml.load(text, Loader=_UnitLoader)  # a SafeLoader
+            return load_values(text, _UnitLoader)
+        except TooManyValuesError as error:
+            message, _, advice = str(error).partition("; ")
+            raise XacroRefusedError("xacro-bad-yaml", f"`{shown}` {message}", advice) from None
         except (yaml.YAMLError, ValueError, RecursionError) as error:
             reason = str(error).split("\n", 1)[0]
             raise XacroRefusedError("xacro-bad-yaml", f"`{shown}` is not readable YAML: {reason}") from None
-
-
-def _written_out(root: yaml.Node | None) -> float:
-    """Count the values of a document whose aliases are written out; one in itself counts without end."""
-    counts: dict[int, float] = {}
-
-    def count(node: yaml.Node) -> float:
-        if id(node) not in counts:
-            counts[id(node)] = math.inf  # while it is being counted
-            items = node.value if isinstance(node, yaml.CollectionNode) else []
-            parts = (part for item in items for part in (item if isinstance(item, tuple) else (item,)))
-            counts[id(node)] = 1.0 + sum(map(count, parts))
-        return counts[id(node)]
-
-    return 0 if root is None else count(root)
 
 
 class _UnitLoader(yaml.SafeLoader):
@@ -159,7 +145,7 @@ class _UnitLoader(yaml.SafeLoader):
 def _with_unit(loader: yaml.SafeLoader, suffix: str, node: yaml.Node) -> float:
     if not isinstance(node, yaml.ScalarNode) or f"!{suffix}" not in _UNITS:
         raise yaml.constructor.ConstructorError(None, None, f"unknown tag `!{suffix}`", node.start_mark)
-    return float(evaluate(str(node.value), functions())) * _UNITS[f"!{suffix}"]
+    return float(evaluate(str(node.value), known_names())) * _UNITS[f"!{suffix}"]
 
 
 _UnitLoader.add_multi_constructor("!", _with_unit)

@@ -6,13 +6,17 @@ The standard ElementTree keeps no columns and minidom expands entities; a descri
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from xml.parsers import expat
+from xml.sax.saxutils import quoteattr
 
 from cellc.diagnostics import Diagnostic, Outcome, Severity, Span
 from cellc.limits import MIB, limits, option
 
 _START_TAG = re.compile(rb"""<[^>"']*(?:(?:"[^"]*"|'[^']*')[^>"']*)*>""")
+
+_ATTRIBUTE = re.compile(rb"""\s+([^\s=]+)\s*=\s*("[^"]*"|'[^']*')""")
 
 
 @dataclass(slots=True)
@@ -60,6 +64,13 @@ def read_xml(text: str, file: str) -> Outcome[XmlElement]:
         message = f"the description is {len(data) / MIB:.1f} MiB, at most {limits().xml_bytes // MIB} MiB are read"
         help_text = f"keep meshes in files of their own; {option('xml-bytes')}"
         return _refused("xml-too-large", message, help_text, Span(file, 1, 1, 1, 1))
+    zero = text.find("\0")
+    if zero >= 0:  # expat would take it for UTF-16, and places in it for others
+        line, column = text.count("\n", 0, zero) + 1, zero - text.rfind("\n", 0, zero)
+        span = Span(file, line, column, line, column + 1)
+        return _refused(
+            "xml-not-well-formed", "not well-formed XML: a zero byte, as in UTF-16", "save it as UTF-8", span
+        )
     builder = _TreeBuilder(data, file)
     try:
         builder.parser.Parse(data, True)
@@ -70,6 +81,36 @@ def read_xml(text: str, file: str) -> Outcome[XmlElement]:
         return _refused(error.code, error.message, error.help_text, builder.here())
     assert builder.root is not None  # expat reports a document without an element as an error
     return Outcome(builder.root)
+
+
+def with_values(text: str, tag: str, attribute: str, change: Callable[[str], str]) -> str:
+    """Return a document that `read_xml` takes with the values of an attribute changed, and all else to the letter."""
+    data = text.encode("utf-8", "surrogatepass")
+    parser, found = expat.ParserCreate(encoding="utf-8"), list[tuple[int, str]]()
+
+    def start(name: str, attributes: dict[str, str]) -> None:
+        if name == tag and attribute in attributes:
+            found.append((parser.CurrentByteIndex, attributes[attribute]))
+
+    parser.StartElementHandler = start
+    parser.Parse(data, True)
+    parts, done = list[bytes](), 0
+    for at, value in found:
+        begin, end = _value_place(data, at + 1 + len(tag.encode()), attribute.encode())
+        changed = change(value)
+        if changed != value:
+            parts += [data[done:begin], quoteattr(changed).encode("utf-8", "surrogatepass")]
+            done = end
+    return b"".join((*parts, data[done:])).decode("utf-8", "surrogatepass")
+
+
+def _value_place(data: bytes, at: int, attribute: bytes) -> tuple[int, int]:
+    """Return where the value of an attribute of a start tag stands, with its quotes."""
+    while match := _ATTRIBUTE.match(data, at):
+        if match[1] == attribute:
+            return match.span(2)
+        at = match.end()
+    raise AssertionError("expat found the attribute")
 
 
 def _refused(code: str, message: str, help_text: str, span: Span) -> Outcome[XmlElement]:

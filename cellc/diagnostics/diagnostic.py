@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from enum import Enum
 from typing import Generic, TypeVar, Union
+
+from cellc.diagnostics.notebook import html_table
+from cellc.diagnostics.unsafe_text import escaped
 
 T = TypeVar("T")
 YamlPath = tuple[Union[str, int], ...]
@@ -52,6 +56,11 @@ class Severity(str, Enum):
     WARNING = "warning"
     AUDIT = "audit"
 
+    def counted(self, number: int) -> str:
+        """Return such as ``2 errors`` or ``1 audit item``."""
+        noun = "audit item" if self is Severity.AUDIT else self.value
+        return f"{number} {noun}{'' if number == 1 else 's'}"
+
 
 @dataclass(frozen=True, slots=True)
 class Related:
@@ -61,9 +70,11 @@ class Related:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Diagnostic:
     """One finding: what is wrong, where, and what to do about it.
+
+    Printed, it is one line, as compilers write it.
 
     Args:
         code: stable name of the defect, such as ``reversed-limits``.
@@ -81,6 +92,12 @@ class Diagnostic:
     yaml_path: YamlPath = ()
     help: str = ""
     related: tuple[Related, ...] = ()
+
+    def __str__(self) -> str:
+        return escaped(f"{self.span}: {self.severity.value}[{self.code}]: {self.message}")
+
+    def __repr__(self) -> str:
+        return f"<{self}>"
 
     def sort_key(self) -> tuple[Span, str, str]:
         """Order by place, then code, then message, so that output never depends on the order of checks."""
@@ -108,7 +125,19 @@ class CodePage:
     example: str = ""
 
 
-@dataclass(frozen=True, slots=True)
+def counted(diagnostics: Iterable[Diagnostic]) -> str:
+    """Return such as ``2 errors, 1 blocker``, the worst first, or ``no findings``."""
+    found = Counter(one.severity for one in diagnostics)
+    return ", ".join(one.counted(found[one]) for one in Severity if found[one]) or "no findings"
+
+
+def findings_table(caption: str, diagnostics: Iterable[Diagnostic]) -> str:
+    """Return findings as a table of HTML, in their order."""
+    rows = ((one.severity.value, one.code, str(one.span), one.message, one.help) for one in diagnostics)
+    return html_table(caption, ("severity", "code", "place", "what is wrong", "help"), rows)
+
+
+@dataclass(frozen=True, slots=True, repr=False)
 class Outcome(Generic[T]):
     """What a stage returns: its value where it could make one, and every diagnostic that it has to tell."""
 
@@ -119,6 +148,13 @@ class Outcome(Generic[T]):
     def ok(self) -> bool:
         """Whether the next stage may go on: there is a value and no error."""
         return self.value is not None and not any(d.severity is Severity.ERROR for d in self.diagnostics)
+
+    def __repr__(self) -> str:
+        made = "no value" if self.value is None else type(self.value).__name__
+        return f"<Outcome: {made}, {counted(self.diagnostics)}>"
+
+    def _repr_html_(self) -> str:
+        return findings_table(repr(self).strip("<>"), self.diagnostics)
 
 
 @dataclass(frozen=True, slots=True)

@@ -98,25 +98,26 @@ def _written(found: Diagnostic, document: SourceDocument) -> str:
 
 
 _MODELINE = "yaml-language-server:"
-_SCHEMA = Path("schemas") / "cell.schema.json"
+_SCHEMAS = Path("schemas")
 
 
-def missing_modeline(file: str, text: str) -> Iterator[Edit]:
-    """Yield the edit that puts the modeline first, where the spec has none and a schema lies beside or above it.
+def missing_modeline(file: str, text: str, schema_of: str = "cell") -> Iterator[Edit]:
+    """Yield the edit that puts the modeline first, where the file has none and a schema lies beside or above it.
 
     Args:
-        file: the root spec as the user named it.
+        file: the root spec, or the file of a device, as the user named it.
+        schema_of: what it is: a cell or a device.
     """
-    schema = _schema_above(Path(file))
+    schema = _schema_above(Path(file), _SCHEMAS / f"{schema_of}.schema.json")
     if schema is None or any(_MODELINE in line for line in text.split("\n") if line.lstrip().startswith("#")):
         return
     line = f"# {_MODELINE} $schema={schema}"
     yield Edit(file, 1, 1, 1, f"{line}\n", f"`{line}` is added")
 
 
-def _schema_above(file: Path) -> str | None:
+def _schema_above(file: Path, schema: Path) -> str | None:
     folder = file.resolve().parent
     for above in (folder, *folder.parents):
-        if (above / _SCHEMA).is_file():
-            return Path(os.path.relpath(above / _SCHEMA, folder)).as_posix()
+        if (above / schema).is_file():
+            return Path(os.path.relpath(above / schema, folder)).as_posix()
     return None

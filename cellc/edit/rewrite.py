@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import os
 import re
-import shutil
-import tempfile
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+
+from cellc.limits import limits
+from cellc.store.regular_file import read_regular
+from cellc.store.swap import replace_content
 
 _LINE = re.compile(r"[^\r\n]*(?:\r\n|\r|\n|$)")
 _BYTE_ORDER_MARK = "\ufeff"
@@ -57,7 +58,7 @@ def rewrite(file: Path, edits: Sequence[Edit], expected: str) -> bool:
         return False
     broken = _line_break(content)
     own = [Edit(e.file, e.line, e.column, e.end_column, e.text.replace("\n", broken), e.message) for e in edits]
-    _put(file, apply_edits(content, own))
+    replace_content(file, apply_edits(content, own).encode())
     return True
 
 
@@ -76,34 +77,18 @@ def replace_text(file: Path, text: str, expected: str) -> bool:
     if content is None:
         return False
     mark = _BYTE_ORDER_MARK if content.startswith(_BYTE_ORDER_MARK) else ""
-    _put(file, mark + text.replace("\n", _line_break(content)))
+    replace_content(file, (mark + text.replace("\n", _line_break(content))).encode())
     return True
 
 
 def _content(file: Path, expected: str) -> str | None:
     """Return a file's content as stored; None where it is not what is expected."""
-    content = file.read_bytes().decode("utf-8", errors="replace")
+    content = read_regular(file, limits().spec_bytes).decode("utf-8", errors="replace")
     return content if _normalised(content) == expected else None
 
 
 def _line_break(content: str) -> str:
     return "\r\n" if "\r\n" in content else "\n"
-
-
-def _put(file: Path, content: str) -> None:
-    """A reader sees the old or the new file, never a part; permissions stay, and a link keeps leading to its file."""
-    real = file.resolve()
-    descriptor, name = tempfile.mkstemp(prefix=f".{real.name}.", suffix=".cellc", dir=real.parent)
-    try:
-        with os.fdopen(descriptor, "wb") as stream:
-            stream.write(content.encode("utf-8"))
-            stream.flush()
-            os.fsync(stream.fileno())
-        shutil.copymode(real, name)
-        os.replace(name, real)
-    except BaseException:
-        Path(name).unlink(missing_ok=True)
-        raise
 
 
 def _normalised(content: str) -> str:

@@ -60,8 +60,8 @@ def _semantic(graph: CellGraph) -> Iterator[Element]:
             yield from _gripper(device)
     disabled = disabled_links(graph)
     yield comment(
-        f"neighbours, and pairs that touch at all or none of {disabled.samples} configurations within the joint "
-        f"limits, drawn with seed {RNG_SEED}; none means farther apart than {shortest(MARGIN_M)} m"
+        f"adjacent links, and pairs that collide in all or none of {disabled.samples} configurations within the joint "
+        f"limits (seed {RNG_SEED}); none means farther apart than {shortest(MARGIN_M)} m"
     )
     for pair in disabled.pairs:
         names = {"link1": pair.first, "link2": pair.second}

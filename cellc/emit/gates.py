@@ -1,8 +1,8 @@
 """``gates/promotion.md`` and ``gates/network.md``: G0–G7 and L1–L6 for this cell.
 
-Markdown checklists for the people at the cell. Commands read, or start what is released at that gate; what enables or
-moves anything is a step of the vendor's procedure and stands here as words. The page is copied into the evidence folder
-of an attempt, where it is filled in and signed.
+Markdown checklists for the people at the cell. Commands read, or start what is authorized at that gate; steps of a
+vendor's procedure, which enable or move anything, are words. The page is copied into the evidence folder of an attempt,
+filled in there and signed.
 """
 
 from __future__ import annotations
@@ -17,18 +17,16 @@ from cellc.formats.escape import markdown, markdown_comment
 from cellc.graph.cell_graph import CellGraph
 
 _PROMOTION = (
-    "Gates are passed in order, each with its evidence, and none is skipped. A gate that stops is entered again from "
-    "its first line."
+    "Pass the gates in order, each with its evidence. Skip none. If a gate fails, repeat it from its first line."
 )
 _NETWORK = (
-    "Layers are passed from the cable up, with drives disabled. A layer that fails is mended at that layer: no "
-    "firewall, watchdog or limit is weakened to pass one."
+    "Pass the layers from the cable up, with drives disabled. Fix a failure at its own layer. Do not weaken a "
+    "firewall, a watchdog or a limit to pass."
 )
 _WHERE = (
-    "Commands run in the folder that holds `cells/` and `generated/`, in a shell that is set up as `README.md` says, "
-    "with `E` set to the folder of the attempt. What starts something needs a shell that stays open. A command that "
-    "ends at its timeout, or finds no node, is run once more before its answer counts. An evidence file that no "
-    "command writes is written by hand."
+    "Run commands in the folder with `cells/` and `generated/`, in a shell set up as in `README.md`. Set `E` to the "
+    "folder of the attempt. Keep the shell of a launch or recording open. If a command times out or finds no node, run "
+    "it once more before its answer counts. Write an evidence file by hand where no command writes it."
 )
 
 
@@ -72,7 +70,7 @@ def _check(check: Check, evidence: str) -> Iterator[str]:
 
 
 def _kept(lines: list[str], evidence: str) -> Iterator[str]:
-    """Write what is read into the evidence of the gate as well."""
+    """Also write the output of commands into the evidence of the gate."""
     into = f'2>&1 | tee -a "$E/{evidence}"'
     if len(lines) == 1:
         yield f"{{ {lines[0]}; }} {into}" if "|" in lines[0] else f"{lines[0]} {into}"

@@ -24,7 +24,6 @@ from cellc.deploy.files import (
     SERVO,
     control_path,
     executes_plans,
-    is_planner,
     moveit_controllers_file,
     plans,
 )
@@ -330,7 +329,7 @@ def _servo(cell: Cell, servo: Servo) -> Parameters:
 
 
 def _scene_topic(cell: Cell) -> str:
-    namespace = next((node.namespace for node in cell.nodes if is_planner(node)), "")
+    namespace = next((node.namespace for node in cell.planners), "")
     return f"{namespace}/monitored_planning_scene"
 
 
@@ -353,7 +352,7 @@ def _name(cell: Cell, called: _Called) -> str:
     It is relative to move_group: with its slash where that is in a namespace of its own.
     """
     name = called.action.rpartition("/")[0]
-    return name if any(is_planner(node) and node.namespace for node in cell.nodes) else name.removeprefix("/")
+    return name if any(node.namespace for node in cell.planners) else name.removeprefix("/")
 
 
 def _short(type_: str) -> str:

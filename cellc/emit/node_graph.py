@@ -241,10 +241,10 @@ def _wrapped(name: str) -> list[str]:
 def _legend(y: float) -> Iterator[Element]:
     x = float(_MARGIN)
     words = {
-        "tells": "tells, asks",
-        "back": "tells back",
+        "tells": "publishes, requests",
+        "back": "returns data",
         "claims": "claims",
-        "moves": "moves past controllers",
+        "moves": "moves without a controller",
         "stops": "stops",
     }
     for kind, said in words.items():

@@ -48,7 +48,7 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     sources = unreleased(graph.cell)
     if sources:
         told = {name: {"type": "git", "url": pin.url, "version": pin.ref} for name, pin in sources.items()}
-        text = "# versions, devices: `vcs import src < sources.repos` in the workspace that this package is built in\n"
+        text = "# versions, devices: run `vcs import src < sources.repos` in the workspace of this package\n"
         yield Artifact(SOURCES, plan.header.commented("#") + text + yaml({"repositories": told}))
     yield Artifact("CMakeLists.txt", plan.header.commented("#") + "\n".join(_build_file(graph.cell)) + "\n")
 
@@ -62,7 +62,7 @@ def _package(cell: Cell) -> Element:
             element("name", text=cell.name),
             element("version", text="1.0.0"),
             element("description", text=cell.summary or f"Robot cell {cell.name}."),
-            comment("owners.approvals.graph; the spec holds no mailbox, so that mail to this address goes nowhere"),
+            comment("owners.approvals.graph; the spec has no mail address, so this one is a placeholder"),
             element("maintainer", {"email": _EMAIL}, text=cell.owners.approvals.graph),
             element("license", text="Apache-2.0"),
             element("buildtool_depend", text="ament_cmake"),

@@ -85,7 +85,7 @@ def _exchanges(cell: Cell) -> Iterator[Row]:
     yield from (_exchange(one) for one in cell.interfaces if one.name not in alone)
     for group in groups:
         sources, facts = tuple(end.node for end in group[0].sources), tuple(unused_facts(group))
-        starts, ends = (sources, ("nobody",)) if group[0].kind is InterfaceKind.TOPIC else (("nobody",), sources)
+        starts, ends = (sources, ("none",)) if group[0].kind is InterfaceKind.TOPIC else (("none",), sources)
         yield Row(starts, unused_title(group), facts, ends)
 
 
@@ -94,7 +94,7 @@ def _exchange(interface: Interface) -> Row:
     sinks = tuple(end.node for end in interface.sinks)
     # A sample travels to the subscriber, a goal or a request to the server.
     starts, ends = (sources, sinks) if interface.kind is InterfaceKind.TOPIC else (sinks, sources)
-    return Row(starts or ("nobody",), interface.name, tuple(interface_facts(interface)), ends or ("nobody",))
+    return Row(starts or ("none",), interface.name, tuple(interface_facts(interface)), ends or ("none",))
 
 
 def _claims(cell: Cell) -> Iterator[Row]:
@@ -115,7 +115,7 @@ def _drivers(cell: Cell) -> Iterator[Row]:
 def _stops(cell: Cell) -> Iterator[Row]:
     devices = tuple(device.name for device in cell.devices if device.is_driven)
     if devices:
-        yield Row((cell.safety.stop.authority,), "stops, whatever software says", tuple(stop_facts(cell)), devices)
+        yield Row((cell.safety.stop.authority,), "stops, independent of software", tuple(stop_facts(cell)), devices)
 
 
 def _sheet(bands: tuple[Band, ...]) -> Element:

@@ -1,7 +1,7 @@
-"""``README.md`` of the generated package: the way from power-off to a trajectory, and what stands in the folder.
+"""``README.md`` of the generated package: from power-off to a trajectory, and what is in the folder.
 
-Markdown for people who see the cell for the first time. The gates come first, because they are what everybody needs;
-each stands once, in ``gates/``, and is linked from here. Left out: what another file of the package says better; the
+Markdown for people who see the cell for the first time. The gates are first, because every reader needs them;
+each is written once, in ``gates/``, and linked from here. Left out: what another file of the package says better; the
 page names that file.
 """
 
@@ -43,37 +43,37 @@ _OPEN = "Before real hardware"
 _ANCHOR = "before-real-hardware"
 _HEAD = ("gate", "what it shows", "first command", "signed by")
 _NO_PLANNER = (
-    "No node of this cell plans, so that no configuration of MoveIt but the SRDF is here; a `move_group` among the "
-    "nodes of the spec brings it."
+    "No node of this cell plans. The SRDF is therefore the only MoveIt configuration here. Add `move_group` to the "
+    "nodes of the spec to get the rest."
 )
 _GOAL = "launch/goal.launch.xml"
 _FILES = (
     ("urdf/", "the description for the mock and for real hardware"),
     ("config/", "parameters of controller managers and nodes, the frame tree with its calibrations"),
-    (RVIZ, "what RViz shows, and never commands: `rviz2 -d` with it"),
-    ("config/moveit/", "the SRDF, and what move_group is told beyond it, with `config/joint_limits.yaml`"),
-    ("middleware/", "environment and profile for each host, sourced before anything is started there"),
+    (RVIZ, "RViz configuration, display only: `rviz2 -d` with it"),
+    ("config/moveit/", "the SRDF and the other parameters of move_group, with `config/joint_limits.yaml`"),
+    ("middleware/", "environment and profile of each host; source it before you start anything there"),
     ("security/policy.xml", "who may publish, serve and call; everything else is denied"),
-    ("launch/cell.launch.xml", "starts the cell; on real hardware it stops where a person takes over"),
-    ("launch/move.launch.xml", "starts what asks for motion; on real hardware only after a person releases it"),
-    ("launch/activate.launch.xml", "activates hardware that moves by it; a person releases it"),
-    ("launch/claim.launch.xml", "gives command interfaces their owners on real hardware; a person releases it"),
-    (_GOAL, "sends one small goal to the controller on real hardware; a person releases it"),
-    ("config/bring_up.json", "each step of the bring-up: its proof, what it asks for, and the effect that must show"),
-    ("scripts/bring_up", "the program that takes these steps"),
-    (VERSIONS_PROGRAM, "compares the version tuple with what is installed, as the first of these steps"),
-    (FIRST_GOAL_PROGRAM, "sends that goal from where the robot stands, and cancels one"),
-    (REQUIRED_PROGRAM, "ends the launch with the program without which the cell is none"),
-    (SOURCES, "repositories, at commits, of what the distribution does not release"),
-    ("contract.json", "what the interfaces promise: type, QoS, rate, age, owner, failure behavior"),
-    ("rehearsals.json", "what the mock executes, and the outcome that each run must end in"),
-    ("graph/cell.svg", "where everything stands, from two sides"),
-    ("graph/nodes.svg", "who talks to whom, each node once, with the list of what the arrows carry"),
-    ("graph/responsibility.svg", "what each arrow promises, and who answers for it; `.mmd` says the same"),
-    ("gates/promotion.md", "gates G0 to G7 as a checklist for one attempt; `gates/network.md` holds L1 to L6"),
-    ("audit.md", "open questions, version tuple, every command path, what the running cell must show, owners"),
-    ("config/recording_qos.yaml", "what an attempt records, and the command that does it"),
-    ("manifest.json", "version tuple, hash of every file, configuration id"),
+    ("launch/cell.launch.xml", "starts the cell; on real hardware it stops before claims and motion"),
+    ("launch/move.launch.xml", "starts the motion clients; on real hardware a person authorizes it"),
+    ("launch/activate.launch.xml", "activates hardware that moves on activation; a person authorizes it"),
+    ("launch/claim.launch.xml", "activates the controllers that claim joints on real hardware; a person authorizes it"),
+    (_GOAL, "sends one small goal to the controller on real hardware; a person authorizes it"),
+    ("config/bring_up.json", "steps of the bring-up, each with its proof, its request and the effect that must show"),
+    ("scripts/bring_up", "the program that runs these steps"),
+    (VERSIONS_PROGRAM, "the first of these steps: compares the version tuple with the installed packages"),
+    (FIRST_GOAL_PROGRAM, "sends that goal from the current position, and cancels one"),
+    (REQUIRED_PROGRAM, "ends the launch when a required program ends"),
+    (SOURCES, "repositories, pinned to commits, of packages that the distribution does not release"),
+    ("contract.json", "contract of each interface: type, QoS, rate, age, owner, failure behavior"),
+    ("rehearsals.json", "runs of the mock, each with its expected outcome"),
+    ("graph/cell.svg", "the cell from two sides"),
+    ("graph/nodes.svg", "who talks to whom: each node once, with a list of the arrows"),
+    ("graph/responsibility.svg", "contract and owner of each arrow; `.mmd` is the same graph"),
+    ("gates/promotion.md", "checklist of gates G0 to G7 for one attempt; `gates/network.md` has layers L1 to L6"),
+    ("audit.md", "open questions, version tuple, command paths, expected nodes and interfaces, owners"),
+    ("config/recording_qos.yaml", "what an attempt records, with the command"),
+    ("manifest.json", "version tuple, hash of every file, configuration ID"),
 )
 
 
@@ -94,8 +94,8 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
         markdown_comment(plan.header.text),
         f"# {cell.name}",
         markdown(cell.summary),
-        f"A ROS 2 package for {cell.distro}; the spec is its only source, so that a change is made there. Which "
-        "configuration it is stands in `manifest.json`.",
+        f"A ROS 2 package for {cell.distro}, generated from the spec. Make changes in the spec. The configuration ID "
+        "is in `manifest.json`.",
         f"![{cell.name} from two sides, with its frames](graph/cell.svg)",
         *_gates(plan),
         "## Every shell, once",
@@ -109,7 +109,7 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
         markdown(_sentence(cell)),
         f"![Who talks to whom in {cell.name}](graph/nodes.svg)",
         f"![Every arrow of {cell.name} with its owner](graph/responsibility.svg)",
-        "What the mock cannot prove, by device and vendor, stands in `audit.md`: the gates show it, or nothing does.",
+        "`audit.md` lists what the mock cannot prove, by device and vendor. Only the gates can show it.",
         "## What is here",
         "\n".join(f"- `{name}`: {text}" for name, text in _FILES if _present(cell, plan, name)),
         "" if plans(cell) else _NO_PLANNER,
@@ -120,16 +120,16 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
 def _gates(plan: Deployment) -> Iterator[str]:
     yield "## From power-off to a trajectory"
     yield (
-        "Gates are passed from top to bottom, each with its evidence and a signature; one that stops is begun again. "
-        "Enabling drives (G5) and moving (G6, G7) are steps of people at the cell: no file here takes them. The "
-        "sections Ending and Recovery of `audit.md` have the way to power-off, and the way back after a stop."
+        "Pass the gates from top to bottom, each with its evidence and a signature. If a gate fails, repeat it from "
+        "the start. People at the cell enable the drives (G5) and start motion (G6, G7); no file here does. For "
+        "power-off see Ending in `audit.md`. After a stop see Recovery."
     )
     yield _table(PROMOTION_CHECKLIST, plan.promotion)
-    yield "G3 is passed layer by layer, from the cable to the command path:"
+    yield "Pass G3 layer by layer, from the cable to the command path:"
     yield _table(NETWORK_CHECKLIST, plan.network)
     number = len(plan.questions)
     if number:
-        yield f"**{number} answers are missing in the spec**, and each stops gate G0: [{_OPEN}](#{_ANCHOR})."
+        yield f"**Missing in the spec: {number}.** Each stops gate G0. See [{_OPEN}](#{_ANCHOR})."
 
 
 def _table(file: str, gates: tuple[Gate, ...]) -> str:
@@ -145,7 +145,7 @@ def _row(file: str, gate: Gate) -> tuple[str, ...]:
 
 
 def _shell_of(cell: Cell) -> str:
-    """Return what every shell needs once: the built package, the host's environment, the folder of the attempt."""
+    """Return the setup of a shell: the built package, the host's environment, the folder of the attempt."""
     environments = [f"source generated/{cell.name}/middleware/{host}.sh  # on {host}" for host in cell.hosts]
     return _fenced(
         (
@@ -161,14 +161,14 @@ def _shell_of(cell: Cell) -> str:
 
 
 def _servers(cell: Cell) -> Iterator[str]:
-    """Yield what starts the discovery servers, without which nobody finds anybody."""
+    """Yield the commands that start the discovery servers, which every node needs."""
     for number, server in enumerate(cell.network.servers if cell.network.discovery == "server" else ()):
         start = f"generated/{cell.name}/middleware/{server.host}.discovery_server_{number}"
-        yield f"{start}  # on {server.host}, before all else, in a shell of its own"
+        yield f"{start}  # on {server.host}, first, in its own shell"
 
 
 def _sources(cell: Cell) -> Iterator[str]:
-    """Yield what fetches and builds what no distribution releases: pins are of these commits."""
+    """Yield the commands that fetch and build unreleased packages at their pinned commits."""
     if unreleased(cell):
         yield f"mkdir -p src && vcs import src < generated/{cell.name}/{SOURCES}  # once"
         yield "rosdep install --from-paths src --ignore-src  # once"
@@ -180,11 +180,11 @@ def _enforced(cell: Cell) -> Iterator[str]:
     if cell.versions.rmw.startswith("rmw_zenoh"):
         return
     yield (
-        "Where access is enforced, keys are made in a shell as above: domain and middleware are read from it, and "
-        "another of either needs new ones. A process then starts in its enclave of `security/policy.xml`, which the "
-        "launch files name, or not at all. Each host has its own enclaves alone, and `private/` is kept "
-        "away from the cell. What people type is told its enclave in a shell that launches nothing: that in which they "
-        f"look, or {code(commissioning_enclave(cell))} for the one command by which a gate or a recovery acts:"
+        "To enforce access, make the keys in a shell as above. They hold for its domain and middleware; make new keys "
+        "after a change of either. A process then starts only in its enclave of `security/policy.xml`. The launch "
+        "files name it. Copy to each host only its own enclaves, and keep `private/` away from the cell. For manual "
+        "commands, set the enclave in a shell that launches nothing. Use the enclave below to look, and "
+        f"{code(commissioning_enclave(cell))} for a command by which a gate or a recovery acts:"
     )
     yield _fenced(
         (
@@ -192,7 +192,7 @@ def _enforced(cell: Cell) -> Iterator[str]:
             'ros2 security create_keystore "$ROS_SECURITY_KEYSTORE"  # once, and the next line after each build',
             f'ros2 security generate_artifacts -k "$ROS_SECURITY_KEYSTORE" -p {_POLICY.format(cell.name)}',
             "export ROS_SECURITY_ENABLE=true ROS_SECURITY_STRATEGY=Enforce",
-            f"export ROS_SECURITY_ENCLAVE_OVERRIDE={people_enclave(cell)}  # only where people look, never to launch",
+            f"export ROS_SECURITY_ENCLAVE_OVERRIDE={people_enclave(cell)}  # only to look, never to launch",
         )
     )
 
@@ -204,7 +204,7 @@ def _fenced(lines: Iterable[str]) -> str:
 def _questions(questions: tuple[OpenQuestion, ...]) -> Iterator[str]:
     if questions:
         yield f"## {_OPEN}"
-        yield "Each of these is answered in the spec, where it stands; `audit.md` says whom to ask:"
+        yield "Answer each of these in the spec, at the path in brackets. `audit.md` says whom to ask:"
         yield "\n".join(
             f"- {markdown(f'{question.subject} ({code(spec_path(question.path))})')}" for question in questions
         )
@@ -224,7 +224,7 @@ def _present(cell: Cell, plan: Deployment, name: str) -> bool:
 
 
 def _sentence(cell: Cell) -> str:
-    """Return who tells what to whom, from the sensors to the drives and back to the stop."""
+    """Return the data flow as one sentence, from the sensors to the drives and the stop."""
     clauses = [
         *_streams(cell),
         *_dynamic_frames(cell),
@@ -250,12 +250,12 @@ def _streams(cell: Cell) -> Iterator[str]:
 def _dynamic_frames(cell: Cell) -> Iterator[str]:
     for frame in cell.frames:
         if frame.kind is FrameKind.DYNAMIC:
-            yield f"{frame.authority} says where {frame.name} is in {frame.parent}, at the stamp of its observation"
+            yield f"{frame.authority} publishes {frame.name} in {frame.parent}, stamped at its observation"
 
 
 def _actions(cell: Cell) -> Iterator[str]:
     for action in _written(cell, InterfaceKind.ACTION):
-        yield f"{_names(action, 'sinks')} asks {_names(action, 'sources')} through {code(action.name)}"
+        yield f"{_names(action, 'sinks')} sends goals to {_names(action, 'sources')} through {code(action.name)}"
     for controller in cell.controllers:
         if controller.action is not None:
             client = controller.client or "a client that the spec does not name"
@@ -263,7 +263,7 @@ def _actions(cell: Cell) -> Iterator[str]:
 
 
 def _instead(controller: Controller) -> str:
-    """Return where the goals go on real hardware, for a controller that is not there."""
+    """Return the destination of goals on real hardware, for a controller that runs only on the mock."""
     other = controller.stand_in
     return "" if other is None else f", on real hardware to {other.node} through {code(other.action)}"
 
@@ -286,9 +286,9 @@ def _drives(cell: Cell) -> Iterator[str]:
 
 def _stop(cell: Cell) -> str:
     stop = cell.safety.stop
-    return f"{stop.authority} stops the cell by a path ({stop.path}) that no software is part of"
+    return f"{stop.authority} stops the cell by a path ({stop.path}) without software"
 
 
 def _names(interface: Interface, side: str) -> str:
     ends = interface.sources if side == "sources" else interface.sinks
-    return " and ".join(end.node for end in ends) or "nobody"
+    return " and ".join(end.node for end in ends) or "no node"

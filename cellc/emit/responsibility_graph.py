@@ -79,7 +79,7 @@ def _physical_safety(cell: Cell) -> Iterator[str]:
     yield "end"
     for device in cell.devices:
         if device.is_driven:
-            label = _text("stops, whatever software says", *stop_facts(cell))
+            label = _text("stops, independent of software", *stop_facts(cell))
             yield f'{_id("stop", stop.authority)} == "{label}" ==> {_id("device", device.name)}'
 
 

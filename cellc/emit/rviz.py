@@ -14,7 +14,7 @@ from cellc.cell.cell import Cell
 from cellc.cell.frame import WORLD
 from cellc.cell.interface import InterfaceKind
 from cellc.deploy.deployment import Deployment
-from cellc.deploy.files import RVIZ, is_planner, plans
+from cellc.deploy.files import RVIZ, plans
 from cellc.formats.yaml_text import Tree, render
 from cellc.graph.cell_graph import CellGraph
 
@@ -38,9 +38,7 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
             "Views": {"Current": {"Class": "rviz_default_plugins/Orbit", "Distance": 3.0, "Target Frame": WORLD}},
         },
     }
-    yield Artifact(
-        RVIZ, plan.header.commented("#") + "# devices, interfaces: what is shown of the cell\n" + render(tree)
-    )
+    yield Artifact(RVIZ, plan.header.commented("#") + "# devices, interfaces: displays of the cell\n" + render(tree))
 
 
 def _displays(cell: Cell) -> Iterator[Tree]:
@@ -50,7 +48,7 @@ def _displays(cell: Cell) -> Iterator[Tree]:
     yield _display("rviz_default_plugins/RobotModel", "Robot", robot)
     yield _display("rviz_default_plugins/TF", "Frames", {"Show Names": False, "Frame Timeout": 15.0})
     if plans(cell):
-        place = next(node.namespace for node in cell.nodes if is_planner(node))
+        place = cell.planners[0].namespace
         scene: Tree = {"Planning Scene Topic": f"{place}/monitored_planning_scene"}
         yield _display("moveit_rviz_plugin/PlanningScene", "Planning scene", {**scene, **_MODEL})
         path: Tree = {"Trajectory Topic": f"{place}/display_planned_path", "Loop Animation": False}

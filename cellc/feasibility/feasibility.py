@@ -17,6 +17,7 @@ from cellc.feasibility.question import MotionQuestion, motion_question, shapes_a
 from cellc.feasibility.touching_links import touching_links
 from cellc.graph.cell_graph import CellGraph
 from cellc.limits import limits
+from cellc.printing import stage
 from cellc.store.cache import recall
 
 ALLOWED = "user"
@@ -88,6 +89,7 @@ def _touching(graph: CellGraph) -> tuple[DisabledLinks, ...]:
 def _sampled(urdf: str, roots: tuple[Path, ...]) -> DisabledAnswer:
     from cellc.feasibility.compute import sample_pairs
 
+    stage("pairs of links that may touch")
     return sample_pairs(urdf, roots)
 
 
@@ -109,6 +111,7 @@ def question_at_hand(graph: CellGraph) -> MotionQuestion:
 def _answered(question: MotionQuestion, roots: tuple[Path, ...]) -> MotionAnswer:
     from cellc.feasibility.compute import answer
 
+    stage("poses and goals")
     return answer(question, roots)
 
 

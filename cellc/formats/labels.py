@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from math import floor
 
 Point = tuple[float, float]
 _Box = tuple[float, float, float, float]
@@ -38,6 +39,29 @@ class Placed:
     far: bool
 
 
+class _Taken:
+    """Boxes that are taken, by the squares of a grid that they lie in: those far from a text hide nothing of it."""
+
+    def __init__(self, side: float) -> None:
+        self._side = side
+        self._boxes: list[_Box] = []
+        self._squares: dict[tuple[int, int], list[int]] = {}
+
+    def add(self, box: _Box) -> None:
+        for square in self._covered(box):
+            self._squares.setdefault(square, []).append(len(self._boxes))
+        self._boxes.append(box)
+
+    def near(self, box: _Box) -> list[_Box]:
+        """Return those that may overlap a box, in the order in which they were added."""
+        numbers = {number for square in self._covered(box) for number in self._squares.get(square, ())}
+        return [self._boxes[number] for number in sorted(numbers)]
+
+    def _covered(self, box: _Box) -> list[tuple[int, int]]:
+        left, top, right, bottom = (floor(one / self._side) for one in box)
+        return [(x, y) for x in range(left, right + 1) for y in range(top, bottom + 1)]
+
+
 def placed(labels: Iterable[Label], letter: float, bounds: _Box) -> tuple[Placed, ...]:
     """Return where each text stands; one without room within the bounds stands where it hides least.
 
@@ -46,15 +70,17 @@ def placed(labels: Iterable[Label], letter: float, bounds: _Box) -> tuple[Placed
         bounds: left, top, right, bottom.
     """
     ordered = sorted(labels, key=lambda one: (one.at[1], one.at[0], one.key))
-    taken = [_around(one.at, letter * 0.4) for one in ordered]
+    taken = _Taken(letter * 20)
+    for one in ordered:
+        taken.add(_around(one.at, letter * 0.4))
     found = []
     for label in ordered:
         choices = (
-            (_cost(box, taken, bounds) + distance, number, one, box)
+            (_cost(box, taken.near(box), bounds) + distance, number, one, box)
             for number, (one, box, distance) in enumerate(_choices(label, letter))
         )
         _, _, best, box = min(choices, key=lambda choice: choice[:2])
-        taken.append(box)
+        taken.add(box)
         found.append(best)
     return tuple(found)
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import Enum
 
-from cellc.catalog.load import load_distros
+from cellc.catalog.load import load_distros, load_packages
 from cellc.catalog.tables import DistroFacts, ReleaseSet
 from cellc.catalog.version_rows import RepositoryPin, VersionRow
 from cellc.cell.cell import Cell
@@ -32,6 +32,12 @@ class Pin:
     def known(self) -> bool:
         """Whether something else than UNKNOWN is written."""
         return self.text != UNKNOWN
+
+
+def is_known_package(name: str) -> bool:
+    """Whether a package of this name is in a distribution, or of a vendor that the catalog names."""
+    table = load_packages().value
+    return table is not None and table.has(name)
 
 
 def cell_pins(cell: Cell) -> Iterator[Pin]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import re
+import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,10 +11,11 @@ from typing import Any
 import yaml
 
 from cellc.description.packages import MANIFEST
+from cellc.description.xml_tree import read_xml
+from cellc.description.yaml_values import load_values
 from cellc.limits import limits
-from cellc.store.regular_file import open_regular
+from cellc.store.regular_file import read_regular
 
-_NAMED = re.compile(r"<robot\b[^>]*\bname\s*=\s*[\"']([^\"']*)[\"']")
 _PARAMETERS = "ros__parameters"
 _DEFAULT_HZ, _DEFAULT_S = 100.0, 1.0
 
@@ -30,10 +31,14 @@ class ControllerFacts:
 
 def semantic_file(description: Path, robot: str) -> Path | None:
     """Return the one SRDF of a robot near its description; of several that which has the name of the description."""
-    found = {file: _NAMED.search(_text(file)) for file in _near(description, ".srdf")}
-    own = [file for file, name in found.items() if name is not None and name[1] == robot]
+    own = [file for file in _near(description, ".srdf") if _robot_of(file) == robot]
     alike = [file for file in own if file.stem == description.name.partition(".")[0]]
     return own[0] if len(own) == 1 else alike[0] if len(alike) == 1 else None
+
+
+def _robot_of(file: Path) -> str | None:
+    root = read_xml(_text(file, limits().xml_bytes), file.as_posix()).value
+    return None if root is None or root.tag != "robot" else root.attributes.get("name")
 
 
 def controllers_near(description: Path, joints: Sequence[str]) -> ControllerFacts:
@@ -44,11 +49,11 @@ def controllers_near(description: Path, joints: Sequence[str]) -> ControllerFact
 
 def read_controllers(file: Path, joints: Sequence[str]) -> ControllerFacts | None:
     """Return what a file of parameters says of the controller that moves some joints; None where none does."""
-    text = _text(file)
+    text = _text(file, limits().xacro_yaml_bytes)
     if _PARAMETERS not in text:
         return None
     try:
-        nodes = dict(_nodes(yaml.safe_load(text), set()))
+        nodes = dict(_nodes(load_values(text), set()))
     except (yaml.YAMLError, ValueError, RecursionError):
         return None
     moving = (one for one in nodes.values() if set(joints) <= set(_listed(one.get("joints"))))
@@ -66,13 +71,18 @@ def _near(description: Path, suffix: str) -> Iterator[Path]:
     folder = description.absolute().parent
     # What lies above a package, or above a folder of none, is somebody else's.
     package = folder.parent.glob(f"*/*{suffix}") if (folder.parent / MANIFEST).is_file() else ()
-    yield from sorted({*folder.glob(f"*{suffix}"), *package})
+    left = limits().xml_bytes
+    for file in sorted({*folder.glob(f"*{suffix}"), *package}):
+        left -= file.stat().st_size if file.is_file() else 0
+        if left < 0:
+            return  # as much is no robot's, and a person can name the file
+        yield file
 
 
-def _text(file: Path) -> str:
+def _text(file: Path, most: int) -> str:
+    """Return what a file holds; nothing of one that cannot be read, or is larger than it may be."""
     try:
-        with open_regular(file) as stream:
-            return stream.read(limits().xacro_yaml_bytes).decode("utf-8", "replace")
+        return read_regular(file, most).decode("utf-8", "replace")
     except OSError:
         return ""
 
@@ -95,4 +105,4 @@ def _listed(value: Any) -> list[str]:
 
 
 def _positive(value: Any, default: float) -> float:
-    return float(value) if isinstance(value, (int, float)) and 0.0 < value < float("inf") else default
+    return float(value) if isinstance(value, (int, float)) and 0.0 < value <= sys.float_info.max else default

@@ -8,10 +8,9 @@ from cellc.description.model import Joint
 from cellc.formats.numbers import shortest
 from cellc.importing.beside import ControllerFacts
 from cellc.importing.chain import Chain, home_of, range_of
+from cellc.importing.role import Role
 
 _WIDEST = {False: 0.2, True: 0.02}
-GROUP = "arm_group"
-"""The planning group of the chain."""
 _SHARE = 0.25
 """Of a joint's range that a path tolerance is at most."""
 
@@ -25,7 +24,7 @@ class FirstCell:
         packages: folders of the repository in which packages of the description lie, relative to the spec.
     """
 
-    chain: Chain
+    role: Role
     away: tuple[float, ...]
     controllers: ControllerFacts = field(default_factory=ControllerFacts)
     ros: str = "jazzy"
@@ -34,9 +33,9 @@ class FirstCell:
 
 def cell_text(name: str, folder: str, first: FirstCell) -> str:
     """Write the spec of a cell whose one device is the folder, named relative to the spec."""
-    chain, moved = first.chain, first.controllers
-    joints = ", ".join(f"arm/{joint.name}" for joint in chain.joints)
-    base, tip = f"arm/{chain.base}", f"arm/{chain.tip}"
+    chain, moved, device, group = first.role.chain, first.controllers, first.role.device, first.role.group
+    joints = ", ".join(f"{device}/{joint.name}" for joint in chain.joints)
+    base, tip = f"{device}/{chain.base}", f"{device}/{chain.tip}"
     return "\n".join(
         (
             "format: 1",
@@ -45,23 +44,23 @@ def cell_text(name: str, folder: str, first: FirstCell) -> str:
             f"versions: {{ros: {first.ros}}}        # what is missing here is UNKNOWN and blocks the real target",
             *([f"packages: [{', '.join(first.packages)}]"] if first.packages else []),
             "devices:",
-            f"  arm: {{model: {folder}, mount: {{parent: world}}}}",
+            f"  {device}: {{model: {folder}, mount: {{parent: world}}}}",
             "control:",
             f"  update_rate: {moved.update_rate_hz:g} Hz",
             "  controllers:",
             "    joint_states: {type: joint_state_broadcaster}",
-            "    arm_trajectory:",
+            f"    {device}_trajectory:",
             "      type: joint_trajectory",
-            "      device: arm",
+            f"      device: {device}",
             f"      joints: [{joints}]",
             f"      goal_time: {moved.goal_time_s:g} s",
             f"      path_tolerance: {_tolerance(chain, 1.0)}",
             f"      goal_tolerance: {_tolerance(chain, 0.1)}",
             "motion:",
-            f"  groups: {{{GROUP}: {{base: {base}, tip: {tip}}}}}",
+            f"  groups: {{{group}: {{base: {base}, tip: {tip}}}}}",
             "  poses:",
-            f"    home: {{{GROUP}: {_positions([(joint, home_of(joint)) for joint in chain.joints])}}}",
-            f"    away: {{{GROUP}: {_positions(list(zip(chain.joints, first.away, strict=True)))}}}",
+            f"    home: {{{group}: {_positions([(joint, home_of(joint)) for joint in chain.joints])}}}",
+            f"    away: {{{group}: {_positions(list(zip(chain.joints, first.away, strict=True)))}}}",
             "rehearsals:",
             "  first_move: {steps: [move: away, move: home]}",
             "",

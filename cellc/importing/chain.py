@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from cellc.description.model import Description, Joint
+from cellc.description.model import Description, Joint, JointLimit
+from cellc.importing.kinds import is_jaw
 from cellc.importing.source import ImportRefusedError
 
 _SHARE = 0.1
@@ -14,6 +16,12 @@ _LARGEST = {True: 0.05, False: 0.2}
 """By whether a joint slides: the most that it moves, m or rad."""
 _HANDS = 3
 """A link that this many joints carry, and that several branches of joints hang on, is the palm of a hand."""
+
+_TIP_NAMES = tuple(
+    re.compile(rf"(^|[_/])({name})(_link|_frame)?$", re.IGNORECASE)
+    for name in ("tool0", "ee|eef|end_effector", "tcp", "tool|tool_tip", "gripper_frame|grasp|grasping", "flange")
+)
+"""Names of links that carry tools, the one that counts first in front; what vendors call them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +50,8 @@ def chain_of(description: Description) -> Chain:
     longest = max(runs, key=lambda run: len(run.joints), default=None)
     if longest is None:
         raise ImportRefusedError(f"`{description.name}` has no joint that can move: {_held(description)}")
-    return _with_tool(_without_fingers(longest, description), description)
+    chain = _without_fingers(longest, description)
+    return replace(chain, tip=tip_at(chain.tip, description).link)
 
 
 def _held(description: Description) -> str:
@@ -50,17 +59,12 @@ def _held(description: Description) -> str:
     joints = actuated(description)
     if not joints:
         return "its joints are fixed, or mimic each other" if description.joints else "it has no joints"
-    first, limit = joints[0], joints[0].limit
-    if limit is None:
-        why = "has no limits"
-    elif first.type != "continuous" and (limit.lower is None or limit.upper is None):
-        why = "has no range"
-    elif first.type != "continuous" and range_of(first) <= 0.0:
-        why = f"goes from {limit.lower:g} to {limit.upper:g} {'m' if first.slides else 'rad'}"
-    else:
-        why = f"has a velocity of {limit.velocity:g}" if limit.velocity is not None else "has no velocity"
+    first, limit = joints[0], joints[0].limit or JointLimit(None, None, None, None)
+    wrong = limit.velocity if limit.velocity is not None and limit.velocity < 0.0 else None
+    lower, upper = _ends(first)
+    why = f"a velocity of {wrong:g}" if wrong is not None else f"the range {lower:g} to {upper:g}"
     more = f", and {len(joints) - 1} more" if joints[1:] else ""
-    return f"`{first.name}` {why}{more}; what it can do stands in its `<limit>`"
+    return f"`{first.name}` has {why}{more}; correct its `<limit>`"
 
 
 def home_of(joint: Joint) -> float:
@@ -129,15 +133,18 @@ def _has_way(joint: Joint) -> bool:
 
 
 def _without_fingers(chain: Chain, description: Description) -> Chain:
-    """End a chain at the palm: where several branches move, or where what is left slides as jaws do."""
+    """End a chain at the palm: where several branches move, or where what is left slides or is named as jaws are."""
     below: dict[str, list[Joint]] = {}
     for joint in description.joints:
         below.setdefault(joint.parent, []).append(joint)
     for count in range(_HANDS, len(chain.joints)):
         finger = chain.joints[count]
         branches = sum(_moves(joint, below) for joint in below[finger.parent])
-        if branches > 1 or finger.slides:
+        if branches > 1 or finger.slides or is_jaw(finger):
             return Chain(chain.base, finger.parent, chain.joints[:count])
+    last = chain.joints[-1]
+    if len(chain.joints) > _HANDS and not _named(chain.tip, description) and _named(last.parent, description):
+        return Chain(chain.base, last.parent, chain.joints[:-1])
     return chain
 
 
@@ -153,15 +160,40 @@ def _moves(joint: Joint, below: Mapping[str, list[Joint]]) -> bool:
     return False
 
 
-def _with_tool(chain: Chain, description: Description) -> Chain:
-    """Follow fixed joints from the tip to the last frame, as far as there is one way."""
-    fixed: dict[str, list[str]] = {}
-    for joint in description.joints:
-        if joint.type == "fixed":
-            fixed.setdefault(joint.parent, []).append(joint.child)
-    tip, seen = chain.tip, {chain.tip}
-    while len(fixed.get(tip, ())) == 1 and fixed[tip][0] not in seen and "/" not in fixed[tip][0]:
-        tip = fixed[tip][0]
-        seen.add(tip)
-    tools = [link for link in fixed.get(tip, ()) if link in ("tool0", "tcp", "ee_link")]
-    return Chain(chain.base, tools[0] if tools else tip, chain.joints)
+@dataclass(frozen=True, slots=True)
+class Tip:
+    """The link at the end of a chain that carries tools, or where fingers close; why, and whether that is certain."""
+
+    link: str
+    because: str
+    certain: bool = True
+
+
+def tip_at(link: str, description: Description) -> Tip:
+    """Return the tip of what a link carries without joints, by its name, or else the last frame."""
+    named = _named(link, description)
+    if named:
+        return Tip(named, "it is named as a tool frame")
+    carried, last = _carried(link, description), link
+    while len(carried[last]) == 1:
+        (last,) = carried[last]
+    return Tip(last, "it is the last link, and none is named as a tool frame", certain=False)
+
+
+def _named(link: str, description: Description) -> str:
+    """Return the link with the name of a tool frame that a link is or carries; empty if no link has one."""
+    carried = _carried(link, description)
+    found = ([name for name in carried if pattern.search(name)] for pattern in _TIP_NAMES)
+    return next((names[0] for names in found if names), "")
+
+
+def _carried(link: str, description: Description) -> dict[str, list[str]]:
+    """Return the links that fixed joints join below a link, itself too, nearest first, each with those on it."""
+    found: dict[str, list[str]] = {link: []}
+    for parent in (waiting := [link]):
+        for joint in description.joints:
+            if joint.type == "fixed" and joint.parent == parent and joint.child not in found:
+                found[parent].append(joint.child)
+                found[joint.child] = []
+                waiting.append(joint.child)
+    return found

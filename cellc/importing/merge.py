@@ -13,6 +13,8 @@ from typing import Any
 
 import yaml
 
+from cellc.description.yaml_values import load_values
+
 Facts = dict[str, Any]
 """What a ``device.yaml`` holds, as YAML has it."""
 _KEY = re.compile(r"^([A-Za-z_][A-Za-z0-9_]*):", re.MULTILINE)
@@ -32,8 +34,8 @@ _Loader.yaml_implicit_resolvers = {
 def facts_in(text: str) -> Facts | None:
     """Return what a ``device.yaml`` holds; None where it cannot be read, which a check tells with its place."""
     try:
-        found = yaml.load(text, Loader=_Loader)
-    except (yaml.YAMLError, ValueError):
+        found = load_values(text, _Loader, "spec-values")
+    except (yaml.YAMLError, ValueError, RecursionError):
         return None
     return found if isinstance(found, dict) else None
 
@@ -64,7 +66,9 @@ def _one(before: Any, now: Any, person: Any) -> Any:
 
 def _of_pairs(value: Any) -> bool:
     """Tell whether a value is the list of pairs of links that may touch."""
-    return isinstance(value, list) and all(isinstance(one, dict) and "links" in one for one in value)
+    return isinstance(value, list) and all(
+        isinstance(one, dict) and isinstance(one.get("links"), list) for one in value
+    )
 
 
 def _by_pair(pairs: list[Facts]) -> Facts:

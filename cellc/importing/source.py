@@ -3,26 +3,33 @@
 from __future__ import annotations
 
 import os
+import posixpath
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
 
-from cellc.description.meshes import MeshError, identify
-from cellc.description.model import Description
+from cellc.description.meshes import MeshError
+from cellc.description.model import Description, Mesh
 from cellc.description.packages import MANIFEST, declared_name, folders_elsewhere, root_of
+from cellc.description.read_description import text_under
 from cellc.description.urdf_reader import read_urdf
 from cellc.description.xacro_expansion import expand_xacro
-from cellc.diagnostics import Outcome, Span
-from cellc.source.text import read_text
+from cellc.description.xml_tree import read_xml, with_values
+from cellc.diagnostics import Outcome
+from cellc.errors import CellcError
+from cellc.importing.gaps import assumed_limits, with_limits
+from cellc.importing.merge import Facts
+from cellc.importing.meshes import PACKAGE, located, package_of
+from cellc.limits import limits
+from cellc.store.regular_file import read_regular
 
 _SUFFIXES = (".urdf", ".urdf.xacro", ".xacro")
-_FILENAME = re.compile(r"""(<mesh\b[^>]*?\bfilename\s*=\s*)(["'])(.*?)\2""", re.DOTALL)
-_PACKAGE = "package://"
+_LONGEST_LICENSE = 100
 
 
-class ImportRefusedError(Exception):
+class ImportRefusedError(CellcError):
     """Nothing can be imported, for one reason that the text says."""
 
 
@@ -36,6 +43,7 @@ class Robot:
         meshes: the file of each mesh of a collision shape, by the name in ``text``; those that are there.
         missing: names of meshes that are not.
         license: as ``package.xml`` says, or empty.
+        assumed: the limits in ``description`` that the text leaves out.
     """
 
     file: Path
@@ -44,6 +52,7 @@ class Robot:
     meshes: Mapping[str, Path]
     missing: tuple[str, ...]
     license: str
+    assumed: Facts
 
 
 def the_description(named: str) -> Path:
@@ -69,10 +78,16 @@ def _candidates(named: str) -> tuple[Path, ...]:
         return (place,)
     if not place.is_dir():
         raise ImportRefusedError(f"`{named}` is not a file, a folder or an installed package")
-    found = sorted(file for file in place.rglob("*") if file.name.endswith(_SUFFIXES) and file.is_file())
-    tops = [file for file in found if not re.search(r"macro|inc|materials|gazebo|transmission", file.name)]
+    found = descriptions_in(place)
     if not found:
         raise ImportRefusedError(f"`{named}` holds no URDF or xacro file")
+    return found
+
+
+def descriptions_in(folder: Path) -> tuple[Path, ...]:
+    """Return the files below a folder that are descriptions by their names, without parts where there are others."""
+    found = sorted(file for file in folder.rglob("*") if file.name.endswith(_SUFFIXES) and file.is_file())
+    tops = [file for file in found if not re.search(r"macro|inc|materials|gazebo|transmission", file.name)]
     return tuple(tops or found)
 
 
@@ -80,83 +95,77 @@ def read_robot(file: Path, arguments: Mapping[str, str]) -> Outcome[Robot]:
     """Read a description with the packages that lie beside it or above it.
 
     Raises:
-        ImportRefusedError: its links are no tree, or have names that ROS does not take.
+        ImportRefusedError: its links are no tree, have names that ROS does not take, or name meshes that may not be
+            copied.
     """
     root = root_of(file)
     expanded = _text(file, arguments, root)
     if expanded.value is None:
         return Outcome(None, expanded.diagnostics)
-    text = _FILENAME.sub(lambda match: f"{match[1]}{match[2]}{_packaged(match[3], file)}{match[2]}", expanded.value)
+    read = read_urdf(expanded.value, file.as_posix(), from_user=True)
+    if read.value is None:
+        return Outcome(None, read.diagnostics)
+    text = with_values(expanded.value, "mesh", "filename", lambda name: _packaged(name, file))
     read = read_urdf(text, file.as_posix(), from_user=True)
     if read.value is None:
         return Outcome(None, read.diagnostics)
     _refuse(read.value)
-    found, missing = dict[str, Path](), list[str]()
-    for name in _collision_meshes(read.value):
-        path = _located(name, file, root)
-        if path is None:
-            missing.append(name)
-        else:
-            found[name] = path
-    return Outcome(Robot(file, text, read.value, found, tuple(missing), _license(file)))
+    meshes = tuple(mesh for link in read.value.links for mesh in link.collision_meshes())
+    try:
+        found = located(meshes, file, root)
+    except MeshError as fault:
+        raise ImportRefusedError(f"{fault}; {fault.help_text}") from None
+    missing = tuple(name for name in dict.fromkeys(mesh.filename for mesh in meshes) if name not in found)
+    assumed = assumed_limits(read.value)
+    robot = with_limits(read.value, assumed)
+    return Outcome(Robot(file, text, robot, found, missing, _license(file), assumed))
 
 
 def _text(file: Path, arguments: Mapping[str, str], root: Path) -> Outcome[str]:
-    if file.suffix == ".xacro":
-        expanded = expand_xacro(file, arguments, root)
-        return Outcome(None if expanded.value is None else expanded.value.text, expanded.diagnostics)
-    return read_text(file, file.as_posix(), Span(file.as_posix(), 1, 1, 1, 1))
+    """Return the text of a URDF; one that is xacro by its name or by its elements is expanded."""
+    read = text_under(file, root) if file.suffix != ".xacro" else None
+    if read is not None and "<xacro:" not in (read.value or ""):
+        return read
+    expanded = expand_xacro(file, arguments, root)
+    return Outcome(None if expanded.value is None else expanded.value.text, expanded.diagnostics)
 
 
 def _packaged(name: str, file: Path) -> str:
     """Name a mesh by a package: one beside the description becomes one of a package of the description's own."""
     scheme, separator, path = name.partition("://")
-    if separator and scheme == "package":
-        return _PACKAGE + path.lstrip("/")  # `package:///PKG/…` stands in vendors' files, and their loaders take it
-    absolute = Path(path) if scheme == "file" and separator else file.parent / name
+    if separator and scheme != "file":
+        # `package:///PKG/…` stands in vendors' files, and their loaders take it; so do `//` and `..` within a package.
+        return PACKAGE + posixpath.normpath(path.lstrip("/")) if scheme in ("package", "model") else name
+    absolute = Path(os.path.normpath(path if separator else file.parent / name))
     for above in absolute.parents:
         if (above / MANIFEST).is_file():
             package = declared_name((above / MANIFEST).as_posix()) or above.name
-            return f"{_PACKAGE}{package}/{absolute.relative_to(above).as_posix()}"
-    inside = Path(os.path.normpath(absolute)).name
-    return f"{_PACKAGE}meshes/{inside}" if not separator or scheme == "file" else name
-
-
-def _collision_meshes(description: Description) -> Iterator[str]:
-    yield from dict.fromkeys(mesh.filename for link in description.links for mesh in link.collision_meshes())
-
-
-def _located(name: str, file: Path, root: Path) -> Path | None:
-    package, _, rest = name.removeprefix(_PACKAGE).partition("/")
-    if ".." in rest.split("/"):
-        return None
-    above = [folder.parent for folder in file.resolve().parents if folder.name == package]
-    found = next((mesh for folder in (*above, root) if (mesh := _identified(name, folder))), None)
-    if found is not None:
-        return found
-    beside = [folder / rest for folder in (file.parent, file.parent.parent, file.parent / "meshes")]
-    return next((place for place in beside if rest and place.is_file()), None)
-
-
-def _identified(name: str, root: Path) -> Path | None:
-    try:
-        return Path(identify(name, (root,)).path)
-    except MeshError:
-        return None
+            return f"{PACKAGE}{package}/{absolute.relative_to(above).as_posix()}"
+    return f"{PACKAGE}meshes/{absolute.name}"
 
 
 def packages_elsewhere(robot: Robot, folder: Path) -> tuple[str, ...]:
     """Return where the packages lie that a description names and its device folder does not hold, for `packages:`."""
-    named = re.findall(rf"{_PACKAGE}([^/\"']+)/", robot.text)
-    own = (name for name in named if not (folder / name).is_dir())
+    links = robot.description.links
+    shapes = [shape.geometry for link in links for shape in link.visuals]
+    shapes += [shape.geometry for link in links for shape in link.collisions]
+    named = {shape.filename for shape in shapes if isinstance(shape, Mesh)}
+    own = (name for name in map(package_of, named) if name and not (folder / name).is_dir())
     return folders_elsewhere(own, folder.parent.as_posix(), (root_of(robot.file).as_posix(),))
 
 
 def _license(file: Path) -> str:
+    """Return the first license that the manifest of a description's package names; empty where there is none."""
     manifest = next((above / MANIFEST for above in file.parents if (above / MANIFEST).is_file()), None)
-    text = "" if manifest is None else manifest.read_text(encoding="utf-8", errors="replace")
-    found = re.search(r"<license[^>]*>\s*([^<]{1,100}?)\s*</license>", text)
-    return "" if found is None else found[1]
+    if manifest is None:
+        return ""
+    try:
+        text = read_regular(manifest, limits().xml_bytes).decode("utf-8", "replace")
+    except OSError:
+        return ""
+    package = read_xml(text, manifest.as_posix()).value
+    found = None if package is None else package.first("license")
+    return "" if found is None else " ".join(found.text.split())[:_LONGEST_LICENSE]
 
 
 def _refuse(description: Description) -> None:

@@ -8,7 +8,8 @@ from pathlib import Path
 
 from cellc.diagnostics import Diagnostic, Span
 from cellc.layout.layout import formatted
-from cellc.source.read import link_out, read
+from cellc.source.compose import compose
+from cellc.source.read import link_out, not_a_mapping, read
 from cellc.source.text import read_text, text_of
 
 
@@ -52,5 +53,9 @@ def with_includes(spec: str) -> tuple[str, ...]:
 def _taken(name: str, text: str | None, findings: tuple[Diagnostic, ...]) -> Taken:
     if text is None or findings:
         return Taken(name, text or "", findings=findings)
+    root = compose(name, text).value
+    other = not_a_mapping(name, root) if root is not None and root.data is not None else None
+    if other is not None:  # a text of any kind is YAML of one value
+        return Taken(name, text, findings=(other,))
     made = formatted(name, text)
     return Taken(name, text, made.value or "", made.diagnostics)

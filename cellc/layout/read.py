@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 import yaml
 
+from cellc.errors import CellcError
 from cellc.layout.tree import Collection, Comment, Entry, Scalar, Value, Written
 from cellc.source.events import comments, last_written, parse_events
 
@@ -14,7 +15,7 @@ _COMMENT = re.compile("#")
 _KEEPS_ALL = re.compile(r"[|>][0-9]*\+")
 
 
-class UnusualError(ValueError):
+class UnusualError(CellcError, ValueError):
     """What this reader does not take apart: explicit keys, directives, aliases as keys, several documents."""
 
 

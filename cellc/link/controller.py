@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 from cellc.catalog.controller_kind import ControllerKind
 from cellc.catalog.device_controller import DeviceController
@@ -26,7 +27,8 @@ from cellc.vocabulary import OF_ONE_DEVICE, Behaviour, Distro
 _MOVES_THE_MOCK = {"position", "velocity", "acceleration"}
 
 
-@dataclass(frozen=True, slots=True)
+# Without slots, so that what every controller asks for is looked up once and kept.
+@dataclass(frozen=True)
 class ControlContext:
     """What controllers are bound against."""
 
@@ -34,6 +36,32 @@ class ControlContext:
     document: SourceDocument
     distro: Distro
     devices: Mapping[str, BoundDevice]
+
+    @cached_property
+    def joints(self) -> Mapping[str, DeviceJoint]:
+        """Joints of all devices by `device/joint`."""
+        bound = self.devices.items()
+        return {f"{name}/{joint.local_name}": joint for name, one in bound for joint in one.device.joints}
+
+    @cached_property
+    def labels(self) -> Mapping[str, tuple[str, ...]]:
+        """The same labels by the full name of a joint, in their order."""
+        found: dict[str, list[str]] = {}
+        for label, joint in self.joints.items():
+            found.setdefault(joint.name, []).append(label)
+        return {name: tuple(labels) for name, labels in found.items()}
+
+    @cached_property
+    def beyond_the_mock(self) -> frozenset[str]:
+        """Interfaces of groups that the real hardware alone has."""
+        hardware = [bound.device.hardware for bound in self.devices.values()]
+        groups = [group for one in hardware if one is not None for group in (*one.sensors, *one.gpios)]
+        return frozenset(
+            f"{group.name}/{name}"
+            for group in groups
+            if group.real_only or not group.declared
+            for name in (*group.command_interfaces, *group.state_interfaces)
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,7 +124,8 @@ def link_controller(place: ControllerPlace, written: ControllerSpec, context: Co
         return Outcome(None, (_no_device(place, written, context),))
     joints = _joints(written, place.path, chosen, context)
     interfaces = _interfaces(joints.value or (), written, chosen)
-    driven = {label: joint for label, joint in _all_joints(context).items() if joint.name in interfaces.joints}
+    named = {label for joint in interfaces.joints for label in context.labels.get(joint, ())}
+    driven = {label: joint for label, joint in context.joints.items() if label in named}
     tolerances = bind_tolerances(written, driven)
     controller = _controller(place, written, chosen, replace(interfaces, tolerances=tolerances), context)
     unknown = unknown_joints(written, driven, context.document, place.path)
@@ -238,9 +267,9 @@ def _targets(chosen: _Chosen, interfaces: _Interfaces, context: ControlContext) 
 def _taken_from(chosen: _Chosen, interfaces: _Interfaces, context: ControlContext) -> Iterator[Device]:
     if chosen.device is not None:
         yield chosen.device
-    for bound in context.devices.values():
-        if any(joint.name in interfaces.joints for joint in bound.device.joints):
-            yield bound.device
+    labels = (label for joint in interfaces.joints for label in context.labels.get(joint, ()))
+    named = {label.partition("/")[0] for label in labels}
+    yield from (bound.device for name, bound in context.devices.items() if name in named)
 
 
 def _beyond_the_mock(interfaces: _Interfaces, context: ControlContext) -> bool:
@@ -251,15 +280,7 @@ def _beyond_the_mock(interfaces: _Interfaces, context: ControlContext) -> bool:
     """
     if interfaces.claims and not set(interfaces.claims) & _MOVES_THE_MOCK:
         return True
-    hardware = [bound.device.hardware for bound in context.devices.values()]
-    groups = [group for one in hardware if one is not None for group in (*one.sensors, *one.gpios)]
-    absent = {
-        f"{group.name}/{name}"
-        for group in groups
-        if group.real_only or not group.declared
-        for name in (*group.command_interfaces, *group.state_interfaces)
-    }
-    return not absent.isdisjoint((*interfaces.command, *interfaces.state))
+    return not context.beyond_the_mock.isdisjoint((*interfaces.command, *interfaces.state))
 
 
 def _stand_in(kind: ControllerKind, device: Device) -> StandIn | None:
@@ -316,18 +337,13 @@ def _joints(
 ) -> Outcome[tuple[str, ...]]:
     if not written.joints:
         return Outcome(() if chosen.device is None else _default_joints(chosen.kind, chosen.device))
-    known = _all_joints(context)
+    known = context.joints
     problems = tuple(
         unknown_name("unknown-joint", joint, "joint", known, context.document, (*path, "joints", index))
         for index, joint in enumerate(written.joints)
         if joint not in known
     )
     return Outcome(tuple(known[joint].name for joint in written.joints if joint in known), problems)
-
-
-def _all_joints(context: ControlContext) -> dict[str, DeviceJoint]:
-    """Return the joints of all devices by `device/joint`."""
-    return {f"{name}/{joint.local_name}": joint for name, one in context.devices.items() for joint in one.device.joints}
 
 
 def _default_joints(kind: ControllerKind, device: Device) -> tuple[str, ...]:

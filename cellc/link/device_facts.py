@@ -6,8 +6,8 @@ import datetime
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
-from cellc.catalog.device_interfaces import ImageFacts, ViewFacts
-from cellc.catalog.device_model import CommissioningStep as CommissioningFacts
+from cellc.catalog.device_bring_up import CommissioningStep as CommissioningFacts
+from cellc.catalog.device_graph import ImageFacts, ViewFacts
 from cellc.catalog.device_model import DeviceModel, GripperFacts
 from cellc.catalog.robot_facts import HumanStep
 from cellc.cell.device import (

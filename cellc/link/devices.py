@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from cellc.catalog.device_interfaces import JointInterfaces
-from cellc.catalog.device_model import AccelerationLimit, DeviceModel, JerkLimit, VelocityLimit
+from cellc.catalog.device_model import DeviceModel
+from cellc.catalog.limit_facts import AccelerationLimit, JerkLimit, VelocityLimit
 from cellc.catalog.load import CatalogDevice, device_names, load_device, load_device_folder
 from cellc.cell.device import EVERY_JOINT, Device, DeviceJoint
 from cellc.cell.frame import WORLD
@@ -235,6 +236,7 @@ def _joints(
             acceleration=_scaled(_limit(facts.limits.acceleration_of(joint.name)), shares.acceleration),
             jerk=_limit(facts.limits.jerk_of(joint.name)),
             effort=None if joint.limit is None else joint.limit.effort,
+            assumed=() if joint.mimic is not None else tuple(facts.limits.assumed_of(joint.name)),
             mimics=None if joint.mimic is None else prefix + joint.mimic.joint,
             command_interfaces=_interfaces(facts, joint).command,
             state_interfaces=_interfaces(facts, joint).state,

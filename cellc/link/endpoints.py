@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from cellc.catalog.device_interfaces import QosFacts, QosUse
+from cellc.catalog.device_graph import QosFacts, QosUse
 from cellc.catalog.tables import QosTable, Rmw, SystemDefault
 from cellc.cell.control import Controller, ControllerManager
 from cellc.cell.interface import TARGETS, Endpoint, Node, NodeSource, Qos, node_labels
@@ -135,7 +135,12 @@ def name_endpoints(
     words = {
         label: EndName(label, node.full_name, node.owner) for node, label in zip(own, node_labels(own), strict=True)
     }
-    words |= {one.device.name: _of_device(one, nodes, spec, resolver) for one in devices}
+    by_device: dict[str | None, list[str]] = {}
+    for node in nodes:
+        by_device.setdefault(node.device, []).append(node.full_name)
+    names = frozenset(node.full_name for node in nodes)
+    for one in devices:
+        words[one.device.name] = _of_device(one, by_device.get(one.device.name, ()), names, spec, resolver)
     command = spec.owners.responsibilities.command
     words |= {c.label: EndName(c.label, c.full_name, command, c.targets) for c in controllers}
     full = {end.full_name: end for end in words.values()}
@@ -157,16 +162,17 @@ def _shared(controllers: tuple[Controller, ...]) -> dict[str, tuple[str, ...]]:
     return shared
 
 
-def _of_device(bound: BoundDevice, nodes: tuple[Node, ...], spec: CellSpec, resolver: QosResolver) -> EndName:
+def _of_device(
+    bound: BoundDevice, driven: Sequence[str], names: Container[str], spec: CellSpec, resolver: QosResolver
+) -> EndName:
     device = bound.device
     alone = device.architecture == "direct_sdk" and bool(device.actuated_joints)  # its adapter has its name
-    names = () if alone else (node.full_name for node in nodes if node.device == device.name)
-    own = next(iter(names), f"/{device.name}")
+    own = next(iter(() if alone else driven), f"/{device.name}")
     return EndName(
         node=device.name,
         full_name=own,
         owner=spec.owners.responsibilities.vendor_safety,
-        nodes={one.name: one.node for one in device.offers if any(n.full_name == one.node for n in nodes)},
+        nodes={one.name: one.node for one in device.offers if one.node in names},
         offered=dict(_offered(bound, resolver)),
     )
 

@@ -23,7 +23,7 @@ from cellc.source.document import SourceDocument
 from cellc.spec.cell_spec import CellSpec
 from cellc.spec.devices import PlacementSpec
 from cellc.spec.frames import CalibrationSpec, FrameSpec
-from cellc.transforms import Pose, identity
+from cellc.transforms import Pose, apart, identity
 
 _FRAMES = "hand-eye-of-other-frames"
 _DIFFERS = "hand-eye-differs"
@@ -218,13 +218,12 @@ def _difference(placed: _Placed, read: _Read, found: Pose, document: SourceDocum
     if written.xyz is None and written.rpy is None:
         return ()
     stated = pose(written.xyz, written.rpy)
-    distance = math.dist(stated.position, found.position)
-    angle = 2.0 * math.acos(min(1.0, abs((stated.inverse() @ found).quaternion[3])))
+    distance, angle = apart(stated, found)
     if distance <= _NEAR_M and angle <= _NEAR_RAD:
         return ()
     path = (*placed.path, "xyz" if written.xyz is not None else "rpy")
-    apart = f"{distance * 1000.0:.2f} mm and {math.degrees(angle):.2f} deg"
-    message = f"`{placed.path[1]}` must stand where `{read.entry.from_}` has it, got {apart} beside it"
+    off = f"{distance * 1000.0:.2f} mm and {math.degrees(angle):.2f} deg"
+    message = f"`{placed.path[1]}` must stand where `{read.entry.from_}` has it, got {off} beside it"
     xyz = " ".join(f"{value * 1000.0:.2f}" for value in found.position)
     rpy = " ".join(f"{math.degrees(value):.3f}" for value in found.rpy())
     help_ = f"write neither `xyz` nor `rpy`, so that the file counts; it says `xyz: {xyz} mm, rpy: {rpy} deg`"

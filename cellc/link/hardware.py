@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import replace
 
+from cellc.catalog.device_graph import NodeFacts
 from cellc.catalog.device_interfaces import (
     GroupInterfaces,
     HardwareFacts,
     HardwareRelease,
     JointInterfaces,
-    NodeFacts,
     counted,
 )
 from cellc.catalog.device_model import DeviceModel

@@ -17,7 +17,7 @@ from cellc.link.names import Placeholders
 from cellc.link.side_file import compose_side_file, number, read_side_file
 from cellc.source.document import SourceDocument
 from cellc.spec.devices import DeviceSpec, KinematicsSpec
-from cellc.transforms import Pose, from_xyz_rpy
+from cellc.transforms import Pose, apart, from_xyz_rpy
 
 _CODE = "invalid-kinematics"
 _FIELDS = ("x", "y", "z", "roll", "pitch", "yaw")
@@ -147,8 +147,7 @@ def _offset(description: Description, joint: str, pose: Pose) -> float:
 
 def _turn(description: Description, joint: str, pose: Pose) -> float:
     """Return the angle between a joint's frame and that of the type, in rad."""
-    _, _, _, w = (_nominal(description, joint).inverse() @ pose).quaternion
-    return 2.0 * math.acos(min(1.0, abs(w)))
+    return apart(_nominal(description, joint), pose)[1]
 
 
 def _nominal(description: Description, joint: str) -> Pose:

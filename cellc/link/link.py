@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
 
@@ -268,11 +269,12 @@ def _rmw(spec: CellSpec) -> Rmw:
     return "rmw_fastrtps_cpp"
 
 
-def bare_cell(description: Description, file: str, root: str) -> Cell:
+def bare_cell(description: Description, file: str, root: str, excused: Mapping[str, str] | None = None) -> Cell:
     """Return a description alone as a cell of one device; what has no place in it begins the file.
 
     Args:
         root: the folder beside whose files the packages of meshes lie.
+        excused: codes that its `device.yaml` excuses, and why.
     """
     start, path = Span(file, 1, 1, 1, 1), ("devices", "robot")
     roots = description.roots()
@@ -285,6 +287,7 @@ def bare_cell(description: Description, file: str, root: str) -> Cell:
         kind="arm",
         description=description,
         root_link=roots[0] if roots else "",
+        excused=excused or {},
     )
     beside = Span(PurePosixPath(root, PurePosixPath(file).name).as_posix(), 1, 1, 1, 1)
     places = Places(file, {("cell",): start, ("devices",): start, path: start, (*path, "model"): beside})

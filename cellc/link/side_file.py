@@ -12,7 +12,7 @@ from pathlib import Path
 from cellc.diagnostics import Diagnostic, Outcome, Severity, Span, YamlPath
 from cellc.source.compose import compose
 from cellc.source.document import SourceDocument
-from cellc.source.text import lies_under, read_text
+from cellc.source.text import bytes_of, lies_under, text_of
 
 _NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d{1,3})?")
 
@@ -36,11 +36,14 @@ def read_side_file(written: str, document: SourceDocument, at: YamlPath) -> Outc
         message = f"`{shown}` leads out of the folder of the spec"
         advice = "copy the file beside the spec"
         return Outcome(None, (Diagnostic("include-escape", Severity.ERROR, message, place, at, advice),))
-    text = read_text(file, shown, place)
+    content = bytes_of(file, shown, place)
+    if isinstance(content, Diagnostic):
+        return Outcome(None, (content,))
+    text = text_of(content, shown)
     if text.value is None or text.diagnostics:
         return Outcome(None, text.diagnostics)
     from_root = os.path.relpath(file, Path(document.file).parent).replace(os.sep, "/")
-    return Outcome(SideFile(shown, from_root, hashlib.sha256(file.read_bytes()).hexdigest(), text.value))
+    return Outcome(SideFile(shown, from_root, hashlib.sha256(content).hexdigest(), text.value))
 
 
 def compose_side_file(file: SideFile) -> Outcome[SourceDocument]:

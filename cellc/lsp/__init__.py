@@ -1,1 +1,1 @@
-"""What an editor asks of a cell while it is written, and the language server that answers (``cellc[lsp]``)."""
+"""What an editor asks of a cell while it is written, and the language server that answers (extra ``lsp``)."""

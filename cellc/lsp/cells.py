@@ -93,10 +93,13 @@ def _texts(document: SourceDocument | None) -> Mapping[str, str]:
 
 def _device_findings(file: str, text: str) -> tuple[Diagnostic, ...]:
     """Return what is wrong with the file of a device by itself."""
-    written, composed = as_yaml(text, file), compose(file, text)
+    written = as_yaml(text, file)
+    if written.diagnostics:
+        return written.diagnostics
+    composed = compose(file, text)
     root = composed.value
-    if written.diagnostics or root is None or composed.diagnostics:
-        return (*written.diagnostics, *composed.diagnostics)
+    if root is None or composed.diagnostics:
+        return composed.diagnostics
     if isinstance(root.data, dict) and "family" in root.data:
         return ()  # half of an entry, which the other half completes
     return validated(SourceDocument(file, {file: text}, root), DeviceModel).diagnostics

@@ -12,8 +12,9 @@ from typing import Literal, Union, get_args, get_origin
 from pydantic import BaseModel
 from pydantic_core import PydanticCustomError
 
-from cellc.catalog.catalog_model import said_of
+from cellc.catalog.catalog_model import said_of, summary_of
 from cellc.catalog.device_model import DeviceModel
+from cellc.catalog.read_model import is_device
 from cellc.diagnostics import YamlPath
 from cellc.source.document import Plain
 from cellc.spec.base import REFERENCE_PATTERN
@@ -35,8 +36,7 @@ class Key:
 
 def root_model(data: Plain) -> type[BaseModel]:
     """Return the model that reads a file: that of a device where its first keys say so."""
-    is_device = isinstance(data, dict) and ("model" in data or "family" in data) and "devices" not in data
-    return DeviceModel if is_device else CellSpec
+    return DeviceModel if is_device(data) else CellSpec
 
 
 def annotation_at(data: Plain, path: YamlPath) -> object:
@@ -70,7 +70,7 @@ def meaning_of(data: Plain, path: YamlPath) -> str:
         if told:
             return told
     own = model_of(chosen(annotation_at(data, path), value_at(data, path)))
-    return (own.__doc__ or "").strip() if own is not None else ""
+    return summary_of(own) if own is not None else ""
 
 
 def words_of(annotation: object) -> list[str]:
@@ -121,8 +121,8 @@ def _key(model: type[BaseModel], name: str) -> Key:
 def _told_of(model: type[BaseModel], name: str) -> str:
     """Return what the docstring of a model says of a key, and that of the model which reads its value."""
     value = next(_models(inner(model, name), None), None) or next(_models(inner(inner(model, name), 0), None), None)
-    kind = (value.__doc__ or "").partition("\n\n")[0].replace("``", "`").split() if value is not None else ()
-    return " ".join((said_of(model, name), *kind)).strip()
+    kind = summary_of(value) if value is not None else ""
+    return f"{said_of(model, name)} {kind}".strip()
 
 
 def _models(annotation: object, data: Plain) -> Iterator[type[BaseModel]]:

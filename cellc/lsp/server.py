@@ -24,6 +24,7 @@ from pygls.workspace import PositionCodec, TextDocument
 from cellc.diagnostics import Diagnostic, Severity, Span
 from cellc.edit.rewrite import Edit
 from cellc.layout.layout import formatted
+from cellc.limits import limits
 from cellc.lsp.answers import Symbol, by_file, completions, definition, fixes, hover, symbols
 from cellc.lsp.cells import Cells
 from cellc.source.text import read_text
@@ -90,10 +91,11 @@ class CellServer(LanguageServer):
 
     def known_text(self, uri: str) -> str | None:
         """Return a document with line breaks as ``\\n``; None for one that is neither open nor to be read."""
-        try:
-            return normalised(self.workspace.get_text_document(uri).source)
-        except (OSError, ValueError):
-            return None
+        if uri not in self.workspace.text_documents:
+            file = file_of(uri)
+            return read_text(Path(file), file, Span(file, 1, 1, 1, 1)).value
+        source = self.workspace.get_text_document(uri).source
+        return None if len(source) > limits().spec_bytes else normalised(source)
 
     def soon(self, uri: str) -> None:
         """Check the cell of a document once nobody types; a later change begins the wait again."""
@@ -147,7 +149,8 @@ class CellServer(LanguageServer):
 
     def _opened(self) -> dict[str, str]:
         documents: dict[str, TextDocument] = dict(self.workspace.text_documents)
-        return {file_of(uri): normalised(one.source) for uri, one in documents.items()}
+        most = limits().spec_bytes + 1  # of a larger one so much that it is refused as a file is
+        return {file_of(uri): normalised(one.source[:most]) for uri, one in documents.items()}
 
 
 def _pump(source: int, sink: FileIO) -> None:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
+from time import process_time
 
 from cellc.contract.contract import Contract
 from cellc.contract.rehearsals import RehearsalEntry
+from cellc.limits import Purse, PurseError, limits, option
 from cellc.mock.agreement.agreement import refuse_disagreement
 from cellc.mock.assemble import assemble, start_nodes
 from cellc.mock.bringup import Bringup
@@ -25,6 +27,7 @@ from cellc.mock.result import AttemptRecord, RehearsalResult, RunFailure, StageE
 from cellc.mock.standing import StandingMemory, comes_up_alike
 from cellc.mock.task.context import TaskContext
 from cellc.mock.task.task import Task
+from cellc.printing import stage
 from cellc.vocabulary import AttemptOutcome
 
 Watch = Callable[[Plant], None]
@@ -224,6 +227,10 @@ class MockCell:
         """Return this cell with other rehearsals, some of which differ from what the folder says."""
         return MockCell(folder, self._memory, realities)
 
+    def __repr__(self) -> str:
+        named = ", ".join(self.rehearsals)
+        return f"<MockCell {self.contract.cell}: {named or 'no rehearsals'}>"
+
     @property
     def folder(self) -> GeneratedFolder:
         """What was read of the generated folder."""
@@ -326,6 +333,7 @@ def read_to_run(folder: Path, *, edited: bool = False) -> GeneratedFolder:
     Raises:
         MockError: as `load`.
     """
+    stage(f"reading {folder.as_posix()}")
     read = read_folder(folder, edited=edited)
     return replace(read, notes=(*read.notes, *refuse_disagreement(folder, read))) if read.edits else read
 
@@ -346,6 +354,20 @@ def cell_of(folder: GeneratedFolder) -> MockCell:
     )
 
 
+def in_turn(cell: MockCell, names: Iterable[str]) -> Iterator[str]:
+    """Yield the names of rehearsals, each of which is run before the next is asked for.
+
+    Raises:
+        MockError: they took the processor time that those of one folder may take together.
+    """
+    purse = Purse(limits().rehearsal_seconds, process_time)
+    try:
+        yield from purse.over(names)
+    except PurseError:
+        most = f"must take at most {limits().rehearsal_seconds} s of processor time together, got more"
+        raise MockError(cell.contract.files.rehearsals, f"{most}; {option('rehearsal-seconds')}") from None
+
+
 def run_all(cell: MockCell, *, seed: int = 0) -> tuple[RehearsalResult, ...]:
     """Run every rehearsal of a cell in the order of its folder."""
-    return tuple(cell.run(name, seed=seed) for name in cell.rehearsals)
+    return tuple(cell.run(name, seed=seed) for name in in_turn(cell, cell.rehearsals))

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from cellc.errors import CellcError
 from cellc.limits import option
 
 
-class MockError(Exception):
+class MockError(CellcError):
     """A generated folder cannot be loaded, or a name given to the mock does not exist.
 
     Args:
@@ -22,7 +23,7 @@ class MockError(Exception):
         return f"{self.file}: {self.reason}" if self.file else self.reason
 
 
-class LimitReachedError(Exception):
+class LimitReachedError(CellcError):
     """A run asks for more than the limits allow, which only running it shows; the run ends, others go on.
 
     Args:
@@ -34,9 +35,9 @@ class LimitReachedError(Exception):
         super().__init__(f"{text}; {option(limit)}")
 
 
-class FaultMissedError(Exception):
+class FaultMissedError(CellcError):
     """A fault that was to begin has nothing to begin with; the message says why."""
 
 
-class OversleptError(Exception):
+class OversleptError(CellcError):
     """A task slept over what it would have seen by looking all the time; the run is made again, with every look."""

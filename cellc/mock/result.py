@@ -11,7 +11,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass
 from enum import Enum
 
-from cellc.diagnostics.unsafe_text import harmless_json
+from cellc.diagnostics.notebook import html_table
+from cellc.diagnostics.unsafe_text import escaped, harmless_json
 from cellc.vocabulary import AttemptOutcome, Term
 
 
@@ -34,6 +35,14 @@ class TracePoint:
 
     step: PacketStep
     stamp_ns: int
+
+
+@dataclass(frozen=True, slots=True)
+class MadeStep:
+    """When a step happened, and how long after the latest of the start of the attempt and the steps before."""
+
+    stamp_ns: int
+    after_s: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,6 +105,16 @@ class AttemptRecord:
     ended_ns: int
     trace: tuple[TracePoint, ...]
 
+    @property
+    def made(self) -> dict[PacketStep, MadeStep]:
+        """The steps that were made, in their order."""
+        stamps = {point.step: point.stamp_ns for point in self.trace}
+        before_ns, made = self.started_ns, {}
+        for step in (step for step in PacketStep if step in stamps):
+            made[step] = MadeStep(stamps[step], (stamps[step] - before_ns) / 1e9)
+            before_ns = max(before_ns, stamps[step])
+        return made
+
 
 def to_json_line(record: AttemptRecord) -> str:
     """Return a record as one line of JSON; floats have the shortest text that reads back to the same value."""
@@ -137,7 +156,7 @@ class StageEvidence:
         return not self.problems
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class RehearsalResult:
     """The end of one rehearsal with its evidence; nothing in it depends on the host or the hour.
 
@@ -167,11 +186,20 @@ class RehearsalResult:
 
     @property
     def reason(self) -> str:
-        """Why the rehearsal ended as it did; empty after a plain success."""
-        problems = [problem for stage in self.bringup for problem in stage.problems]
-        if problems:
-            return "; ".join(problems)
-        return self.attempts[-1].fault_code if self.attempts else ""
+        """Which step ended the rehearsal, and why; empty after a plain success."""
+        for stage in self.bringup:
+            if stage.problems:
+                return f"bring-up, {stage.stage}: {'; '.join(stage.problems)}"
+        *attempts, end = self.attempts or (None,)
+        if end is None or not end.fault_code:
+            return ""
+        number = max((at for at, one in enumerate(attempts, 1) if one and one.fault_code == end.fault_code), default=0)
+        return f"{self._step(number)}: {end.fault_code}" if number else end.fault_code
+
+    def _step(self, number: int) -> str:
+        """Name a step as the spec does, such as ``step 8 `move: pick` ``."""
+        kind, _, target = self.attempts[number - 1].step.partition(" ")
+        return f"step {number} `{kind}{': ' if target else ''}{target}`"
 
     @property
     def title(self) -> str:
@@ -187,3 +215,19 @@ class RehearsalResult:
     def passed(self) -> bool:
         """Tell whether the rehearsal met its faults, and ended as expected and within its bound."""
         return self.outcome == self.expected and self.in_time and not self.vacuous
+
+    def __repr__(self) -> str:
+        told = f"{self.outcome.value} (expected {self.expected.value}), {self.sim_time_s:.2f} s simulated"
+        return escaped(f"<RehearsalResult {self.title}: {told}>")
+
+    def _repr_html_(self) -> str:
+        rows = (
+            (one.step, one.outcome.value, f"{(one.ended_ns - one.started_ns) / 1e9:.2f}", one.fault_code)
+            for one in self.attempts
+        )
+        return html_table(repr(self).strip("<>"), ("step", "outcome", "s simulated", "reason"), rows)
+
+
+def simulated_s(results: Iterable[RehearsalResult]) -> float:
+    """Return how much time several rehearsals simulated."""
+    return sum(result.sim_time_s for result in results)

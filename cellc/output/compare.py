@@ -52,7 +52,7 @@ def _differences(artifacts: Sequence[Artifact], folder: Path) -> Iterator[Differ
             yield Difference(artifact.path, "missing")
             continue
         found = content.decode("utf-8", errors="replace")
-        line, expected, actual = _first_difference(artifact.text, found)
+        line, expected, actual = _first_difference(artifact.content.decode(), found)
         is_edited = artifact.path in planned.edited and artifact.path != MANIFEST
         yield Difference(artifact.path, "edited" if is_edited else "outdated", line, expected, actual)
 

@@ -39,7 +39,7 @@ def with_manifest(
         configuration_id=configuration_id,
         configuration_inputs=configuration_inputs,
         version_tuple=dict(version_tuple),
-        files={artifact.path: sha256(artifact.text.encode()) for artifact in ordered},
+        files={artifact.path: sha256(artifact.content) for artifact in ordered},
     )
     return (*ordered, Artifact(MANIFEST, render(manifest)))
 
@@ -50,7 +50,7 @@ def sha256(content: bytes) -> str:
 
 
 def hashes_in(content: bytes | None) -> dict[str, str]:
-    """Return the hashes of the files that a manifest lists; none where it is absent or not a manifest.
+    """Return the hashes of the files that a manifest or a lock lists; none where it is absent or neither.
 
     Only what is needed is read, without the model of the whole file: a build that changes nothing loads no models.
     """
@@ -65,4 +65,4 @@ def hashes_in(content: bytes | None) -> dict[str, str]:
     files = manifest.get("files")
     if not isinstance(files, dict) or not all(isinstance(digest, str) for digest in files.values()):
         return {}
-    return files
+    return {path: digest.removeprefix("sha256:") for path, digest in files.items()}

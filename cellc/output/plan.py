@@ -8,7 +8,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
-from cellc.artifact import Artifact
+from cellc.artifact import NewFile
+from cellc.contract.file_names import opens_a_device
 from cellc.diagnostics import Diagnostic
 from cellc.limits import limits
 from cellc.output.codes import finding
@@ -26,46 +27,49 @@ class Plan:
     """The difference between the folder as it is and as it shall be.
 
     Args:
-        write: artifacts whose file is absent or has other content; the manifest is the last one.
+        write: files that are absent or have other content; the index is the last one.
         former: paths that an earlier build made and this one does not.
         remove: those of them where a file still stands.
         unchanged: paths whose files already are as they shall be.
         edited: paths whose content cellc did not write and would overwrite or remove.
     """
 
-    write: tuple[Artifact, ...]
+    write: tuple[NewFile, ...]
     former: tuple[str, ...]
     remove: tuple[str, ...]
     unchanged: tuple[str, ...]
     edited: tuple[str, ...]
 
 
-def plan(artifacts: Sequence[Artifact], folder: Path, interrupted: Sequence[Mapping[str, str]] = ()) -> Plan:
-    """Compare the folder with the artifacts.
+def plan(
+    files: Sequence[NewFile], folder: Path, interrupted: Sequence[Mapping[str, str]] = (), index: str = MANIFEST
+) -> Plan:
+    """Compare the folder with the files that it shall hold.
 
     Args:
         interrupted: hashes that a build would have left which was killed while it replaced files: a file that has
-            one of them was made by cellc, though the manifest in the folder does not know it.
+            one of them was made by cellc, though the index in the folder does not know it.
+        index: the file that lists the hashes of the others.
 
     Raises:
         OSError: a file cannot be read.
     """
-    known: list[Mapping[str, str]] = [hashes_in(content_of(folder / MANIFEST)), *interrupted]
+    known: list[Mapping[str, str]] = [hashes_in(content_of(folder / index)), *interrupted]
     write, unchanged, edited = [], [], []
-    for artifact in sorted(artifacts, key=lambda one: (one.path == MANIFEST, one.path)):
-        wanted = artifact.text.encode()
-        content = content_of(folder / artifact.path, len(wanted))
+    for file in sorted(files, key=lambda one: (one.path == index, one.path)):
+        wanted = file.content
+        content = content_of(folder / file.path, len(wanted))
         if content == wanted:
-            unchanged.append(artifact.path)
+            unchanged.append(file.path)
             continue
-        write.append(artifact)
-        if content is not None and artifact.path != MANIFEST and not _is_ours(artifact.path, content, known):
-            edited.append(artifact.path)
-    made = {artifact.path for artifact in artifacts}
-    former = sorted({path for hashes in known for path in hashes if _is_inside(path, folder)} - made)
+        write.append(file)
+        if content is not None and file.path != index and not _is_ours(file.path, content, known):
+            edited.append(file.path)
+    made = {file.path for file in files}
+    former = sorted({path for hashes in known for path in hashes if is_inside(path, folder)} - made)
     remove = []
     for path in former:
-        content = content_of(folder / path)
+        content = content_of(folder / path, limits().mesh_bytes)
         if content is not None:
             remove.append(path)
             edited += [] if _is_ours(path, content, known) else [path]
@@ -88,7 +92,7 @@ def content_of(path: Path, least: int = 0) -> bytes | None:
         return None
 
 
-def check_places(artifacts: Sequence[Artifact], folder: Path) -> Iterator[Diagnostic]:
+def check_places(artifacts: Sequence[NewFile], folder: Path) -> Iterator[Diagnostic]:
     """Yield a diagnostic for each link, file or folder that stands in the place of something else."""
     linked = folder if folder.is_symlink() else link_on_the_way(folder)
     if linked is not None:
@@ -113,17 +117,18 @@ def _is_ours(path: str, content: bytes, known: Sequence[Mapping[str, str]]) -> b
     return any(hashes.get(path) == sha256(content) for hashes in known)
 
 
-def _is_inside(path: str, folder: Path) -> bool:
+def is_inside(path: str, folder: Path) -> bool:
+    """Whether a path that a manifest names is one that cellc makes, and lies in the folder."""
     # A manifest is data that others may have written, and so are the links in the folder: neither must make a build
     # remove what lies elsewhere. Whoever made a file of cellc's had a path that cellc makes.
-    return not _reason(path) and link_above(path, folder) is None
+    return not unusable(path) and link_above(path, folder) is None
 
 
-def check_paths(artifacts: Sequence[Artifact], folder: Path) -> Iterator[Diagnostic]:
+def check_paths(artifacts: Sequence[NewFile], folder: Path) -> Iterator[Diagnostic]:
     """Yield a diagnostic for each path that leads out of the folder, is not portable, or collides with another."""
     seen: dict[str, str] = {}
     for artifact in artifacts:
-        reason = _reason(artifact.path)
+        reason = unusable(artifact.path)
         key = unicodedata.normalize("NFC", artifact.path).casefold()
         if not reason and key in seen:
             reason = f"is the same file as `{seen[key]}` where case does not count"
@@ -141,12 +146,15 @@ def _files_as_folders(seen: dict[str, str], folder: Path) -> Iterator[Diagnostic
             yield finding("bad-artifact-path", f"`{path}` needs a folder where the file `{parent}` stands", folder)
 
 
-def _reason(path: str) -> str:
+def unusable(path: str) -> str:
+    """Say why a path cannot be that of a file in a folder; empty where it can."""
     parts = path.split("/")
     if path.startswith("/"):
         return "is absolute"
     if any(part in ("", ".", "..") for part in parts):
         return "leads out of the folder or has an empty part"
+    if any(map(opens_a_device, parts)):
+        return "holds a name that Windows keeps for a device"
     if any(char in _RESERVED or not char.isprintable() for char in path):
         return "holds a character that not every file system allows"
     is_long = any(len(part.encode()) > _LONGEST_NAME for part in parts) or len(path.encode()) > _LONGEST_PATH

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -19,7 +19,7 @@ import numpy as np
 import pinocchio
 
 from cellc.description.meshes import MESH_NOT_FOUND, MeshError, without_meshes
-from cellc.description.model import Description, Joint
+from cellc.description.model import Description, Joint, Mimic
 from cellc.description.urdf_reader import read_urdf
 from cellc.planning.mesh_shapes import mesh_shapes
 from cellc.planning.problem import Array, ModelError, UnknownShapeError
@@ -222,31 +222,22 @@ def _resolve_mimics(description: Description) -> tuple[MimicJoint, ...]:
         ModelError: the joint followed does not exist or is fixed, or joints follow each other in a circle.
     """
     types = {joint.name: joint.type for joint in description.joints}
-    direct = {
-        joint.name: MimicJoint(joint.name, joint.mimic.joint, joint.mimic.multiplier, joint.mimic.offset)
-        for joint in description.joints
-        if joint.mimic is not None and joint.type != "fixed"  # a fixed joint follows nobody
-    }
-    for mimic in direct.values():
-        if mimic.leader not in types:
-            raise ModelError(f"joint `{mimic.joint}` mimics `{mimic.leader}`, which does not exist")
-        if types[mimic.leader] == "fixed":
-            raise ModelError(f"joint `{mimic.joint}` mimics `{mimic.leader}`, which is fixed")
-    return tuple(_resolve_chain(mimic, direct) for mimic in direct.values())
+    for follower, stated in _followers(description):
+        if stated.joint not in types:
+            raise ModelError(f"joint `{follower}` mimics `{stated.joint}`, which does not exist")
+        if types[stated.joint] == "fixed":
+            raise ModelError(f"joint `{follower}` mimics `{stated.joint}`, which is fixed")
+    direct = dict(_followers(description.with_direct_mimics()))
+    for follower, mimic in direct.items():
+        if mimic.joint in direct:
+            raise ModelError(f"joint `{follower}` mimics itself over `{mimic.joint}`")
+    return tuple(MimicJoint(name, one.joint, one.multiplier, one.offset) for name, one in direct.items())
 
 
-def _resolve_chain(mimic: MimicJoint, direct: dict[str, MimicJoint]) -> MimicJoint:
-    multiplier, offset, leader = mimic.multiplier, mimic.offset, mimic.leader
-    for _ in direct:
-        above = direct.get(leader)
-        if above is None:
-            return MimicJoint(mimic.joint, leader, multiplier, offset)
-        offset += multiplier * above.offset
-        multiplier *= above.multiplier
-        leader = above.leader
-    if leader not in direct:
-        return MimicJoint(mimic.joint, leader, multiplier, offset)
-    raise ModelError(f"joint `{mimic.joint}` mimics itself over `{mimic.leader}`")
+def _followers(description: Description) -> Iterator[tuple[str, Mimic]]:
+    for joint in description.joints:
+        if joint.mimic is not None and joint.type != "fixed":  # a fixed joint follows nobody
+            yield joint.name, joint.mimic
 
 
 def to_pose(transform: PinTransform) -> Pose:

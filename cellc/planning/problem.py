@@ -9,6 +9,8 @@ from enum import Enum
 import numpy as np
 import numpy.typing as npt
 
+from cellc.errors import CellcError
+
 Array = npt.NDArray[np.float64]
 Configuration = tuple[float, ...]
 
@@ -137,7 +139,7 @@ class PlanFailure:
     detail: str
 
 
-class ModelError(ValueError):
+class ModelError(CellcError, ValueError):
     """The robot description cannot be used; the message is one line and names the culprit."""
 
 
@@ -145,5 +147,5 @@ class UnknownShapeError(ModelError):
     """A collision shape names a mesh that is not there."""
 
 
-class LimitsError(ValueError):
+class LimitsError(CellcError, ValueError):
     """A limit is zero, negative, not a number, or reversed; the message names the joint."""

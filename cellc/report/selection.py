@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from cellc.diagnostics import Diagnostic, did_you_mean
+from cellc.errors import CellcError
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,7 +21,7 @@ class Selection:
         return (not self.selected or diagnostic.code in self.selected) and diagnostic.code not in self.ignored
 
 
-class UnknownSelectionError(ValueError):
+class UnknownSelectionError(CellcError, ValueError):
     """A name is neither a code nor a family; the message says which are near."""
 
 

@@ -60,14 +60,6 @@ def _gutter(diagnostic: Diagnostic) -> int:
     return len(str(max(numbers)))
 
 
-_NOUNS = {
-    Severity.ERROR: ("error", "errors"),
-    Severity.BLOCKER: ("blocker", "blockers"),
-    Severity.WARNING: ("warning", "warnings"),
-    Severity.AUDIT: ("audit item", "audit items"),
-}
-
-
 def counts(diagnostics: Iterable[Diagnostic]) -> dict[str, int]:
     """Return the number of findings of every severity, the worst first, zeros included."""
     found = Counter(diagnostic.severity for diagnostic in diagnostics)
@@ -115,8 +107,7 @@ def summed_errors(diagnostics: Iterable[Diagnostic], file: str) -> list[Line]:
 
 
 def _part(severity: Severity, number: int) -> Styled:
-    singular, plural = _NOUNS[severity]
-    return Styled(f"{number} {singular if number == 1 else plural}", SEVERITY_STYLES[severity])
+    return Styled(severity.counted(number), SEVERITY_STYLES[severity])
 
 
 _WHY = {

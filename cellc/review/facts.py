@@ -22,6 +22,7 @@ from cellc.description.model import Box, Collision, Cylinder, Description, Joint
 from cellc.description.urdf_reader import read_urdf
 from cellc.description.xml_tree import read_xml
 from cellc.diagnostics import Diagnostic
+from cellc.errors import CellcError
 from cellc.limits import limits
 from cellc.review.leaves import Leaf, Leaves, Path, Prose, as_json, flatten
 from cellc.review.units import shown
@@ -30,16 +31,19 @@ from cellc.transforms import Pose, identity
 CONTRACT, MANIFEST = "contract.json", "manifest.json"
 _AUDIT, _PROMOTION = "audit.md", "gates/promotion.md"
 _MATRIX = re.compile(r"\| ([^|]+) \| ([^|]+) \| ([^|]+) \| ([A-Z]+) \| (.*) \|")
-# What stands in a checklist alone, and must not pass as one line of many.
+# Values that only a checklist has; as one line of many they would be missed.
 _CHECKS = (
-    ("payload", re.compile(r"- \[ \] (.+) is told payload (.+?)(?:, by .*)?")),
-    ("tcp", re.compile(r"- \[ \] (.+) holds its TCP (.+); what it shows then .*")),
-    ("tool_voltage", re.compile(r"- \[ \] The tool connector of (.+) gives (.+): each was told .*")),
-    ("thresholds", re.compile(r"- \[ \] (.+): collision thresholds are set (.+)")),
-    ("load", re.compile(r"- \[ \] (.+): the load beside the end effector (.+)")),
-    ("joint_impedance", re.compile(r"- \[ \] (.+): the impedance of the joints (.+)")),
-    ("tool_impedance", re.compile(r"- \[ \] (.+): the impedance at the tool (.+)")),
-    ("first_motion", re.compile(r"- \[ \] (Said aloud before it moves): (.+)")),
+    ("payload", re.compile(r"- \[ \] Set the payload of (.+?) to (.+?), by .*")),
+    ("tcp", re.compile(r"- \[ \] Check that the TCP of (.+?) is (.+)\. Record .*")),
+    (
+        "tool_voltage",
+        re.compile(r"- \[ \] Check each nameplate before plugging in: the tool connector of (.+?) supplies (.+)"),
+    ),
+    ("thresholds", re.compile(r"- \[ \] (.+): Set the collision thresholds (.+)")),
+    ("load", re.compile(r"- \[ \] (.+): Set the load beside the end effector (.+)")),
+    ("joint_impedance", re.compile(r"- \[ \] (.+): Set the joint impedance (.+)")),
+    ("tool_impedance", re.compile(r"- \[ \] (.+): Set the tool impedance (.+)")),
+    ("first_motion", re.compile(r"- \[ \] (Announce before moving): (.+)")),
 )
 _VERSIONS = "\n## Version tuple\n"
 _MIDDLEWARE = re.compile(r"middleware/(.+)\.sh")
@@ -49,7 +53,7 @@ OF_SPEC = ("spec", "area", "reference_points", "mounted", "excused")
 _Model = TypeVar("_Model", bound=BaseModel)
 
 
-class FactsError(Exception):
+class FactsError(CellcError):
     """A file of a package is not what its name says; the text is one line."""
 
 

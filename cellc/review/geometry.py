@@ -9,8 +9,7 @@ from dataclasses import dataclass
 from cellc.contract.base import ContractPose
 from cellc.description.model import Joint
 from cellc.review.facts import Facts
-from cellc.review.leaves import moved
-from cellc.transforms import Pose, identity
+from cellc.transforms import Pose, apart, identity
 
 _GOAL = "place in the root frame"
 _NOTICED_M, _NOTICED_RAD = 1e-6, 1e-6
@@ -32,7 +31,7 @@ def moved_places(before: Facts, after: Facts) -> Iterator[Moved]:
         was, now = place(before), place(after)
         for name in was:
             if name in now and not (of == _GOAL and _same_frame(name, before, after)):
-                metres, radians = moved(was[name], now[name])
+                metres, radians = apart(was[name], now[name])
                 if metres > _NOTICED_M or radians > _NOTICED_RAD:
                     yield Moved(name, of, was[name], now[name])
 
@@ -40,7 +39,7 @@ def moved_places(before: Facts, after: Facts) -> Iterator[Moved]:
 def _same_frame(goal: str, before: Facts, after: Facts) -> bool:
     """Tell whether a goal moved in its frame alone, which its own pose tells."""
     was, now = (place(side, side.contract.goals[goal].frame, {}) for side in (before, after))
-    return was is not None and now is not None and max(moved(was, now)) <= _NOTICED_M
+    return was is not None and now is not None and max(apart(was, now)) <= _NOTICED_M
 
 
 def tips(facts: Facts) -> dict[str, Pose]:

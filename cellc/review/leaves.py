@@ -11,7 +11,7 @@ from typing import TypeAlias, Union
 from cellc.contract.base import Json
 from cellc.diagnostics import Span
 from cellc.review.tokens import tokens
-from cellc.transforms import Pose
+from cellc.transforms import Pose, apart
 
 Path: TypeAlias = tuple[str, ...]
 Item: TypeAlias = Union[str, float, int, bool]
@@ -125,15 +125,8 @@ def _same_item(before: Item, after: Item) -> bool:
 
 
 def _same_pose(before: Pose, after: Pose) -> bool:
-    metres, radians = moved(before, after)
+    metres, radians = apart(before, after)
     return metres <= 1e-9 and radians <= 1e-7
-
-
-def moved(before: Pose, after: Pose) -> tuple[float, float]:
-    """Return how far a pose moved, m, and by which angle it turned, rad."""
-    between = before.inverse() @ after
-    x, y, z, w = between.quaternion
-    return math.dist(before.position, after.position), 2.0 * math.atan2(math.hypot(x, y, z), abs(w))
 
 
 @dataclass(frozen=True, slots=True)

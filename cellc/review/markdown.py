@@ -39,7 +39,9 @@ def render_markdown(review: Review, longest: int = LONGEST) -> str:
             section.append(row)
         shown += [*section, "", "</details>", ""] if len(section) > _OPENING else []
     note = [f"**{left} more changes do not fit into a comment; `cellc diff` prints them all.**", ""] if left else []
-    return "\n".join([*head, *shown, *note, *tail]).rstrip("\n")[:longest] + "\n"
+    text = "\n".join([*head, *shown, *note, *tail]).rstrip("\n") + "\n"
+    # A line is whole or not there: what is cut off in the middle of code is no code any more.
+    return text if len(text) <= longest else text[: text.rfind("\n", 0, longest) + 1]
 
 
 _OPENING = 4

@@ -12,6 +12,7 @@ from cellc.catalog.tables import DistroFacts
 from cellc.cell.cell import Cell
 from cellc.diagnostics import Span
 from cellc.edit.rewrite import Edit, apply_edits
+from cellc.errors import CellcError
 from cellc.graph.versions import Pin
 from cellc.link.link import link
 from cellc.pipeline import Checked, check
@@ -31,7 +32,7 @@ PARTS = tuple(name for name in VersionsSpec.model_fields if name != "rollback")
 """The parts of the tuple that belong to the whole cell."""
 
 
-class UpgradeError(Exception):
+class UpgradeError(CellcError):
     """The spec cannot be moved to another tuple; the text is one line, lower case."""
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
-import tempfile
 from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
@@ -15,7 +14,9 @@ from cellc.artifact import Artifact
 from cellc.contract.review import ReviewRehearsal
 from cellc.limits import as_options, limits
 from cellc.output.write import write
+from cellc.printing import stage
 from cellc.review.sides import Package, SideError
+from cellc.store.swap import temporary_folder
 
 _Ended: TypeAlias = "dict[str, tuple[str, bool]]"
 
@@ -26,8 +27,9 @@ def outcomes_of(before: Package, after: Package) -> tuple[ReviewRehearsal, ...]:
     Raises:
         SideError: the mock cannot load a package.
     """
-    with tempfile.TemporaryDirectory(prefix="cellc-diff-") as folder:
-        was, now = _run((before, after), Path(folder))
+    stage("rehearsals of both")
+    with temporary_folder("cellc-diff-") as folder:
+        was, now = _run((before, after), folder)
     return tuple(_rehearsal(name, was, now) for name in dict.fromkeys((*was, *now)))
 
 

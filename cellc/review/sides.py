@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
@@ -12,17 +13,20 @@ from cellc.contract.manifest import Manifest
 from cellc.contract.reading import FormatError, read_json
 from cellc.contract.review import ReviewFinding
 from cellc.diagnostics import Diagnostic, Severity
+from cellc.errors import CellcError
 from cellc.limits import limits, option
 from cellc.mock.errors import MockError
 from cellc.mock.folder import read_text
+from cellc.printing import progress
 from cellc.review.facts import MANIFEST, Facts, FactsError, facts_of
-from cellc.review.revisions import RevisionError, repository_of
+from cellc.review.objects import RevisionError
+from cellc.review.revisions import repository_of
 
 if TYPE_CHECKING:
     from cellc.pipeline import Checked
 
 
-class SideError(Exception):
+class SideError(CellcError):
     """A side cannot be compared; the text is one line, lower case."""
 
 
@@ -80,12 +84,29 @@ def sides(arguments: Sequence[str]) -> tuple[Side, Side]:
             raise SideError(f"there is no file or folder `{arguments[0]}`")
         return _revised("HEAD", arguments[0]), _stated(arguments[0])
     first, second = arguments
+    _refuse_ambiguous(first, second)
     if not Path(first).exists():
         if ".." in first and ":" not in first:
             return _range(first, second)
         if ":" not in first:
             return _revised(first, second), _stated(second)
     return _stated(first), _stated(second)
+
+
+def _refuse_ambiguous(first: str, second: str) -> None:
+    """Refuse a name of a file that a revision has too, as git does: a branch may hold a file named as its base."""
+    if not Path(first).exists() or first.startswith(("/", "./", "../")):
+        return
+    named = first.partition(":")[0]
+    try:
+        repository = repository_of(Path(second).absolute())
+        for revision in re.split(r"\.{2,3}", named):
+            repository.commit(revision or "HEAD")
+    except RevisionError:
+        return
+    raise SideError(
+        f"`{first}` is a revision and a file; write `./{first}` for the file, or name the revision otherwise"
+    )
 
 
 def _stated(argument: str) -> Side:
@@ -159,7 +180,9 @@ def _shown_from(found: ReviewFinding, named: Mapping[str, str]) -> ReviewFinding
 
 def _read(name: str, path: Path, shown: str) -> Package:
     try:
-        return _of_folder(name, path) if path.is_dir() else _of_spec(name, shown)
+        with progress("comparing") as tell:
+            tell(name)
+            return _of_folder(name, path) if path.is_dir() else _of_spec(name, shown)
     except (FactsError, MockError) as problem:
         raise SideError(f"{name}: {problem}") from None
 

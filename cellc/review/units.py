@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections import Counter
 
-from cellc.review.leaves import Leaf, Prose, moved, said
-from cellc.transforms import Pose
+from cellc.review.leaves import Leaf, Prose, said
+from cellc.transforms import Pose, apart
 
 _FEW = 6
 """Entries of a list that are shown; of a longer one, those that differ."""
@@ -69,7 +69,7 @@ def _number(value: float) -> str:
 def difference(before: Leaf | None, after: Leaf | None, unit: str) -> str:
     """Return how much a value differs; empty where that has no size."""
     if isinstance(before, Pose) and isinstance(after, Pose):
-        return motion(*moved(before, after))
+        return motion(*apart(before, after))
     if isinstance(before, tuple) and isinstance(after, tuple):
         return _of_lists(before, after)
     if isinstance(before, (bool, str, Prose)) or isinstance(after, (bool, str, Prose)):

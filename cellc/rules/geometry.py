@@ -66,7 +66,7 @@ def _unseen(graph: CellGraph, faults: Sequence[MeshFault]) -> str:
     ]
     moving = [link for link in links if any(frame.moving for frame in graph.frames.chain(link))]
     of_these = f", {len(moving)} of which move" if moving else ", which stand still"
-    return f"; nobody looks whether {', '.join(f'`{link}`' for link in links)}{of_these}, touch anything"
+    return f"; contact of {', '.join(f'`{link}`' for link in links)}{of_these}, is not checked"
 
 
 def beyond_limits(graph: CellGraph, answer: MotionAnswer | DisabledAnswer) -> Findings:
@@ -115,7 +115,7 @@ def mounts(graph: CellGraph, contacts: Sequence[BodyContact]) -> tuple[Related, 
 
 
 def _written(graph: CellGraph, name: str) -> list[Frame]:
-    """Return the frames from one up to the world that the spec places; an object stands where it is simulated."""
+    """Return the frames from one up to the world that the spec places; an object is where it is simulated."""
     found: list[Frame] = []
     frame = graph.frames.get(name)
     while frame is not None and frame not in found:

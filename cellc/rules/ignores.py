@@ -16,21 +16,21 @@ CODES: tuple[CodePage, ...] = (
     CodePage(
         "ignore-refused",
         Severity.ERROR,
-        "a comment ignores a finding that nobody may ignore",
-        "Errors and blockers of safety, ownership and frames say that something can move that nobody stops, commands, "
-        "or knows the place of; errors of reading and linking say that the cell is not known. A comment can justify "
-        "neither, so both stay: the finding, and this one.",
-        "remove the comment and mend what the code reports",
+        "a comment ignores a finding that may not be ignored",
+        "Errors and blockers of safety, ownership and frames say that something can move without a stop, without an "
+        "owner, or from an unknown place. Errors of reading and linking say that the cell is not known. A comment can "
+        "justify neither, so both stay: the finding, and this one.",
+        "remove the comment and fix what the code reports",
         """
 safety:
-  stop: {authority: UNKNOWN, path: hardwired}  # cellc: ignore unknown-stop-authority nobody knows yet
+  stop: {authority: UNKNOWN, path: hardwired}  # cellc: ignore unknown-stop-authority not known yet
 """,
     ),
     CodePage(
         "ignore-without-reason",
         Severity.ERROR,
         "a comment ignores a finding and does not say why",
-        "Whoever reviews the cell later must be able to judge whether the exception still holds. Without a reason the "
+        "A later reviewer of the cell must be able to judge whether the exception still holds. Without a reason the "
         "comment has no effect.",
         "write `# cellc: ignore CODE reason`",
         """
@@ -42,7 +42,7 @@ versions:
         "unknown-ignored-code",
         Severity.ERROR,
         "a comment ignores a code that does not exist",
-        "A misspelt code ignores nothing, and the finding that was meant looks as if it came back by itself.",
+        "A misspelled code ignores nothing, and the intended finding seems to return by itself.",
         "write a code that `cellc explain` lists; several are separated by commas",
         """
 versions:
@@ -53,7 +53,7 @@ versions:
         "unused-ignore",
         Severity.WARNING,
         "a comment ignores a finding that is not there",
-        "What was excused is gone or stands on another line, and the comment would hide the next defect of its kind. "
+        "The excused finding is gone or is on another line, and the comment would hide the next defect of its kind. "
         "It counts at the end of the line that is reported.",
         "delete the comment, or move it to the end of the reported line",
         """
@@ -190,7 +190,7 @@ def _refusal(ignored: IgnoredCode, pages: Mapping[str, CodePage]) -> Diagnostic 
 
 
 def _refusal_of(code: str, severity: Severity) -> str | None:
-    """Return why nobody may ignore a code; None where a comment may."""
+    """Return why a code may not be ignored; None where a comment may ignore it."""
     rule = _RULES.get(code)
     if (rule is None or code in _LINK_CODES) and severity is Severity.ERROR:
         return "without it the cell is not known"
@@ -208,7 +208,7 @@ def _is_on_line(place: Span, comment: Span) -> bool:
 
 
 def _may_be_hidden(code: str, reported: set[str]) -> bool:
-    """Whether the rule did not run because of something that is reported, so that nobody knows."""
+    """Whether the rule did not run because of something that is reported, so that its result is unknown."""
     return code in _RULES and not reported.isdisjoint(_RULES[code].assumes)
 
 

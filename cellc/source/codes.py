@@ -66,6 +66,10 @@ limits:
 poses:
   1: {manipulator: 0 -90 90 -90 -90 0 deg}  # expect
 """,
+    "not-a-cell": """
+$ printf 'format: 1\\nmodel: my_arm\\n' > device.yaml
+$ cellc build device.yaml
+""",
     "not-a-file": """
 include: .  # expect
 """,
@@ -124,9 +128,17 @@ CODES: tuple[CodePage, ...] = (
     _page(
         "alias-bomb",
         "aliases expand to far more values than the file holds",
-        "An alias stands for everything its anchor holds, so nine short lines can mean thousands of millions of values "
-        "and fill the memory of whoever opens the file. The expanded size is counted before anything is expanded.",
+        "An alias means everything that its anchor holds, so nine short lines can mean thousands of millions of values "
+        "and fill the memory of any reader. The expanded size is counted before anything is expanded.",
         "write the repeated part once and reference it by name instead of nesting aliases",
+    ),
+    _page(
+        "command-too-long",
+        "the specs before this one took all the time that one call may take",
+        "Each spec has bounds of its own, and they add up where one call has many: a job of CI would run until it "
+        "is ended from outside, with no word on which spec it was. The spec that is under way is finished; no further "
+        "one is started.",
+        "check fewer specs in one call, and look for the one that takes long",
     ),
     _page(
         "control-character",
@@ -167,7 +179,7 @@ CODES: tuple[CodePage, ...] = (
     _page(
         "file-unreadable",
         "the operating system does not let the file be read",
-        "Permissions, a broken disk or a link that leads to itself; the reason of the system stands in the message.",
+        "Permissions, a broken disk or a link that leads to itself; the message has the reason of the system.",
         "make the file readable for the user who runs cellc",
     ),
     _page(
@@ -211,6 +223,13 @@ CODES: tuple[CodePage, ...] = (
         "put the key in double quotes",
     ),
     _page(
+        "not-a-cell",
+        "the file is a device, not a cell",
+        "A `device.yaml` says what one device is. A cell says where it is, who commands it and what may stop it; "
+        "only a cell is built, shown and rehearsed.",
+        "name the spec of a cell, in which `model:` names the folder of the device; `cellc check` takes a device too",
+    ),
+    _page(
         "not-a-file",
         "the path names a folder, a pipe or a device",
         "A spec is read once, whole, and its text is shown in messages, so it must be a regular file.",
@@ -237,7 +256,7 @@ CODES: tuple[CodePage, ...] = (
     ),
     _page(
         "recursive-alias",
-        "an alias stands inside the value that it names",
+        "an alias is inside the value that it names",
         "The value would contain itself without end.",
         "write the inner value out",
     ),
@@ -289,7 +308,7 @@ CODES: tuple[CodePage, ...] = (
     _page(
         "unknown-alias",
         "an alias names no anchor",
-        "`*name` stands for the value marked `&name` earlier in the same file; anchors do not cross files. Text that "
+        "`*name` means the value marked `&name` earlier in the same file; anchors do not cross files. Text that "
         "merely begins with `*` needs quotes.",
         "write the anchor before its first use, or quote the text",
     ),

@@ -155,7 +155,7 @@ class _Composer:
         node = self._anchors.get(name)
         if node is None:
             if any(collection.start.anchor == name for collection in self._open):
-                self._report("recursive-alias", f"`*{_short(name)}` stands inside its own anchor", span)
+                self._report("recursive-alias", f"`*{_short(name)}` is inside its own anchor", span)
             else:
                 self._report("unknown-alias", f"there is no anchor `&{_short(name)}` before this alias", span)
             node = Node(span, None)

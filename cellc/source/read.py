@@ -52,6 +52,14 @@ def link_out(path: Path, name: str) -> Diagnostic | None:
     return finding("include-escape", message, Span(name, 1, 1, 1, 1), advice="copy the file to this place")
 
 
+def not_a_mapping(name: str, node: Node) -> Diagnostic | None:
+    """Return that the root of a file is something else than a mapping; None where it is one."""
+    if isinstance(node.data, dict):
+        return None
+    kind = "a list" if isinstance(node.data, list) else "a single value"
+    return finding("root-not-mapping", f"the root of `{name}` is {kind}, not a mapping of sections", node.span)
+
+
 class _Reader:
     """The files read so far, and those that are being read."""
 
@@ -102,10 +110,9 @@ class _Reader:
         if node is None or node.data in (None, {}, []):
             self.findings.append(finding("empty-file", f"`{name}` holds no data", Span(name, 1, 1, 1, 1)))
             return None
-        if not isinstance(node.data, dict):
-            kind = "a list" if isinstance(node.data, list) else "a single value"
-            message = f"the root of `{name}` is {kind}, not a mapping of sections"
-            self.findings.append(finding("root-not-mapping", message, node.span))
+        problem = not_a_mapping(name, node)
+        if problem is not None:
+            self.findings.append(problem)
             return None
         return node
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 import re
 
+from cellc.errors import CellcError
 from cellc.source.document import PlainScalar
 
 _WORDS: dict[str, PlainScalar] = {
@@ -30,7 +31,7 @@ _LARGEST_INTEGER = 2**63 - 1
 _LONGEST_INTEGER_TEXT = 80
 
 
-class NumberOutOfRangeError(ValueError):
+class NumberOutOfRangeError(CellcError, ValueError):
     """A literal that has the form of a number but no 64-bit value."""
 
 

@@ -28,7 +28,7 @@ _MEANINGS: tuple[tuple[str, str, str], ...] = (
     ("expected the node content", "a value is missing here", "write the value, or quote text that begins with it"),
 )
 
-_TOO_DEEP = "the line stands deeper than the one above, and so continues its value"
+_TOO_DEEP = "the line is indented deeper than the one above, and so continues its value"
 _ALIGN = "align the line with its siblings"
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-import stat
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
@@ -12,6 +11,7 @@ from cellc.diagnostics import Diagnostic, Outcome, Span, nearest
 from cellc.diagnostics.unsafe_text import HIDDEN, hidden
 from cellc.limits import MIB, limits
 from cellc.source.codes import finding
+from cellc.store.regular_file import NotRegularError, open_regular, read_regular
 
 _UTF16_MARKS = (b"\xff\xfe", b"\xfe\xff")
 # `<<` is not meant: that is a merge key.
@@ -28,7 +28,7 @@ def read_text(path: Path, name: str, place: Span) -> Outcome[str]:
     Returns:
         The text wherever there is one, so that a finding in it can be shown; it is no YAML where there is a finding.
     """
-    content = _read_bytes(path, name, place)
+    content = bytes_of(path, name, place)
     return Outcome(None, (content,)) if isinstance(content, Diagnostic) else text_of(content, name)
 
 
@@ -43,7 +43,9 @@ def text_of(content: bytes, name: str) -> Outcome[str]:
 
 
 def as_yaml(text: str, name: str) -> Outcome[str]:
-    """Return the text of a file, with a finding where it is no YAML."""
+    """Return the text of a file, with a finding where it is no YAML; none of one that is larger than may be read."""
+    if len(text) > limits().spec_bytes:
+        return Outcome(None, (_too_large(name, "larger", Span(name, 1, 1, 1, 1)),))
     problem = _unlike_yaml(text, name)
     return Outcome(text, () if problem is None else (problem,))
 
@@ -54,17 +56,18 @@ def showable(content: bytes) -> str | None:
     return None if isinstance(text, Diagnostic) or HIDDEN.search(text) else text
 
 
-def _read_bytes(path: Path, name: str, place: Span) -> bytes | Diagnostic:
+def bytes_of(path: Path, name: str, place: Span) -> bytes | Diagnostic:
+    """Return what a file of a spec holds, or why it cannot be read; the arguments are those of `read_text`."""
     try:
-        status = path.stat()
-        if not stat.S_ISREG(status.st_mode):
-            kind = "a folder" if stat.S_ISDIR(status.st_mode) else "not a regular file"
-            return finding("not-a-file", f"`{name}` is {kind}", place)
-        if status.st_size > limits().spec_bytes:
-            return _too_large(name, f"{status.st_size / 1024**2:.1f} MiB", place)
-        # What is larger than allowed nevertheless grew meanwhile, or its size the system does not tell.
-        with path.open("rb") as file:
+        with open_regular(path) as file:
+            size = os.fstat(file.fileno()).st_size
+            if size > limits().spec_bytes:
+                return _too_large(name, f"{size / MIB:.1f} MiB", place)
+            # What is larger than allowed nevertheless grew meanwhile, or its size the system does not tell.
             content = file.read(limits().spec_bytes + 1)
+    except (NotRegularError, IsADirectoryError):
+        kind = "a folder" if path.is_dir() else "not a regular file"
+        return finding("not-a-file", f"`{name}` is {kind}", place, advice=_file_in(path))
     except (FileNotFoundError, NotADirectoryError):
         return finding("file-not-found", f"there is no file `{name}`", place, advice=_similar_file(path))
     except OSError as error:
@@ -74,6 +77,15 @@ def _read_bytes(path: Path, name: str, place: Span) -> bytes | Diagnostic:
         # A zero character in the name: no system call takes it.
         return finding("file-unreadable", f"`{name}` is not a file name", place, advice="correct the path")
     return content if len(content) <= limits().spec_bytes else _too_large(name, "larger", place)
+
+
+def _file_in(folder: Path) -> str:
+    """Return which file of a folder was meant; an empty text where none can be told."""
+    if os.path.isfile(folder / "cell.yaml"):
+        return f"name the spec in it: `{(folder / 'cell.yaml').as_posix()}`"
+    if os.path.isfile(folder / "contract.json"):
+        return "this is a generated folder: name the spec that it was built from"
+    return "there is no `cell.yaml` in it: `cellc init NAME arm=MODEL` writes one" if os.path.isdir(folder) else ""
 
 
 def _too_large(name: str, size: str, place: Span) -> Diagnostic:
@@ -156,8 +168,6 @@ def lies_under(path: Path, folder: Path) -> bool:
 
 def _text(name: str) -> str | None:
     try:
-        with open(name, "rb") as file:
-            content = file.read(limits().spec_bytes + 1)
+        return showable(read_regular(Path(name), limits().spec_bytes))
     except (OSError, ValueError):
         return None
-    return None if len(content) > limits().spec_bytes else showable(content)

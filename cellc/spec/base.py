@@ -26,7 +26,7 @@ class SpecModel(BaseModel):
 
 NAME_PATTERN = r"^[A-Za-z][A-Za-z0-9_]*$"
 PACKAGE_NAME_PATTERN = r"^[a-z][a-z0-9_]+$"
-REFERENCE_PATTERN = r"^[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_.-]*)?$"
+REFERENCE_PATTERN = r"^[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_.-]*)*$"
 
 # Device, controller, node and interface tokens end up in ROS graph names: one token of `[A-Za-z_][A-Za-z0-9_]*`.
 Name = Annotated[str, StringConstraints(pattern=NAME_PATTERN, max_length=64)]
@@ -42,7 +42,7 @@ NodeReference = Annotated[
 # REP-144: lower case, at least two characters, starts with a letter; the cell's name becomes a package name.
 PackageName = Annotated[str, StringConstraints(pattern=PACKAGE_NAME_PATTERN, max_length=64)]
 
-# A frame or link: `world`, `tcp`, or `device/link`.
+# A frame or link: `world`, `tcp`, or `device/link`; what follows the first slash is the name of the link.
 FrameReference = Annotated[str, StringConstraints(pattern=REFERENCE_PATTERN, max_length=128)]
 
 # A pinned version, an image digest or UNKNOWN; what is written is judged by rules, not by shape.

@@ -68,7 +68,7 @@ JERK = _dimension("jerk", {"m/s^3": "1", "mm/s^3": "0.001"}, 1e8)
 ANGULAR_VELOCITY = _dimension("angular velocity", {"deg/s": None, "rad/s": "1"}, 1e5)
 ANGULAR_ACCELERATION = _dimension("angular acceleration", {"deg/s^2": None, "rad/s^2": "1"}, 1e7)
 ANGULAR_JERK = _dimension("angular jerk", {"deg/s^3": None, "rad/s^3": "1"}, 1e9)
-_LINEAR = frozenset(unit for one in (LENGTH, VELOCITY, ACCELERATION, JERK) for unit, _ in one.units)
+_LINEAR = frozenset(unit for one in (LENGTH, VELOCITY, ACCELERATION, JERK, FORCE) for unit, _ in one.units)
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +81,7 @@ class Quantity:
 
     @property
     def linear(self) -> bool:
-        """Whether it is a length, or what a length does in time."""
+        """Whether it is a length, what a length does in time, or a force."""
         return self.unit in _LINEAR
 
 
@@ -287,6 +287,7 @@ JointVelocity = Annotated[Quantity, QuantityType((ANGULAR_VELOCITY, VELOCITY), "
 # Of what moves: nothing takes time without end.
 JointSpeed = Annotated[Quantity, QuantityType((ANGULAR_VELOCITY, VELOCITY), "30 deg/s", least=1e-6)]
 JointWay = Annotated[Quantity, QuantityType((ANGLE, LENGTH), "5 deg", least=1e-6)]
+JointEffort = Annotated[Quantity, QuantityType((TORQUE, FORCE), "10 N m", least=0.0)]
 JointAcceleration = Annotated[Quantity, QuantityType((ANGULAR_ACCELERATION, ACCELERATION), "2 rad/s^2", least=1e-6)]
 JointJerk = Annotated[Quantity, QuantityType((ANGULAR_JERK, JERK), "20 rad/s^3", least=1e-6)]
 JointPositions = Annotated[QuantityVector, QuantityType((ANGLE, LENGTH), "0 -90 90 -90 -90 0 deg", size=0, mixed=True)]

@@ -1,16 +1,16 @@
-"""The reference of the spec language as one Markdown page, made from the models: keys, what they take, examples."""
+"""The reference of a file as one Markdown page, made from its models: keys, what they take, and examples."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, get_args
 
 import yaml
+from pydantic import BaseModel
 
 from cellc.spec import base
-from cellc.spec.base import SpecModel
 from cellc.spec.cell_spec import CellSpec
 from cellc.spec.place import keys_in_order
 from cellc.spec.schema import cell_schema
@@ -53,27 +53,33 @@ class _Section:
 
 def spec_reference() -> str:
     """Return the page."""
-    page = _Page(cell_schema())
-    return re.sub(r"\n{3,}", "\n\n", "\n".join([_INTRODUCTION, *page.lines(), ""]))
+    return reference_page(_INTRODUCTION, cell_schema(), CellSpec)
+
+
+def reference_page(introduction: str, schema: _Schema, root: type[BaseModel]) -> str:
+    """Return the page of a schema and of the model that it was made from."""
+    page = _Page(schema, root)
+    return re.sub(r"\n{3,}", "\n\n", "\n".join([introduction, *page.lines(), ""]))
 
 
 class _Page:
-    """Walks the schema from the cell inwards, and describes every model once."""
+    """Walks the schema from its root inwards, and describes every model once."""
 
-    def __init__(self, schema: _Schema) -> None:
+    def __init__(self, schema: _Schema, root: type[BaseModel]) -> None:
         self._schema = schema
-        self._models = {model.__name__: model for model in _subclasses(SpecModel)}
+        self._root = root
+        self._models = {model.__name__: model for model in _models(root)}
         self._seen: set[str] = set()
 
     def lines(self) -> Iterator[str]:
-        root = self._schema["properties"]
+        root, top = self._schema["properties"], self._root.__name__
         yield "| key | what it is |\n|---|---|"
-        yield from (f"| {self._key('CellSpec', key)} | {root[key]['description']} |" for key in _keys(CellSpec))
-        for key in _keys(CellSpec):
+        yield from (f"| {self._key(top, key)} | {root[key]['description']} |" for key in _keys(self._root))
+        for key in _keys(self._root):
             if not self._children(root[key]):
                 continue
             yield f"\n## {key}\n\n{root[key]['description']}\n"
-            for section in self._below("CellSpec", key, "", lambda content: content):
+            for section in self._below(top, key, "", lambda content: content):
                 yield from self._described(section)
 
     def _described(self, section: _Section) -> Iterator[str]:
@@ -83,11 +89,12 @@ class _Page:
         self._seen.add(section.model)
         schema = self._schema["$defs"][section.model]
         keys = keys_in_order(self._models[section.model])
-        example = {key: self._example(section.model, key) for key in keys}
+        example = {key: told for key in keys if (told := self._example(section.model, key)) is not None}
         if _title(section.model).lower() != section.path:  # the heading of the key has the same words
             yield f"\n### {_title(section.model)}\n"
         yield f"`{section.path}`: {schema['description']}\n"
-        yield f"```yaml\n{_yaml(section.wrap(example))}```\n"
+        if example:
+            yield f"```yaml\n{_yaml(section.wrap(example))}```\n"
         yield "| key | value | meaning |\n|---|---|---|"
         yield from (self._row(section.model, key, schema["properties"][key]) for key in keys)
         for key in keys:
@@ -114,8 +121,8 @@ class _Page:
 
     def _below(self, model: str, key: str, path: str, wrap: _Wrap) -> Iterator[_Section]:
         """Yield the models that a key takes; the keys that its own mapping must have stand beside it."""
-        schema = self._schema if model == "CellSpec" else self._schema["$defs"][model]
-        required = [] if model == "CellSpec" else schema.get("required", [])
+        schema = self._of(model)
+        required = [] if schema is self._schema else schema.get("required", [])
         beside = {name: self._example(model, name) for name in required if name != key}
         for name, container in self._children(schema["properties"][key]):
             at = f"{path}{key}{'.NAME' if container == 'mapping' else ''}"
@@ -128,9 +135,14 @@ class _Page:
         return f"| {self._key(model, key)} | {self._takes(field)} | {meaning} |"
 
     def _key(self, model: str, key: str) -> str:
-        schema = self._schema if model == "CellSpec" else self._schema["$defs"][model]
-        code = f"[`{key}`](#{key})" if model == "CellSpec" and self._children(schema["properties"][key]) else f"`{key}`"
+        schema = self._of(model)
+        leads = schema is self._schema and self._children(schema["properties"][key])
+        code = f"[`{key}`](#{key})" if leads else f"`{key}`"
         return f"**{code}**" if key in schema.get("required", []) else code
+
+    def _of(self, model: str) -> _Schema:
+        part: _Schema = self._schema if model == self._root.__name__ else self._schema["$defs"][model]
+        return part
 
     def _takes(self, field: _Schema) -> str:
         """Say in words what a value may be."""
@@ -143,7 +155,11 @@ class _Page:
         for several in ("oneOf", "anyOf"):
             if several in field:
                 words = dict.fromkeys(self._takes(option) for option in field[several])
-                return "one of the kinds below" if len(words) > _MANY else " or ".join(words)
+                if len(words) > _MANY:
+                    return "one of the kinds below" if self._children(field) else "value"
+                return " or ".join(words)
+        if "prefixItems" in field:
+            return f"list of {len(field['prefixItems'])}: {self._takes(field['prefixItems'][0])}"
         if field.get("type") == "array":
             return f"list of {self._takes(field['items'])}"
         if field.get("type") == "object":
@@ -173,17 +189,20 @@ class _Page:
     def _example(self, model: str, key: str) -> Any:
         fields = self._models[model].model_fields
         (examples,) = (field.examples for name, field in fields.items() if (field.alias or name) == key)
-        assert examples, f"{model}.{key} has no example"
-        return examples[0]
+        return examples[0] if examples else None
 
 
-def _subclasses(model: type[SpecModel]) -> Iterator[type[SpecModel]]:
-    for subclass in model.__subclasses__():
-        yield subclass
-        yield from _subclasses(subclass)
+def _models(annotation: Any) -> Iterator[type[BaseModel]]:
+    """Yield the models of an annotation, each with those of its fields."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        yield annotation
+        for field in annotation.model_fields.values():
+            yield from _models(field.annotation)
+    for part in get_args(annotation):
+        yield from _models(part)
 
 
-def _keys(model: type[SpecModel]) -> list[str]:
+def _keys(model: type[BaseModel]) -> list[str]:
     return [field.alias or name for name, field in model.model_fields.items()]
 
 
@@ -199,8 +218,8 @@ def _around(wrap: _Wrap, beside: Mapping[str, Any], key: str, inside: _Wrap) -> 
 
 
 def _title(model: str) -> str:
-    words = re.sub(r"(?<!^)(?=[A-Z])", " ", model.removesuffix("Spec")).capitalize()
-    return {"Qos": "QoS", "Nic": "Network card"}.get(words, words)
+    words = re.sub(r"(?<!^)(?=[A-Z])", " ", re.sub("(Spec|Facts)$", "", model)).capitalize()
+    return {"Qos": "QoS", "Nic": "Network card", "Record": "Record field"}.get(words, words)
 
 
 def _numbers(pattern: str) -> str:

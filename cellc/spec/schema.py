@@ -23,7 +23,7 @@ def cell_schema() -> dict[str, Json]:
 
     Each field carries title, description and example; a quantity also its units, in ``x-units``.
     """
-    schema = _tidy(CellSpec.model_json_schema())
+    schema = tidy(CellSpec.model_json_schema())
     assert isinstance(schema, dict)
     properties = schema["properties"]
     assert isinstance(properties, dict)
@@ -53,14 +53,18 @@ def schema_files() -> Mapping[str, str]:
     return {name: json.dumps(schema, indent=2, ensure_ascii=False) + "\n" for name, schema in made.items()}
 
 
-def _tidy(schema: Json) -> Json:
+def tidy(schema: Json) -> Json:
+    """Return a schema without what only pydantic reads: null of absent keys, names of classes, patterns of keys."""
     if isinstance(schema, list):
-        return [_tidy(item) for item in schema]
+        return [tidy(item) for item in schema]
     if not isinstance(schema, dict):
         return schema
-    # Examples and defaults are data of the user's, not schemas.
-    tidy = {key: value if key in ("examples", "default", "enum") else _tidy(value) for key, value in schema.items()}
-    return _with_units_told(_titled(_one_of_scalars(_keys_checked(_without_null(tidy)))))
+    # Examples and defaults are data of the user's, not schemas; a property may have their name.
+    inner = {key: value if key in ("examples", "default", "enum") else tidy(value) for key, value in schema.items()}
+    properties = schema.get("properties")
+    if isinstance(properties, dict):
+        inner["properties"] = {key: tidy(value) for key, value in properties.items()}
+    return _with_units_told(_titled(_one_of_scalars(_keys_checked(_without_null(inner)))))
 
 
 def _without_null(schema: dict[str, Json]) -> dict[str, Json]:
@@ -112,6 +116,6 @@ def _titled(schema: dict[str, Json]) -> dict[str, Json]:
 
 def _with_units_told(schema: dict[str, Json]) -> dict[str, Json]:
     units, description = schema.get("x-units"), schema.get("description")
-    if not isinstance(units, list) or not isinstance(description, str):
+    if not isinstance(units, list) or not isinstance(description, str) or " Units: " in description:
         return schema
     return {**schema, "description": f"{description} Units: {', '.join(str(unit) for unit in units)}."}

@@ -22,8 +22,8 @@ from typing import Any, TypeVar
 from pydantic import TypeAdapter, ValidationError
 
 from cellc.store.cache_key import cache_key, came_with, is_private
-from cellc.store.regular_file import read_regular
-from cellc.store.swap import replace_whole
+from cellc.store.regular_file import own_bytes, read_regular
+from cellc.store.swap import remove_file, replace_whole
 from cellc.version import __version__
 
 OFF = "CELLC_NO_CACHE"
@@ -93,7 +93,7 @@ def _content(program: Program) -> str:
     digest = hashlib.sha256()
     for name in program.code:
         for file in [root / name] if name.endswith(".py") else sorted((root / name).glob("*.py")):
-            digest.update(f"{file.name}\0".encode() + file.read_bytes() + b"\0")
+            digest.update(f"{file.name}\0".encode() + own_bytes(file) + b"\0")
     digest.update("\0".join((sys.version, *map(_version, program.libraries))).encode())
     return digest.hexdigest()
 
@@ -209,4 +209,4 @@ def _prune(folder: Path) -> None:
         kept = [one for one in entries if _ENTRY.fullmatch(one.name) and one.is_file(follow_symlinks=False)]
         by_age = sorted((entry.stat(follow_symlinks=False).st_mtime_ns, entry.path) for entry in kept)
     for _, path in by_age[: len(by_age) // 2]:
-        Path(path).unlink(missing_ok=True)
+        remove_file(Path(path))

@@ -15,6 +15,7 @@ from functools import cache
 from pathlib import Path
 
 from cellc.store.regular_file import open_regular
+from cellc.store.swap import make_folder, replace_whole
 
 _SIZE = 32
 _OTHERS_MAY_WRITE = stat.S_IWGRP | stat.S_IWOTH
@@ -69,7 +70,7 @@ def is_private(folder: Path) -> bool:
     Raises:
         OSError: it cannot be made.
     """
-    folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+    make_folder(folder, 0o700)
     status = folder.lstat()
     return stat.S_ISDIR(status.st_mode) and _is_own(status) and not _may_others(status, _OTHERS_MAY_WRITE)
 
@@ -95,12 +96,7 @@ def _read(file: Path) -> bytes | None:
 
 
 def _make(file: Path) -> None:
-    part = file.with_name(f".{file.name}.{os.getpid()}")
-    part.unlink(missing_ok=True)  # of a killed process of this number
-    flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
-    with os.fdopen(os.open(part, flags, 0o600), "wb") as stream:
-        stream.write(os.urandom(_SIZE))
-    os.replace(part, file)
+    replace_whole(file, os.urandom(_SIZE), mode=0o600)
 
 
 def _is_own(status: os.stat_result) -> bool:

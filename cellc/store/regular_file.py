@@ -1,4 +1,7 @@
-"""Reading a file that a stranger may have put there: nothing is waited for, and no more is read than may be."""
+"""The one reader: every file that cellc reads is opened here, and a test holds it.
+
+Anybody may have put the file there: nothing is waited for, and no more is read than may be.
+"""
 
 from __future__ import annotations
 
@@ -50,3 +53,13 @@ def read_regular(path: Path, most: int, *, follow: bool = True) -> bytes:
     if len(content) > most:
         raise FileTooLargeError(errno.EFBIG, f"is larger than {most} bytes")
     return content
+
+
+def own_bytes(file: Path) -> bytes:
+    """Return what a file holds that is installed with cellc or its libraries: it is as large as it is."""
+    return file.read_bytes()
+
+
+def own_text(file: Path) -> str:
+    """Return the same as text."""
+    return own_bytes(file).decode("utf-8")

@@ -1,4 +1,6 @@
-"""Put files in place at once or not at all: those of a folder, or one.
+"""The one writer: whatever cellc writes, makes, moves or removes goes through here, and a test holds it.
+
+Files are put in place at once or not at all: those of a folder, or one.
 
 New files are made ready in a staging folder beside it, then moved; or every old file is put back. The staging folder is
 called ``.<name>.tmp-<run>-<process>``; one that a killed process left behind still holds what it was about to write.
@@ -13,8 +15,13 @@ import re
 import shutil
 import stat
 import sys
+import tempfile
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
+from typing import BinaryIO
+
+from cellc.store.regular_file import open_regular
 
 _MAKER = re.compile("(?:[0-9a-f]{8}-)?[0-9]{1,10}")
 _RUN = os.urandom(4).hex()
@@ -187,14 +194,17 @@ def write_whole(file: Path, text: str) -> None:
     if linked is not None:  # as builds do: a link of somebody else's leads anywhere
         raise OSError(errno.ELOOP, "is a symbolic link; name the place itself", str(linked))
     try:
-        file.parent.mkdir(parents=True, exist_ok=True)
+        make_folder(file.parent)
         replace_whole(file, text.encode())
     except OSError as error:
         raise OSError(error.errno, error.strerror, str(file)) from error
 
 
-def replace_whole(file: Path, content: bytes) -> None:
+def replace_whole(file: Path, content: bytes, mode: int = 0o666) -> None:
     """Put a new file in the place of a name; where the name is a link, the link goes and its target stays.
+
+    Args:
+        mode: who may do what with it, as far as the user's umask lets.
 
     Raises:
         OSError: the disk is full, or writing is refused.
@@ -202,18 +212,144 @@ def replace_whole(file: Path, content: bytes) -> None:
     part = staging_of(file)
     for left in _temporaries(file):
         if not is_alive(left):
-            _remove(left)  # what a killed process left; of a link, the link alone
+            remove_file(left)  # what a killed process left; of a link, the link alone
     try:
-        with part.open("xb") as stream:  # a new file always, never one behind a link
+        with open_new(part, mode) as stream:
             stream.write(content)
         os.replace(part, file)
     finally:
-        _remove(part)
+        remove_file(part)
 
 
-def _remove(part: Path) -> None:
+def replace_content(file: Path, content: bytes) -> None:
+    """Replace the content of a user's file, whose permissions stay; a link keeps leading to its file.
+
+    A reader sees the old or the new file, never a part. A file of several names (hard links) must stay one file: it is
+    written in its place, and a copy of what it held lies beside it until the new content is on the disk.
+
+    Raises:
+        OSError: the folder cannot be written; the file is as it was.
+    """
+    real = file.resolve()
+    descriptor, name = tempfile.mkstemp(prefix=f".{real.name}.", suffix=".cellc", dir=real.parent)
+    copy = Path(name)
+    shared = real.stat().st_nlink > 1
     try:
-        part.unlink()
-    except OSError:
-        # It has become the file, or never came to be.
-        return
+        with os.fdopen(descriptor, "wb") as stream:
+            stream.write(_held_by(real) if shared else content)
+            stream.flush()
+            os.fsync(stream.fileno())
+        shutil.copymode(real, copy)
+        if shared:
+            _overwrite(real, content, copy)
+        else:
+            os.replace(copy, real)
+    finally:
+        remove_file(copy)
+
+
+def _overwrite(file: Path, content: bytes, copy: Path) -> None:
+    try:
+        _write_over(file, content)
+    except BaseException:
+        _write_over(file, _held_by(copy))
+        raise
+
+
+def _held_by(file: Path) -> bytes:
+    with open_regular(file, follow=False) as stream:
+        return stream.read()
+
+
+def _write_over(file: Path, content: bytes) -> None:
+    with file.open("r+b") as stream:
+        stream.write(content)
+        stream.truncate()
+        stream.flush()
+        os.fsync(stream.fileno())
+
+
+def write_new(file: Path, content: bytes, *, executable: bool = False, durable: bool = False) -> None:
+    """Write a file that is not there yet, with the folders above it.
+
+    Args:
+        durable: have the system put it on the disk.
+
+    Raises:
+        OSError: something stands there, the disk is full, or writing is refused.
+    """
+    make_folder(file.parent)
+    with open_new(file) as stream:
+        stream.write(content)
+        if durable:
+            stream.flush()
+            os.fsync(stream.fileno())
+    if executable:
+        mode = file.stat().st_mode
+        file.chmod(mode | (mode & 0o444) >> 2)
+
+
+def open_new(file: Path, mode: int = 0o666) -> BinaryIO:
+    """Open a new file for writing: never one that is there already, nor one behind a link.
+
+    Raises:
+        OSError: something stands there, or writing is refused.
+    """
+    flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
+    return os.fdopen(os.open(file, flags, mode), "wb")
+
+
+def open_to_continue(file: Path, kept: int) -> BinaryIO:
+    """Open a file for writing behind its first bytes, and cut off the others; it is made where it is absent.
+
+    Raises:
+        OSError: a link stands there, or writing is refused.
+    """
+    flags = os.O_RDWR | os.O_CREAT | getattr(os, "O_BINARY", 0) | getattr(os, "O_NOFOLLOW", 0)
+    stream = os.fdopen(os.open(file, flags, 0o666), "r+b")
+    stream.truncate(kept)
+    stream.seek(kept)
+    return stream
+
+
+def open_stream(place: Path | int) -> BinaryIO:
+    """Open a pipe or device of the user's, or an open descriptor again, for writing at its end."""
+    return os.fdopen(os.dup(place), "wb") if isinstance(place, int) else place.open("ab")
+
+
+def make_folder(folder: Path, mode: int = 0o777) -> None:
+    """Make a folder, which may be there already, and those above it.
+
+    Raises:
+        OSError: writing is refused.
+    """
+    folder.mkdir(mode, parents=True, exist_ok=True)
+
+
+def remove_folder(folder: Path) -> None:
+    """Remove an empty folder.
+
+    Raises:
+        OSError: it is not empty, or writing is refused.
+    """
+    folder.rmdir()
+
+
+def remove_file(file: Path) -> None:
+    """Remove a file or a link as far as the system lets."""
+    with contextlib.suppress(OSError):
+        file.unlink()
+
+
+@contextlib.contextmanager
+def temporary_folder(prefix: str) -> Iterator[Path]:
+    """Give a private folder of the system's for temporary files; it is removed afterwards."""
+    with tempfile.TemporaryDirectory(prefix=prefix) as name:
+        yield Path(name)
+
+
+@contextlib.contextmanager
+def temporary_file() -> Iterator[BinaryIO]:
+    """Give a file without a name, which is gone afterwards."""
+    with tempfile.TemporaryFile() as file:
+        yield file

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import fields
 
 from cellc.artifact import Artifact
-from cellc.transforms import Pose
+from cellc.transforms import Pose, apart
 from cellc.verify.codes import Disagreement
 from cellc.verify.meant import Limits, Meant
 from cellc.verify.parsers import JointReading, Reading, RefusedError, read_by_pinocchio, read_by_yourdfpy
@@ -61,16 +61,6 @@ def _pose_reasons(
         has, lacks = (first, second) if name in first_poses else (second, first)
         yield f"frame `{name}` of {has} does not exist for {lacks}"
     for name in sorted(set(first_poses) & set(second_poses)):
-        meters, radians = distance(first_poses[name], second_poses[name])
+        meters, radians = apart(first_poses[name], second_poses[name])
         if max(meters, radians) > _TOLERANCE:
             yield f"frame `{name}` lies {meters:.6g} m and {radians:.6g} rad apart for {first} and {second}"
-
-
-def distance(first: Pose, second: Pose) -> tuple[float, float]:
-    """Return how far two poses of one frame are apart, in m and rad."""
-    meters = math.dist(first.position, second.position)
-    cosine = abs(sum(a * b for a, b in zip(first.quaternion, second.quaternion, strict=True)))
-    # Near zero the arc cosine loses half of the digits: take the chord, on the side of the sphere that is nearer.
-    sign = math.copysign(1.0, sum(a * b for a, b in zip(first.quaternion, second.quaternion, strict=True)))
-    chord = math.dist(first.quaternion, tuple(sign * part for part in second.quaternion))
-    return meters, 2.0 * math.acos(min(1.0, cosine)) if chord > 0.1 else 2.0 * chord

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import logging
 import math
 import sys
 from collections.abc import Mapping, Sequence
@@ -16,10 +17,13 @@ from typing import Any
 import numpy as np
 import pinocchio
 
+from cellc.errors import CellcError
 from cellc.signals import held
 from cellc.transforms import Pose
 
 _MOVABLE = ("revolute", "prismatic", "continuous")
+_LOGGERS = ("yourdfpy", "trimesh")
+"""What they log is found by the comparison, in words of ours; Python prints it to standard error if none listens."""
 _HEAVY = ("scipy", "networkx", "PIL", "shapely", "rtree")
 
 
@@ -47,7 +51,7 @@ class Reading:
     displaced: Mapping[str, Pose]
 
 
-class RefusedError(Exception):
+class RefusedError(CellcError):
     """A parser refuses the description."""
 
 
@@ -140,6 +144,8 @@ def import_yourdfpy() -> ModuleType:
     without where it does not. Hiding them from that one import saves every build 0.6 s of
     0.75 s processor time; whoever imports them afterwards gets them.
     """
+    for name in _LOGGERS:
+        logging.getLogger(name).addHandler(logging.NullHandler())
     if "trimesh" in sys.modules:
         return importlib.import_module("yourdfpy")
     absent = _Absent()

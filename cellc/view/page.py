@@ -11,11 +11,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, replace
 from importlib.resources import files
 from importlib.util import find_spec
+from io import BytesIO
 from pathlib import Path
 from xml.etree.ElementTree import Element
 
 from cellc.diagnostics import Severity
 from cellc.mock.report_page.html import Child, count, tag, to_page
+from cellc.store.regular_file import own_bytes, own_text
 from cellc.view.content import Content
 from cellc.view.scene import Scene
 from cellc.view.sections import (
@@ -78,7 +80,8 @@ def three_js() -> str | None:
     found = find_spec("trimesh")
     for folder in (found.submodule_search_locations or ()) if found is not None else ():
         try:
-            with zipfile.ZipFile(Path(folder) / _ARCHIVE) as archive, archive.open(_TEMPLATE) as template:
+            content = BytesIO(own_bytes(Path(folder) / _ARCHIVE))
+            with zipfile.ZipFile(content) as archive, archive.open(_TEMPLATE) as template:
                 text = template.read(_LARGEST).decode("utf-8")
         except (OSError, KeyError, ValueError, zipfile.BadZipFile):
             continue
@@ -92,7 +95,7 @@ _STYLES = (("cellc.mock.report_page", "style.css"), ("cellc.view.assets", "page.
 
 
 def _asset(package: str, name: str) -> str:
-    return (files(package) / name).read_text(encoding="utf-8")
+    return own_text(Path(str(files(package) / name)))
 
 
 def _script() -> str:

@@ -13,8 +13,8 @@ from cellc.contract.rehearsals import FaultEntry
 from cellc.mock.cell import MockCell
 from cellc.mock.control import JointStateBlock
 from cellc.mock.engine.control_stack import GoalSent
+from cellc.mock.evidence.begun_faults import begun_faults
 from cellc.mock.plant import Plant
-from cellc.mock.report_page.run_section import begun_faults
 from cellc.mock.result import AttemptRecord, RehearsalResult
 from cellc.view.scene import Numbers, numbers
 from cellc.view.skeleton import Carried, Skeleton
@@ -149,7 +149,9 @@ def _kept(joints: Sequence[_Signal], handed_over: Sequence[int], end_ns: int) ->
     """Return the times of the pictures: a picture between two equal ones is left out."""
     times = np.arange(0, end_ns + _STEP_NS, _STEP_NS)
     times[-1] = end_ns
-    table = np.array([np.interp(times, one.stamps_ns, one.positions) for one in joints]).reshape(len(joints), -1)
+    table = np.array([np.interp(times, one.stamps_ns, one.positions) for one in joints]).reshape(
+        len(joints), len(times)
+    )
     moved = (np.abs(np.diff(table, axis=1)) > _STILL).any(axis=0)
     wanted = np.concatenate([[True], moved]) | np.concatenate([moved, [True]])
     # A picture before and one at the change: what is handed over does not glide.

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import tempfile
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -14,11 +13,13 @@ from cellc.cell.device import FieldOfView
 from cellc.contract.contract import Contract
 from cellc.description.packages import root_of
 from cellc.diagnostics.diagnostic import Findings
+from cellc.errors import CellcError
 from cellc.link.device_facts import field_of_view
 from cellc.mock.cell import read_to_run
 from cellc.mock.errors import MockError
 from cellc.mock.folder import CONTRACT_FILE, GeneratedFolder, read_folder, read_text
 from cellc.output.write import write
+from cellc.store.swap import temporary_folder
 from cellc.view.standing import Standing, Wanted, of_cell, of_package, wanted_of
 
 SPEC_FILE = "cell.yaml"
@@ -29,7 +30,7 @@ _FILE_NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.-]{0,99}", re.ASCII)
 _CELL_NAME = re.compile(r"^cell[ ]*:[ ]+[\"']?([A-Za-z][A-Za-z0-9_]{0,99})[\"']?[ ]*(?:#.*)?$", re.ASCII | re.MULTILINE)
 
 
-class ViewError(Exception):
+class ViewError(CellcError):
     """There is nothing to show; the text is one line, lower case."""
 
 
@@ -99,18 +100,18 @@ def _of_package(
 def _of_spec(path: Path) -> Subject:
     # A folder is shown without the compiler, which takes a second to load.
     from cellc.feasibility.meshes import mesh_roots
-    from cellc.pipeline import DESCRIPTIONS, check, emit_cell
+    from cellc.pipeline import DESCRIPTIONS, check, emit_cell, judge
 
-    checked = check(path)
     if path.suffix in DESCRIPTIONS:
-        return _of_description(path, checked.findings)
+        return _of_description(path, judge(path).findings)
+    checked = check(path)
     emitted = emit_cell(checked)
     findings = checked.findings.with_more(emitted.diagnostics)
     if emitted.value is None or checked.graph is None:
         return _of_errors(path, findings, None if checked.graph is None else checked.graph.cell)
     cell = checked.graph.cell
-    with tempfile.TemporaryDirectory(prefix="cellc-view-") as place:
-        package = Path(place) / cell.name
+    with temporary_folder("cellc-view-") as place:
+        package = place / cell.name
         write(emitted.value, package)
         folder = replace(read_folder(package), mesh_roots=mesh_roots(cell))
         pictures = _pictures(package, folder)

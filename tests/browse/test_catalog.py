@@ -6,8 +6,9 @@ from xml.etree import ElementTree
 
 import pytest
 
+from cellc.browse.controllers import controllers_page
 from cellc.browse.page import page, pages, picture
-from cellc.catalog.load import CatalogDevice, device_names, load_device
+from cellc.catalog.load import CatalogDevice, controller_kinds, device_names, load_controller_kind, load_device
 from tests.cells import ROOT
 from tests.cli.run import run
 
@@ -85,3 +86,32 @@ def test_page_of_an_arm_says_what_its_activation_moves() -> None:
     row = next(line for line in text.splitlines() if line.startswith("| activate |"))
     assert "| moves |" in row
     assert run("catalog", "robotiq_2f_85").out == text
+
+
+@pytest.mark.parametrize("name", [name for name in device_names() if _entry(name).model.switched])
+def test_page_of_a_switched_device_has_its_states_outputs_and_sensors(name: str) -> None:
+    entry = _entry(name)
+    switched = entry.model.switched
+    assert switched is not None
+    (section,) = (part for part in page(entry).split("\n## ") if part.startswith("States\n"))
+    rows = {row.split("|")[1].strip(" `"): row for row in section.splitlines() if row.startswith("| `")}
+    assert list(rows) == list(switched.states)
+    for state, levels in switched.states.items():
+        for signal, level in {**levels.outputs, **levels.sensors}.items():
+            assert f"`{signal}` {'on' if level else 'off'}" in rows[state]
+        assert ("holds" in rows[state]) == (state == switched.holds)
+
+
+@pytest.mark.parametrize("name", controller_kinds())
+def test_page_of_the_controllers_has_every_parameter_of_every_kind(name: str) -> None:
+    kind = load_controller_kind(name).value
+    assert kind is not None
+    (section,) = (part for part in controllers_page().split("\n## ") if part.startswith(f"`{name}`\n"))
+    for parameter, facts in kind.parameters.items():
+        (row,) = (line for line in section.splitlines() if line.startswith(f"| `{parameter}` |"))
+        for bound in (facts.minimum, facts.exclusive_minimum, facts.maximum):
+            assert bound is None or f"{bound:g}" in row
+        assert all(f"`{word}`" in row for word in (*facts.one_of, *facts.subset_of))
+        assert ("must be given" in row) == facts.required
+    for use in kind.plugins.values():
+        assert f"`{use.type}`" in section

@@ -41,6 +41,7 @@ def test_compiled_tables_are_those_of_the_files(monkeypatch: pytest.MonkeyPatch)
         load.load_distros,
         load.load_controller_manager,
         load.load_message_types,
+        load.load_packages,
         load.load_qos_profiles,
         load.load_releases,
     )

@@ -99,8 +99,8 @@ def test_interface_that_is_no_slip_of_a_standard_one_is_a_vendors_own(tmp_path: 
 @pytest.mark.parametrize(
     ("device", "old", "new", "message"),
     [
-        ("stage", "slide: {value: 5 m/s^2", "slide: {value: 5 rad/s^2", "in `m` or `mm`, got 5 rad/s^2"),
-        ("stage", "turn: {value: 50 rad/s^3", "turn: {value: 50 m/s^3", "in `rad` or `deg`, got 50 m/s^3"),
+        ("stage", "slide: {value: 5 m/s^2", "slide: {value: 5 rad/s^2", "in `m/s^2`, got 5 rad/s^2"),
+        ("stage", "turn: {value: 50 rad/s^3", "turn: {value: 50 m/s^3", "in `rad/s^3`, got 50 m/s^3"),
         ("lift", "slide: {value: 20 m/s^3, source: made up}, ", "", "`jerk` of `slide`, which is prismatic, must be"),
         ("demo_gripper", "closed: 40 mm", "closed: 2 deg", "`closed` of `finger_joint`, which is prismatic, must be"),
     ],

@@ -14,6 +14,7 @@ from cellc.catalog.compiled import compiled_device
 from cellc.catalog.load import CatalogDevice, device_names, load_device
 from tests.cells import catalog_facts
 from tests.foreign_yaml import safe_load
+from tests.oracles import here
 from tests.vendors.oracle import RELEASES, Release, facts
 
 TABLE = Path(__file__).with_name("universal_robots.yaml")
@@ -92,7 +93,7 @@ def test_joints_are_those_of_the_driver_in_its_order(model: str) -> None:
     assert all(joint.limit is not None and joint.limit.velocity and joint.limit.effort for joint in joints)
 
 
-@pytest.mark.parametrize("release", [one for one in RELEASES if one.device == "ur5e"], ids=str)
+@pytest.mark.parametrize("release", here([one for one in RELEASES if one.device == "ur5e"]), ids=str)
 def test_each_release_of_the_driver_knows_each_model(release: Release) -> None:
     launch = facts(release, "launch_arguments")["ur_robot_driver/launch/ur_control.launch.py"]
     assert set(MODELS) <= set(launch["ur_type"]["choices"])

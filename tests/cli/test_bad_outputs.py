@@ -224,3 +224,28 @@ def test_argument_that_means_nothing_is_a_usage_error(
     assert_refused(ran, words)
     assert ran.code == 2
     assert everything_below(tmp_path) == []
+
+
+@pytest.mark.parametrize("place", ["", "/launch", "/README.md"], ids=["folder", "folder in it", "file"])
+def test_nothing_is_shown_of_what_a_link_in_the_output_leads_to(place: str, tmp_path: Path) -> None:
+    out, home = tmp_path / "out", tmp_path / "home"
+    assert run("build", MINIMAL, "-o", out.as_posix()).code == 0
+    (out / f"minimal{place}").rename(home)
+    for file in (file for file in (home, *home.rglob("*")) if file.is_file()):
+        file.write_text("secret of somebody\n")
+    (out / f"minimal{place}").symlink_to(home)
+    ran = run("build", "--check", MINIMAL, "-o", out.as_posix())
+    assert (ran.code, "secret" in ran.out + ran.err, ran.out.count("output-symlink")) == (1, False, 1)
+
+
+def test_a_page_that_the_cell_names_replaces_a_page_of_cellc_alone(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    page = tmp_path / "minimal.html"
+    page.write_text("<!doctype html>\n<p>mine\n")
+    ran = run("view", MINIMAL)
+    assert (ran.code, "is not a page of this command" in ran.err) == (2, True)
+    assert page.read_text() == "<!doctype html>\n<p>mine\n"
+    page.unlink()
+    assert [run("view", MINIMAL).code for _ in range(2)] == [0, 0]

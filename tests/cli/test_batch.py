@@ -5,11 +5,13 @@ from __future__ import annotations
 import multiprocessing
 import os
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
 import pytest
 
+from cellc import limits
 from cellc.cli import batch
 from cellc.cli.batch import CellResult, cell_files, compute, in_workers, number_of_workers
 from cellc.cli.fleet import Task
@@ -92,3 +94,24 @@ def test_folder_without_a_spec_is_told_as_what_it_is(tmp_path: Path) -> None:
     ran = run("check", tmp_path.as_posix())
     assert ran.code == 1
     assert "is a folder" in ran.out
+
+
+@pytest.mark.parametrize(("command", "jobs"), [("check", "1"), ("check", "2"), ("build", "1")])
+def test_no_spec_is_begun_after_those_before_it_took_the_time_of_a_call(
+    command: str, jobs: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(limits, "DEFAULTS", replace(limits.DEFAULTS, command_seconds=0))
+    text = Path(MINIMAL).read_text(encoding="utf-8")
+    for name in ("first", "second", "third"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "cell.yaml").write_text(text.replace("cell: minimal", f"cell: {name}"), encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    done = run(command, ".", "--jobs", jobs)
+    assert done.code == 1
+    told = [line for line in done.out.splitlines() if line.startswith("error[command-too-long]")]
+    assert len(told) == 2
+    assert "first/cell.yaml:1:1" not in done.out
+    assert "third/cell.yaml:1" in done.out
+    assert "`--limit command-seconds=N` raises it" in done.out
+    assert [folder.name for folder in tmp_path.glob("generated/*")] == (["first"] if command == "build" else [])
+    assert multiprocessing.active_children() == []

@@ -34,7 +34,6 @@ def test_module_in_the_current_folder_is_not_imported(arguments: tuple[str, ...]
     assert ended.returncode == status, ended.stderr
 
 
-@pytest.mark.skipif(sys.version_info < (3, 11), reason="Python 3.10 has no PYTHONSAFEPATH")
 def test_nor_do_the_processes_of_many_cells_import_it(checkout: Path) -> None:
     files = [checkout / f"{number}.yaml" for number in range(32)]
     for file in files:

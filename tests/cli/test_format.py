@@ -116,3 +116,12 @@ def test_link_that_leads_out_is_not_followed(spec: Path) -> None:
 
 def test_input_beside_files_is_a_wrong_call(spec: Path) -> None:
     assert run("format", "-", str(spec)).code == 2
+
+
+def test_file_of_two_names_stays_one_file(spec: Path) -> None:
+    other = spec.with_name("other.yaml")
+    other.hardlink_to(spec)
+    assert run("format", str(spec)).code == 0
+    assert other.read_text() == _FORM
+    assert other.stat().st_ino == spec.stat().st_ino
+    assert sorted(path.name for path in spec.parent.iterdir()) == ["cell.yaml", "other.yaml"]

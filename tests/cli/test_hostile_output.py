@@ -139,11 +139,18 @@ def test_files_that_init_writes(here: Path) -> None:
 
 
 def _named(contract: Any, rehearsals: Any, manifest: Any) -> None:
-    contract["configuration_id"] = contract["cell"] = contract["summary"] = _EVERYTHING
+    contract["configuration_id"] = contract["summary"] = _EVERYTHING
     contract["version_tuple"][_EVERYTHING] = _EVERYTHING
     manifest["configuration_id"] = f"other {_EVERYTHING}"
-    manifest["files"] |= {_SHORT: "sha256:0"}
     rehearsals["rehearsals"][0]["name"] = "::error::f ##[error]f"
+
+
+def _celled(contract: Any, rehearsals: Any, manifest: Any) -> None:
+    contract["cell"] = _EVERYTHING  # becomes a path, and so must be a name
+
+
+def _listed(contract: Any, rehearsals: Any, manifest: Any) -> None:
+    manifest["files"] |= {_SHORT: "sha256:0"}
 
 
 def _target(contract: Any, rehearsals: Any, manifest: Any) -> None:
@@ -190,7 +197,7 @@ def _spoilt(built: Path, here: Path, edit: Callable[[Any, Any, Any], None]) -> s
     return "::error::f"
 
 
-@pytest.mark.parametrize("edit", [_named, _target, _fault, _key, _file, _outcome])
+@pytest.mark.parametrize("edit", [_named, _celled, _listed, _target, _fault, _key, _file, _outcome])
 def test_mock_of_a_folder_of_strangers(edit: Callable[[Any, Any, Any], None], built: Path, here: Path) -> None:
     folder = _spoilt(built, here, edit)
     _clean(run("mock", folder))

@@ -1,4 +1,4 @@
-"""What controllers declare of their own parameters, in the format of generate_parameter_library."""
+"""What controllers say of the parameters that they are given, by what they declare."""
 
 from __future__ import annotations
 
@@ -8,8 +8,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-from tests.foreign_yaml import safe_load
-from tests.oracles import UPSTREAM
+from tests.oracles.parameters import declarations
 
 _FILES = {
     "joint_trajectory_controller/JointTrajectoryController": "joint_trajectory_controller__joint_trajectory_controller",
@@ -24,7 +23,7 @@ _FILES = {
     "force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster": (
         "force_torque_sensor_broadcaster__force_torque_sensor_broadcaster"
     ),
-    "ur_controllers/GPIOController": "../ur/gpio_controller",
+    "ur_controllers/GPIOController": "gpio_controller",
     "controller_manager": "controller_manager__controller_manager",
 }
 # Declared in code, not in a parameter file: scaled_joint_trajectory_controller.cpp of Universal_Robots_ROS2_Driver.
@@ -48,7 +47,8 @@ _BROADCASTERS: Mapping[str, Mapping[str, Any]] = {
     "pose_broadcaster/PoseBroadcaster": {
         "frame_id": _NAME,
         "pose_name": _NAME,
-        "tf": {"enable": {"type": "bool", "default_value": True}, "child_frame_id": _TEXT},
+        "tf.enable": {"type": "bool", "default_value": True},
+        "tf.child_frame_id": _TEXT,
     },
     "franka_robot_state_broadcaster/FrankaRobotStateBroadcaster": {
         "robot_type": _TEXT,
@@ -100,25 +100,21 @@ class Parameter:
 @lru_cache(maxsize=64)
 def declared(distro: str, plugin: str) -> dict[str, Parameter]:
     """Return the declarations of a controller by name, with ``__map_…`` parts where a key of any name fits."""
-    if (distro, plugin) == ("humble", "controller_manager"):  # declared in code there: controller_manager.cpp
-        facts = UPSTREAM / "vendors" / "ros2_control" / "2.54.0_humble" / "hardware_interfaces.yaml"
-        read = safe_load(facts.read_text(encoding="utf-8"))["controller_manager_parameters"]
-        every = {name: Parameter(one["type"], False, {}) for name, one in read.items()}
-        return {**every, "update_rate": Parameter("int", True, {"gt": 0})}
     if plugin in _BROADCASTERS:
-        return dict(_walk(_BROADCASTERS[plugin], ""))
-    file = UPSTREAM / "parameters" / distro / f"{_FILES[plugin]}_parameters.yaml"
-    (tree,) = safe_load(file.read_text(encoding="utf-8")).values()
-    return dict(_walk({**tree, **_IN_CODE.get(plugin, {})}, ""))
+        return _parameters(_BROADCASTERS[plugin])
+    found = _parameters({**declarations(_FILES[plugin], distro), **_IN_CODE.get(plugin, {})})
+    if (distro, plugin) == ("humble", "controller_manager"):  # declared in code there, most of it with a default
+        found = {name: Parameter(one.type, False, {}) for name, one in found.items()}
+        return {**found, "update_rate": Parameter("int", True, {"gt": 0})}
+    return found
 
 
-def _walk(tree: Mapping[str, Any], before: str) -> Iterator[tuple[str, Parameter]]:
-    for key, value in tree.items():
-        if isinstance(value.get("type"), str):
-            validators = {name.removesuffix("<>"): said for name, said in (value.get("validation") or {}).items()}
-            yield f"{before}{key}", Parameter(value["type"], _must_be_given(value, validators), validators)
-        else:
-            yield from _walk(value, f"{before}{key}.")
+def _parameters(tree: Mapping[str, Mapping[str, Any]]) -> dict[str, Parameter]:
+    found = {}
+    for name, value in tree.items():
+        validators = {name.removesuffix("<>"): said for name, said in (value.get("validation") or {}).items()}
+        found[name] = Parameter(value["type"], _must_be_given(value, validators), validators)
+    return found
 
 
 def _must_be_given(value: Mapping[str, Any], validators: Mapping[str, Any]) -> bool:
@@ -190,6 +186,4 @@ def _accepted(name: str, value: Any, said: Any) -> bool:
 @lru_cache(maxsize=8)
 def known_plugins(distro: str) -> set[str]:
     """Return the controller types of a distribution whose declarations are known here."""
-    folder = UPSTREAM / "parameters" / distro
-    files = {plugin for plugin, file in _FILES.items() if (folder / f"{file}_parameters.yaml").is_file()}
-    return files | set(_BROADCASTERS)
+    return {plugin for plugin, file in _FILES.items() if declarations(file, distro)} | set(_BROADCASTERS)

@@ -296,7 +296,7 @@ def test_ur_is_claimed_while_its_program_runs_and_loses_the_claim_when_it_stops(
     activated_by_people(graph, tmp_path)
     graph.messages[_RUNNING] = SimpleNamespace(data=False)
     assert run(graph, tmp_path, "--target", "real", "claim", wait_s=0.05) == 1
-    assert "/arm_io/robot_program_running must say True, says False" in capsys.readouterr().err
+    assert "/arm_io/robot_program_running must be True, is False" in capsys.readouterr().err
     graph.messages[_RUNNING] = SimpleNamespace(data=True)
     assert run(graph, tmp_path, "--target", "real", "claim") == 0
     graph.messages[_RUNNING] = SimpleNamespace(data=False)
@@ -330,7 +330,7 @@ def test_real_target_asks_nothing_where_a_mock_was_not_ended(
     graph.nodes_["/controller_manager"] = ""
     graph.twice = ["/controller_manager"]
     assert run(graph, tmp_path, "--target", "real", "start", wait_s=0.05) == 1
-    assert "/controller_manager must be there once" in capsys.readouterr().err
+    assert "expected one node /controller_manager, got two" in capsys.readouterr().err
     assert graph.log == ["leave"]
 
 
@@ -352,7 +352,7 @@ def test_claims_that_hold_are_not_called_done_while_the_robot_is_deaf(
     run(graph, tmp_path, "--target", "real", "claim")
     graph.messages[_RUNNING] = SimpleNamespace(data=False)
     assert run(graph, tmp_path, "--target", "real", "claim", wait_s=0.05) == 1
-    assert "robot_program_running must say True, says False" in capsys.readouterr().err
+    assert "robot_program_running must be True, is False" in capsys.readouterr().err
 
 
 def test_processes_that_come_up_late_are_waited_for(graph: StandIn, tmp_path: Path) -> None:
@@ -389,7 +389,7 @@ def test_nothing_is_claimed_without_proof_and_what_is_missing_is_said(
     assert "activate arm_trajectory" not in graph.log
     error = capsys.readouterr().err
     assert said in error
-    assert kind in ("transform", "states", "switch") or "Not taken: " in error
+    assert kind in ("transform", "states", "switch") or "Skipped: " in error
 
 
 def test_lost_answer_of_a_request_that_was_done_is_no_failure(graph: StandIn, tmp_path: Path) -> None:
@@ -423,7 +423,7 @@ def test_mover_does_not_survive_its_claims(graph: StandIn, tmp_path: Path, capfd
     graph.on_spin = lambda times: graph.controllers.update(arm_trajectory="inactive")
     program = "import time; print('up', flush=True); time.sleep(600)"
     assert run(graph, tmp_path, "--target", "real", "move", "--", sys.executable, "-c", program) == 1
-    assert "is stopped: controller arm_trajectory must be active, is inactive" in capfd.readouterr().err
+    assert "stopped: controller arm_trajectory must be active, is inactive" in capfd.readouterr().err
 
 
 def test_exit_status_of_the_mover_is_passed_on(graph: StandIn, tmp_path: Path) -> None:
@@ -474,9 +474,9 @@ def test_claim_that_cannot_be_taken_away_is_told_and_tried_again(graph: StandIn)
     graph.controllers["arm_trajectory"] = "active"
     graph.refuses = {"arm_trajectory"}
     watched = graph.module.watch(graph, [WATCH])
-    assert "not deactivated, tried again" in next(watched)
+    assert "not deactivated, will retry" in next(watched)
     graph.refuses.clear()
-    assert "deactivated, a person releases the claim again" in next(watched)
+    assert "deactivated until a person authorizes the claim again" in next(watched)
 
 
 def test_fingers_run_while_no_program_plays_and_a_claim_waits_for_what_takes_it_back() -> None:

@@ -112,7 +112,7 @@ def test_goal_is_no_faster_than_the_first_motion_of_the_spec() -> None:
 @pytest.mark.parametrize(
     ("robot", "expected"),
     [
-        (Robot(there=["/move_group", "/task"]), "/task asks for motion"),
+        (Robot(there=["/move_group", "/task"]), "end /task first"),
         (Robot(served=False), "no server of /arm_trajectory/follow_joint_trajectory"),
         (Robot(positions={"arm_elbow_joint": 1.4}), "no state of arm_shoulder_lift_joint"),
     ],
@@ -137,7 +137,7 @@ def test_goal_that_is_to_be_canceled_tells_how_long_it_moved_on(capsys: pytest.C
     robot = Robot()
     assert _run(robot, "--then=cancel") == 0
     assert robot.log == ["cancel", "leave"]
-    assert "the last joint stood 0.000 s after the request" in capsys.readouterr().out
+    assert "standstill 0.000 s after the request" in capsys.readouterr().out
 
 
 def test_it_is_started_behind_the_proofs_of_everything_that_asks_for_motion() -> None:

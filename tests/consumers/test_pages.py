@@ -143,7 +143,7 @@ def test_audit_says_whose_shapes_each_device_has(cell: str, distro: str) -> None
     }
     # No package of a vendor lies beside the cells of the repository.
     assert shown == {
-        device: "boxes and cylinders" if known else "those of its description" for device, known in vendors.items()
+        device: "boxes and cylinders" if known else "from its description" for device, known in vendors.items()
     }
 
 
@@ -152,17 +152,17 @@ def test_confirmations_say_what_a_person_states_by_them(cell: str, distro: str) 
     texts = "".join(build(cell, distro).texts.values())
     # Chapter 4, section 11: evidence of the gates before, drives without power at first, an observer at the stop.
     stated = {
-        "releases the real target: gates G0 to G2 have their evidence, drives are disabled.",
-        "releases hardware that moves as it is activated: gates G0 to G4 have their evidence, nobody is in reach, "
-        "nothing is held, no program of the robot is running.",
-        "releases claims on the real target: gates G0 to G6 have their evidence, the robot listens as its vendor says, "
-        "nobody will jog it.",
-        "releases motion on the real target: gates G0 to G6 have their evidence, the observer stands at the stop.",
-        "sends the first goal to the real target: gates G0 to G6 have their evidence, claims are released, the speed "
-        "is low, the observer stands at the stop.",
+        "authorizes the hardware launch. Gates G0 to G2 have their evidence. The drives are disabled.",
+        "authorizes hardware that moves on activation. Gates G0 to G4 have their evidence. No person is in reach. "
+        "Nothing is held. No program of the robot is running.",
+        "authorizes claims on real hardware. Gates G0 to G6 have their evidence. The robot accepts commands as its "
+        "vendor says. Jogging has ended.",
+        "authorizes motion on real hardware. Gates G0 to G6 have their evidence. The observer is at the stop.",
+        "sends the first goal to real hardware. Gates G0 to G6 have their evidence. Claims are authorized. The speed "
+        "is low. The observer is at the stop.",
     }
     for text in re.findall(r'name="confirm_\w+" (?:default="[^"]*" )?description="([^"]*)"', texts):
-        said = text.removeprefix("Stated by the person who ").removesuffix(" Not needed on the mock.")
+        said = text.removeprefix("Confirmation of the person who ").removesuffix(" Not needed on the mock.")
         assert said in stated
 
 
@@ -170,7 +170,7 @@ def test_confirmations_say_what_a_person_states_by_them(cell: str, distro: str) 
 def test_every_way_after_a_loss_leads_back_to_a_gate(cell: str, distro: str) -> None:
     text = build(cell, distro).texts["audit.md"].split("\n## After a loss\n")[1].split("\n## ")[0]
     for way in re.split(r"\n\n(?!1\. )", text.strip()):
-        assert re.search(r"begin again at gate G\d|pass L1 to L5 again", way), way
+        assert re.search(r"[Rr]epeat from gate G\d|Repeat layers L1 to L5", way), way
         numbers = [int(number) for number in re.findall(r"^(\d+)\. ", way, re.MULTILINE)]
         assert numbers == [*range(1, len(numbers) + 1)]
 

@@ -12,9 +12,6 @@ from tests.consumers.declared import complaints
 from tests.consumers.matrix import build, every_build
 from tests.consumers.parameter_files import sections, told
 from tests.consumers.starting import node_name, processes
-from tests.oracles import needs_upstream
-
-pytestmark = needs_upstream
 
 
 def controllers(cell: str, distro: str) -> Iterator[tuple[str, str, dict[str, Any]]]:

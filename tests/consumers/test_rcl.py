@@ -20,7 +20,6 @@ from tests.consumers.declared import match
 from tests.consumers.matrix import HERE, SPECS, build, every_build
 from tests.consumers.parameter_files import told
 from tests.consumers.starting import node_name, processes
-from tests.oracles import needs_upstream
 
 pytestmark = pytest.mark.skipif(
     importlib.util.find_spec("rclpy") is None, reason="rclpy is not installed: the extra `ros` brings it"
@@ -128,7 +127,6 @@ def test_every_node_is_told_what_its_files_say(
 
 
 @every_build
-@needs_upstream
 def test_controllers_are_told_values_of_the_declared_types(
     cell: str, distro: str, answers: dict[tuple[str, str, str], Told]
 ) -> None:

@@ -11,7 +11,7 @@ from tests.consumers.refused_description import description_faults
 from tests.consumers.refused_parameters import parameter_faults
 from tests.consumers.starting import activated, processes
 from tests.foreign_yaml import safe_load
-from tests.oracles import RECORDED, needs_upstream
+from tests.oracles import RECORDED
 
 CASES = RECORDED / "controller_manager" / "cases"
 _MOCK = {"mock_components/GenericSystem"}
@@ -52,7 +52,6 @@ def _cases() -> list[str]:
     return sorted(path.name for path in CASES.iterdir()) if CASES.is_dir() else []
 
 
-@needs_upstream
 @pytest.mark.parametrize("case", _cases())
 def test_checker_knows_the_recorded_answers(case: str) -> None:
     faults, observed = _recorded(case)
@@ -77,7 +76,6 @@ def test_no_emitted_description_is_refused_or_dangerous(cell: str, distro: str, 
         assert description_faults(texts[path], plugins) == [], path
 
 
-@needs_upstream
 @every_build
 @pytest.mark.parametrize("target", ["mock", "real"])
 def test_no_emitted_parameter_file_is_refused_or_dangerous(cell: str, distro: str, target: str) -> None:

@@ -38,5 +38,5 @@ def test_no_port_of_the_host_is_listened_on_by_two_drivers() -> None:
     assert ports["left_arm_hardware"] == ["50001", "50002", "50003", "50004"]
     assert ports["right_arm_hardware"] == ["50011", "50012", "50013", "50014"]
     gates = build("two_arms", "jazzy").texts["gates/promotion.md"]
-    assert "port 50002, and" in gates
-    assert "port 50012, and" in gates
+    assert "port 50002. " in gates
+    assert "port 50012. " in gates

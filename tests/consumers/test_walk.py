@@ -72,7 +72,7 @@ def test_every_gate_leaves_evidence_of_its_own(cell: str, distro: str) -> None:
 
 @every_build
 def test_every_interface_of_the_real_target_has_the_ends_of_the_contract(cell: str, distro: str) -> None:
-    line = re.compile(r"^- \[ \] `(\S+)` has its declared ends: (.+) → (.+)$", re.MULTILINE)
+    line = re.compile(r"^- \[ \] Check the declared ends of `(\S+)`: (.+) → (.+)$", re.MULTILINE)
     stated = line.findall(sections(cell, distro)["L3"])
     promised = contract_data(build(cell, distro).texts["contract.json"])["interfaces"]
     ends = {name: (_on_real(one["sources"]), _on_real(one["sinks"])) for name, one in promised.items()}
@@ -80,7 +80,7 @@ def test_every_interface_of_the_real_target_has_the_ends_of_the_contract(cell: s
     assert [name for name, _, _ in stated] == list(there)
     for name, starts, stops in stated:
         sources, sinks = there[name]
-        assert set(starts.split(", ")) == (sources or {"nobody"}), name
+        assert set(starts.split(", ")) == (sources or {"none"}), name
         assert sinks <= {one.split(" (")[0] for one in stops.split(", ")}, name  # drivers and planners come beside
 
 
@@ -134,7 +134,7 @@ def test_commands_name_what_the_cell_has(cell: str, distro: str) -> None:
         if (topic := re.search(r"ros2 topic \w+ (?:-v |--once )?(\S+)", command)) is not None:
             assert kinds[topic.group(1)] == "topic", command
         elif (action := re.search(r"ros2 action info (\S+)", command)) is not None:
-            beside = f"nobody of the cell → `{action.group(1)}` →" in artifacts["audit.md"]  # a driver's own
+            beside = f"no client in the cell → `{action.group(1)}` →" in artifacts["audit.md"]  # a driver's own
             assert beside or kinds[action.group(1)] == "action", command
         elif command.startswith("ros2 control "):
             assert words[-1] in managers, command

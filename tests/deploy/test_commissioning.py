@@ -61,19 +61,21 @@ def _so(device: dict[str, Any]) -> set[str]:
 @pytest.mark.parametrize("distro", DISTROS)
 def test_nobody_releases_brakes_or_fingers_before_the_stop_was_tried_and_the_area_is_empty(distro: str) -> None:
     lines = _gates("ur5e_pick", distro)["G5"]
-    empty, tried = _place(lines, "Nobody and nothing is in the reach"), _place(lines, "was tried and the drives went")
+    empty, tried = _place(lines, "no person and no object is within reach"), _place(lines, "trip the stop")
     # Drives that have no power cannot lose it: a stop that is tried on them is not tried.
-    assert empty < _place(lines, "is told payload") < _place(lines, "releases the brakes") < tried
-    assert tried < _place(lines, "powered the drives again") < _place(lines, "no program of the arm plays")
-    assert _place(lines, "no program of the arm plays") < _place(lines, "A person releases hardware that moves")
+    assert empty < _place(lines, "Set the payload") < _place(lines, "release the brakes") < tried
+    assert tried < _place(lines, "power the drives again") < _place(lines, "no program of the arm plays")
+    assert _place(lines, "no program of the arm plays") < _place(lines, "Authorize hardware that moves")
 
 
 @pytest.mark.parametrize("cell", CELLS)
 def test_power_comes_before_the_trial_of_the_stop_and_fingers_after_it(cell: str) -> None:
     lines = _gates(cell, "jazzy")["G5"]
-    tried = _place(lines, "was tried and the drives went off")
-    assert all(number < tried for number, line in enumerate(lines) if "the brakes are opened" in line)
-    assert all(number > tried for number, line in enumerate(lines) if "homes the hand" in line or "fingers ran" in line)
+    tried = _place(lines, "trip the stop")
+    assert all(number < tried for number, line in enumerate(lines) if "open the brakes" in line)
+    assert all(
+        number > tried for number, line in enumerate(lines) if "action homing" in line or "fingers moved" in line
+    )
 
 
 @pytest.mark.parametrize("cell", CELLS)
@@ -81,14 +83,14 @@ def test_mock_is_ended_before_anything_real_is_started(cell: str) -> None:
     # A mock that is left has the names and the domain of the real cell, and answers in its place.
     gates = _gates(cell, "jazzy")
     for code in ("G2", "L6"):
-        assert gates[code][-1].startswith("Every launch of the mock is ended")
+        assert gates[code][-1].startswith("End every launch of the mock")
 
 
 @pytest.mark.parametrize("cell", ["ur5e_pick", "fr3_hand"])
 def test_second_server_is_looked_for_before_anything_asks_for_motion(cell: str) -> None:
     lines = _gates(cell, "jazzy")["G7"]
     servers = [number for number, line in enumerate(lines) if line.endswith("has one server")]
-    assert all(number < _place(lines, "releases what asks for motion") for number in servers)
+    assert all(number < _place(lines, "Authorize the motion clients") for number in servers)
 
 
 @pytest.mark.parametrize("distro", DISTROS)
@@ -96,30 +98,32 @@ def test_robot_listens_before_it_is_claimed_and_is_claimed_before_anything_asks_
     # Universal_Robots_ROS2_Driver issue 1084: a claim before the program plays is a jump when it does.
     gates = _gates("ur5e_pick", distro)
     lines = gates["G7"]
-    play, claim, motion = (_place(lines, one) for one in ("presses Play", "releases the claims", "asks for motion"))
+    play, claim, motion = (
+        _place(lines, one) for one in ("press Play", "Authorize the claims", "Authorize the motion clients")
+    )
     assert play < claim < motion
-    assert not [line for code in ("G3", "G4", "G5", "G6") for line in gates[code] if "releases the claims" in line]
+    assert not [line for code in ("G3", "G4", "G5", "G6") for line in gates[code] if "Authorize the claims" in line]
 
 
 @pytest.mark.parametrize("distro", DISTROS)
 def test_one_small_goal_ends_before_the_application_is_started(distro: str) -> None:
     # The application picks, grips and places at once: a person cannot follow that as the first motion.
     lines = _gates("ur5e_pick", distro)["G7"]
-    small = _place(lines, "a person sends the controller one goal")
-    assert _place(lines, "releases the claims") < small < _place(lines, "releases what asks for motion")
+    small = _place(lines, "Send one goal to the controller")
+    assert _place(lines, "Authorize the claims") < small < _place(lines, "Authorize the motion clients")
 
 
 def test_load_is_read_back_before_the_brakes_open_and_a_robot_is_local_before_its_driver_starts() -> None:
     gates = _gates("ur5e_pick", "jazzy")
-    assert _place(gates["G5"], "were read back there") < _place(gates["G5"], "releases the brakes")
-    assert _place(gates["G3"], "shows LOCAL") < _place(gates["G3"], "releases the real target")
-    assert _place(gates["G4"], "shows LOCAL") < _place(gates["G4"], "releases the real target")
+    assert _place(gates["G5"], "read them back there") < _place(gates["G5"], "release the brakes")
+    assert _place(gates["G3"], "shows LOCAL") < _place(gates["G3"], "Authorize the hardware launch")
+    assert _place(gates["G4"], "shows LOCAL") < _place(gates["G4"], "Authorize the hardware launch")
 
 
 def test_fci_is_active_before_the_driver_that_connects_to_it_starts() -> None:
     # franka_ros2 v3.4.0: on_init connects, and without FCI it is an error.
     lines = _gates("fr3_hand", "humble")["G3"]
-    assert _place(lines, "FCI is activated in Desk") < _place(lines, "releases the real target")
+    assert _place(lines, "activate FCI in Desk") < _place(lines, "Authorize the hardware launch")
 
 
 def test_program_that_a_stop_has_paused_is_stopped_before_anyone_goes_to_the_robot() -> None:
@@ -128,7 +132,8 @@ def test_program_that_a_stop_has_paused_is_stopped_before_anyone_goes_to_the_rob
     for state in ("protective_stop", "emergency_stop"):
         steps = recovery.split(f"arm, {state}:")[1].split("\n\n")[1].splitlines()
         stopped, person, play, claim = (
-            _place(steps, one) for one in ("stop the program", "a person", "play the External", "release the claims")
+            _place(steps, one)
+            for one in ("Stop the program", "emove the cause", "Play the External", "Authorize the claims")
         )
         assert stopped < person < play < claim
 

@@ -34,8 +34,8 @@ def test_the_controller_manager_is_told_both_lists(built: Compiled) -> None:
 
 def test_the_gate_says_whose_wish_each_state_is(built: Compiled) -> None:
     gate = built.texts["gates/promotion.md"].replace("\\", "")
-    assert "Hardware component arm_hardware is inactive, as the spec has it come up" in gate
-    assert "Hardware component gripper_hardware is unconfigured, as its vendor has it come up" in gate
+    assert "hardware component arm_hardware is inactive (set in the spec)" in gate
+    assert "hardware component gripper_hardware is unconfigured (vendor default)" in gate
 
 
 def test_a_person_activates_it_before_anything_claims(built: Compiled) -> None:

@@ -13,7 +13,7 @@ from tests.cells import ROOT
 PAGE = ROOT / "docs" / "limits.md"
 _HEAD = """# Limits
 
-cellc reads files of strangers. What it reads, expands and simulates is bounded, so that a hostile file costs seconds
+cellc reads untrusted files. What it reads, expands and simulates is bounded, so that a hostile file costs seconds
 and some hundred megabytes, and ends with a message that names the file, the limit and the option. A real cell stays far
 below.
 

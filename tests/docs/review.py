@@ -19,6 +19,12 @@ _HEAD = """# Review
 `cellc diff` tells what changed from one state of a cell to another, and what that means: fact by fact, with figures
 in mm, degrees and percent. Comments, order and the spelling of units are no change.
 
+<!-- exit 1: acceleration -->
+<!-- exit 1: velocity -->
+<!-- exit 1: velocity -->
+<!-- exit 1: velocity -->
+<!-- exit 0: no change -->
+<!-- exit 1: velocity -->
 ```sh
 cellc diff cells/ur5e_pick/cell.yaml                 # HEAD and the work tree
 cellc diff main cells/ur5e_pick/cell.yaml            # a revision and the work tree

@@ -123,14 +123,14 @@ def test_section_without_rows_says_so() -> None:
 
 def test_audit_says_the_whole_rate_of_transforms_and_of_what_is_latched() -> None:
     rows = {row[0].strip("`"): row[-1] for row in section(artifacts_of("ur5e_pick")["audit.md"], "Expected topics")}
-    assert rows["/tf"].startswith("20 Hz, dynamic frames at their own; frame in each transform")
-    assert rows["/tf_static"].startswith("once, kept for whoever comes later; ")
+    assert rows["/tf"].startswith("20 Hz, dynamic frames at their own rate; frame in each transform")
+    assert rows["/tf_static"].startswith("once, latched; ")
 
 
 def test_audit_says_where_the_planner_knows_nothing_around_the_devices(tmp_path: Path) -> None:
     text = spec_text("ur5e_pick")
     scene = "scene:\n  table: {parent: world, xyz: 350 0 780 mm, box: 900 1200 40 mm}\n"
     assert scene in text
-    told = "`scene` is empty, so that paths are planned through table and fence"
+    told = "`scene` is empty, so paths are planned through table and fence"
     assert told in emitted(tmp_path, text.replace(scene, ""))["audit.md"]
     assert told not in artifacts_of("ur5e_pick")["audit.md"]

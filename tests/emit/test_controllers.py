@@ -12,7 +12,7 @@ import pytest
 from tests.cells import DISTROS, spec_text
 from tests.emit.cells import CELLS, artifacts_of, emitted
 from tests.foreign_yaml import safe_load
-from tests.oracles import UPSTREAM, needs_upstream
+from tests.oracles.parameters import declarations
 
 _TRAJECTORY = "joint_trajectory_controller__joint_trajectory_controller"
 _DECLARED_IN = {
@@ -23,9 +23,9 @@ _DECLARED_IN = {
         "parallel_gripper_controller__gripper_action_controller"
     ),
     "position_controllers/GripperActionController": "gripper_controllers__gripper_action_controller",
-    "ur_controllers/GPIOController": "../ur/gpio_controller",
-    "ur_controllers/SpeedScalingStateBroadcaster": "../ur/speed_scaling_state_broadcaster",
-    "ur_controllers/URConfigurationController": "../ur/ur_configuration_controller",
+    "ur_controllers/GPIOController": "gpio_controller",
+    "ur_controllers/SpeedScalingStateBroadcaster": "speed_scaling_state_broadcaster",
+    "ur_controllers/URConfigurationController": "ur_configuration_controller",
     "pose_broadcaster/PoseBroadcaster": "pose_broadcaster__pose_broadcaster",
 }
 # Universal_Robots_ROS2_Driver, scaled_joint_trajectory_controller.cpp: declared in code, not in a parameter file.
@@ -59,14 +59,11 @@ def _declared(distro: str, plugin: str, joints: list[str]) -> dict[str, str]:
     """Return the type of each parameter that the real controller declares, maps over joints filled in."""
     if plugin not in _DECLARED_IN:
         return _OWN[plugin]
-    file = UPSTREAM / "parameters" / distro / f"{_DECLARED_IN[plugin]}_parameters.yaml"
-    (tree,) = safe_load(file.read_text()).values()
-    found = {name[: -len(".type")]: value for name, value in _flat(tree) if name.endswith(".type")}
+    found = {name: said["type"] for name, said in declarations(_DECLARED_IN[plugin], distro).items()}
     per_joint = {name.replace("__map_joints", joint): value for name, value in found.items() for joint in joints}
     return found | per_joint | _OWN.get(plugin, {})
 
 
-@needs_upstream
 @pytest.mark.parametrize("distro", DISTROS)
 @pytest.mark.parametrize("cell", CELLS)
 def test_every_parameter_is_declared_with_its_type(cell: str, distro: str) -> None:

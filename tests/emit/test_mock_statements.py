@@ -47,7 +47,10 @@ def test_audit_says_what_rests_on_a_statement(cell: Compiled) -> None:
     proof = cell.texts["audit.md"].split("\n## What the mock cannot prove\n")[1]
     said = [line for line in proof.splitlines() if "touches no hardware" in line]
     assert [line.partition(":")[0] for line in said] == ["- one", "- two"]
-    assert [line.rpartition(" of ")[2] for line in said] == ["controls, 2026-07-01", "drivers, 2026-07-02"]
+    assert [line.rpartition(" of ")[2] for line in said] == [
+        "controls states it, 2026-07-01",
+        "drivers states it, 2026-07-02",
+    ]
 
 
 def test_show_tells_each_statement_with_its_line(cell: Compiled) -> None:

@@ -110,7 +110,7 @@ def test_the_policy_lets_servo_command_that_controller_and_the_audit_that_the_mo
     published = {topic.text for one in enclave.iter("topics") if one.get("publish") for topic in one.iter("topic")}
     assert "/arm_jog/commands" in {f"/{(name or '').lstrip('/')}" for name in published}
     proof = texts["audit.md"].split("\n## What the mock cannot prove\n")[1]
-    assert "MoveIt Servo: the mock executes none" in proof
+    assert "(MoveIt Servo): the mock does not execute it" in proof
     assert "the mock plans without it" in proof
 
 
@@ -124,5 +124,5 @@ def test_the_gate_has_the_service_that_starts_servo_and_its_figures(texts: dict[
     # servo_node.cpp of 2.5.9, line 58; of 2.12.4, line 130.
     gate = texts["gates/promotion.md"].split("\n## G7 ")[1].replace("\\", "")
     starts = "/servo/start_servo" if distro == "humble" else "/servo/switch_command_type"
-    assert f"moves nothing until {starts} is called and `/arm_jog` is switched in" in gate
-    assert "at no more than 50 mm/s, 0.2 rad/s and 0.1 rad/s a joint, and it halts within 0.1 s" in gate
+    assert f"Call {starts} and switch in `/arm_jog`." in gate
+    assert "at no more than 50 mm/s, 0.2 rad/s and 0.1 rad/s per joint. It must stop within 0.1 s" in gate

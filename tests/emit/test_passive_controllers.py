@@ -16,7 +16,7 @@ from cellc.vocabulary import Distro
 from tests.cells import diagnose, spec_text
 from tests.emit.cells import contract_data, emitted
 from tests.foreign_yaml import safe_load
-from tests.oracles import UPSTREAM, needs_upstream
+from tests.oracles.parameters import declarations
 
 SCALING = "      scaling: {type: speed_scaling_state_broadcaster, device: arm}\n"
 ACTIVATION = "      activation: {type: gripper_activation, device: gripper, client: task}\n"
@@ -87,10 +87,8 @@ def test_parameters_are_given_in_the_types_that_the_vendor_declares() -> None:
     assert state == {"arm_prefix": "", "convenience_publish_rate": 1000, "robot_type": "fr3"}
 
 
-@needs_upstream
 def test_declared_parameters_are_those_of_the_vendor() -> None:
-    text = (UPSTREAM / "parameters" / "ur" / "speed_scaling_state_broadcaster_parameters.yaml").read_text("utf-8")
-    (declared,) = safe_load(text).values()
+    declared = declarations("speed_scaling_state_broadcaster", "jazzy")
     device = load_device("ur5e").value
     assert device is not None
     own = device.model.controllers["speed_scaling_state_broadcaster"].parameters

@@ -13,7 +13,17 @@ from tests.cells import ROOT
 
 # The mock, the format between it and the compiler, and what both use: the reader of URDF, planner, files, processes.
 NEEDED = ("mock", "contract", "planning", "description", "diagnostics", "store", "adapter", "compute")
-MODULES = ("__init__.py", "limits.py", "printing.py", "signals.py", "transforms.py", "version.py", "vocabulary.py")
+MODULES = (
+    "__init__.py",
+    "errors.py",
+    "extras.py",
+    "limits.py",
+    "printing.py",
+    "signals.py",
+    "transforms.py",
+    "version.py",
+    "vocabulary.py",
+)
 
 
 def copy_the_mock(package: Path) -> None:

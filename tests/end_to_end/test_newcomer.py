@@ -1,8 +1,7 @@
-"""The steps of the README in an empty folder, and the mistakes that a newcomer makes first."""
+"""Cells of `cellc init` in an empty folder, and the mistakes that a newcomer makes first."""
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 
 import pytest
@@ -28,27 +27,10 @@ def empty_fixture(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def _ran_here(line: str) -> str:
-    """Run a command in this process: what processes of their own add, the steps of the README hold."""
+    """Run a command in this process: what a process of its own adds, other tests hold."""
     ran = run(*line.split())
     assert ran.code == 0, ran.out + ran.err
     return ran.out
-
-
-def _commands_of_readme() -> list[str]:
-    block = re.search(
-        r"## Your own cell\n\n```sh\n(.+?)```", (ROOT / "README.md").read_text(encoding="utf-8"), re.DOTALL
-    )
-    assert block is not None
-    return [line.partition("#")[0].strip().removeprefix("cellc ") for line in block[1].splitlines()]
-
-
-def test_readme_leads_from_an_empty_folder_to_a_rehearsed_cell(tmp_path: Path) -> None:
-    commands = _commands_of_readme()
-    assert [command.split()[0] for command in commands] == ["init", "check", "build", "mock", "explain"]
-    for command in commands:
-        ran = _ran(tmp_path, command)
-    assert (tmp_path / "generated/bench/package.xml").exists()
-    assert "# uncalibrated-frame" in ran.out
 
 
 @pytest.mark.parametrize("ros", ["humble", "jazzy", "kilted", "lyrical"])

@@ -41,6 +41,7 @@ def _import(here: Path, text: str, *options: str, name: str = "arm.urdf") -> tup
     ran = run("import", name, *options)
     assert "Traceback" not in ran.out + ran.err
     assert "bug of cellc" not in ran.out + ran.err
+    assert ran.code == 0 or "next:" not in ran.out
     return ran.code, ran.out + ran.err
 
 
@@ -54,6 +55,62 @@ def test_imported_robot_moves_in_its_first_cell(here: Path) -> None:
     assert run("build", "cell.yaml").code == 0
     ran = run("mock", "generated/odd_arm_cell")
     assert (ran.code, "first_move: succeeded" in ran.out) == (0, True)
+
+
+def test_origins_at_the_poles_of_pitch_are_built_as_their_vendor_rounded_them(here: Path) -> None:
+    parts = [_links("a", "b"), _joint("turn", "a", "b")]
+    for place, pitch in enumerate(("-1.570796", "1.5708", "1.57079632679", "-1.5707963267948966", "1.57")):
+        turned = f'<parent link="b"/><child link="p{place}"/><origin rpy="0 {pitch} 0"/>'
+        parts += [_links(f"p{place}"), f'<joint name="f{place}" type="fixed">{turned}</joint>']
+    code, out = _import(here, _robot(*parts), "--cell")
+    assert code == 0, out
+    built = run("build", "cell.yaml")
+    assert (built.code, "verify-frames" in built.out) == (0, False), built.out
+
+
+def test_links_with_a_slash_in_their_names_are_named_behind_the_first_slash(here: Path) -> None:
+    # As Interbotix and ALOHA write them: `vx300s/base_link`.
+    text = _robot(*ARM)
+    for link in "abc":
+        text = text.replace(f'"{link}"', f'"side/{link}_link"')
+    code, out = _import(here, text, "--cell")
+    assert (code, "next:" in out) == (0, True), out
+    cell = here / "cell.yaml"
+    spec = cell.read_text(encoding="utf-8")
+    assert "{base: arm/side/a_link, tip: arm/side/c_link}" in spec
+    camera = "frames:\n  eye: {parent: arm/side/c_link, xyz: 0 0 10 mm}\n"
+    cell.write_text(spec.replace("control:\n", f"{camera}control:\n", 1), encoding="utf-8")
+    built = run("build", "cell.yaml")
+    assert built.code == 0, built.out + built.err
+    (urdf,) = here.glob("generated/*/urdf/*.mock.urdf")
+    assert '<parent link="arm_side/c_link"/>' in urdf.read_text(encoding="utf-8")
+    ran = run("mock", "generated/odd_arm_cell")
+    assert (ran.code, "first_move: succeeded" in ran.out) == (0, True)
+    assert run("view", "cell.yaml", "-o", "page.html").code == 0
+
+
+@pytest.mark.parametrize("names", [("n", "o"), ("o", "n")], ids=["leaders first", "leaders last"])
+def test_chain_of_followers_moves_in_every_order_of_their_names(names: tuple[str, str], here: Path) -> None:
+    first, second = names
+    links = (_links("d", "e"), _joint(first, "c", "d", inside=f'{_LIMIT}<mimic joint="j2" multiplier="0.5"/>'))
+    last = _joint(second, "d", "e", inside=f'{_LIMIT}<mimic joint="{first}" multiplier="-0.5" offset="0.1"/>')
+    code, out = _import(here, _robot(*ARM, *links, last), "--cell")
+    assert code == 0, out
+    assert run("build", "cell.yaml").code == 0
+    (urdf,) = here.glob("generated/*/urdf/*.mock.urdf")
+    assert '<mimic joint="arm_j2" multiplier="-0.25" offset="0.1"/>' in urdf.read_text(encoding="utf-8")
+    ran = run("mock", "generated/odd_arm_cell")
+    assert (ran.code, "first_move: succeeded" in ran.out) == (0, True), ran.out
+
+
+def test_import_does_not_end_with_a_build_that_fails(here: Path) -> None:
+    (here / "cell.yaml").write_text("format: 1\ncell: mine\nversions: {ros: jazy}\n", encoding="utf-8")
+    code, out = _import(here, _robot(*ARM), "--cell")
+    assert (code, "next:" in out, "missing-key" in out) == (1, False, True), out
+    (here / "cell.yaml").unlink()
+    bad = _robot(*ARM).replace('<mass value="1"/>', '<mass value="-1"/>')
+    code, out = _import(here, bad, "--cell", "-o", "bad")
+    assert (code, "negative-mass" in out) == (1, True), out
 
 
 def test_first_motion_goes_round_what_stands_on_its_straight_way(here: Path) -> None:
@@ -98,7 +155,9 @@ def test_second_import_leaves_what_a_person_wrote_and_tells_what_changed(here: P
     (here / "odd_arm" / "robot.urdf").write_text("changed", encoding="utf-8")
     checked = run("import", "--check", "odd_arm")
     assert (checked.code, "changed: robot.urdf" in checked.out) == (1, True)
-    code, out = _import(here, _robot(*ARM))
+    refused = _import(here, _robot(*ARM))
+    assert (refused[0], "error[edited-by-hand]: `robot.urdf`" in refused[1]) == (1, True)
+    code, out = _import(here, _robot(*ARM), "--force")
     assert (code, "odd_arm/device.yaml is as it was" in out) == (0, True)
     assert "vendor: Us" in device.read_text(encoding="utf-8")
     assert run("import", "--check", "odd_arm").code == 0
@@ -269,15 +328,14 @@ _TURNING = "".join(
     for number in range(200)
 )  # fmt: skip
 NASTY = {
-    "no limits": (_robot(_links("a", "b"), _joint("j", "a", "b", inside="")), "`j` has no limits"),
-    "no range": (
-        _robot(_links("a", "b"), _joint("j", "a", "b", inside=_LIMIT.replace("2", "0"))),
-        "`Odd-Arm` has no joint that can move: `j` goes from -0 to 0 rad",
+    "reversed limits": (
+        _robot(_links("a", "b"), _joint("j", "a", "b", inside=_LIMIT.replace('"-2"', '"3"'))),
+        "`Odd-Arm` has no joint that can move: `j` has the range 3 to 2",
     ),
-    "no speed": (
-        _robot(_links("a", "b", "c"), _joint("i", "a", "b", "continuous", '<limit velocity="0" effort="1"/>'),
-               _joint("j", "b", "c", inside=_LIMIT.replace("1", "0"))),
-        "`i` has a velocity of 0, and 1 more",
+    "a speed below zero": (
+        _robot(_links("a", "b", "c"), _joint("i", "a", "b", "continuous", '<limit velocity="-1" effort="1"/>'),
+               _joint("j", "b", "c", inside=_LIMIT.replace('"1"', '"-1"'))),
+        "`i` has a velocity of -1, and 1 more",
     ),
     "two roots": (_robot(_links("a", "b", "lone"), _joint("j", "a", "b")), "must have one root, got a, lone"),
     "a name with a space": (_robot(_links("a", "the tool"), _joint("j", "a", "the tool")), "got `the tool`"),
@@ -334,27 +392,14 @@ def test_robot_that_is_not_there_is_refused_in_one_line(named: str, here: Path) 
     assert (ran.code, ran.out.count("\n")) == (1, 1)
 
 
-@pytest.mark.parametrize(
-    ("limit", "code"),
-    [
-        ('<limit effort="1" velocity="1"/>', "missing-joint-limits"),
-        (_LIMIT.replace('"1"', '"0"'), "missing-velocity-limit"),
-    ],
-)
-def test_joint_without_limits_is_excused_as_long_as_nothing_commands_it(limit: str, code: str, here: Path) -> None:
-    wheel = (_links("wheel"), _joint("spin", "a", "wheel", inside=limit))
-    assert _import(here, _robot(*ARM, *wheel), "--cell")[0] == 0
-    assert f"excused: {{{code}: 'UNKNOWN" in (here / "odd_arm" / "device.yaml").read_text(encoding="utf-8")
-    assert f"`{code}` of its description is excused" in run("audit", "cell.yaml").out
-    cell = here / "cell.yaml"
-    text = cell.read_text(encoding="utf-8")
-    assert run("check", "cell.yaml").code == 0
+def test_follower_without_limits_is_excused(here: Path) -> None:
+    finger = (_links("d"), _joint("finger", "c", "d", inside='<limit effort="1" velocity="1"/><mimic joint="j2"/>'))
+    assert _import(here, _robot(*ARM, *finger), "--cell")[0] == 0
+    text = (here / "odd_arm" / "device.yaml").read_text(encoding="utf-8")
+    assert "excused: {missing-joint-limits: 'UNKNOWN" in text
+    assert "`missing-joint-limits` of its description is excused" in run("audit", "cell.yaml").out
     assert run("build", "cell.yaml").code == 0
-    contract = json.loads((here / "generated" / "odd_arm_cell" / "contract.json").read_text(encoding="utf-8"))
-    assert ("arm_spin" in contract["joint_limits"]) == (code == "missing-joint-limits")  # a speed of 0 is no limit
     assert run("mock", "generated/odd_arm_cell").code == 0
-    cell.write_text(text.replace("joints: [arm/j1, arm/j2]", "joints: [arm/j1, arm/j2, arm/spin]"), encoding="utf-8")
-    assert code in run("check", "cell.yaml").out
 
 
 def test_home_at_a_limit_of_many_digits_stays_within_it(here: Path) -> None:

@@ -9,7 +9,7 @@ import pytest
 
 from cellc.description.meshes import identify
 from cellc.description.model import Description, Mesh
-from cellc.description.packages import find_package
+from cellc.description.packages import find_package, root_of
 from cellc.description.read_description import read_description
 from tests.cli.run import run
 
@@ -63,6 +63,54 @@ def test_eval_decides_what_is_in_the_robot(tmp_path: Path) -> None:
     assert [link.name for link in _read(tmp_path, body, hand="true").links] == ["a", "b"]
 
 
+def test_variable_of_the_environment_is_its_default_whatever_the_machine_has(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # clearpath's husky_description asks for forty of them.
+    monkeypatch.setenv("LASER", "1")
+    file = tmp_path / "r.xacro"
+    file.write_text(f'{_HEAD}<link name="a_$(optenv LASER 0)"/><link name="b$(optenv LASER)"/></robot>', "utf-8")
+    read = read_description(file, {}, tmp_path)
+    assert read.value is not None
+    assert [link.name for link in read.value.links] == ["a_0", "b"]
+    assert ["`$(optenv LASER)`" in one.message for one in read.diagnostics] == [True, True]
+
+
+def test_argument_that_is_used_and_not_declared_is_asked_for_and_can_be_given(tmp_path: Path) -> None:
+    # As the AR4's description, whose launch file gives `ar_model`.
+    file = tmp_path / "r.xacro"
+    file.write_text(f'{_HEAD}<link name="base_$(arg ar_model)"/></robot>', "utf-8")
+    (missing,) = read_description(file, {}, tmp_path).diagnostics
+    assert (missing.code, missing.message) == ("xacro-missing-argument", "argument `ar_model` has no value")
+    assert "`ar_model:=VALUE`" in missing.help
+    given = read_description(file, {"ar_model": "mk3"}, tmp_path).value
+    assert given is not None
+    assert given.links[0].name == "base_mk3"
+    (misspelt,) = read_description(file, {"ar_model": "mk3", "ar_modle": "mk2"}, tmp_path).diagnostics
+    assert (misspelt.code, misspelt.help) == ("xacro-unknown-argument", "did you mean `ar_model`?")
+
+
+@pytest.mark.parametrize(
+    ("expression", "value"),
+    [
+        ("[x * 2 for x in range(3) if x != 1]", "[0, 4]"),
+        ("[a + b for a, b in zip_of]", "[3, 7]"),
+        ("sorted([-x for x in [1, 2]])[0]", "-2"),
+        ("'%s_%02d' % ('link', 7)", "link_07"),
+        ("' '.join(['a', 'b']).replace('a', 'c')", "c b"),
+        ("5 &amp; 4 | 2", "6"),
+        ("python.isinstance('a', str) and not python.isinstance(1, str)", "True"),
+        ("list(parts.values())[0] + parts.inner", "16"),
+    ],
+)
+def test_expression_of_vendors_has_the_value_that_python_gives_it(expression: str, value: str, tmp_path: Path) -> None:
+    (tmp_path / "p.yaml").write_text("{pairs: [[1, 2], [3, 4]], parts: {inner: 8}}\n", "utf-8")
+    body = '<xacro:property name="p" value="${xacro.load_yaml(\'p.yaml\')}"/>'
+    body += '<xacro:property name="zip_of" value="${p.pairs}"/><xacro:property name="parts" value="${p.parts}"/>'
+    read = _read(tmp_path, f'{body}<link name="${{{expression}}}"/>')
+    assert read.links[0].name == value
+
+
 def test_aliases_in_a_file_of_parameters_are_written_out(tmp_path: Path) -> None:
     # As franka_description's hand: one block of limits, used for both fingers.
     text = "left: &finger {mass: 0.01, size: [1, 2]}\nright: *finger\nthird: {<<: *finger, mass: 0.02}\n"
@@ -98,6 +146,35 @@ def test_repository_that_is_a_package_of_another_name_is_found_by_its_manifest(t
     (tmp_path / "src" / "Vendor_Repository" / "package.xml").write_text("<package>\n <name>arm_description</name>\n")
     assert find_package("arm_description", str(tmp_path)) == str(tmp_path / "src" / "Vendor_Repository")
     assert find_package("Vendor", str(tmp_path)) is None
+
+
+@pytest.mark.parametrize("deep", ["src/repository/group", "src/repository/group/inner", "group/inner"])
+def test_package_in_a_folder_of_a_repository_is_found_as_colcon_finds_it(deep: str, tmp_path: Path) -> None:
+    # As Yaskawa's and Dobot's repositories, whose packages lie in folders of one series.
+    for name in ("arm_description", "arm_moveit"):
+        (tmp_path / deep / name).mkdir(parents=True)
+        (tmp_path / deep / name / "package.xml").write_text(f"<package><name>{name}</name></package>", "utf-8")
+    assert find_package("arm_description", str(tmp_path)) == str(tmp_path / deep / "arm_description")
+    if deep.startswith("src/repository/group") and not deep.endswith("inner"):
+        assert root_of(tmp_path / deep / "arm_moveit" / "robot.xacro") == tmp_path
+
+
+@pytest.mark.parametrize("ignored", ["COLCON_IGNORE", "AMENT_IGNORE", ".hidden", "package.xml"])
+def test_package_that_colcon_leaves_out_is_not_found(ignored: str, tmp_path: Path) -> None:
+    above = tmp_path / "src" / "repository" / (ignored if ignored.startswith(".") else "group")
+    package = above / "arm_description"
+    package.mkdir(parents=True)
+    (package / "package.xml").write_text("<package><name>arm_description</name></package>", "utf-8")
+    if not ignored.startswith("."):
+        assert find_package("arm_description", str(tmp_path)) == str(package)
+        (above / ignored).write_text("<package><name>other</name></package>", "utf-8")
+    assert find_package("arm_description", str(tmp_path)) is None
+
+
+def test_a_link_to_itself_ends_no_search_for_packages(tmp_path: Path) -> None:
+    (tmp_path / "neighbor").mkdir()
+    (tmp_path / "neighbor" / "cell.yaml").symlink_to("cell.yaml")
+    assert find_package("arm_description", str(tmp_path)) is None
 
 
 def test_packages_are_those_that_the_call_names_and_none_of_the_environment(

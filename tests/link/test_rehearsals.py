@@ -114,3 +114,17 @@ def test_fault_that_cannot_happen_is_reported_with_what_can(
     assert found.code == code
     assert message in found.message
     assert help_ in found.help
+
+
+def test_the_only_gripper_needs_no_name(tmp_path: Path) -> None:
+    (step,) = bound(tmp_path, "odd: {steps: [{grip: open}], expect: succeeded}").steps
+    assert (step.kind, step.name, step.command) == ("grip", "gripper", "open")
+
+
+def test_a_gripper_that_is_not_there_is_named_where_it_is_written(tmp_path: Path) -> None:
+    path = _written(tmp_path, "odd: {steps: [{grip: open, device: griper}], expect: succeeded}")
+    (problem,) = linking(path).diagnostics
+    assert (problem.code, problem.help) == ("unknown-device", "did you mean `gripper`?")
+    assert problem.yaml_path == ("rehearsals", "odd", "steps", 0, "device")
+    line = path.read_text(encoding="utf-8").splitlines()[problem.span.line - 1]
+    assert line[problem.span.column - 1 :].startswith("griper")

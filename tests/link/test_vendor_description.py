@@ -42,7 +42,7 @@ def test_without_the_package_the_shapes_of_the_catalog_serve_and_the_audit_says_
     shutil.rmtree(tmp_path / "vendored_arm" / "vendored_arm_description")
     assert _shapes(spec) == [Box]
     audit = compiled(spec).texts["audit.md"]
-    assert "| arm | boxes and cylinders | `vendored_arm_description` lies neither beside the spec" in audit
+    assert "| arm | boxes and cylinders | `vendored_arm_description` is neither beside the spec" in audit
 
 
 def test_package_is_found_on_the_package_path_and_every_target_has_its_shapes(tmp_path: Path) -> None:
@@ -54,14 +54,14 @@ def test_package_is_found_on_the_package_path_and_every_target_has_its_shapes(tm
     with on_package_path([(tmp_path / "elsewhere").as_posix()]):
         texts = compiled(spec).texts
     assert all("<sphere" in texts[f"urdf/vendored.{target}.urdf"] for target in ("mock", "real"))
-    assert "| arm | those of its vendor |" in texts["audit.md"]
+    assert "| arm | from its vendor |" in texts["audit.md"]
     assert texts == beside
 
 
 def test_difference_is_told_with_its_figures(tmp_path: Path) -> None:
     (found,) = [one for one in diagnose(_spec(tmp_path, "bent_arm")) if one.code == "vendor-description-differs"]
     # 210 mm instead of 200 mm, 12 N m instead of 10 N m.
-    assert "`arm_arm` stands 10 mm away" in found.message
+    assert "`arm_arm` is 10 mm off" in found.message
     assert "effort of `arm_turn` is 10, and 12 there" in found.message
 
 

@@ -55,13 +55,13 @@ def test_a_link_or_joint_is_defined_where_its_description_writes_it(asked: str, 
 def test_keys_of_a_device_are_explained_by_what_their_models_say() -> None:
     text = "format: 1\nmodel: my_arm\nvendor: me\ncommissioning:\n  - {gate: G5, does: it is pushed, run: []}\n\n"
     meant = {one.word: one.meaning for one in completions(text, 6, 1, Known())}
-    assert meant["base"].startswith("`base` is the link that a mount places")
+    assert meant["base"].startswith("Link that a mount places")
     assert "versions" in meant
     assert "vendor" not in meant  # it stands there
     shown = [hover(text, line, column, Known()) for line, column in ((3, 2), (5, 37))]
     assert [one[0].partition("\n\n")[2] for one in shown if one is not None] == [
-        "`vendor` is who makes it.",
-        "`run` are commands that read; `{address}` in them is a word of the shell.",
+        "Who makes the device.",
+        "Commands that only read; `{address}` in them becomes a word of the shell.",
     ]
 
 

@@ -14,13 +14,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from cellc.limits import DEFAULTS, in_force
+from cellc.limits import DEFAULTS, in_force, limits
 from cellc.mock import MockCell, MockError, load
+from cellc.mock.cell import run_all
 from cellc.mock.command.options import MockOptions, run_mock
 from cellc.mock.control.controllers.joint_trajectory.motion import stop_points
 from cellc.mock.errors import LimitReachedError
+from cellc.mock.folder import path_tolerances
 from cellc.mock.result import RunFailure
 from cellc.store.regular_file import NotRegularError, read_regular
+from tests.cells import ROOT
 from tests.mock.conftest import LoadWith
 
 READ = ("contract.json", "rehearsals.json", "manifest.json", "config/controllers.yaml", "urdf/ur5e_pick.mock.urdf")
@@ -248,3 +251,16 @@ def test_lack_of_memory_is_told_in_one_line(
     monkeypatch.setattr("cellc.mock.command.rehearsals.load", out_of_memory)
     assert run_mock(MockOptions(folder=str(built_folder))) == 2
     assert capsys.readouterr().err.startswith("error: the folder asks for more memory than there is")
+
+
+def test_rehearsals_of_one_folder_are_bounded_together(monkeypatch: pytest.MonkeyPatch) -> None:
+    cell = load(ROOT / "generated/minimal")
+    bounds = replace(limits(), rehearsal_seconds=0)
+    with in_force(bounds), pytest.raises(MockError, match=r"at most 0 s of processor time together.*rehearsal-seconds"):
+        run_all(cell)
+
+
+def test_tolerances_of_a_hostile_parameter_file_are_none() -> None:
+    merged = "".join(f"m{n}: &m{n} {{<<: [{', '.join([f'*m{n - 1}'] * 9)}]}}\n" for n in range(1, 12))
+    for text in (f"m0: &m0 {{a: 1}}\n{merged}", "x: " + "[" * 200_000):
+        assert path_tolerances({"control": text}) == {}

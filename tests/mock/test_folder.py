@@ -119,7 +119,7 @@ def test_wrong_type_is_named_with_its_place(edit_contract: Edit) -> None:
 
 
 def test_path_out_of_the_folder_is_refused(edit_contract: Edit) -> None:
-    with pytest.raises(MockError, match="not a path inside the folder"):
+    with pytest.raises(MockError, match=r"`files\.urdf_mock`: must be a path inside the folder"):
         edit_contract(lambda contract: contract["files"].update(urdf_mock="../../etc/passwd"))
 
 

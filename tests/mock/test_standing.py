@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
+
 import pytest
 
 from cellc.mock import MockCell
@@ -46,7 +48,7 @@ def test_whatever_is_drawn_a_copy_ends_as_a_cell_that_comes_up(
     copied.rehearse(entry, reality=AS_STATED)
     second = copied.rehearse(entry, reality=drawn)
     assert len(brought_up) == times
-    assert repr(second) == repr(fresh.rehearse(entry, reality=drawn))
+    assert repr(asdict(second)) == repr(asdict(fresh.rehearse(entry, reality=drawn)))
 
 
 def test_what_was_commanded_in_the_bring_up_is_in_the_journal_of_a_copy(cell: MockCell, brought_up: list[str]) -> None:

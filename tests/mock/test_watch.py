@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import asdict
 from typing import Any
 
 import pytest
@@ -28,7 +29,7 @@ def test_missed_cycles_are_seen_at_the_instant_at_which_looking_all_the_time_see
     calm = cell.run("faulty")
     monkeypatch.setattr(context, "next_look_ns", _always)
     assert calm.outcome == "missed_cycle"
-    assert repr(calm) == repr(cell.run("faulty"))
+    assert repr(asdict(calm)) == repr(asdict(cell.run("faulty")))
 
 
 def test_a_quiet_rehearsal_ends_bit_by_bit_as_with_every_look_and_needs_fewer(
@@ -47,7 +48,7 @@ def test_a_quiet_rehearsal_ends_bit_by_bit_as_with_every_look_and_needs_fewer(
     monkeypatch.setattr(context, "next_look_ns", seldom)
     calm = cell.run("pick_and_place")
     monkeypatch.setattr(context, "next_look_ns", always)
-    assert repr(calm) == repr(cell.run("pick_and_place"))
+    assert repr(asdict(calm)) == repr(asdict(cell.run("pick_and_place")))
     assert looks["seldom"] < 0.7 * looks["always"]
 
 
@@ -64,7 +65,7 @@ def test_a_task_that_slept_over_a_stale_observation_runs_again_with_every_look(
     slept = cell.rehearse(entry, watch=plants.append, from_off=False)
     assert slept.outcome == "stale_state"
     assert len(plants) == 2
-    assert repr(slept) == repr(cell.rehearse(entry, watch=plants.append))
+    assert repr(asdict(slept)) == repr(asdict(cell.rehearse(entry, watch=plants.append)))
     assert len(plants) == 3
 
 
@@ -72,4 +73,4 @@ def test_a_task_whose_observations_come_in_time_runs_once_and_ends_as_with_every
     entry, plants = cell.entry("pick_and_place"), list[Plant]()
     slept = cell.rehearse(entry, watch=plants.append, from_off=False)
     assert len(plants) == 1
-    assert repr(slept) == repr(cell.rehearse(entry, watch=plants.append))
+    assert repr(asdict(slept)) == repr(asdict(cell.rehearse(entry, watch=plants.append)))

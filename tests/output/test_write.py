@@ -183,7 +183,22 @@ def test_link_above_the_folder_is_not_written_through(tmp_path: Path, monkeypatc
 
 @pytest.mark.parametrize(
     "path",
-    ["../a", "/a", "a/../../b", "a//b", "", "a\\b", "a\nb", "C:a", "x" * 256, "./a"],
+    [
+        "../a",
+        "/a",
+        "a/../../b",
+        "a//b",
+        "",
+        "a\\b",
+        "a\nb",
+        "C:a",
+        "x" * 256,
+        "./a",
+        "nul",
+        "config/AUX.yaml",
+        "com1/a",
+        "lpt9 .x",
+    ],
 )
 def test_path_that_leads_elsewhere_or_nowhere_is_refused(path: str, tmp_path: Path) -> None:
     outcome = write([Artifact(path, "x\n")], tmp_path / "small")

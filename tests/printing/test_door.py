@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 from contextlib import redirect_stderr, redirect_stdout
+from itertools import count
 
 import pytest
 
@@ -72,7 +73,7 @@ def test_progress_draws_text_alone(text: str) -> None:
         def isatty(self) -> bool:
             return True
 
-    terminal, times = Terminal(), iter((0.0, 2.0))
+    terminal, times = Terminal(), count(0.0, 2.0)
     with progress("", terminal, lambda: next(times)) as update:
         update(text)
         drawn = terminal.getvalue()

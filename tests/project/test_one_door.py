@@ -16,6 +16,7 @@ _PAST_IT = {
     "cellc/emit/launch/first_goal_program.py": "it runs on the robot's host, without cellc",
     "cellc/emit/launch/installed_versions_program.py": "it runs on the robot's host, without cellc",
     "cellc/emit/launch/required_program.py": "it runs on the robot's host, without cellc",
+    "cellc/verify/parsers.py": "it takes the loggers of foreign parsers off the terminal",
     "cellc/signals.py": "one line of its own, past the buffers of a program that was stopped anywhere",
 }
 _PRINTING = {

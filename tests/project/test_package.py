@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 
 import cellc
-from cellc.diagnostics import Severity
-from cellc.mock import MockError
+from cellc.diagnostics import Diagnostic, Outcome, Severity, Span
+from cellc.diagnostics.diagnostic import Findings
+from cellc.diagnostics.unsafe_text import escaped
+from cellc.mock import AttemptRecord, MockError, RehearsalResult
+from cellc.output.write import WriteReport
+from cellc.pipeline import Checked
+from cellc.vocabulary import AttemptOutcome
 from tests.cells import ROOT
 from tests.cli.run import MINIMAL, run
 
@@ -77,3 +84,72 @@ def test_importing_the_package_loads_no_stage() -> None:
     program = "import sys, cellc; print(sorted(name for name in sys.modules if name.startswith('cellc.')))"
     ran = subprocess.run([sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True, check=True)
     assert ran.stdout.strip() == "['cellc.version']"
+
+
+@pytest.mark.parametrize("name", cellc.__all__)
+def test_every_name_that_is_exported_is_there(name: str) -> None:
+    assert name in dir(cellc)
+    assert getattr(cellc, name).__doc__
+
+
+def test_a_name_that_is_not_exported_is_an_attribute_error() -> None:
+    with pytest.raises(AttributeError, match="no attribute 'nothing'"):
+        _ = cellc.nothing  # type: ignore[attr-defined]
+
+
+_OTHERS = {
+    "XacroError": "stands for the one of xacro while types are checked",
+    "XacroRefusedError": "must be one of xacro's",
+    "UnansweredError": "of a program that runs in a generated folder, without cellc",
+    "Stopped": "a signal, which nobody catches by mistake",
+    "FileTooLargeError": "answers of the system: who opens files catches OSError",
+    "NotRegularError": "answers of the system: who opens files catches OSError",
+    "CellcError": "the base",
+}
+
+
+def test_every_exception_of_cellc_has_one_base() -> None:
+    bases: dict[str, set[str]] = {}
+    for file in (ROOT / "cellc").rglob("*.py"):
+        for name, of in re.findall(r"^ *class ([A-Z]\w*)\(([\w, ]+)\):$", file.read_text(encoding="utf-8"), re.M):
+            bases.setdefault(name, set()).update(of.split(", "))
+    raised = {"Exception", "BaseException", "OSError", "ValueError", "XacroError"}
+    ours = {"CellcError"} | {name for name, of in bases.items() if "CellcError" in of}
+    odd = {name for name, of in bases.items() if of & raised and not of & ours} - _OTHERS.keys()
+    assert len(ours) > 20
+    assert odd == set()
+
+
+def _hostile() -> Diagnostic:
+    text = "<script>alert(1)</script>\n::error::\x1b[31m\u202e & co"
+    return Diagnostic("some-code", Severity.ERROR, text, Span(f"{text}.yaml", 1, 2, 1, 3), help=text)
+
+
+def _reprs() -> list[object]:
+    found = _hostile()
+    checked = Checked(Findings(found.span.file, {}, (found,)), None)
+    attempt = AttemptRecord(
+        found.message, "a", "b", AttemptOutcome.SUCCEEDED, "", {}, (), None, None, None, None, None, None, None, None,
+        "", found.message, None, None, "none", 0, 1, ()
+    )  # fmt: skip
+    result = RehearsalResult(
+        found.message, AttemptOutcome.SUCCEEDED, AttemptOutcome.SUCCEEDED, 1.0, None, None, (attempt,), (), ()
+    )
+    return [found, checked, Outcome(None, (found,)), result, WriteReport(("a\nb",), (), ())]
+
+
+@pytest.mark.parametrize("value", _reprs(), ids=lambda one: type(one).__name__)
+def test_what_a_session_prints_is_one_line_that_steers_nothing(value: object) -> None:
+    for text in (repr(value), str(value)):
+        assert text == escaped(text)
+        assert "\n" not in text
+        assert len(text) < 200
+
+
+@pytest.mark.parametrize("value", _reprs()[1:4], ids=lambda one: type(one).__name__)
+def test_what_a_notebook_shows_quotes_text_of_strangers_as_text(value: Checked | RehearsalResult) -> None:
+    shown = value._repr_html_()
+    assert "&lt;script&gt;alert(1)&lt;/script&gt;" in shown
+    assert escaped(shown) == shown
+    tree = ElementTree.fromstring(shown)
+    assert {one.tag for one in tree.iter()} == {"table", "caption", "thead", "tbody", "tr", "th", "td"}

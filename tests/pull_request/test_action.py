@@ -6,58 +6,40 @@ import re
 import shutil
 import subprocess
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from tests.cells import ROOT
-from tests.foreign_yaml import safe_load
-from tests.pull_request.conftest import environment, git
-
-ACTION: dict[str, Any] = safe_load((ROOT / "action.yml").read_text(encoding="utf-8"))
-STEPS: dict[str, dict[str, Any]] = {step["name"]: step for step in ACTION["runs"]["steps"]}
-_EXPRESSION = re.compile(r"\$\{\{\s*(.+?)\s*\}\}")
-
-
-def _inputs(**given: str) -> dict[str, str]:
-    return {name: given.get(name, str(facts["default"])) for name, facts in ACTION["inputs"].items()}
-
-
-def _step(folder: Path, name: str, **given: str) -> tuple[int, str, str]:
-    """Run a step; return its exit code, what it printed, and the summary."""
-    step, inputs = STEPS[name], _inputs(**{key.replace("_", "-"): value for key, value in given.items()})
-    values = {
-        key: _EXPRESSION.sub(lambda one: inputs[one[1].removeprefix("inputs.")], text)
-        for key, text in step["env"].items()
-    }
-    summary = folder.parent / "summary.md"
-    summary.touch()
-    # GitHub: `bash --noprofile --norc -eo pipefail {0}`.
-    ran = subprocess.run(
-        ("bash", "--noprofile", "--norc", "-eo", "pipefail", "-c", step["run"]),
-        cwd=folder,
-        env=environment(**values, GITHUB_STEP_SUMMARY=str(summary)),
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=120,
-    )
-    return ran.returncode, ran.stdout + ran.stderr, summary.read_text(encoding="utf-8")
+from tests.pull_request.action import run_step
+from tests.pull_request.conftest import git
 
 
 def test_wrong_cell_is_annotated_at_its_line_and_told_to_code_scanning(repository: Path) -> None:
     file = repository / "cells/line/cell.yaml"
     file.write_text(file.read_text().replace("100 Hz", "100"), encoding="utf-8")
-    code, out, _ = _step(repository, "Check", sarif="cellc.sarif")
+    code, out, _ = run_step(repository, "Check", sarif="cellc.sarif")
     assert code == 1
     line = file.read_text().splitlines().index("  update_rate: 100") + 1
     assert re.search(rf"^::error .*file=cells/line/cell.yaml,.*line={line}", out, re.MULTILINE)
     assert '"ruleId"' in (repository / "cellc.sarif").read_text()
 
 
+@pytest.mark.parametrize("name", ["cellc.sarif", "out/cellc.sarif"])
+def test_findings_are_not_written_through_a_link_of_the_branch(name: str, repository: Path) -> None:
+    elsewhere = repository.parent / "elsewhere"
+    elsewhere.mkdir()
+    if "/" in name:
+        (repository / "out").symlink_to(elsewhere)
+    else:
+        (repository / name).symlink_to(elsewhere / "file")
+    code, out, _ = run_step(repository, "Check", sarif=name)
+    assert (code, "is a symbolic link" in out) == (2, True), out
+    assert not list(elsewhere.iterdir())
+
+
 def test_edited_folder_is_not_held(repository: Path) -> None:
     (repository / "generated/line/package.xml").write_text("<package/>", encoding="utf-8")
-    assert _step(repository, "Hold the generated folders")[0] == 1
+    assert run_step(repository, "Hold the generated folders")[0] == 1
 
 
 def test_summary_tells_what_changed_against_the_base(repository: Path) -> None:
@@ -66,14 +48,14 @@ def test_summary_tells_what_changed_against_the_base(repository: Path) -> None:
     file.write_text(file.read_text().replace("0.1 rad 10 mm", "0.2 rad 10 mm"), encoding="utf-8")
     shutil.copytree(repository / "cells/line", repository / "cells/new")
     git(repository, "add", "-A")
-    code, out, summary = _step(repository, "Tell what changed", base=base)
+    code, out, summary = run_step(repository, "Tell what changed", base=base)
     assert code == 0, out
     assert "path tolerance" in summary.replace("_", " ")
     assert "A new cell: new" in summary
 
 
 def test_base_that_was_not_fetched_is_told_and_fails_nothing(repository: Path) -> None:
-    code, _, summary = _step(repository, "Tell what changed", base="0" * 40)
+    code, _, summary = run_step(repository, "Tell what changed", base="0" * 40)
     assert (code, "fetch-depth" in summary) == (0, True)
 
 
@@ -84,9 +66,11 @@ def test_clean_repository_passes_every_step_and_names_of_folders_are_no_commands
     git(repository, "commit", "-q", "-m", "Named")
     base = git(repository, "rev-parse", "HEAD").strip()
     path = hostile.relative_to(repository).as_posix()
-    for name in ("Check", "Hold the generated folders", "Run the rehearsals", "Tell what changed"):
-        code, out, _ = _step(repository, name, **({"base": base} if name.startswith("Tell") else {"path": path}))
+    for name in ("Check", "Hold the generated folders", "Run the rehearsals"):
+        code, out, _ = run_step(repository, name, path=path)
         assert code == 0, out
+    code, out, _ = run_step(repository, "Tell what changed", base=base)
+    assert code == 0, out
     assert not list(repository.rglob("pwned"))
 
 

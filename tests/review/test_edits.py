@@ -46,15 +46,15 @@ def _first_goal(by: float, seconds: float) -> str:
 
 def _far_end(by: str) -> str:
     return (
-        "- [ ] A person moves it by that much, in reduced mode and by the vendor's procedure, and lets it stand at the "
-        f"far end; arm_wrist_3_joint changed by + {by} rad, and no other joint"
+        "- [ ] Move the joint by that much, in reduced mode and by the vendor's procedure, and leave it at the far "
+        f"end. arm_wrist_3_joint must have changed by + {by} rad. No other joint may have moved."
     )
 
 
 def _tcp(beyond: str, turn: str, yaw: str) -> str:
     """Return what the gate says of a TCP beyond tool0 along its z, turned about it: mm, rad and deg."""
-    turned = f"turned by the rotation vector 0.0000 0.0000 {turn} rad, which is 0.00 0.00 {yaw} deg"
-    return f"at 0.00 0.00 {beyond} mm of arm_tool0, {turned} as roll, pitch and yaw: that of frame tcp"
+    turned = f"rotation vector 0.0000 0.0000 {turn} rad"
+    return f"0.00 0.00 {beyond} mm in arm_tool0, {turned}, roll pitch yaw 0.00 0.00 {yaw} deg, as frame tcp"
 
 
 GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
@@ -82,12 +82,12 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "dangerous calibration | hand_eye | residual | 0.8 mm -> 1.2 mm | +50 %",
             f"dangerous payload | arm | TCP that the robot is told | {_tcp('173.00', '1.5708', '90.00')} -> "
             f"{_tcp('174.00', '1.5708', '90.00')}",
-            "dangerous payload | arm | payload that the robot is told | 1.0 kg with the tool included, "
-            f"center of mass 0 0 58 mm {LOOKED_AT} -> 1.5 kg with the tool included, "
+            "dangerous payload | arm | payload that the robot is told | 1.0 kg, tool included, "
+            f"center of mass 0 0 58 mm {LOOKED_AT} -> 1.5 kg, tool included, "
             f"center of mass 0 0 58 mm {LOOKED_AT}",
             "dangerous rehearsals | cancelled | bound of the outcome | 200 ms -> 400 ms | +100 %",
-            "review motion | manipulator in home | tip | xyz 491.9 133.3 1114.9 mm, rpy -180 0 -180 deg -> "
-            "xyz 491.9 133.3 1113.9 mm, rpy -180 0 -180 deg | moves 1 mm",
+            "review motion | manipulator in home | tip | xyz 491.9 133.3 1114.9 mm, rpy 180 0 180 deg -> "
+            "xyz 491.9 133.3 1113.9 mm, rpy 180 0 180 deg | moves 1 mm",
             "review interfaces | /move_action | timeout | 20 s -> 10 s | -50 %",
             "review rehearsals | stale_camera | rehearsal went | stale_state -> None",
             "review owners | limits | owner | controls -> robot",
@@ -114,7 +114,7 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             f"{_tcp('173.00', '1.5882', '91.00')}",
             "dangerous interfaces | /move_action | frame of the payload | world -> arm_base_link | breaks",
             "dangerous time | /object_pose | oldest sample that may be used | 200 ms -> 300 ms | +50 %",
-            "dangerous gates | Said aloud before it moves | first motion | joint arm/wrist_3_joint, direction +, "
+            "dangerous gates | Announce before moving | first motion | joint arm/wrist_3_joint, direction +, "
             "at most 5 deg, 5 deg/s, ends within 5 s -> joint arm/wrist_3_joint, direction +, at most 10 deg, 5 deg/s, "
             "ends within 5 s",
             "review calibration | fixture_a | revision | 2 -> 3",
@@ -126,8 +126,8 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "xyz 450 -150 870 mm, rpy 180 0 0 deg | moves 10 mm",
             "review motion | place | place in the root frame | xyz 450 100 860 mm, rpy 180 0 0 deg -> "
             "xyz 450 100 870 mm, rpy 180 0 0 deg | moves 10 mm",
-            "review motion | manipulator in home | tip | xyz 491.9 133.3 1114.9 mm, rpy -180 0 -180 deg -> "
-            "xyz 491.9 133.3 1114.9 mm, rpy -180 0 179 deg | turns 1 deg",
+            "review motion | manipulator in home | tip | xyz 491.9 133.3 1114.9 mm, rpy 180 0 180 deg -> "
+            "xyz 491.9 133.3 1114.9 mm, rpy 180 0 179 deg | turns 1 deg",
             "review interfaces | /camera/color/image_raw | rate | 30 Hz -> 15 Hz | -50 %",
             "review QoS | /object_pose subscribers task | quality of service reliability | reliable -> best_effort",
             "review devices | camera | device camera.rate_hz | 30 Hz -> 15 Hz | -50 %",
@@ -156,8 +156,8 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             f"review control | {OF_TRAJECTORY} | goal tolerance | 0.572958 deg -> 0.286479 deg | -50 %",
             "review motion | pick | approach | 0 0 -100 mm -> 0 0 -80 mm",
             "review motion | home manipulator | joint positions | 0 -90 90 -90 -90 0 deg -> 90 -90 90 -90 -90 0 deg",
-            "review motion | manipulator in home | tip | xyz 491.9 133.3 1114.9 mm, rpy -180 0 -180 deg -> "
-            "xyz -133.3 491.9 1114.9 mm, rpy -180 0 -90 deg | moves 721 mm, turns 90 deg",
+            "review motion | manipulator in home | tip | xyz 491.9 133.3 1114.9 mm, rpy 180 0 180 deg -> "
+            "xyz -133.3 491.9 1114.9 mm, rpy 180 0 -90 deg | moves 721 mm, turns 90 deg",
             "review network | control_pc | ROS_DOMAIN_ID | 42 -> 43 | breaks",
             f"safe limits | {ARM} | acceleration | 143.2394 deg/s^2 -> 114.5916 deg/s^2 | -20 %",
         ],

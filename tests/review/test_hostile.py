@@ -4,17 +4,22 @@ from __future__ import annotations
 
 import os
 import stat
+import subprocess
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from cellc.limits import DEFAULTS, in_force
+from cellc.review import objects
 from cellc.review.facts import FactsError, facts_of
 from cellc.review.lines import Known, lines_left
-from cellc.review.revisions import RevisionError, repository_of
+from cellc.review.objects import Entry, RevisionError
+from cellc.review.revisions import repository_of
 from cellc.review.sides import Package
 from cellc.review.tokens import tokens
+from tests.cells import spec_text
 from tests.cli.run import run
 from tests.review.revisions import SMALL, SPEC, Repository, edited, new_repository
 
@@ -148,3 +153,63 @@ def test_long_lines_and_many_lines_cost_no_square() -> None:
     many = tuple(f"line {number}" for number in range(4_000))
     other = tuple(f"row {number}" for number in range(4_000))
     assert len(lines_left({"a": many}, {"a": other}, NOBODY)[0].before) == 4_000
+
+
+def _commit_of_folder(repository: Repository, *entries: tuple[str, str, str], depth: int = 0) -> str:
+    """Return a commit whose cell lies beside entries that `git add` would not write."""
+
+    def stored(kind: str, content: bytes) -> str:
+        command = ["git", "hash-object", "-t", kind, "--literally", "-w", "--stdin"]
+        done = subprocess.run(command, cwd=repository.folder, input=content, check=True, capture_output=True)
+        return done.stdout.decode().strip()
+
+    def tree(*listed: tuple[str, str, str]) -> str:
+        return stored("tree", b"".join(f"{mode} {name}\0".encode() + bytes.fromhex(one) for mode, name, one in listed))
+
+    spec = ("100644", "cell.yaml", stored("blob", spec_text("minimal").encode()))
+    below = tree(spec)
+    for _ in range(depth):
+        below = tree(("40000", "d", below))
+    folders = [("40000", "d", below)] if depth else []
+    named = [(mode, name, {"blob": spec[2], "tree": below}[kind]) for mode, name, kind in entries]
+    top = tree(("40000", "cells", tree(("40000", "minimal", tree(spec, *folders, *named)))))
+    return stored("commit", f"tree {top}\nauthor a <a> 0 +0000\ncommitter a <a> 0 +0000\n\nx\n".encode())
+
+
+@pytest.mark.parametrize(
+    ("entries", "depth"),
+    [
+        ([("100644", "n" * 300, "blob")], 0),
+        ([("100644", "a", "blob"), ("40000", "a", "tree")], 0),
+        ([("100644", ".", "blob")], 0),
+        ([("100644", "", "blob")], 0),
+        ([], 70),
+    ],
+    ids=["a long name", "a file and a folder", "the folder itself", "no name", "a deep folder"],
+)
+def test_a_tree_that_no_folder_can_be_is_refused(
+    entries: list[tuple[str, str, str]], depth: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    repository = new_repository(tmp_path, SMALL)
+    monkeypatch.chdir(tmp_path)
+    ran = run("diff", _commit_of_folder(repository, *entries, depth=depth), SMALL)
+    assert (ran.code, ran.out, ran.err.count("\n")) == (2, "", 1), ran.err
+
+
+def test_a_tree_is_not_listed_beyond_what_is_read(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    repository = new_repository(tmp_path, SMALL)
+    for name in range(40):
+        for inside in range(40):
+            repository.write("x", f"cells/minimal/{name}/{inside}")
+    commit = repository.commit(spec_text("minimal"), SMALL)
+    listed: list[str] = []
+    whole = objects._listed
+
+    def counted(tree: bytes, identity: str) -> Iterator[Entry]:
+        listed.append(identity)
+        return whole(tree, identity)
+
+    monkeypatch.setattr(objects, "_listed", counted)
+    with in_force(replace(DEFAULTS, folder_entries=100)), pytest.raises(RevisionError, match="folder-entries"):
+        repository_of(tmp_path).objects.files(Entry("40000", repository.git("rev-parse", f"{commit}^{{tree}}"), ""))
+    assert len(listed) < 10

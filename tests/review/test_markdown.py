@@ -91,3 +91,16 @@ def test_what_a_terminal_would_obey_is_escaped() -> None:
     text = as_text(render_review(_review(_change())), colour=True)
     assert "\x1b[31m \u202e" not in text
     assert all(not line.startswith("::") for line in text.splitlines())
+
+
+def test_a_comment_that_is_cut_off_ends_with_a_whole_line() -> None:
+    name = f"{'`' * 280}x <img src=x> @everyone"
+    found = tuple(ReviewFinding(code="a-code", severity="error", message=name, place="") for _ in range(40))
+    review = _review().model_copy(update={"new_findings": found, "gone_findings": found, "notes": (name,) * 40})
+    whole = render_markdown(review, 1_000_000)
+    assert len(whole) > 65_000
+    for longest in (65_000, 30_000, *range(20_000, 20_100)):
+        text = render_markdown(review, longest)
+        assert len(text) <= longest
+        assert whole.startswith(text)
+        assert text.endswith("\n")

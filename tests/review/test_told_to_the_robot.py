@@ -9,11 +9,11 @@ from cellc.review.facts import facts_of
 from tests.cells import generated
 
 _LINES = {
-    "load that the robot is told": "- [ ] arm: the load beside the end effector that Desk has is told: mass {}",
-    "impedance of the joints": "- [ ] arm: the impedance of the joints is set to {}",
-    "impedance at the tool": "- [ ] arm: the impedance at the tool is set to {}",
+    "load that the robot is told": "- [ ] arm: Set the load beside the end effector of Desk: mass {}",
+    "impedance of the joints": "- [ ] arm: Set the joint impedance to {}",
+    "impedance at the tool": "- [ ] arm: Set the tool impedance to {}",
     "voltage of the tool connector": (
-        "- [ ] The tool connector of arm gives {}, to gripper: each was told by its nameplate to take that"
+        "- [ ] Check each nameplate before plugging in: the tool connector of arm supplies {} to gripper"
     ),
 }
 _SERVO = "/**:\n  ros__parameters:\n    moveit_servo:\n      scale:\n        linear: {}\n"

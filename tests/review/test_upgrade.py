@@ -20,7 +20,6 @@ from cellc.vocabulary import Distro
 from tests.catalog.declarations import DECLARATIONS, upstream_parameters
 from tests.cells import linked, spec_of, spec_text, written
 from tests.cli.run import MINIMAL, run
-from tests.oracles import needs_upstream
 from tests.review.revisions import edited
 
 CELLS = ("ur5e_pick", "fr3_hand", "gen3_2f")
@@ -97,7 +96,6 @@ def test_pins_become_what_belongs_to_the_distribution(cell: str, target: Distro,
     assert {name: pins[name] for name in expected} == expected
 
 
-@needs_upstream
 @pytest.mark.parametrize("cell", CELLS)
 @pytest.mark.parametrize("target", Distro)
 def test_parameters_that_appear_vanish_and_change_are_those_of_upstream(cell: str, target: Distro) -> None:

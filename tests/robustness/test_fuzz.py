@@ -18,7 +18,7 @@ from tests.robustness.fuzz import oracle
 from tests.robustness.fuzz.inputs import KINDS, make_input
 from tests.robustness.fuzz.oracle import Sandbox, judge
 
-COUNTS = {"spec": 60, "device": 60, "description": 60, "folder": 50, "cache": 8}
+COUNTS = {"spec": 60, "device": 60, "description": 60, "folder": 50, "cache": 8, "import": 30}
 
 
 @pytest.fixture(name="sandbox")

@@ -11,6 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from cellc.diagnostics import Span
+from cellc.limits import limits
 from cellc.source import Plain, read
 from cellc.source.compose import compose
 from tests.source.reading import codes, read_bytes
@@ -132,3 +133,9 @@ def test_json_means_what_it_means_to_a_json_reader(tmp_path: Path, data: dict[st
     if "include" not in data and data != {}:
         assert outcome.value is not None
         assert outcome.value.data == json.loads(text)
+
+
+def test_text_of_an_editor_is_bounded_as_a_file_is(tmp_path: Path) -> None:
+    name = (tmp_path / "cell.yaml").as_posix()
+    found = read(name, {name: "#" * (limits().spec_bytes + 1)}).diagnostics
+    assert [one.code for one in found] == ["file-too-large"]

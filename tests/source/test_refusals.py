@@ -73,7 +73,7 @@ def test_line_that_is_indented_too_far_is_told_by_its_indentation(
 ) -> None:
     (found,) = read_bytes(tmp_path, text).diagnostics
     assert (found.code, found.span.line, found.span.column) == ("not-yaml", *place)
-    assert "the line stands deeper than the one above" in found.message
+    assert "the line is indented deeper than the one above" in found.message
     assert found.help == "align the line with its siblings"
 
 

@@ -6,13 +6,20 @@ import os
 import signal
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
 import pytest
 
+from cellc.diagnostics.diagnostic import Findings
+from cellc.importing import folder as importing
+from cellc.importing.folder import changed_files, write_folder
+from cellc.importing.role import role_of
+from cellc.importing.source import read_robot
 from cellc.mock.evidence.folder import EvidenceFolder
 from cellc.output.write import write
+from cellc.pipeline import Checked
 from cellc.store.cache import read_entry, write_entry
 from cellc.store.swap import write_whole
 from tests.output.building import as_contents, build_of, contents
@@ -49,12 +56,17 @@ def _in_order(
     hold: Callable[[Path], object],
     start: Path,
     ready: Callable[[Path], object] = lambda _: None,
+    stride: int = 1,
 ) -> int:
-    """Kill ``act`` at its first step, at its second, …, each in a place of its own; return how many it has."""
-    step = 0
+    """Kill ``act`` at its first step, at its second, …, each in a place of its own; return how many it has.
+
+    Args:
+        stride: of so many steps one is tried.
+    """
+    step = 1 - stride
     was_killed = True
     while was_killed:
-        step += 1
+        step += stride
         place = start / str(step)
         place.mkdir()
         ready(place)
@@ -131,6 +143,58 @@ def test_kill_at_any_step_of_evidence_is_healed_by_the_next(tmp_path: Path) -> N
         assert sorted(contents(place)) == ["evidence/a.json", "evidence/b.json", "evidence/evidence.json"]
 
     assert _in_order(act, hold, tmp_path) > 10
+
+
+def test_kill_at_any_step_of_an_import_is_healed_by_the_next(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    # What is written is the same, whatever a check of it finds.
+    monkeypatch.setattr(importing, "_judged", lambda folder, role, away, before: (before, _UNCHECKED))
+    robot = read_robot(_arm(tmp_path), {}).value
+    assert robot is not None
+    role = role_of(robot.description)
+
+    def act(place: Path) -> None:
+        assert write_folder(place / "arm", robot, role, {}, "2026-11-01").ok
+
+    def again(place: Path) -> None:
+        act(place)
+        facts = (place / "arm/device.yaml").read_text(encoding="utf-8")
+        (place / "arm/device.yaml").write_text(facts.replace("vendor: UNKNOWN", "vendor: Us"), encoding="utf-8")
+        (place / "arm/notes.txt").write_text("mine\n", encoding="utf-8")
+
+    def hold(place: Path) -> None:
+        act(place)
+        made = ["arm/device.yaml", "arm/import.lock.json", "arm/meshes/a.stl", "arm/robot.urdf"]
+        assert [name for name in sorted(contents(place)) if name != "arm/notes.txt"] == made
+        assert changed_files(place / "arm") == ()
+
+    def kept(place: Path) -> None:
+        hold(place)
+        assert "vendor: Us" in contents(place)["arm/device.yaml"]
+        assert contents(place)["arm/notes.txt"] == "mine\n"
+
+    (tmp_path / "first").mkdir()
+    assert _in_order(act, hold, tmp_path / "first", stride=4) > 22
+    other = replace(robot, text=robot.text + "<!-- of today -->")
+
+    def renewed(place: Path) -> None:
+        assert write_folder(place / "arm", other, role, {}, "2026-11-02").ok
+
+    (tmp_path / "second").mkdir()
+    assert _in_order(renewed, kept, tmp_path / "second", again, stride=4) > 22
+
+
+_UNCHECKED = Checked(Findings("cell.yaml", {}, ()), None)
+
+
+def _arm(folder: Path) -> Path:
+    """Write an arm of one joint with a mesh."""
+    mesh = '<collision><geometry><mesh filename="a.stl"/></geometry></collision>'
+    ends = '<parent link="a"/><child link="b"/><axis xyz="0 1 0"/><limit lower="-1" upper="1" velocity="1" effort="1"/>'
+    links = f'<link name="a">{mesh}</link><link name="b"/>'
+    text = f'<robot name="arm">{links}<joint name="j" type="revolute">{ends}</joint></robot>'
+    (folder / "a.stl").write_text("solid a\nendsolid a\n", encoding="utf-8")
+    (folder / "arm.urdf").write_text(text, encoding="utf-8")
+    return folder / "arm.urdf"
 
 
 @pytest.mark.parametrize("start", [(), OLD], ids=["first build", "next build"])

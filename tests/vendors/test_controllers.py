@@ -10,6 +10,7 @@ import pytest
 
 from cellc.cell.control import Controller
 from tests.consumers.permissions import Permissions, Right, permissions
+from tests.oracles import here
 from tests.vendors.oracle import counted, facts
 from tests.vendors.packages import CASES, Case, RealTarget, real_target
 
@@ -36,11 +37,13 @@ _MOVING = ("force_mode", "freedrive", "passthrough_trajectory")
 
 of_the_arm = pytest.mark.parametrize(
     "case",
-    [
-        Case(one.cell, one.release, added=_ADDED)
-        for one in CASES
-        if one.cell == "ur5e_pick" and one.release.device == "ur5e"
-    ],
+    here(
+        [
+            Case(one.cell, one.release, added=_ADDED)
+            for one in CASES
+            if one.cell == "ur5e_pick" and one.release.device == "ur5e"
+        ]
+    ),
     ids=str,
 )
 every_kind = pytest.mark.parametrize("kind", _KINDS)
@@ -160,7 +163,7 @@ def test_only_ways_of_commanding_that_the_driver_takes_at_once_are_let_through(c
     assert ours == {pair for pair in told if pair <= named}
 
 
-@pytest.mark.parametrize("case", [one for one in CASES if one.release.device == "franka_fr3"], ids=str)
+@pytest.mark.parametrize("case", here([one for one in CASES if one.release.device == "franka_fr3"]), ids=str)
 def test_the_state_of_an_fr3_is_published_as_its_vendor_publishes_it(case: Case) -> None:
     target = real_target(case)
     controller = _controller(target, "robot_state_broadcaster")
@@ -175,7 +178,7 @@ def test_the_state_of_an_fr3_is_published_as_its_vendor_publishes_it(case: Case)
         assert enclave.allow("publish", name.replace("~", "/arm_state")), name
 
 
-@pytest.mark.parametrize("case", [one for one in CASES if one.release.repository == "ros2_kortex"], ids=str)
+@pytest.mark.parametrize("case", here([one for one in CASES if one.release.repository == "ros2_kortex"]), ids=str)
 def test_faults_of_a_gen3_are_told_and_reset_as_its_vendor_has_it(case: Case) -> None:
     target = real_target(case)
     controller = _controller(target, "reset_fault")
@@ -195,7 +198,7 @@ def test_faults_of_a_gen3_are_told_and_reset_as_its_vendor_has_it(case: Case) ->
     assert watch["controllers"] == ["arm_trajectory", "gripper_action"]
 
 
-@pytest.mark.parametrize("case", [one for one in CASES if one.release.repository == "ros2_kortex"], ids=str)
+@pytest.mark.parametrize("case", here([one for one in CASES if one.release.repository == "ros2_kortex"]), ids=str)
 def test_fingers_and_arm_of_one_component_are_driven_by_controllers_of_their_own(case: Case) -> None:
     target = real_target(case)
     told = facts(case.release, "controllers")["gen3"]
@@ -206,7 +209,7 @@ def test_fingers_and_arm_of_one_component_are_driven_by_controllers_of_their_own
     assert type_ == told["robotiq_gripper_controller"]["type"]
 
 
-@pytest.mark.parametrize("case", [one for one in CASES if one.release.repository == "ros2_kortex"], ids=str)
+@pytest.mark.parametrize("case", here([one for one in CASES if one.release.repository == "ros2_kortex"]), ids=str)
 def test_errors_of_joints_without_an_end_count_the_shorter_way_round(case: Case) -> None:
     # follow_joint_trajectory.md: from the URDF since jazzy, by angle_wraparound on humble.
     told = real_target(case).yaml("config/controllers.yaml")["arm_trajectory"]["ros__parameters"].get("gains", {})

@@ -11,6 +11,7 @@ from cellc.catalog.load import load_device
 from cellc.description.model import Description
 from cellc.transforms import Pose
 from tests.foreign_yaml import safe_load
+from tests.oracles import here
 from tests.vendors.oracle import VENDORS
 
 _SOURCES = {
@@ -24,7 +25,7 @@ _SOURCES = {
 }
 """Device → folder, model, and what the vendor puts before the name of the base link. None was read for the others."""
 
-every_device = pytest.mark.parametrize("name", _SOURCES if VENDORS.exists() else ())
+every_device = pytest.mark.parametrize("name", here(_SOURCES if VENDORS.exists() else ()))
 
 
 def _vendor(name: str) -> dict[str, Any]:

@@ -10,6 +10,7 @@ from cellc.catalog.device_interfaces import HardwareFacts
 from cellc.catalog.load import device_names, load_device
 from cellc.vocabulary import Distro, Moment, Motion, Need, Unmet
 from tests.cells import built
+from tests.oracles import here
 from tests.vendors.oracle import RELEASES, Release, facts, lines_of
 
 _LIFE = (Moment.INIT, Moment.CONFIGURE, Moment.ACTIVATE, Moment.CLAIM, Moment.RELEASE, Moment.DEACTIVATE, Moment.STOP)
@@ -54,7 +55,7 @@ def test_a_cell_has_the_effects_of_its_own_distribution() -> None:
     assert gripper.effects[Moment.ACTIVATE].motion is Motion.MOVES
 
 
-@pytest.mark.parametrize("release", RELEASES, ids=str)
+@pytest.mark.parametrize("release", here(RELEASES), ids=str)
 def test_what_the_vendor_s_source_calls_motion_is_motion_here(release: Release) -> None:
     told = facts(release, "hardware_interfaces").get("lifecycle", {})
     effects = _MOVED[release.device].effects if release.device in _MOVED else {}
@@ -64,7 +65,7 @@ def test_what_the_vendor_s_source_calls_motion_is_motion_here(release: Release) 
             assert (effect.motion is not Motion.NONE) is step["moves"], moment
 
 
-@pytest.mark.parametrize("release", RELEASES, ids=str)
+@pytest.mark.parametrize("release", here(RELEASES), ids=str)
 def test_a_line_that_the_catalog_names_of_a_release_is_one_that_was_read(release: Release) -> None:
     read = "".join(release.text(file) for file in ("hardware_interfaces", "hardware_parameters", "nodes"))
     lines = {line for told in re.findall(r":([\d,]+)", read) for line in told.split(",")}

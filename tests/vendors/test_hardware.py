@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import pytest
 
+from tests.oracles import here
 from tests.vendors.oracle import demands, exports, facts, parameters, update_rate
 from tests.vendors.packages import CASES, Case, RealTarget, real_target
 
-every_case = pytest.mark.parametrize("case", CASES, ids=str)
+every_case = pytest.mark.parametrize("case", here(CASES), ids=str)
 
 
 def _given(target: RealTarget) -> dict[str, str]:

@@ -9,6 +9,7 @@ from xml.etree import ElementTree
 
 import pytest
 
+from tests.oracles import here
 from tests.vendors.oracle import facts
 from tests.vendors.packages import CASES, Case, RealTarget, real_target
 
@@ -16,7 +17,7 @@ _PROGRAMS = ("dashboard_client", "robot_state_helper")
 """Programs of the driver that a cell of the repository starts; each is a node of the vendor's launch file."""
 
 with_nodes = [case for case in CASES if case.release.device == "ur5e"]
-every_case = pytest.mark.parametrize("case", with_nodes, ids=str)
+every_case = pytest.mark.parametrize("case", here(with_nodes), ids=str)
 
 
 def _told(case: Case) -> dict[str, Any]:

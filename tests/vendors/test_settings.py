@@ -10,11 +10,12 @@ import pytest
 from tests.cells import DISTROS, diagnose, spec_text, written
 from tests.emit.cells import artifacts_of, emitted
 from tests.foreign_yaml import safe_load
+from tests.oracles import here
 from tests.vendors.oracle import facts
 from tests.vendors.packages import CASES, Case, real_target
 
 of_the_arm = pytest.mark.parametrize(
-    "case", [one for one in CASES if one.release.device == "ur5e" and one.cell == "ur5e_pick"], ids=str
+    "case", here(one for one in CASES if one.release.device == "ur5e" and one.cell == "ur5e_pick"), ids=str
 )
 
 
@@ -51,7 +52,7 @@ def test_the_speed_scaling_of_the_arm_is_followed_by_a_controller_that_is_not_de
         assert parameters["speed_scaling"]["state_interface"] == scaling
 
 
-@pytest.mark.parametrize("case", [one for one in CASES if one.release.device == "franka_fr3"], ids=str)
+@pytest.mark.parametrize("case", here([one for one in CASES if one.release.device == "franka_fr3"]), ids=str)
 def test_trajectories_on_the_robot_claim_and_weigh_what_the_vendor_s_do(case: Case) -> None:
     told = facts(case.release, "controllers")["vendor_moveit"]["active"]["fr3_arm_controller"]
     parameters = real_target(case).yaml("config/controllers.real.yaml")["arm_trajectory"]["ros__parameters"]

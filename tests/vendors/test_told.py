@@ -38,7 +38,7 @@ def test_a_program_of_the_driver_is_told_to_plugin_and_helper_and_needs_remote_c
     helper = safe_load(texts["config/arm_state_helper.yaml"])["arm_state_helper"]["ros__parameters"]
     assert helper["headless_mode"] is True
     gates = texts["gates/promotion.md"]
-    assert "shows REMOTE; the driver, as it is started, ends whatever program runs" in _gate(gates, "G3")
+    assert "The driver ends any program on the robot when it starts" in _gate(gates, "G3")
     assert "LOCAL" not in gates
     assert "resend_robot_program" in _gate(gates, "G7")
     assert "External Control URCap" not in _gate(gates, "G0")
@@ -48,19 +48,19 @@ def test_a_person_plays_at_the_pendant_or_over_the_dashboard(tmp_path: Path) -> 
     pendant = artifacts_of("ur5e_pick")
     robot = ElementTree.fromstring(pendant["urdf/ur5e_pick.real.urdf"])
     assert [one.text for one in robot.iter("param") if one.get("name") == "headless_mode"] == ["false"]
-    assert "operator loads the program with External Control and presses Play" in _gate(
+    assert "Have operator load the program with External Control and press Play" in _gate(
         pendant["gates/promotion.md"], "G7"
     )
     remote = _ways(tmp_path, "program: {played_by: operator, mode: remote}")["gates/promotion.md"]
-    assert "operator calls load_program and then play of arm_dashboard_client" in _gate(remote, "G7")
-    assert "shows REMOTE, so that Play on it does nothing" in _gate(remote, "G3")
+    assert "Have operator call load_program and then play of arm_dashboard_client" in _gate(remote, "G7")
+    assert "Play on the pendant does nothing in this mode" in _gate(remote, "G3")
 
 
 @pytest.mark.parametrize(
     ("program", "starts"),
     [
-        ("program: {played_by: operator, mode: remote}", "call play of arm_dashboard_client"),
-        ("program: {played_by: driver, mode: remote}", "call resend_robot_program"),
+        ("program: {played_by: operator, mode: remote}", "Call play of arm_dashboard_client"),
+        ("program: {played_by: driver, mode: remote}", "Call resend_robot_program"),
     ],
     ids=["dashboard", "headless"],
 )
@@ -74,16 +74,16 @@ def test_in_remote_mode_nobody_is_sent_to_a_pendant_that_starts_nothing(
         way = audit.split(f"\narm, {state}:\n")[1].split(":\n")[0]
         assert starts in way
         assert "teach pendant" not in way
-        assert "call stop of arm_dashboard_client, do not resume" in way
-    assert "call power_off of arm_dashboard_client" in audit
-    assert "calls power_on and then brake_release of arm_dashboard_client" in _gate(texts["gates/promotion.md"], "G5")
+        assert "Call stop of arm_dashboard_client. Do not resume" in way
+    assert "Call power_off of arm_dashboard_client" in audit
+    assert "call power_on and then brake_release of arm_dashboard_client" in _gate(texts["gates/promotion.md"], "G5")
 
 
 def test_the_tcp_stands_in_the_gate_as_the_pendant_shows_it() -> None:
     # By hand: the gripper is 11 mm beyond tool0 and turned by 90 deg about z, the TCP 162 mm beyond the gripper.
     gate = _gate(artifacts_of("ur5e_pick")["gates/promotion.md"], "G5")
-    assert "arm holds its TCP at 0.00 0.00 173.00 mm of arm_tool0" in gate.replace("\\", "")
-    assert "rotation vector 0.0000 0.0000 1.5708 rad, which is 0.00 0.00 90.00 deg" in gate
+    assert "the TCP of arm is 0.00 0.00 173.00 mm in arm_tool0" in gate.replace("\\", "")
+    assert "rotation vector 0.0000 0.0000 1.5708 rad, roll pitch yaw 0.00 0.00 90.00 deg" in gate
     assert "timeout 10 ros2 topic echo --once /arm_tcp/pose" in gate
 
 
@@ -93,7 +93,7 @@ def test_a_turn_past_the_half_is_told_as_the_shorter_one(tmp_path: Path) -> None
         "tcp: {parent: gripper/base, xyz: 0 0 162 mm,", "tcp: {parent: gripper/base, xyz: 0 0 162 mm, rpy: 0 0 180 deg,"
     )
     gate = _gate(emitted(tmp_path, text)["gates/promotion.md"], "G5")
-    assert "rotation vector 0.0000 0.0000 -1.5708 rad, which is 0.00 0.00 -90.00 deg" in gate
+    assert "rotation vector 0.0000 0.0000 -1.5708 rad, roll pitch yaw 0.00 0.00 -90.00 deg" in gate
 
 
 def test_payload_has_its_inertia_its_frame_and_who_tells_it(tmp_path: Path) -> None:
@@ -101,7 +101,7 @@ def test_payload_has_its_inertia_its_frame_and_who_tells_it(tmp_path: Path) -> N
     text = spec_text("fr3_hand").replace(stated, f"{stated}, inertia: 0.0011 0.0024 0.0017 0 0 0 kg m^2")
     gate = _gate(emitted(tmp_path, text)["gates/promotion.md"], "G5").replace("\\", "")
     assert (
-        "payload 0.92 kg with the tool included, center of mass -5 5 46 mm, inertia 0.0011 0.0024 0.0017 0 0 0 kg m^2"
+        "payload of arm to 0.92 kg, tool included, center of mass -5 5 46 mm, inertia 0.0011 0.0024 0.0017 0 0 0 kg m^2"
         in gate
     )
     assert "in fr3_link8, by its installation" in gate

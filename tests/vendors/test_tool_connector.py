@@ -11,6 +11,7 @@ import pytest
 from cellc.report.resolved import Tree, resolved_tree
 from tests.cells import graph_of, spec_text, written
 from tests.emit.cells import emitted
+from tests.oracles import here
 from tests.vendors.oracle import RELEASES, Release, facts
 
 _LINE = "tool_connector: {voltage: 24 V, serial: {port: /run/user/1000/arm_tool, baud_rate: 115200}}"
@@ -22,7 +23,7 @@ def _spec(connector: str = _LINE) -> str:
     return text.replace(_GRIPPER_BY_USB, "connection: {host: control_pc, through: arm}")
 
 
-@pytest.mark.parametrize("release", [one for one in RELEASES if one.device == "ur5e"], ids=str)
+@pytest.mark.parametrize("release", here([one for one in RELEASES if one.device == "ur5e"]), ids=str)
 def test_the_plugin_gets_every_parameter_that_it_reads_with_tool_communication(
     release: Release, tmp_path: Path
 ) -> None:
@@ -59,9 +60,9 @@ def test_the_line_is_forwarded_to_the_port_that_the_gripper_opens(tmp_path: Path
 def test_the_voltage_is_named_before_anything_has_power(tmp_path: Path) -> None:
     gates = emitted(tmp_path, _spec())["gates/promotion.md"].replace("\\", "").split("\n## ")
     inventory, enabling = (next(one for one in gates if one.startswith(code)) for code in ("G0 ", "G5 "))
-    assert "The tool connector of arm gives 24 V, to gripper: each was told by its nameplate" in inventory
+    assert "the tool connector of arm supplies 24 V to gripper" in inventory
     # The settings reach the connector as the program starts, and the gripper is activated with no program.
-    played, activated = enabling.index("plays the program once and stops it"), enabling.index("hardware that moves")
+    played, activated = enabling.index("play the program once and stop it"), enabling.index("hardware that moves")
     assert played < activated
 
 

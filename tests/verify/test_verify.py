@@ -16,9 +16,8 @@ import pytest
 
 from cellc.graph.cell_graph import build_graph
 from cellc.graph.frame_tree import FrameTree
-from cellc.transforms import Pose, from_xyz_rpy, identity
+from cellc.transforms import Pose, apart, from_xyz_rpy, identity
 from cellc.verify.codes import CODES, Disagreement
-from cellc.verify.description import distance
 from cellc.verify.meant import cell_poses
 from cellc.verify.parsers import read_by_pinocchio, read_by_yourdfpy
 from cellc.verify.verify import verify
@@ -82,8 +81,8 @@ def test_turned_axis_is_found_though_poses_at_zero_agree() -> None:
     turned = re.sub(r'(<joint name="arm_elbow_joint".*?<axis xyz=")0 0 1"', r'\g<1>0 0 -1"', urdf, flags=re.DOTALL)
     assert turned != urdf
     theirs = read_by_pinocchio(turned, positions)
-    assert distance(ours.at_zero["tcp"], theirs.at_zero["tcp"])[0] < 1e-9
-    assert distance(ours.displaced["tcp"], theirs.displaced["tcp"])[0] > 0.01
+    assert apart(ours.at_zero["tcp"], theirs.at_zero["tcp"])[0] < 1e-9
+    assert apart(ours.displaced["tcp"], theirs.displaced["tcp"])[0] > 0.01
 
 
 def test_pose_of_the_cell_is_the_one_calculated_by_hand() -> None:
@@ -103,7 +102,7 @@ def test_frame_below_a_dynamic_edge_has_no_pose() -> None:
 @pytest.mark.parametrize("angle", [0.0, 1e-9, 1e-4, 0.3, 3.0])
 def test_distance_of_two_poses_is_exact_for_small_and_large_angles(angle: float) -> None:
     turned = from_xyz_rpy((3.0, 4.0, 0.0), (0.0, angle, 0.0))
-    metres, radians = distance(identity(), turned)
+    metres, radians = apart(identity(), turned)
     assert metres == pytest.approx(5.0)
     assert radians == pytest.approx(angle, rel=1e-6, abs=1e-15)
 
@@ -111,7 +110,7 @@ def test_distance_of_two_poses_is_exact_for_small_and_large_angles(angle: float)
 def test_quaternion_and_its_negative_are_no_distance_apart() -> None:
     turned = from_xyz_rpy((0.0, 0.0, 0.0), (0.1, 0.2, math.pi))
     x, y, z, w = turned.quaternion
-    assert distance(turned, replace(turned, quaternion=(-x, -y, -z, -w)))[1] < 1e-12
+    assert apart(turned, replace(turned, quaternion=(-x, -y, -z, -w)))[1] < 1e-12
 
 
 def test_every_code_is_found_by_a_fault_here() -> None:

@@ -1,4 +1,4 @@
-"""``audit.md``: the tuple, what is expected of the running cell, who commands what, and what is not known.
+"""``audit.md``: version tuple, expected nodes and interfaces, command owners, and open questions.
 
 Markdown for the people who approve the cell; ``cellc audit`` prints the same. Left
 out: findings of ``cellc check``, which change with its version; the audit holds what follows from the spec alone.
@@ -44,7 +44,7 @@ _QUESTIONS = {
     "data": "Can failures be replayed by layer?",
 }
 _SPEC_AUTHOR = "author of the spec"
-# What stands on the thing itself can be read by whoever answers for it; what is released only the supplier knows.
+# The owner of a device reads what is printed on it; only the supplier knows what is released.
 _READ_ON_THE_DEVICE = ("revision", "serial", "firmware")
 
 
@@ -90,10 +90,10 @@ def responsibilities(cell: Cell) -> Iterator[tuple[str, ...]]:
 
 
 def ending(cell: Cell) -> Iterator[str]:
-    """Yield the way from motion to power-off; what carries is ended after what it carries."""
-    yield "nothing is held, and nobody and nothing is below a tool or a part that may fall"
+    """Yield the steps from motion to power-off; a device is ended before the one that carries it."""
+    yield "Make sure that nothing is held, and that no person and no object is below a tool or a part that may fall"
     if motion_clients(cell):
-        yield "end move.launch.xml on each computer, so that nothing asks for motion"
+        yield "End move.launch.xml on each computer, which ends all motion clients"
     joints = {joint.name for device in cell.devices for joint in device.joints}
     for manager in cell.managers:
         claiming = " ".join(
@@ -103,13 +103,13 @@ def ending(cell: Cell) -> Iterator[str]:
         )
         command = f"ros2 control switch_controllers --deactivate {claiming} -c {manager.node}"
         if claiming:
-            yield f"give the claims back: {code(command)}"
+            yield f"Release the claims by {code(command)}"
     for device in _outermost_first(cell):
         yield from (f"{device.name}: {step}" for step in device.safety.ending)
-    yield "end cell.launch.xml by Ctrl-C on each computer, and see by ros2 node list that no node of this cell is left"
+    yield "End cell.launch.xml by Ctrl-C on each computer. ros2 node list must show no node of this cell."
     for device in _outermost_first(cell):
         yield from (f"{device.name}: {step}" for step in device.safety.ended)
-    yield "the record is ended, and the evidence is signed"
+    yield "End the recording and sign the evidence"
 
 
 def _outermost_first(cell: Cell) -> list[Device]:
@@ -123,15 +123,17 @@ def _outermost_first(cell: Cell) -> list[Device]:
 
 
 def _losses(cell: Cell) -> Iterator[tuple[str, tuple[str, ...]]]:
-    """Yield the ways out of what no device reports: a manager or a computer that is gone."""
-    seen = "see what each robot and each tool did without its controller manager: what is held may have fallen"
-    ended = "end every launch file of the cell by Ctrl-C on each computer: what is left waits for ever for its services"
-    alone = "see by ros2 node list that no node of this cell is left: a second launch would double it"
-    begin = "begin again at gate G3, and release activation and claims anew"
+    """Yield the recovery from a loss that no device reports: of a manager or a computer."""
+    seen = "Check each robot and each tool. Without its controller manager a tool may have dropped its part."
+    ended = (
+        "End every launch file of the cell by Ctrl-C on each computer. Any part left waits forever for its services."
+    )
+    alone = "Check by ros2 node list that no node of this cell is left. A second launch would start it twice."
+    begin = "Repeat from gate G3. Authorize activation and claims again"
     if cell.managers:
-        yield "a controller manager died", (seen, ended, alone, begin)
+        yield "A controller manager ended", (seen, ended, alone, begin)
     if len(cell.hosts) > 1:
-        yield "a computer or the network between two was lost", (seen, ended, "pass L1 to L5 again", begin)
+        yield "A computer, or the network between two, was lost", (seen, ended, "Repeat layers L1 to L5", begin)
 
 
 def _after_a_loss(cell: Cell) -> Iterator[str]:
@@ -145,8 +147,8 @@ def recovery(cell: Cell) -> Iterator[str]:
     yield markdown(f"Acknowledged by: {recovery.acknowledge}. Owner: {recovery.owner}.")
     yield markdown(f"After a reconnect: {recovery.on_reconnect}.")
     for device in cell.devices:
-        for way in device.safety.recovery:
-            yield from ("", markdown(f"{device.name}, {way.state}:"), "", _numbered(way.steps))
+        for procedure in device.safety.recovery:
+            yield from ("", markdown(f"{device.name}, {procedure.state}:"), "", _numbered(procedure.steps))
 
 
 def _numbered(steps: Iterable[str]) -> str:
@@ -154,24 +156,24 @@ def _numbered(steps: Iterable[str]) -> str:
 
 
 def _not_provable(cell: Cell) -> Iterator[str]:
-    """Yield what the catalog says that no mock shows, by device and vendor."""
+    """Yield what the mock cannot prove by the catalog, by device and vendor."""
     for device in cell.devices:
         of = f"{device.name} ({device.vendor} {device.model})"
         yield from (f"- {markdown(f'{of}: {text}')}" for text in device.mock_cannot_prove)
     if cell.groups and not cell.scene and cell.octomap is None:
-        yield "- what stands around the devices: `scene` is empty, so that paths are planned through table and fence"
+        yield "- collisions with the surroundings: `scene` is empty, so paths are planned through table and fence"
     if cell.octomap is not None:
         yield f"- the occupancy map of {code(cell.octomap.source)}: the mock plans without it"
     if cell.servo is not None:
-        yield f"- {code(cell.servo.node)}, which runs MoveIt Servo: the mock executes none, and sends no command to it"
+        yield f"- {code(cell.servo.node)} (MoveIt Servo): the mock does not execute it and sends it no command"
     for device, name, said in cell.signed_for_mock():
-        signed = f"that {code(name)} touches no hardware is a statement of {said.by}, {said.date}"
+        signed = f"that {code(name)} touches no hardware: only {said.by} states it, {said.date}"
         yield f"- {markdown(f'{device.name}: {signed}')}"
 
 
 def _questions_section(graph: CellGraph, plan: Deployment) -> str:
-    """Write every UNKNOWN of the spec, and every part that no matrix covers."""
-    return table(("asked of", "question", "answered in the spec at"), [*_open(graph, plan), *_untested(graph.cell)])
+    """Write every UNKNOWN of the spec, and every part that no compatibility matrix covers."""
+    return table(("ask", "question", "answer in the spec"), [*_open(graph, plan), *_untested(graph.cell)])
 
 
 def _open(graph: CellGraph, plan: Deployment) -> Iterator[tuple[str, ...]]:
@@ -187,7 +189,7 @@ def _asked(cell: Cell, question: OpenQuestion) -> tuple[str, str]:
         return _asked_of_device(cell, cell.device(str(question.path[1])), part)
     if section == "versions":
         if "rollback" in question.path:
-            return _person(approvals.data), f"Which {part} does the cell go back to when a new one fails?"
+            return _person(approvals.data), f"To which {part} does the cell roll back when a new one fails?"
         return _person(approvals.graph), f"What is the {question.subject} of the machine that runs the cell?"
     if section == "safety":
         return _person(approvals.safety), f"What is the {question.subject}?"
@@ -213,7 +215,7 @@ def _untested(cell: Cell) -> Iterator[tuple[str, ...]]:
     for judged in compatibility(cell):
         if judged.built_from:
             continue  # `sources.repos` answers it
-        # Hardware revisions and kernels stand in no matrix of any supplier; the mock and the gates cover them.
+        # No supplier's matrix has hardware revisions or kernels; the mock and the gates cover them.
         if judged.answer is Answer.UNKNOWN and judged.pin.known and judged.pin.part not in ("revision", "kernel"):
             yield _asked_for_matrix(cell, devices.get(judged.pin.holder), judged)
 
@@ -231,7 +233,7 @@ def _person(owner: str) -> str:
 
 def _version_section(cell: Cell) -> str:
     """Write the tuple as a table."""
-    return table(("of", "part", "pinned", "answer", "because"), _rows(cell))
+    return table(("holder", "part", "pinned", "answer", "reason"), _rows(cell))
 
 
 def _rows(cell: Cell) -> Iterator[tuple[str, ...]]:

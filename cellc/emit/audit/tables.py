@@ -1,4 +1,4 @@
-"""Tables of the audit: every command path, and what must be found when the cell runs."""
+"""Tables of the audit: every command path, and the expected nodes and interfaces of the running cell."""
 
 from __future__ import annotations
 
@@ -31,11 +31,11 @@ from cellc.link.nodes import DESCRIPTION_PUBLISHER
 
 _NOT_STATED = "not stated"
 _ALONE: Mapping[tuple[str, ...], str] = {("real",): " (real target)", ("mock",): " (mock)"}
-"""How what one target alone has is told."""
+"""Mark of what only one target has."""
 
 
 def owners_section(graph: CellGraph) -> str:
-    """Write who owns each command interface, and who tells that owner what to do."""
+    """Write the owner of each command interface, and the client that commands it."""
     return table(("command interface", "controller", "commanded by", "owner"), _owners(graph.cell))
 
 
@@ -48,7 +48,7 @@ def command_section(graph: CellGraph) -> str:
 def _owners(cell: Cell) -> Iterator[tuple[str, ...]]:
     people = {node.name: node.owner for node in cell.nodes}
     for controller in cell.controllers:
-        client = controller.client or "nobody"
+        client = controller.client or "none"
         state = "" if controller.active else " (inactive)"
         for claims, where in _claims(controller).items():
             for name in folded(claims):
@@ -66,23 +66,23 @@ def calibration_section(cell: Cell) -> str:
 
 
 def shapes_section(cell: Cell) -> str:
-    """Write whose shapes the links of each device have, on every target."""
-    return table(("device", "shapes", "because"), ((device.name, *_shapes(device)) for device in cell.devices))
+    """Write the source of each device's link shapes, equal on every target."""
+    return table(("device", "shapes", "reason"), ((device.name, *_shapes(device)) for device in cell.devices))
 
 
 def _shapes(device: Device) -> tuple[str, str]:
     vendor = device.vendor_description
     if vendor is None:
-        return "those of its description", "the catalog names no file of its vendor that has others"
+        return "from its description", "the catalog names no vendor file with other shapes"
     if vendor.description is not None:
-        return "those of its vendor", f"{code(vendor.package)} is at hand, and its kinematics was compared"
+        return "from its vendor", f"{code(vendor.package)} is available, and its kinematics matches"
     if vendor.refused:
         return "boxes and cylinders", f"the description in {code(vendor.package)} cannot be read"
-    return "boxes and cylinders", f"{code(vendor.package)} lies neither beside the spec nor on the package path"
+    return "boxes and cylinders", f"{code(vendor.package)} is neither beside the spec nor on the package path"
 
 
 def signals_section(cell: Cell) -> str:
-    """Write each output and sensor of devices of few states: what drives it, and what a loss of power does."""
+    """Write each output and sensor of switched devices: what drives it, and what a loss of power does."""
     head = ("device", "signal", "interface", "controller", "commanded by", "without power")
     return table(head, _signals(cell))
 
@@ -96,11 +96,11 @@ def _signals(cell: Cell) -> Iterator[tuple[str, ...]]:
         lost = "holds nothing" if one.holds is None else f"{one.power_lost}{accepted}"
         for name, interface in one.outputs.items():
             by = next((each for each in cell.controllers if interface in each.all_claims), None)
-            client = "nobody" if by is None or by.client is None else by.client
+            client = "none" if by is None or by.client is None else by.client
             yield device.name, f"output {name}", code(interface), "none" if by is None else by.label, client, lost
         for name, interface in one.inputs.items():
             by = next((each for each in cell.controllers if interface in each.state_interfaces), None)
-            yield device.name, f"sensor {name}", code(interface), "none" if by is None else by.label, "is read", lost
+            yield device.name, f"sensor {name}", code(interface), "none" if by is None else by.label, "read only", lost
 
 
 def _claims(controller: Controller) -> dict[tuple[str, ...], str]:
@@ -121,7 +121,7 @@ def _requests(cell: Cell) -> Iterator[tuple[str, ...]]:
             yield (
                 ends,
                 frame_label(one),
-                one.unit or "as the type",
+                one.unit or "per message type",
                 "on request",
                 time,
                 qos,
@@ -131,11 +131,11 @@ def _requests(cell: Cell) -> Iterator[tuple[str, ...]]:
 
 
 def _past_controllers(cell: Cell) -> Iterator[tuple[str, ...]]:
-    """Yield what moves a device past every controller: it is nobody's, and open to whoever the policy lets through."""
+    """Yield what moves a device without a controller; any node that the policy permits can call it."""
     for device, one, does in past_controllers(cell):
-        path = f"nobody of the cell → {code(one.name)} → {device.name} (real target)"
-        qos, watched = "as the type", device.safety.watchdog or _NOT_STATED
-        yield path, "as the type", "as the type", "on request", _NOT_STATED, qos, watched, f"{does}; it asks no claim"
+        path = f"no client in the cell → {code(one.name)} → {device.name} (real target)"
+        typed, watched = "per message type", device.safety.watchdog or _NOT_STATED
+        yield path, typed, typed, "on request", _NOT_STATED, typed, watched, f"{does}; needs no claim"
 
 
 def _controllers(cell: Cell) -> Iterator[tuple[str, ...]]:
@@ -153,9 +153,9 @@ def _controller(
     hardware = "its hardware" if device is None or device.hardware is None else device.hardware.name
     rate = controller.update_rate_hz or manager.update_rate_hz
     behaviour = "" if action is None else f"; {failure_label(action)}"
-    name = controller.action or controller.full_name
+    name, client = controller.action or controller.full_name, controller.client or "no client"
     return (
-        f"{controller.client or 'nobody'} → {code(name)} → {controller.label} → {hardware}{_alone(controller.targets)}",
+        f"{client} → {code(name)} → {controller.label} → {hardware}{_alone(controller.targets)}",
         (action.frame if action is not None else None) or "joints",
         units(cell, controller),
         f"{shortest(rate)} Hz",
@@ -172,11 +172,11 @@ def _qos(ends: tuple[Endpoint, ...]) -> str:
 
 
 def _names(ends: tuple[Endpoint, ...]) -> str:
-    return ", ".join(dict.fromkeys(end.node for end in ends)) or "nobody"
+    return ", ".join(dict.fromkeys(end.node for end in ends)) or "no node"
 
 
 def nodes_section(cell: Cell) -> str:
-    """Write every node with who answers for it."""
+    """Write every node with its owner."""
     return table(("node", "program", "host", "owner", "parameters"), _nodes(cell))
 
 
@@ -188,7 +188,7 @@ def interfaces_section(cell: Cell, kind: InterfaceKind) -> str:
 
 
 def drivers_section(cell: Cell) -> str:
-    """Write what the catalog says that the devices' drivers offer beside what the spec names."""
+    """Write the interfaces that drivers offer by the catalog and the spec does not name."""
     return table(("name", "kind", "type", "device"), _of_drivers(cell))
 
 
@@ -202,7 +202,7 @@ def tf_section(cell: Cell) -> str:
 
 
 def record_section(cell: Cell) -> str:
-    """Write where the record of an attempt on the real target has from what the devices alone can tell."""
+    """Write the source of each attempt field that only the devices know, on the real target."""
     return table(("field", "device", "from"), _record(cell))
 
 
@@ -216,8 +216,8 @@ def _record(cell: Cell) -> Iterator[tuple[str, ...]]:
 def _record_source(cell: Cell, device: Device, source: RecordSource) -> str:
     if source.read is not None:
         return f"by hand: {source.read}"
-    told = cell.reporting(device, source)
-    return _NOT_STATED if told is None else f"`{source.field}` of {code(f'{told.full_name}/{source.topic}')}"
+    reporter = cell.reporting(device, source)
+    return _NOT_STATED if reporter is None else f"`{source.field}` of {code(f'{reporter.full_name}/{source.topic}')}"
 
 
 def _nodes(cell: Cell) -> Iterator[tuple[str, ...]]:

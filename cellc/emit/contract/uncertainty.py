@@ -4,7 +4,7 @@ Format 1, ``cellc.contract.uncertainty``. Read by ``cellc mock --sweep``. A resi
 square of the distance by which a frame stands elsewhere, the same along each axis: an axis has a third of its square. A
 bound of a clock says no more than that: every offset within it is as likely. Pose repeatability is the mean distance
 from the middle of all arrivals and three standard deviations of it (ISO 9283:1998, 7.2.2); of errors that are normal
-and alike along three axes that is 3.615 of their deviation. Left out: what is below a nanometer, nanoradian or
+and alike along three axes that is 3.616 of their deviation. Left out: what is below a nanometer, nanoradian or
 nanosecond, and what spec and catalog give no figure of, such as the error of tracking, and how a payload differs, on
 which nothing of the mock rests.
 """

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Takes the steps of config/bring_up.json: waits for the proof of each, asks once, and looks at the effect.
+"""Runs the steps of config/bring_up.json: waits for the proof of each, sends its request once, checks the effect.
 
-    bring_up --plan FILE --target mock|real [--host HOST] PHASE...          take the steps of these phases
-    bring_up --plan FILE --target mock|real move -- PROGRAM ARGUMENT...     prove, then run PROGRAM while claims hold
-    bring_up --plan FILE --target real watch                                deactivate claims when the robot is deaf
+    bring_up --plan FILE --target mock|real [--host HOST] PHASE...        run the steps of these phases
+    bring_up --plan FILE --target mock|real move -- PROGRAM ARGUMENT...   prove, then run PROGRAM while claims hold
+    bring_up --plan FILE --target real watch                              deactivate claims when the robot ignores them
 
-A step that fails says what is missing and ends this with 1; steps after it are not taken. Nothing here enables a drive,
-and what was deactivated stays so until a person releases the claim again.
+A step that fails prints what is missing and ends this with 1. It enables no drive. What was deactivated stays inactive
+until a person authorizes the claim again.
 """
 
 from __future__ import annotations
@@ -29,25 +29,25 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-ANSWER_S = 3.0  # how long one answer is waited for; an unanswered question is asked again
-UNSEEN_S = 10.0  # a participant that has not seen a service for this long is made anew
-LOOK_S = 0.2  # how often what is missing is looked for
-LOST = 3  # looks in a row that must miss a claim before the program behind it is stopped; one may be a late answer
-PATIENCE_S = 0.0  # in place of the deadlines of the plan, where it is not 0
-MANIFEST = Path("manifest.json")  # that of the package: beside the folder of the plan
-BEST_EFFORT, STRICT = 1, 2  # controller_manager_msgs/srv/SwitchController: what can be done; all of it or nothing
+ANSWER_S = 3.0  # wait for one answer; an unanswered request is repeated
+UNSEEN_S = 10.0  # a participant that has not seen a service for this long is created again
+LOOK_S = 0.2  # period of checks
+LOST = 3  # checks in a row without a claim before the program behind it is stopped; one may be a late answer
+PATIENCE_S = 0.0  # replaces the deadlines of the plan where it is not 0
+MANIFEST = Path("manifest.json")  # of the package, beside the folder of the plan
+BEST_EFFORT, STRICT = 1, 2  # controller_manager_msgs/srv/SwitchController: as far as possible; all or nothing
 TRANSITIONS, ACTIVE = {"configure": 1, "activate": 3}, 3  # lifecycle_msgs/msg/Transition; lifecycle_msgs/msg/State
-FROM = {"inactive": ("inactive", "active"), "active": ("active",)}  # what is active was inactive before
-# Of a child: it gets SIGINT when this program is gone, killed too (prctl(2), PR_SET_PDEATHSIG).
+FROM = {"inactive": ("inactive", "active"), "active": ("active",)}  # an active controller was inactive before
+# A child gets SIGINT when this program ends, even by a kill (prctl(2), PR_SET_PDEATHSIG).
 END_WITH_PARENT = partial(ctypes.CDLL(None).prctl, 1, signal.SIGINT) if sys.platform == "linux" else None
 
 
 class UnansweredError(Exception):
-    """A service is not there, or says nothing; the text says which."""
+    """The service is missing or did not answer in time."""
 
 
 class Graph:
-    """One participant of the ROS graph, and what it has heard."""
+    """One participant of the ROS graph, with the newest message of each topic."""
 
     def __init__(self, name: str, enclave: str) -> None:
         self._name, self._enclave = name, enclave
@@ -111,9 +111,9 @@ class Graph:
         if topic not in self._listened and (found := self._node.get_publishers_info_by_topic(topic)):
             from rclpy.qos import DurabilityPolicy
 
-            latched = all(one.qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL for one in found)
+            latched = all(end.qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL for end in found)
             self._listen(topic, kind, latched, lambda message: self._heard.update({topic: message}))
-        # What nobody publishes any more is no news, even where the last message said what was wanted.
+        # A message without a publisher is outdated, even with the wanted value.
         return self._heard.get(topic) if self._node.count_publishers(topic) else None
 
     def connects(self, parent: str, child: str) -> bool:
@@ -123,8 +123,8 @@ class Graph:
         return bool(self._above(parent) & self._above(child))
 
     def _place(self, message: Any) -> None:
-        for one in message.transforms:
-            self._parents[one.child_frame_id.lstrip("/")] = one.header.frame_id.lstrip("/")
+        for edge in message.transforms:
+            self._parents[edge.child_frame_id.lstrip("/")] = edge.header.frame_id.lstrip("/")
 
     def _above(self, frame: str) -> set[str]:
         known = {frame} if frame in self._parents or frame in self._parents.values() else set()
@@ -160,13 +160,13 @@ def active_of(graph: Graph, one: SimpleNamespace) -> list[str]:
     return [entry.name for entry in listed if entry.name in one.controllers and entry.state == "active"]
 
 
-class Missing:
-    """What is there in the place of a proof, by its kind; an empty text where it holds."""
+class Unmet:
+    """Why a proof does not hold, by its kind; an empty text where it holds."""
 
     def __init__(self, graph: Graph) -> None:
         self._graph = graph
 
-    def of(self, proof: SimpleNamespace) -> str:
+    def reason(self, proof: SimpleNamespace) -> str:
         return str(getattr(self, f"_{proof.kind}")(proof))
 
     def _node(self, proof: SimpleNamespace) -> str:
@@ -178,13 +178,13 @@ class Missing:
 
     def _controller(self, proof: SimpleNamespace) -> str:
         listed = listed_controllers(self._graph, proof.manager)
-        state = next((one.state for one in listed if one.name == proof.controller), "not loaded")
+        state = next((entry.state for entry in listed if entry.name == proof.controller), "not loaded")
         return "" if state in FROM[proof.state] else f"controller {proof.controller} must be {proof.state}, is {state}"
 
     def _hardware(self, proof: SimpleNamespace) -> str:
         kind, name = "controller_manager_msgs/srv/ListHardwareComponents", "list_hardware_components"
         listed = self._graph.ask(kind, f"{proof.manager}/{name}").component
-        state = next((one.state.label for one in listed if one.name == proof.component), "not there")
+        state = next((entry.state.label for entry in listed if entry.name == proof.component), "missing")
         return "" if state == proof.state else f"hardware {proof.component} must be {proof.state}, is {state}"
 
     def _topic(self, proof: SimpleNamespace) -> str:
@@ -192,7 +192,7 @@ class Missing:
         if message is None:
             return f"no message on {proof.topic}"
         value = None if field is None else getattr(message, field)
-        return "" if field is None or value == proof.value else f"{proof.topic} must say {proof.value}, says {value}"
+        return "" if field is None or value == proof.value else f"{proof.topic} must be {proof.value}, is {value}"
 
     def _action(self, proof: SimpleNamespace) -> str:
         return "" if self._graph.serves(f"{proof.action}/_action/send_goal") else f"no server of {proof.action}"
@@ -203,7 +203,7 @@ class Missing:
 
     def _alone(self, proof: SimpleNamespace) -> str:
         twice = ", ".join(name for name in proof.nodes if self._graph.nodes().count(name) > 1)
-        return f"{twice} must be there once: a cell of the same names runs in this domain" if twice else ""
+        return f"expected one node {twice}, got two: another cell with these names runs in this domain" if twice else ""
 
     def _mock(self, proof: SimpleNamespace) -> str:
         service = f"{proof.node}/get_parameters"
@@ -211,29 +211,29 @@ class Missing:
         text = answer.values[0].string_value if answer.values else ""
         used = {part.partition("</plugin>")[0].strip() for part in text.split("<plugin>")[1:]}
         foreign = ", ".join(sorted(used - set(proof.plugins))) if used else "no hardware"
-        return f"{proof.node} must describe the mock alone, has {foreign}" if foreign else ""
+        return f"{proof.node} must describe only the mock, has {foreign}" if foreign else ""
 
 
-def missing(graph: Graph, proofs: Sequence[SimpleNamespace]) -> str:
-    """Return the first thing that is missing, empty where every proof holds."""
+def unmet_reason(graph: Graph, proofs: Sequence[SimpleNamespace]) -> str:
+    """Return why the first proof that fails does not hold; empty where every proof holds."""
     try:
-        return next((absent for absent in map(Missing(graph).of, proofs) if absent), "")
+        return next((absent for absent in map(Unmet(graph).reason, proofs) if absent), "")
     except UnansweredError as unanswered:
         return str(unanswered)
 
 
 def request(graph: Graph, wanted: SimpleNamespace, answer_s: float) -> str:
-    """Ask for what a step does; return an empty text, or why it was refused."""
+    """Send the request of a step; return an empty text, or why it was refused."""
     if wanted.kind == "transition":
         transition = _loaded("lifecycle_msgs/msg/Transition")(id=TRANSITIONS[wanted.transition])
         service, name = "lifecycle_msgs/srv/ChangeState", f"{wanted.node}/change_state"
         answer = graph.ask(service, name, answer_s, transition=transition)
         return "" if answer.success else f"{wanted.node} refused to {wanted.transition}"
     if wanted.kind == "versions":
-        told = [sys.executable, Path(__file__).with_name("installed_versions"), "--manifest", MANIFEST, *wanted.parts]
-        ended = subprocess.run(told, stdout=subprocess.PIPE, text=True)
+        line = [sys.executable, Path(__file__).with_name("installed_versions"), "--manifest", MANIFEST, *wanted.parts]
+        ended = subprocess.run(line, stdout=subprocess.PIPE, text=True)
         print(said := " ".join(ended.stdout.split()), flush=True)
-        return (said or f"{told[1]} fails") if ended.returncode else ""
+        return (said or f"{line[1]} failed") if ended.returncode else ""
     if wanted.kind == "hardware":
         state = _loaded("lifecycle_msgs/msg/State")(id=ACTIVE, label="active")
         service, name = "controller_manager_msgs/srv/SetHardwareComponentState", "set_hardware_component_state"
@@ -256,19 +256,19 @@ def switch(
 
 
 def take(graph: Graph, step: SimpleNamespace) -> str:
-    """Take one step; return an empty text, or why it ended."""
+    """Run one step; return an empty text, or why it failed."""
     deadline_s = PATIENCE_S or step.deadline_s
     effect, wanted = getattr(step, "effect", []), getattr(step, "request", None)
     if absent := _awaited(graph, step.proof, deadline_s):
         return absent
-    if wanted is None or (effect and wanted.kind != "restart" and not missing(graph, effect)):
-        return ""  # nothing is asked, or it was done before: by an earlier try, or by a person
+    if wanted is None or (effect and wanted.kind != "restart" and not unmet_reason(graph, effect)):
+        return ""  # no request, or its effect is already there
     return _asked(graph, wanted, effect, deadline_s)
 
 
 def _awaited(graph: Graph, proofs: Sequence[SimpleNamespace], deadline_s: float) -> str:
     until = time.monotonic() + deadline_s
-    while absent := missing(graph, proofs):
+    while absent := unmet_reason(graph, proofs):
         if time.monotonic() > until:
             return absent
         graph.spin(LOOK_S)
@@ -285,29 +285,29 @@ def _asked(graph: Graph, wanted: SimpleNamespace, effect: Sequence[SimpleNamespa
             return _awaited(graph, effect, max(until - time.monotonic(), ANSWER_S))
         except UnansweredError as unanswered:
             absent = str(unanswered)
-        if not missing(graph, effect):
-            return ""  # it was done, and the answer was lost
+        if not unmet_reason(graph, effect):
+            return ""  # done; only the answer was lost
         if time.monotonic() > until:
             return absent
         graph.spin(LOOK_S)
 
 
 def take_all(graph: Graph, steps: Sequence[SimpleNamespace]) -> bool:
-    """Take steps up to the first that fails; tell whether all were taken."""
+    """Run steps up to the first that fails; return whether all succeeded."""
     for number, step in enumerate(steps):
-        begun = time.monotonic()
-        ended, after_s = take(graph, step), time.monotonic() - begun
+        started = time.monotonic()
+        ended, after_s = take(graph, step), time.monotonic() - started
         if ended:
-            later = ", ".join(one.name for one in steps[number + 1 :])
-            rest = f" Not taken: {later}." if later else ""
-            print(f"{step.name} stops after {after_s:.1f} s: {ended}.{rest}", file=sys.stderr, flush=True)
+            later = ", ".join(skipped.name for skipped in steps[number + 1 :])
+            rest = f" Skipped: {later}." if later else ""
+            print(f"{step.name} failed after {after_s:.1f} s: {ended}.{rest}", file=sys.stderr, flush=True)
             return False
         print(f"{step.name} done after {after_s:.1f} s", flush=True)
     return True
 
 
 def run_while_claimed(graph: Graph, step: SimpleNamespace, command: Sequence[str]) -> int:
-    """Run a program as long as the controllers that it needs stay active; return its exit status, or 1."""
+    """Run a program while the controllers that it needs stay active; return its exit status, or 1."""
     claims = [proof for proof in step.proof if proof.kind == "controller"]
     children: list[subprocess.Popen[bytes]] = []
 
@@ -320,10 +320,10 @@ def run_while_claimed(graph: Graph, step: SimpleNamespace, command: Sequence[str
     try:
         while (status := child.poll()) is None:
             graph.spin(LOOK_S)
-            lost = missing(graph, claims)
+            lost = unmet_reason(graph, claims)
             misses = misses + 1 if lost else 0
             if misses >= LOST:
-                print(f"{command[0]} is stopped: {lost}", file=sys.stderr, flush=True)
+                print(f"{command[0]} stopped: {lost}", file=sys.stderr, flush=True)
                 return 1
         return status if status >= 0 else 128 - status
     finally:
@@ -331,7 +331,7 @@ def run_while_claimed(graph: Graph, step: SimpleNamespace, command: Sequence[str
 
 
 def _stop(child: subprocess.Popen[bytes]) -> None:
-    """End a program that still runs: it is asked twice, then killed."""
+    """End a program that still runs: SIGINT, SIGTERM, then SIGKILL."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
         if child.poll() is not None:
             return
@@ -341,21 +341,21 @@ def _stop(child: subprocess.Popen[bytes]) -> None:
 
 
 def watch(graph: Graph, watches: Sequence[SimpleNamespace]) -> Iterator[str]:
-    """Deactivate controllers whose robot does not listen, for ever; yield what was done or could not be."""
+    """Deactivate controllers whose robot ignores commands, forever; yield what was done or failed."""
     while True:
         graph.spin(LOOK_S)
-        for one in watches:
-            with suppress(UnansweredError):  # it is asked again
-                if (absent := missing(graph, [one.while_holds])) and (active := active_of(graph, one)):
-                    yield f"{', '.join(active)}: {_deactivated(graph, one.manager, active)}: {absent}"
+        for entry in watches:
+            with suppress(UnansweredError):  # the next check repeats it
+                if (absent := unmet_reason(graph, [entry.while_holds])) and (active := active_of(graph, entry)):
+                    yield f"{', '.join(active)}: {_deactivated(graph, entry.manager, active)}: {absent}"
 
 
 def _deactivated(graph: Graph, manager: str, controllers: Sequence[str]) -> str:
     try:
         done = switch(graph, manager, [], controllers, BEST_EFFORT, ANSWER_S)
     except UnansweredError as unanswered:
-        return f"not deactivated, tried again ({unanswered})"
-    return "deactivated, a person releases the claim again" if done else "not deactivated, tried again (refused)"
+        return f"not deactivated, will retry ({unanswered})"
+    return "deactivated until a person authorizes the claim again" if done else "not deactivated, will retry (refused)"
 
 
 def seconds(text: str) -> float:
@@ -365,16 +365,16 @@ def seconds(text: str) -> float:
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Take phases, run a program behind its proof, or watch; return the exit status."""
+    """Run phases, run a program after its proof, or watch; return the exit status."""
     global MANIFEST, PATIENCE_S
     own = [*takewhile(lambda word: word not in ("--", "--ros-args"), arguments)]
     command = [*arguments[arguments.index("--") + 1 :]] if "--" in arguments else []
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--plan", type=Path, required=True, help="config/bring_up.json of the package")
     parser.add_argument("--target", choices=("mock", "real"), required=True)
-    parser.add_argument("--host", default="", help="take the steps of this computer alone")
+    parser.add_argument("--host", default="", help="run only the steps of this computer")
     stated = os.environ.get("CELL_WAIT_S") or "0"
-    parser.add_argument("--wait", type=seconds, default=stated, help="in place of all deadlines (CELL_WAIT_S)")
+    parser.add_argument("--wait", type=seconds, default=stated, help="seconds that replace all deadlines (CELL_WAIT_S)")
     parser.add_argument("phases", nargs="+", choices=("start", "activate", "claim", "move", "watch"))
     read = parser.parse_args(own)
     PATIENCE_S, MANIFEST = read.wait or PATIENCE_S, read.plan.parent.parent / "manifest.json"

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Sends a trajectory controller one small goal: one joint goes a little from where it stands, every other stays.
+"""Sends a trajectory controller one small goal: one joint moves a little, every other keeps its position.
 
     first_goal --action NAME --states TOPIC --joint NAME --by RAD --seconds S --timeout S [--absent NODE]... \
         --then end|cancel JOINT...
 
-It reads the states first, so that nothing goes anywhere else, refuses while a node is there that asks for motion, tells
-where each joint stood before and stands after, and ends with 0 when the goal ended as it was asked to. With `cancel` it
-cancels half way and tells how long after the request the last joint moved. Started by goal.launch.xml, which a person
-releases, and as long as the claims hold.
+It reads the joint states first, so that no other joint moves. It refuses while a motion client runs. It prints the
+position of each joint before and after. It ends with 0 when the goal ended as requested. With `cancel` it cancels half
+way and prints the time from the request to standstill. goal.launch.xml starts it, by a person's authorization, while
+the claims hold.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 WAIT_S = 10.0  # for states and for the server
-STILL = 5e-3  # rad or m per second below which a joint stands
+STILL = 5e-3  # rad/s or m/s; a slower joint is at standstill
 SUCCEEDED, CANCELED = 4, 5  # action_msgs/msg/GoalStatus
 
 
@@ -72,7 +72,7 @@ class Robot:
 
 
 def awaited(robot: Any, there: Callable[[], bool], seconds: float) -> bool:
-    """Spin until something holds; tell whether it does."""
+    """Spin until a condition holds; return whether it does."""
     until = time.monotonic() + seconds
     while not there() and time.monotonic() < until:
         robot.spin(0.05)
@@ -80,13 +80,13 @@ def awaited(robot: Any, there: Callable[[], bool], seconds: float) -> bool:
 
 
 def refused(robot: Any, asked: argparse.Namespace) -> str:
-    """Return why nothing is sent; empty where everything is there, and nobody else who asks for motion."""
+    """Return why no goal may be sent; empty where everything is ready and no motion client runs."""
     if not awaited(robot, robot.serves, WAIT_S):
         return f"no server of {asked.action}"
     if not awaited(robot, lambda: set(asked.joints) <= set(robot.positions), WAIT_S):
         return f"no state of {', '.join(sorted(set(asked.joints) - set(robot.positions)))} on {asked.states}"
     there = ", ".join(name for name in asked.absent if name in robot.nodes())
-    return f"{there} asks for motion: it is ended first" if there else ""
+    return f"end {there} first: a motion client may not run" if there else ""
 
 
 def moving(robot: Any, joints: Sequence[str]) -> bool:
@@ -94,7 +94,7 @@ def moving(robot: Any, joints: Sequence[str]) -> bool:
 
 
 def canceled(robot: Any, handle: Any, joints: Sequence[str], after_s: float, bound_s: float) -> None:
-    """Cancel half way; tell how long after the request the last joint moved."""
+    """Cancel half way; print the time from the request to standstill."""
     awaited(robot, lambda: False, after_s)
     asked = last = time.monotonic()
     handle.cancel_goal_async()
@@ -102,10 +102,10 @@ def canceled(robot: Any, handle: Any, joints: Sequence[str], after_s: float, bou
         robot.spin(0.02)
         if moving(robot, joints):
             last = time.monotonic()
-    print(f"canceled: the last joint stood {last - asked:.3f} s after the request", flush=True)
+    print(f"canceled: standstill {last - asked:.3f} s after the request", flush=True)
 
 
-def told(before: Mapping[str, float], after: Mapping[str, float], joints: Sequence[str]) -> None:
+def print_motion(before: Mapping[str, float], after: Mapping[str, float], joints: Sequence[str]) -> None:
     for name in joints:
         print(
             f"{name}: {before[name]:.4f} before, {after[name]:.4f} after, {after[name] - before[name]:+.4f}", flush=True
@@ -113,7 +113,7 @@ def told(before: Mapping[str, float], after: Mapping[str, float], joints: Sequen
 
 
 def send(robot: Any, asked: argparse.Namespace) -> str:
-    """Send the goal and see it end; return why that failed, or an empty text."""
+    """Send the goal and wait for its end; return why that failed, or an empty text."""
     before = dict(robot.positions)
     target = [before[name] + (asked.by if name == asked.joint else 0.0) for name in asked.joints]
     sent = robot.send(asked.joints, target, asked.seconds)
@@ -126,23 +126,23 @@ def send(robot: Any, asked: argparse.Namespace) -> str:
     if not awaited(robot, ended.done, asked.timeout):
         handle.cancel_goal_async()
         awaited(robot, ended.done, asked.timeout)
-        return f"the goal did not end within {asked.timeout:g} s, and is canceled"
-    told(before, robot.positions, asked.joints)
-    answer, due = ended.result(), CANCELED if asked.then == "cancel" else SUCCEEDED
+        return f"the goal did not end within {asked.timeout:g} s and was canceled"
+    print_motion(before, robot.positions, asked.joints)
+    answer, expected = ended.result(), CANCELED if asked.then == "cancel" else SUCCEEDED
     said = f"status {answer.status}, error_code {answer.result.error_code} {answer.result.error_string}".rstrip()
     print(said, flush=True)
-    return "" if answer.status == due else f"the goal ended otherwise: {said}"
+    return "" if answer.status == expected else f"unexpected result: {said}"
 
 
 def arguments_of(words: Sequence[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--action", required=True)
     parser.add_argument("--states", required=True)
-    parser.add_argument("--joint", required=True, help="the one that moves")
+    parser.add_argument("--joint", required=True, help="joint that moves")
     parser.add_argument("--by", type=float, required=True, help="rad or m, with its sign")
-    parser.add_argument("--seconds", type=float, required=True, help="how long it takes")
-    parser.add_argument("--timeout", type=float, required=True, help="seconds within which it ends")
-    parser.add_argument("--absent", action="append", default=[], help="a node that may not be there")
+    parser.add_argument("--seconds", type=float, required=True, help="duration of the motion")
+    parser.add_argument("--timeout", type=float, required=True, help="seconds until the goal must end")
+    parser.add_argument("--absent", action="append", default=[], help="node that may not run")
     parser.add_argument("--then", choices=("end", "cancel"), default="end")
     parser.add_argument("joints", nargs="+", help="all joints of the controller")
     own = [*words[: words.index("--ros-args")]] if "--ros-args" in words else [*words]
@@ -150,7 +150,7 @@ def arguments_of(words: Sequence[str]) -> argparse.Namespace:
 
 
 def main(words: Sequence[str]) -> int:
-    """Look, send, tell; return the exit status."""
+    """Check, send, print; return the exit status."""
     asked = arguments_of(words)
     robot = Robot(asked.action, asked.states)
     try:
@@ -158,7 +158,7 @@ def main(words: Sequence[str]) -> int:
     finally:
         robot.leave()
     if why:
-        print(f"first_goal stops: {why}", file=sys.stderr, flush=True)
+        print(f"first_goal failed: {why}", file=sys.stderr, flush=True)
     return 1 if why else 0
 
 

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Compares what this computer has with the version tuple that the gates are passed with.
+"""Compares the versions on this computer with the version tuple of the package.
 
     installed_versions --manifest manifest.json PART...      PART is a name of its version_tuple, as arm.driver
 
-Each difference is told with both figures, and ends this with 1. A person who goes on in spite of them starts with
-CELL_ACCEPT_VERSIONS=I_HAVE_READ_THE_DIFFERENCES: they are then written into $E/versions.txt, the record of the attempt,
-and this ends with 0. What nothing on this computer can prove is told, and stops nothing.
+Each difference is printed with both versions, and ends this with 1. To go on in spite of differences, set
+CELL_ACCEPT_VERSIONS=I_HAVE_READ_THE_DIFFERENCES. They are then written into $E/versions.txt, the record of the attempt,
+and this ends with 0. A version that this computer cannot prove is printed and stops nothing.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ def found_of_system(part: str) -> str:
     """Return the release of the operating system or kernel, or the distribution that is sourced."""
     if part == "os":
         text = Path("/etc/os-release").read_text(encoding="utf-8")
-        told = dict(re.findall(r'^(ID|VERSION_ID)="?([^"\n]*)"?$', text, re.MULTILINE))
-        return f"{told.get('ID', '')} {told.get('VERSION_ID', '')}".strip()
+        stated = dict(re.findall(r'^(ID|VERSION_ID)="?([^"\n]*)"?$', text, re.MULTILINE))
+        return f"{stated.get('ID', '')} {stated.get('VERSION_ID', '')}".strip()
     return platform.release() if part == "kernel" else os.environ.get("ROS_DISTRO", NOTHING)
 
 
@@ -58,13 +58,13 @@ def commit_of(package: str) -> str:
     for workspace in () if folder is None else folder.parents[1:4]:
         for file in sorted((workspace / "src").glob("**/package.xml")) if (workspace / "src").is_dir() else ():
             if f"<name>{package}</name>" in file.read_text(encoding="utf-8", errors="replace"):
-                trees = (one / ".git" for one in file.parents if (one / ".git").is_dir())
+                trees = (parent / ".git" for parent in file.parents if (parent / ".git").is_dir())
                 return next((head_of(tree) for tree in trees), "")
     return ""
 
 
 def head_of(tree: Path) -> str:
-    """Return the commit that a git folder stands at, read as git writes it."""
+    """Return the commit that a git folder has checked out."""
     head = (tree / "HEAD").read_text(encoding="utf-8").strip()
     name = head.removeprefix("ref: ")
     if name == head:
@@ -77,17 +77,20 @@ def head_of(tree: Path) -> str:
 
 
 def compared(part: str, pinned: str) -> tuple[str, bool]:
-    """Return what is to be told of one part, empty where it is as pinned, and whether it is a difference."""
+    """Return the message about one part, empty where it is as pinned, and whether it is a difference."""
     version = pinned.split()[-1]
     package = PACKAGES.get(part) or pinned.split()[0]
     chosen = os.environ.get("RMW_IMPLEMENTATION", NOTHING)
     if COMMIT.fullmatch(version) and share_of(package) is not None:
         found = commit_of(package)
         if not found:
-            return f"{part} must be {pinned}: not provable, no source of {package} lies beside its installation", False
+            return (
+                f"{part} must be {pinned}: cannot be checked, no source of {package} is beside its installation",
+                False,
+            )
         same = found.startswith(version)
     elif part == "rmw" and chosen != package:
-        found, same = f"{chosen} by RMW_IMPLEMENTATION", False
+        found, same = f"{chosen} in RMW_IMPLEMENTATION", False
     else:
         found = found_of_system(part) if part in OF_SYSTEM else version_of(package)
         same = found in (pinned, version)
@@ -95,27 +98,27 @@ def compared(part: str, pinned: str) -> tuple[str, bool]:
 
 
 def accepted(differing: Sequence[str]) -> str:
-    """Write differences that a person goes on with into the record of the attempt; return why that was not done."""
+    """Write accepted differences into the record of the attempt; return why that was not done."""
     if os.environ.get("CELL_ACCEPT_VERSIONS") != ACCEPTED:
-        return f"whoever goes on in spite of this starts with CELL_ACCEPT_VERSIONS={ACCEPTED}"
+        return f"to go on in spite of this, set CELL_ACCEPT_VERSIONS={ACCEPTED}"
     folder = os.environ.get("E", "")
     if not folder or not Path(folder).is_dir():
-        return "E must name the folder of the attempt, in which what is accepted is written down"
+        return "set E to the folder of the attempt: it records what was accepted"
     begin = f"{time.strftime('%Y-%m-%dT%H:%M:%SZ', time.gmtime())} {platform.node()} {ACCEPTED}"
     with (Path(folder) / "versions.txt").open("a", encoding="utf-8") as record:
-        record.writelines(f"{begin} {one}\n" for one in differing)
+        record.writelines(f"{begin} {text}\n" for text in differing)
     return ""
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Compare, tell and record; return the exit status."""
+    """Compare, print and record; return the exit status."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--manifest", type=Path, required=True, help="manifest.json of the package")
     parser.add_argument("parts", nargs="+", metavar="PART")
     read = parser.parse_args(arguments)
     pinned = json.loads(read.manifest.read_text(encoding="utf-8"))["version_tuple"]
-    said = [one for one in (compared(part, pinned[part]) for part in read.parts) if one[0]]
-    print("; ".join(text for text, _ in said) or "what is installed is what is pinned", flush=True)
+    said = [answer for answer in (compared(part, pinned[part]) for part in read.parts) if answer[0]]
+    print("; ".join(text for text, _ in said) or "all versions are as pinned", flush=True)
     differing = [text for text, differs in said if differs]
     refused = accepted(differing) if differing else ""
     print(refused, flush=True)

@@ -72,7 +72,9 @@ def _gate_file(release: Release) -> str:
 
 def _released(cell: Cell, release: Release, phase: BringUpPhase) -> Iterator[Element]:
     yield _gate_argument(release)
-    yield comment("it proves what must hold, asks once, looks at the effect, and ends; on one computer for all")
+    yield comment(
+        "proves preconditions, sends the request once, checks the effect and ends; run on one computer for all"
+    )
     yield bring_up(cell, "real", [phase], conditional=False)
 
 
@@ -87,7 +89,7 @@ def _arguments(cell: Cell) -> Iterator[Element]:
 
 
 def _gate(cell: Cell, more: dict[str, str]) -> Iterator[Element]:
-    yield comment("the gate before real hardware: unless a person opens it nothing below is started")
+    yield comment("gate before real hardware: nothing below starts until a person confirms it")
     yield _include(cell, _gate_file(START), {START.argument: f"$(var {START.argument})"} | more, {"if": ON_REAL})
 
 
@@ -101,7 +103,7 @@ def _by_host(cell: Cell, hosts: tuple[str, ...]) -> Iterator[Element]:
     yield from _arguments(cell)
     yield _host_argument(hosts)
     yield from _gate(cell, {"host": HOST})
-    yield comment("what each computer starts; the steps of one wait for what shows from the others")
+    yield comment("the part of each computer; its steps wait for the others")
     passed = {name: f"$(var {name})" for name in ("target", START.argument, *addresses(cell))}
     for host in hosts:
         yield _include(cell, _host_file(host), passed, {"if": on_host(host)})
@@ -118,9 +120,9 @@ def _moving(cell: Cell, plan: Deployment) -> Iterator[Element]:
     yield _release_argument(MOVE)
     if plan.hosts:
         yield _host_argument(plan.hosts)
-    yield comment("the gate before motion on real hardware: unless a person opens it nothing below is started")
+    yield comment("gate before motion on real hardware: nothing below starts until a person confirms it")
     yield _include(cell, _gate_file(MOVE), {MOVE.argument: f"$(var {MOVE.argument})"}, {"if": ON_REAL})
-    yield comment("what asks for motion; each waits for claims, actions and states, on the mock for the mock itself")
+    yield comment("motion clients: each waits for claims, actions and states; on the mock also for the mock")
     for node in plan.motion_clients:
         if started_by_a_person(cell, node):
             yield comment(spec_path(node.path))
@@ -130,7 +132,7 @@ def _moving(cell: Cell, plan: Deployment) -> Iterator[Element]:
 def _sending(cell: Cell, goal: FirstGoal) -> Iterator[Element]:
     """Yield the first goal of the real target, behind the proof of everything that may ask for motion."""
     yield _gate_argument(GOAL)
-    yield _argument("then", "end", "The goal is seen to its end, or canceled half way.", "end", "cancel")
+    yield _argument("then", "end", "Wait for the end of the goal, or cancel it half way.", "end", "cancel")
     told = (
         f"--by={decimal(goal.delta)}",
         f"--seconds={decimal(goal.duration_s)}",
@@ -139,7 +141,7 @@ def _sending(cell: Cell, goal: FirstGoal) -> Iterator[Element]:
     named = ("--action", goal.action, "--states", goal.topic, "--joint", goal.joint)
     absent = (f"--absent={node}" for node in goal.absent)
     words = launch_words(*named, *told, *absent, *goal.joints)
-    yield comment("one joint, a little, from where it stands; nothing that asks for motion may be there")
+    yield comment("one small motion of one joint from its current position; no motion client may run")
     yield element(
         "node",
         {
@@ -156,7 +158,7 @@ def _sending(cell: Cell, goal: FirstGoal) -> Iterator[Element]:
 
 def _target_argument() -> Element:
     """Return the choice between the mock and real hardware."""
-    return _argument("target", "mock", "What the hardware interfaces reach: mock or real hardware.", "mock", "real")
+    return _argument("target", "mock", "Hardware that the interfaces reach: mock or real.", "mock", "real")
 
 
 def _release_argument(release: Release) -> Element:
@@ -165,28 +167,26 @@ def _release_argument(release: Release) -> Element:
 
 
 def _gate_argument(release: Release) -> Element:
-    """Return the same argument as a gate demands it: without a default, and with the one word that opens it."""
+    """Return the same argument as a gate demands it: without a default, and with its only accepted word."""
     return _argument(release.argument, None, release.about, release.word)
 
 
 def _host_argument(hosts: tuple[str, ...]) -> Element:
     """Return the choice of the computer on which this is launched."""
-    text = "The computer on which this is launched; the whole cell on one computer is for the mock alone."
+    text = "The computer of this launch. Only the mock runs the whole cell on one computer."
     return _argument("host", _EVERYWHERE, text, _EVERYWHERE, *hosts)
 
 
 def _stated_host_argument(hosts: tuple[str, ...]) -> Element:
     """Return the same argument as the gate before real hardware demands it."""
-    return _argument(
-        "host", None, "The computer on which this is launched: real hardware is reached from its own.", *hosts
-    )
+    return _argument("host", None, "The computer of this launch: each reaches its own hardware.", *hosts)
 
 
 def _address_arguments(cell: Cell) -> Iterator[Element]:
     """Yield an argument for each device with an address; the launch refuses any other than that of the URDF."""
     for name, address in addresses(cell).items():
         device = name.removesuffix("_address")
-        text = f"Address of device {device}; the URDF holds it, so that a change is made in the spec and built."
+        text = f"Address of device {device}, fixed by the URDF. To change it, change the spec and build."
         yield _argument(name, address, text, address)
 
 

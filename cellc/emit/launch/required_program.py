@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs a program without which the cell is none, and ends the launch that started it when the program ends.
+"""Runs a program that the cell requires, and ends the launch when the program ends.
 
     required -- PROGRAM ARGUMENT...
 
@@ -31,8 +31,8 @@ def main(arguments: Sequence[str]) -> int:
 
     def pass_on(number: int, _: object) -> None:
         asked.append(number)
-        for one in started:
-            one.send_signal(number)
+        for child in started:
+            child.send_signal(number)
 
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, pass_on)

@@ -39,6 +39,7 @@ from cellc.formats.parameter_file import spec_path
 from cellc.formats.xml_text import comment, element
 from cellc.graph.enclaves import bring_up_enclave
 from cellc.link.frames import ROBOT_STATE_PUBLISHER
+from cellc.store.regular_file import own_text
 from cellc.vocabulary import BringUpPhase
 
 PROGRAM = "bring_up"
@@ -46,20 +47,20 @@ PROGRAM = "bring_up"
 
 def stages(cell: Cell, plan: Deployment, host: str | None) -> Iterator[Element]:
     """Yield the actions of one host, or of all of them."""
-    yield comment("discover: processes come up in any order; what follows waits for proof, not for them")
+    yield comment("discover: processes start in any order; later steps wait for proof")
     yield from _discover(cell, host)
     if spawned := [*_spawners(cell, host)]:
-        yield comment("configure: every controller is loaded and configured, none is active")
+        yield comment("configure: load and configure every controller, activate none")
         yield from spawned
     if mock := [one for one in phases(plan.bring_up, "mock", host) if one is not BringUpPhase.MOVE]:
-        yield comment("configure and observe; on the mock claim too")
+        yield comment("configure and observe; on the mock also claim")
         yield bring_up(cell, "mock", mock, host)
     if BringUpPhase.START in phases(plan.bring_up, "real", host):
         yield bring_up(cell, "real", [BringUpPhase.START], host)
     if plan.bring_up.watches and host in (None, *(manager.host for manager in cell.managers)):
-        yield comment("claims go when the robot no longer listens, and come back by a person alone")
+        yield comment("deactivate claims when the robot ignores commands; only a person activates them again")
         yield bring_up(cell, "real", [WATCH], host, required=True)
-    yield comment("what a person releases: gates/promotion.md, G5 to G7")
+    yield comment("a person authorizes the rest: gates/promotion.md, G5 to G7")
 
 
 def bring_up(
@@ -140,6 +141,6 @@ def programs_and_plan(cell: Cell, plan: Deployment) -> Iterator[Artifact]:
     """Yield the programs of the package, and the steps that the bring-up takes."""
     yield Artifact(BRING_UP, render(plan.bring_up))
     for path in programs(cell):
-        source = Path(__file__).with_name(f"{path.rpartition('/')[2]}_program.py").read_text(encoding="utf-8")
+        source = own_text(Path(__file__).with_name(f"{path.rpartition('/')[2]}_program.py"))
         first, _, rest = source.partition("\n")
         yield Artifact(path, f"{first}\n{plan.header.commented('#')}{rest}", executable=True)

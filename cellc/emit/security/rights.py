@@ -16,7 +16,7 @@ from cellc.cell.control import Controller, ControllerManager
 from cellc.cell.device import Device
 from cellc.cell.interface import InnerNode, InterfaceKind, Node, NodeEndpoints, NodeSource
 from cellc.contract.bring_up import TARGETS, BringUp, TopicProof
-from cellc.deploy.files import is_planner, plans
+from cellc.deploy.files import plans
 from cellc.deploy.processes import bring_up_nodes, description_nodes, motion_clients
 from cellc.deploy.recording import recorded_topics
 from cellc.formats.xml_text import element
@@ -209,10 +209,9 @@ def _granted(cell: Cell, full_name: str, *kinds: NodeEndpoints) -> Profile:
 
 def _names(cell: Cell, full_name: str, kind: InterfaceKind, side: str) -> Iterator[str]:
     """Yield the interfaces of one kind at whose side a node stands."""
-    for interface in cell.interfaces:
-        ends = interface.sources if side == "sources" else interface.sinks
-        if interface.kind is kind and any(end.full_name == full_name for end in ends):
-            yield interface.name
+    serves = side == "sources"
+    ends = cell.ends_of.get(full_name, ())
+    yield from dict.fromkeys(one.interface.name for one in ends if one.interface.kind is kind and one.serves == serves)
 
 
 def bring_up_process(cell: Cell, plan: BringUp) -> Iterator[Profile]:
@@ -263,7 +262,7 @@ def people(cell: Cell) -> Iterator[Profile]:
 
 def _shown(cell: Cell) -> NodeEndpoints:
     """Return what RViz has for the displays of ``config/cell.rviz``, and its service that begins its views anew."""
-    place = next((node.namespace for node in cell.nodes if is_planner(node)), "")
+    place = next((node.namespace for node in cell.planners), "")
     planned = ("monitored_planning_scene", "display_planned_path", "robot_description_semantic")
     return NodeEndpoints(
         subscribes=("/robot_description", *(f"{place}/{one}" for one in planned if plans(cell))),
@@ -273,7 +272,7 @@ def _shown(cell: Cell) -> NodeEndpoints:
 
 
 def commissioning(cell: Cell) -> Iterator[Profile]:
-    """Yield the rights of the command with which a person acts: to end motion and give claims back, beside looking.
+    """Yield the rights of the command with which a person acts: to end motion and release claims, beside looking.
 
     And to call what a vendor's procedure names. A goal is sent by none of it but where that procedure says so.
     """
@@ -292,18 +291,20 @@ def commissioning(cell: Cell) -> Iterator[Profile]:
 
 def _in_procedures(cell: Cell, device: Device) -> Iterator[tuple[InterfaceKind, str]]:
     """Yield what nodes of a device serve that its vendor has people call: ``call NAME``, ``NAME of NODE``."""
-    steps = (step for way in device.safety.recovery for step in way.steps)
+    steps = (step for procedure in device.safety.recovery for step in procedure.steps)
     text = " ".join((*steps, *(step.does for step in device.commissioning)))
     for kind, name in dict.fromkeys(_served(cell, device)):
         node, _, last = name.rpartition("/")
+        if last not in text:
+            continue
         of = re.escape(node.rpartition("/")[2])
-        if re.search(rf"\b(?:action|calls?) (?:{re.escape(name)}|{last})\b|\b{last} of (?:the )?{of}\b", text):
+        if re.search(rf"\b(?:action|[Cc]alls?) (?:{re.escape(name)}|{last})\b|\b{last} of (?:the )?{of}\b", text):
             yield kind, name
 
 
 def _served(cell: Cell, device: Device) -> Iterator[tuple[InterfaceKind, str]]:
     yield from ((one.kind, one.name) for one in device.offers if one.kind is not InterfaceKind.TOPIC)
-    nodes = [(node.full_name, node.endpoints) for node in cell.nodes if node.device == device.name]
+    nodes = [(node.full_name, node.endpoints) for node in cell.nodes_of.get(device.name, ())]
     if device.hardware is not None:
         nodes += [(one.full_name, one.endpoints) for one in device.hardware.nodes]
     for node, own in nodes:

@@ -88,7 +88,7 @@ def _device(device: Device) -> Iterator[Element]:
         f"{device.root_link}_mount", device.parent_frame, device.root_link, device.transform_root_to_parent
     )
     yield from (device_link(link, palette) for link in device.description.links)
-    yield from (device_joint(joint, limits.get(joint.name)) for joint in device.description.joints)
+    yield from (device_joint(joint, limits.get(joint.name)) for joint in device.description.with_direct_mimics().joints)
 
 
 def _held(name: str, placed: Frame | SceneBox) -> Element:

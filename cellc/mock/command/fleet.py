@@ -13,7 +13,7 @@ from cellc.contract.fleet import FleetRehearsal, FleetSweep
 from cellc.description.packages import package_path
 from cellc.limits import limits
 from cellc.mock.campaign.campaign import Assignment
-from cellc.mock.cell import cell_of, read_to_run
+from cellc.mock.cell import cell_of, in_turn, read_to_run
 from cellc.mock.command.options import MockOptions
 from cellc.mock.command.sweep import entries_to_sweep, sweep_entry
 from cellc.mock.errors import MockError
@@ -105,7 +105,7 @@ def _begin(_: None) -> Callable[[Assignment], Rehearsed]:
 def _rehearse(assignment: Assignment) -> Rehearsed:
     try:
         cell = assignment.cell()
-        results = [cell.run(name, seed=assignment.seed) for name in cell.rehearsals]
+        results = [cell.run(name, seed=assignment.seed) for name in in_turn(cell, cell.rehearsals)]
     except MockError as problem:
         return Rehearsed(problem=str(problem))
     return Rehearsed(

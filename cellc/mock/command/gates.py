@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 
 from cellc.diagnostics.unsafe_text import harmless_json
+from cellc.mock.cell import in_turn
 from cellc.mock.command.campaign import conduct_all, keep_evidence_of, load_checked, stopped
 from cellc.mock.command.options import MockOptions
 from cellc.mock.command.sweep import entries_to_sweep, sweep_entry
@@ -23,7 +24,7 @@ def run_gates(options: MockOptions) -> int:
     """
     try:
         cell = load_checked(options)
-        results = [cell.run(name, seed=options.seed) for name in cell.rehearsals]
+        results = [cell.run(name, seed=options.seed) for name in in_turn(cell, cell.rehearsals)]
         campaign = conduct_all(cell, options)
         swept = entries_to_sweep(cell, options) if options.sweep else ()
         sweeps = tuple(sweep_entry(cell, entry, options) for entry in swept)

@@ -11,7 +11,6 @@ import threading
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from ipaddress import ip_address
-from tempfile import TemporaryFile
 from time import monotonic, sleep
 from typing import TYPE_CHECKING, Any, BinaryIO
 
@@ -25,10 +24,11 @@ from cellc.contract.rehearsals import RehearsalEntry
 from cellc.mock.cell import MockCell
 from cellc.mock.command.evidence import recorded
 from cellc.mock.errors import MockError
+from cellc.mock.evidence.begun_faults import begun_faults
 from cellc.mock.evidence.topics import LOG
-from cellc.mock.report_page.run_section import begun_faults
 from cellc.mock.result import RehearsalResult
 from cellc.printing import Stream, show
+from cellc.store.swap import temporary_file
 
 if TYPE_CHECKING:
     from mcap.records import Channel as BagChannel
@@ -98,7 +98,7 @@ class LiveView:
             MockError: it names what the contract does not have.
         """
         entry = cell.entry(name)
-        with TemporaryFile() as file:
+        with temporary_file() as file:
             result, _ = recorded(cell, entry, file, seed)
             file.seek(0)
             self._show(file, entry, result)

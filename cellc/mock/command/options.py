@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, BinaryIO
 
+from cellc.extras import CLUSTER, EVIDENCE, LIVE, Extra, require
 from cellc.mock.errors import MockError
 from cellc.mock.result import AttemptRecord, to_json_lines
 from cellc.printing import refuse, remark
 from cellc.store.regular_file import open_regular
-from cellc.store.swap import replace_whole
+from cellc.store.swap import open_stream, replace_whole
 
 if TYPE_CHECKING:
     from cellc.compute.work import Hire
@@ -121,6 +122,11 @@ class MockOptions:
         }
         return next((f"{option} is about one folder" for option, asked in given.items() if asked and self.many), "")
 
+    def extras(self) -> Iterator[Extra]:
+        """Yield what it needs beyond what cellc is installed with."""
+        asked = {EVIDENCE: self.evidence is not None, LIVE: self.live, CLUSTER: self.cluster is not None}
+        return (extra for extra, needed in asked.items() if needed)
+
     @property
     def swept(self) -> bool:
         """Whether it is about the runs of a sweep."""
@@ -156,6 +162,7 @@ def run_mock(options: MockOptions) -> int:
     Returns:
         0 where all is as it must be, 1 where something is not, 2 where the folder or an option is unusable.
     """
+    require(*options.extras())  # before the minutes that a run may take
     try:
         return _run(options)
     except MemoryError:
@@ -215,7 +222,7 @@ def refuse_foreign(path: Path) -> None:
 def _opened(path: Path) -> BinaryIO:
     """Open a stream by its path; one that is open already goes on where it is, though it be a file."""
     name = {"stdout": "1", "stderr": "2"}.get(path.name, path.name)
-    return os.fdopen(os.dup(int(name)), "wb") if _is_stream(path) and name.isdigit() else path.open("ab")
+    return open_stream(int(name) if _is_stream(path) and name.isdigit() else path)
 
 
 def _is_stream(path: Path) -> bool:

@@ -11,7 +11,8 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from cellc.diagnostics.unsafe_text import harmless_json
-from cellc.mock.cell import MockCell, load
+from cellc.extras import LIVE, gate
+from cellc.mock.cell import MockCell, in_turn, load
 from cellc.mock.command.options import MockOptions, refuse_foreign, write_records
 from cellc.mock.errors import MockError
 from cellc.mock.result import RehearsalResult
@@ -102,19 +103,19 @@ def run_rehearsals(options: MockOptions) -> int:
 def _run(cell: MockCell, names: Sequence[str], options: MockOptions) -> list[TimedResult]:
     if options.live:
         with begin_live(options) as view:
-            return _timed(names, lambda name: view.run(cell, name, options.seed))
+            return _timed(cell, names, lambda name: view.run(cell, name, options.seed))
     if options.evidence is None:
-        return _timed(names, lambda name: cell.run(name, seed=options.seed))
+        return _timed(cell, names, lambda name: cell.run(name, seed=options.seed))
     with begin_evidence(cell, Path(options.evidence), names, options.seed) as collector:
-        timed = _timed(names, collector.run)
+        timed = _timed(cell, names, collector.run)
         collector.settle()
     return timed
 
 
-def _timed(names: Sequence[str], run: Callable[[str], RehearsalResult]) -> list[TimedResult]:
+def _timed(cell: MockCell, names: Sequence[str], run: Callable[[str], RehearsalResult]) -> list[TimedResult]:
     timed: list[TimedResult] = []
     with progress("mock") as update:
-        for number, name in enumerate(names, start=1):
+        for number, name in enumerate(in_turn(cell, names), start=1):
             update(f"rehearsal {number} of {len(names)}, {name}")
             begun = perf_counter()
             result = run(name)
@@ -126,14 +127,10 @@ def begin_live(options: MockOptions) -> AbstractContextManager[LiveView]:
     """Return what shows rehearsals in Foxglove while it is open.
 
     Raises:
-        MockError: a package is missing.
+        MissingExtraError: a package is not installed.
     """
-    try:
+    with gate(LIVE):
         from cellc.mock.command.live import live_view
-    except ModuleNotFoundError as error:
-        if (error.name or "").partition(".")[0] not in ("foxglove", "mcap"):
-            raise
-        raise MockError("", "`--live` needs the Foxglove SDK; install it with `pip install 'cellc[live]'`") from None
     return live_view(options.listen or "127.0.0.1:8765", options.speed or 1.0)
 
 
@@ -141,15 +138,11 @@ def begin_evidence(cell: MockCell, folder: Path, names: Sequence[str], seed: int
     """Return what runs rehearsals of a cell and writes their evidence to a folder.
 
     Raises:
-        MockError: the package is missing, a name is unknown, or the folder cannot take the evidence.
+        MissingExtraError: the package that writes bags is not installed.
+        MockError: a name is unknown, or the folder cannot take the evidence.
     """
-    try:
-        from cellc.mock.command.evidence import EvidenceCollector
-    except ModuleNotFoundError as error:
-        if (error.name or "").partition(".")[0] != "mcap":
-            raise
-        text = "evidence needs the package `mcap`; install it with `pip install 'cellc[evidence]'`"
-        raise MockError("", text) from None
+    from cellc.mock.command.evidence import EvidenceCollector
+
     for name in names:
         cell.entry(name)
     return EvidenceCollector(cell, folder, names, seed)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from cellc.errors import CellcError
 
-class ManagerAbortedError(Exception):
+
+class ManagerAbortedError(CellcError):
     """The process of the controller manager ended while it started.
 
     Args:
@@ -15,7 +17,7 @@ class ManagerAbortedError(Exception):
         self.reason = reason
 
 
-class DescriptionError(Exception):
+class DescriptionError(CellcError):
     """The robot description was refused; the manager stays up without any hardware.
 
     Args:
@@ -27,7 +29,7 @@ class DescriptionError(Exception):
         self.reason = reason
 
 
-class UpdateError(Exception):
+class UpdateError(CellcError):
     """The update of a controller threw; the manager deactivates the controller.
 
     Args:

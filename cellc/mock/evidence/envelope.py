@@ -37,6 +37,13 @@ class Envelope:
     lowest: Array
     highest: Array
 
+    @property
+    def extremes(self) -> tuple[float, float]:
+        """The least and the greatest value; zeros where there is none."""
+        if not np.isfinite(self.lowest).any():
+            return 0.0, 0.0
+        return float(np.nanmin(self.lowest)), float(np.nanmax(self.highest))
+
 
 class EnvelopeBuilder:
     """Adds samples to slots; when they do not fit any more, each two neighbouring slots become one."""

@@ -10,14 +10,24 @@ from pathlib import Path
 from typing import BinaryIO
 from urllib.parse import quote
 
+from cellc.contract.file_names import is_file_name, opens_a_device
 from cellc.diagnostics.unsafe_text import harmless_json
 from cellc.limits import limits
 from cellc.mock.errors import MockError
 from cellc.store.regular_file import open_regular, read_regular
-from cellc.store.swap import Swap, discard, is_alive, link_on_the_way, make_staging, others, staging_of
+from cellc.store.swap import (
+    Swap,
+    discard,
+    is_alive,
+    link_on_the_way,
+    make_folder,
+    make_staging,
+    open_new,
+    others,
+    staging_of,
+)
 
 _LONGEST = 100
-_LONGEST_NAME = 255  # bytes, as most file systems have it
 
 INDEX = "evidence.json"
 """Names every file of the folder with its hash, by which the next call tells its own files from those of others."""
@@ -35,7 +45,7 @@ def file_names(rehearsals: Iterable[str]) -> dict[str, str]:
         if name in stems:
             continue
         plain = quote(name, safe=" ")[:_LONGEST].replace("~", "%7E").strip(" ")
-        plain = f"_{plain}" if not plain or plain.startswith(".") else plain
+        plain = f"_{plain}" if not plain or plain.startswith(".") or opens_a_device(plain) else plain
         stem, number = plain, 2
         while stem.casefold() in taken:
             stem, number = f"{plain}-{number}", number + 1
@@ -68,9 +78,9 @@ class EvidenceFolder:
             raise MockError(folder.as_posix(), "another run is writing its evidence there")
         self._refuse_edited(names)
         try:
-            folder.parent.mkdir(parents=True, exist_ok=True)
+            make_folder(folder.parent)
             make_staging(folder)  # fails where anything stands there, a link too
-            (self._staging / "new").mkdir()
+            make_folder(self._staging / "new")
         except OSError as error:
             raise self._unwritable(error) from None
         if any(is_alive(staging) for staging in others(folder)):  # one that began at the same moment
@@ -80,7 +90,7 @@ class EvidenceFolder:
     def open(self, name: str) -> BinaryIO:
         """Open a new file of the folder for writing; a name of one part, as `file_names` gives them."""
         self._names.append(name)
-        return (self._staging / "new" / name).open("wb")
+        return open_new(self._staging / "new" / name)
 
     def write(self, name: str, text: str) -> None:
         """Write a whole file."""
@@ -158,13 +168,9 @@ def _hashes(folder: Path) -> dict[str, str]:
     """Return the hashes of an index; an index is data that others may have written, so that it names no other place."""
     try:
         files = json.loads(read_regular(folder / INDEX, limits().folder_bytes, follow=False))["files"]
-        return {name: str(sha256) for name, sha256 in files.items() if _is_name(name)}
+        return {name: str(sha256) for name, sha256 in files.items() if is_file_name(name)}
     except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
         return {}
-
-
-def _is_name(name: str) -> bool:
-    return Path(name).name == name and name.isprintable() and len(name.encode()) <= _LONGEST_NAME
 
 
 def _sha256(path: Path) -> str:
@@ -176,5 +182,5 @@ def _sha256(path: Path) -> str:
 
 
 def _flush(path: Path) -> None:
-    with path.open("rb") as file:
+    with open_regular(path, follow=False) as file:
         os.fsync(file.fileno())

@@ -22,6 +22,30 @@ class Verdict(str, Enum):
 
 
 @dataclass(frozen=True, slots=True)
+class Tally:
+    """How many of several are good."""
+
+    good: int
+    total: int
+
+    @classmethod
+    def of(cls, each: Iterable[bool]) -> Tally:
+        """Count what is good, and all."""
+        listed = tuple(each)
+        return cls(sum(listed), len(listed))
+
+    @property
+    def all_good(self) -> bool:
+        """Whether there is any, and none is bad."""
+        return 0 < self.good == self.total
+
+    @property
+    def bad(self) -> int:
+        """How many are not good."""
+        return self.total - self.good
+
+
+@dataclass(frozen=True, slots=True)
 class GateCheck:
     """One line of a checklist.
 
@@ -63,6 +87,10 @@ class GateResult:
             if verdict in verdicts or not verdicts:
                 return verdict
         return Verdict.PASSED
+
+    def tally(self, verdict: Verdict) -> Tally:
+        """Return how many lines have a verdict."""
+        return Tally.of(check.verdict is verdict for check in self.checks)
 
     @property
     def signature(self) -> str | None:
@@ -113,9 +141,7 @@ _LABELS = {Verdict.PASSED: "passed ", Verdict.FAILED: "FAILED ", Verdict.UNKNOWN
 def gate_lines(gates: Sequence[GateResult]) -> Iterator[str]:
     """Yield each gate with its lines, their evidence below."""
     for gate in gates:
-        counts = ", ".join(
-            f"{sum(check.verdict is verdict for check in gate.checks)} {verdict.value}" for verdict in Verdict
-        )
+        counts = ", ".join(f"{gate.tally(verdict).good} {verdict.value}" for verdict in Verdict)
         yield f"{gate.gate} {gate.title} ({gate.state}): {gate.verdict.value}; {counts}"
         for check in gate.checks:
             yield f"  {_LABELS[check.verdict]}  {check.text}"

@@ -38,6 +38,7 @@ class ObservationInbox:
     Attributes:
         arrived: fires with each pose.
         newest: the pose that arrived last.
+        arrived_ns: when it did.
         max_age_s: older observations are stale.
         on_stale: what the contract says to do with a stale one.
         lapsed_ns: when one came last that found the one before too old, or was itself; None where none did.
@@ -51,6 +52,7 @@ class ObservationInbox:
         """
         self.arrived = Signal(from_background=True)
         self.newest: ObjectPose | None = None
+        self.arrived_ns: int | None = None
         self.lapsed_ns: int | None = None
         self.max_age_s = oldest_observation_s(interface)
         self.on_stale = "reject_goal" if interface is None or interface.on_stale is None else interface.on_stale
@@ -94,12 +96,18 @@ class ObservationInbox:
         """Say how old the newest observation of ``frame`` is."""
         if self.newest is None:
             return f"no observation of {frame} has arrived"
-        age_s = self.age_s(self.newest.stamp_ns)
-        return f"newest observation of {frame} is {age_s:.3f} s old, {self.max_age_s:g} s allowed"
+        return f"newest {self.describe_age(frame, self.newest.stamp_ns)}"
+
+    def describe_age(self, frame: str, stamp_ns: int) -> str:
+        """Say how old an observation of ``frame`` is that has a stamp."""
+        age_s = self.age_s(stamp_ns)
+        aged = f"{age_s:.3f} s old" if age_s > 0.0 else f"stamped {-age_s:.3f} s in the future"
+        return f"observation of {frame} is {aged}, {self.max_age_s:g} s allowed"
 
     def accept(self, pose: ObjectPose) -> None:
         """Take note of a pose that has reached the task."""
         before, self.newest = self.newest, pose
+        self.arrived_ns = self._simulation.now_ns
         if self.is_stale(pose.stamp_ns) or (before is not None and self.is_stale(before.stamp_ns)):
             self.lapsed_ns = self._simulation.now_ns
         self.arrived.fire(self._simulation.now_ns)

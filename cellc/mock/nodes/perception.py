@@ -167,11 +167,23 @@ PoseListener = Callable[[ObjectPose, bool], None]
 """Takes a published pose, and whether it was published as a transform too."""
 
 
+@dataclass(frozen=True, slots=True)
+class Look:
+    """An image that a node has taken from its queue, when, and whether it was too old to be used."""
+
+    image: Image
+    taken_ns: int
+    rejected: bool
+
+
 class Perception:
     """Finds one object in the images of one camera.
 
     Attributes:
-        rejected: images that were too old when their turn came, or stamped as far in the future.
+        taken: images that were taken from the queue.
+        rejected: those that were too old when their turn came, or stamped as far in the future.
+        oldest_ns: the greatest age of those that were rejected.
+        last: what was taken last.
     """
 
     def __init__(
@@ -192,7 +204,10 @@ class Perception:
             clock: on which the node measures how old an image is.
         """
         self._publishes_transform = True
+        self.taken = 0
         self.rejected = 0
+        self.oldest_ns = 0
+        self.last: Look | None = None
         self._name = name
         self._frame = frame
         self._images = images
@@ -207,6 +222,12 @@ class Perception:
     def listen(self, listener: PoseListener) -> None:
         """Call ``listener`` with every pose that is published, and whether its transform is too."""
         self._listeners.append(listener)
+
+    @property
+    def depth(self) -> int | None:
+        """How many images its queue holds; None for any number."""
+        qos = self._images.endpoint.qos
+        return None if qos.history == "keep_all" else qos.depth
 
     def publish_transform(self, publish: bool) -> None:
         """Publish poses as transforms too from now on, or no more; the pose topic goes on."""
@@ -223,8 +244,12 @@ class Perception:
             return
         image = received.sample
         age_ns = self._clock.read(now_ns) - image.stamp_ns
-        if self._max_image_age_ns is not None and abs(age_ns) > self._max_image_age_ns:
+        rejected = self._max_image_age_ns is not None and abs(age_ns) > self._max_image_age_ns
+        self.taken += 1
+        self.last = Look(image, now_ns, rejected)
+        if rejected:
             self.rejected += 1
+            self.oldest_ns = max(self.oldest_ns, abs(age_ns))
             return
         self._simulation.at_background(now_ns + round(PROCESSING_S * 1e9), lambda: self._publish(image))
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from importlib.resources import files
+from pathlib import Path
 from xml.etree.ElementTree import Element
 
 from cellc.contract.contract import Contract
@@ -12,11 +12,13 @@ from cellc.mock.campaign.campaign import Campaign
 from cellc.mock.campaign.plan import RunEnd
 from cellc.mock.campaign.summary import Matrix, cell_text, legend, limit_lines, matrix_of, outcome_lines
 from cellc.mock.evidence.kpis import Kpi
-from cellc.mock.gates.gate import GateCheck, GateResult, Verdict
+from cellc.mock.gates.gate import GateCheck, GateResult, Tally, Verdict
 from cellc.mock.report_page.html import Child, cards, count, plain, seconds, tag, to_page
 from cellc.mock.report_page.run_section import RunEvidence, run_section
 from cellc.mock.report_page.sweep_section import sweep_section, sweep_verdict
+from cellc.mock.result import simulated_s
 from cellc.mock.sweep.sweep import Sweep
+from cellc.store.regular_file import own_text
 
 _NAMES = {
     "plan_to_execute_s": "plan to execute",
@@ -69,18 +71,16 @@ class ReportContent:
 def header(content: ReportContent) -> Element:
     """Return the title, the verdict and the identity of what was judged."""
     contract = content.contract
-    passed = sum(run.passed for run in content.runs)
-    good = 0 < passed == len(content.runs)
-    verdict = tag(
-        "p", _mark(good), f" {passed} of {count(len(content.runs), 'rehearsal')} ended as expected, within the bounds"
-    )
+    ended = Tally.of(run.passed for run in content.runs)
+    words = f" {ended.good} of {count(ended.total, 'rehearsal')} ended as expected, within the bounds"
+    verdict = tag("p", _mark(ended.all_good), words)
     facts = [
         ("configuration", contract.configuration_id),
         ("ROS 2", contract.distro),
         ("seed", str(content.seed)),
     ]
     if content.runs or not content.sweeps:
-        facts.append(("simulated", seconds(sum(run.result.sim_time_s for run in content.runs))))
+        facts.append(("simulated", seconds(simulated_s(run.result for run in content.runs))))
     pairs = [tag("div", tag("dt", name), tag("dd", value)) for name, value in facts]
     return tag(
         "header",
@@ -157,11 +157,9 @@ def campaign_section(campaign: Campaign | None) -> Iterator[Element]:
     """Yield the section, where a campaign was run."""
     if campaign is None:
         return
-    total, failed = len(campaign.all_ends), len(campaign.failed)
-    mark = tag("span", "✓ passed" if campaign.passed else "✗ FAILED", class_="good" if campaign.passed else "bad")
-    verdict = tag(
-        "p", mark, f" {total - failed} of {count(total, 'run')} ended in a named outcome, within bounds and limits"
-    )
+    ended = Tally.of(end.passed for end in campaign.all_ends)
+    words = f" {ended.good} of {count(ended.total, 'run')} ended in a named outcome, within bounds and limits"
+    verdict = tag("p", _mark(campaign.passed), words)
     matrices = [_table(matrix_of(baseline.run.entry, campaign.ends)) for baseline in campaign.baselines]
     lines = [tag("li", line.strip()) for line in (*outcome_lines(campaign.ends), *limit_lines(campaign.limits))]
     yield tag(
@@ -207,10 +205,10 @@ def gate_section(gates: Sequence[GateResult]) -> Element:
 
 
 def _gate(gate: GateResult, *, open_: bool) -> Element:
-    lines = count(len(gate.checks), "line")
-    held = sum(check.verdict is Verdict.PASSED for check in gate.checks)
+    held = gate.tally(Verdict.PASSED)
+    told = f"{held.good} of {count(held.total, 'line')} passed"
     verdict = tag("span", gate.verdict.value, class_=_CLASSES[gate.verdict])
-    title = tag("summary", tag("b", f"{gate.gate} {gate.title} "), verdict, f", {held} of {lines} passed")
+    title = tag("summary", tag("b", f"{gate.gate} {gate.title} "), verdict, f", {told}")
     rows = tag("ul", *(_check(check) for check in gate.checks), class_="checks")
     by = tag("code", gate.signature) if gate.signature else "nobody, since the folder was edited"
     signed = tag("p", f"State of the robot: {gate.state}. Signed by result: ", by, class_="hint")
@@ -248,10 +246,10 @@ def identity(contract: Contract) -> Element:
         tag("div", tag("dt", name), tag("dd", version, class_="unknown" if version == "UNKNOWN" else "plain"))
         for name, version in parts
     ]
-    missing = sum(version == "UNKNOWN" for _, version in parts)
+    known = Tally.of(version != "UNKNOWN" for _, version in parts)
     hint = (
-        f"{count(missing, 'part')} of {len(parts)} UNKNOWN; gate G0 stops there."
-        if missing
+        f"{count(known.bad, 'part')} of {known.total} UNKNOWN; gate G0 stops there."
+        if known.bad
         else "All parts are pinned."
     )
     calibrations = [
@@ -268,7 +266,7 @@ def identity(contract: Contract) -> Element:
 
 def to_report(content: ReportContent) -> str:
     """Return the report of a call as one page; the same runs give the same bytes."""
-    style = (files("cellc.mock.report_page") / "style.css").read_text(encoding="utf-8")
+    style = own_text(Path(__file__).with_name("style.css"))
     runs = [run_section(number, run, content.contract) for number, run in enumerate(content.runs, start=1)]
     main = tag(
         "main",

@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from xml.etree.ElementTree import Element
 
-import numpy as np
-
 from cellc.contract.contract import ContractJointLimits
-from cellc.mock.evidence.envelope import AgeTrace, Envelope
+from cellc.mock.evidence.envelope import AgeTrace
 from cellc.mock.evidence.run_trace import JointTrace, StateTrace
 from cellc.mock.report_page.axes import (
     LEFT,
@@ -49,7 +47,7 @@ def joint_plot(
 
 def _caption(trace: JointTrace, limits: ContractJointLimits | None, tolerance: float | None) -> Iterator[Element]:
     unit = trace.unit
-    yield tag("span", f"state {span(*_extremes(trace.actual), unit)}")
+    yield tag("span", f"state {span(*trace.actual.extremes, unit)}")
     yield tag("span", _limits_in_words(limits, unit))
     allowed = "" if tolerance is None else f", {small(tolerance, unit)} allowed"
     yield tag("span", f"largest error {small(trace.worst_error, unit)}{allowed}")
@@ -57,7 +55,7 @@ def _caption(trace: JointTrace, limits: ContractJointLimits | None, tolerance: f
 
 def _positions(trace: JointTrace, limits: ContractJointLimits | None, time: TimeAxis) -> Iterator[Element]:
     command = trace.desired if trace.command is None else trace.command
-    spans = [_extremes(command), _extremes(trace.actual)]
+    spans = [command.extremes, trace.actual.extremes]
     low, high = padded(min(span[0] for span in spans), max(span[1] for span in spans), _LEAST_JOINT_RANGE)
     y = Scale(low, high, _MIDDLE, _TOP)
     yield from _position_axes(time, y, limits, 4)
@@ -65,7 +63,7 @@ def _positions(trace: JointTrace, limits: ContractJointLimits | None, time: Time
     yield tag("path", class_="state", d=path(trace.actual, time.scale(), y))
     yield text("label", LEFT + 4.0, _TOP + 10.0, trace.unit)
     if limits is not None and limits.lower is not None and limits.upper is not None:
-        yield from _gauge(limits.lower, limits.upper, *_extremes(trace.actual))
+        yield from _gauge(limits.lower, limits.upper, *trace.actual.extremes)
 
 
 def _gauge(lower: float, upper: float, least: float, greatest: float) -> Iterator[Element]:
@@ -93,7 +91,7 @@ def _errors(trace: JointTrace, tolerance: float | None, time: TimeAxis) -> Itera
 
 def state_plot(trace: StateTrace, limits: ContractJointLimits | None, time: TimeAxis) -> Element:
     """Return the plot of a joint with its name and range."""
-    low, high = _extremes(trace.state)
+    low, high = trace.state.extremes
     reach = tag("span", f"state {span(low, high, trace.unit)}")
     caption = tag("figcaption", tag("b", trace.joint), reach, tag("span", _limits_in_words(limits, trace.unit)))
     drawing = svg(WIDTH, _HEIGHT, f"{trace.joint}: state over time", *_state_content(trace, limits, time))
@@ -101,7 +99,7 @@ def state_plot(trace: StateTrace, limits: ContractJointLimits | None, time: Time
 
 
 def _state_content(trace: StateTrace, limits: ContractJointLimits | None, time: TimeAxis) -> Iterator[Element]:
-    low, high = padded(*_extremes(trace.state), _LEAST_STATE_RANGE)
+    low, high = padded(*trace.state.extremes, _LEAST_STATE_RANGE)
     y = Scale(low, high, _BOTTOM, _TOP)
     yield from _position_axes(time, y, limits, 3)
     yield tag("path", class_="state", d=path(trace.state, time.scale(), y))
@@ -144,13 +142,6 @@ def _position_axes(time: TimeAxis, y: Scale, limits: ContractJointLimits | None,
 
 def _limit_line(time: TimeAxis, y: Scale, value: float) -> Element:
     return line("limit", time.scale().start, y.place(value), time.scale().end, y.place(value))
-
-
-def _extremes(envelope: Envelope) -> tuple[float, float]:
-    """Return the least and the greatest value of an envelope of one signal; zeros where it has none."""
-    if not np.isfinite(envelope.lowest).any():
-        return 0.0, 0.0
-    return float(np.nanmin(envelope.lowest)), float(np.nanmax(envelope.highest))
 
 
 def _limits_in_words(limits: ContractJointLimits | None, unit: str) -> str:

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from xml.etree.ElementTree import Element
 
 from cellc.contract.contract import Contract
-from cellc.contract.rehearsals import FaultEntry, FaultEvent, RehearsalEntry
+from cellc.contract.rehearsals import RehearsalEntry
+from cellc.mock.evidence.begun_faults import begun_faults
 from cellc.mock.evidence.kpis import Kpi
 from cellc.mock.evidence.run_trace import Claim, StateChange, TraceResult
 from cellc.mock.report_page.axes import TimeAxis, ticks
@@ -80,7 +81,7 @@ def axis(time: TimeAxis) -> Element:
     """Return the axis below lanes."""
     values = ticks(time.start_s, time.end_s, 6)
     marks = [
-        tag("span", f"{value:g}" + (" s" if value == values[-1] else ""), style=f"left:{_percent(value, time)}")
+        tag("span", f"{value:g}{' s' if value == values[-1] else ''}", style=f"left:{_percent(value, time)}")
         for value in values
     ]
     return tag("div", tag("div", class_="lane-title"), tag("div", *marks, class_="axis"), class_="lane")
@@ -111,18 +112,14 @@ def packet(record: AttemptRecord) -> Element:
 
 
 def _steps(record: AttemptRecord) -> Iterator[Element]:
-    stamps = {point.step: point.stamp_ns for point in record.trace}
-    before_ns = record.started_ns
+    made = record.made
     for number, (step, words) in enumerate(_WORDS.items(), start=1):
-        stamp_ns = stamps.get(step)
-        if stamp_ns is None:
+        if step not in made:
             yield _step(number, words, "–", "missing", f"step {step.value}: not made")
             continue
-        # An image is older than the attempt that uses it.
-        delta_s = (stamp_ns - before_ns) / 1e9
-        elapsed = f"{'+' if delta_s >= 0.0 else '−'}{seconds(abs(delta_s))}"
-        yield _step(number, words, elapsed, "made", f"step {step.value}: at {stamp_ns / 1e9:.6f} s")
-        before_ns = max(before_ns, stamp_ns)
+        one = made[step]  # an image is older than the attempt that uses it
+        elapsed = f"{'+' if one.after_s >= 0.0 else '−'}{seconds(abs(one.after_s))}"
+        yield _step(number, words, elapsed, "made", f"step {step.value}: at {one.stamp_ns / 1e9:.6f} s")
 
 
 def _step(number: int, words: str, elapsed: str, state: str, hint: str) -> Element:
@@ -218,39 +215,6 @@ def _change(change: StateChange) -> tuple[Child, ...]:
     return tag("td", at(change.stamp_ns), class_="number"), f"{change.kind} {change.subject}", change.state, told
 
 
-def fault_times(faults: Sequence[FaultEntry], attempts: Sequence[AttemptRecord]) -> tuple[float, ...]:
-    """Return the instants in seconds, rising; a fault whose event never came has none."""
-    return tuple(begun_s for begun_s, _ in begun_faults(faults, attempts))
-
-
-def begun_faults(
-    faults: Sequence[FaultEntry], attempts: Sequence[AttemptRecord]
-) -> tuple[tuple[float, FaultEntry], ...]:
-    """Return the instant in seconds at which each fault began, rising; one whose event never came is left out."""
-    return tuple(sorted(_begun(faults, attempts), key=lambda begun: begun[0])) if attempts else ()
-
-
-def _begun(faults: Sequence[FaultEntry], attempts: Sequence[AttemptRecord]) -> Iterator[tuple[float, FaultEntry]]:
-    begun_ns = attempts[-1].started_ns  # the last record sums up and begins with the first step
-    for fault in faults:
-        if fault.event is None:
-            yield begun_ns / 1e9 + (fault.at_s or 0.0), fault
-            continue
-        came_ns = _event_ns(fault.event, attempts[:-1])
-        if came_ns is not None:
-            yield came_ns / 1e9 + fault.event.after_s, fault
-
-
-def _event_ns(event: FaultEvent, attempts: Sequence[AttemptRecord]) -> int | None:
-    if not 1 <= event.step <= len(attempts):
-        return None
-    record = attempts[event.step - 1]
-    if event.when == "started":
-        return record.started_ns
-    wanted = PacketStep.ACCEPTED if event.when == "accepted" else PacketStep.DRIVEN
-    return next((point.stamp_ns for point in record.trace if point.step is wanted), None)
-
-
 def run_section(number: int, run: RunEvidence, contract: Contract) -> Element:
     """Return the section of a rehearsal."""
     result = run.result
@@ -300,7 +264,8 @@ def _parts(run: RunEvidence, trace: TraceResult, contract: Contract) -> Iterator
 def _time_axis(run: RunEvidence, trace: TraceResult) -> TimeAxis:
     spans = tuple((record.started_ns / 1e9, record.ended_ns / 1e9) for record in run.result.attempts[:-1])
     end_s = max(trace.ended_ns / 1e9, 1e-3)
-    return TimeAxis(0.0, end_s, fault_times(run.entry.faults, run.result.attempts), spans)
+    faults_s = tuple(begun_s for begun_s, _ in begun_faults(run.entry.faults, run.result.attempts))
+    return TimeAxis(0.0, end_s, faults_s, spans)
 
 
 def _legend() -> Iterator[Child]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import asdict
 from pathlib import Path
 from types import TracebackType
@@ -13,12 +13,16 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from cellc.compute.versions import difference, versions
 from cellc.contract.contract import Contract
+from cellc.limits import limits, option
 from cellc.mock.errors import MockError
 from cellc.mock.sweep.sweep import MOST_DIGITS, GoalRoom, SweepRun
 from cellc.store.regular_file import open_regular
+from cellc.store.swap import open_to_continue
 
 _FORMAT = "cellc sweep 3"
 _OF_ANY_VERSION = "cellc sweep "
+_LONGEST_LINE = 1 << 20
+"""A run takes about 1 kB."""
 _AWAY = "name another file, or move it away"
 
 
@@ -80,19 +84,28 @@ class Journal:
     def _read(self) -> None:
         try:
             with open_regular(self._path) as file:
-                lines = file.readlines()
+                self._take(self._lines(file))
         except OSError as error:
             raise self._unusable("read", error) from None
-        whole = [line for line in lines if line.endswith(b"\n")]
-        if not whole:
-            if not _line(self._head).startswith(b"".join(lines)):  # it was cut off as it began, or it is none of ours
-                raise self._refused(f"is no journal; {_AWAY}")
-            return
-        problem = self._other_head(whole[0])
-        if problem:
-            raise self._refused(f"{problem}; {_AWAY}")
-        self._kept = sum(map(len, whole))
-        self._take(whole[1:])
+
+    def _lines(self, file: BinaryIO) -> Iterator[bytes]:
+        """Yield the lines behind the head that are whole; one at a time, as the file may be of any size."""
+        number = 0
+        while line := file.readline(_LONGEST_LINE + 1):
+            number += 1
+            if len(line) > _LONGEST_LINE:
+                raise self._refused(f"line {number} has more than {_LONGEST_LINE} bytes; {_AWAY}")
+            if number > limits().sweep_runs + 1:
+                raise self._refused(f"must have at most {limits().sweep_runs} runs; {option('sweep-runs')}")
+            if not line.endswith(b"\n"):  # it was cut off as it was written
+                if number == 1 and not _line(self._head).startswith(line):
+                    raise self._refused(f"is no journal; {_AWAY}")
+                return
+            self._kept += len(line)
+            if number > 1:
+                yield line
+            elif problem := self._other_head(line):
+                raise self._refused(f"{problem}; {_AWAY}")
 
     def _other_head(self, line: bytes) -> str:
         """Say what else a file is of than of this sweep; empty where it is of this one."""
@@ -125,9 +138,7 @@ class Journal:
 
     def __enter__(self) -> Journal:
         try:
-            self._file = self._path.open("r+b" if self._path.exists() else "w+b")
-            self._file.truncate(self._kept)
-            self._file.seek(self._kept)
+            self._file = open_to_continue(self._path, self._kept)
             if not self._kept:
                 self._write(self._head)
         except OSError as error:

@@ -222,7 +222,7 @@ def sweep(
             level = USUAL_CONFIDENCE if expected is None else confidence_of_look(look, expected.confidence)
             rate = interval(sum(run.passed for run in runs), wanted, level)
             verdict = None if expected is None else _verdict(rate, expected.success)
-            if verdict is not None or wanted == most:
+            if verdict is not None:
                 break
     return Sweep(entry.name, seed, uncertainty, most, runs, rate, expected, verdict)
 

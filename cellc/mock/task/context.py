@@ -6,15 +6,18 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 
 from cellc.contract.contract import Contract
+from cellc.errors import CellcError
 from cellc.mock.control import ControlEvent, ControllerChanged, GripperEnded, TrajectoryEnded
 from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.engine.process import Signal, Wait, Waiting
 from cellc.mock.errors import OversleptError
 from cellc.mock.nodes.observations import ObservationInbox
+from cellc.mock.nodes.robot_state_publisher import JointStateFeed
 from cellc.mock.plant import Plant, TaskNode
 from cellc.mock.result import AttemptRecord, CancelRecord, PacketStep, ResultRecord, TracePoint
 from cellc.mock.stops import EMERGENCY_STOP, FAULT, PROTECTIVE_STOP
 from cellc.mock.task.bounds import joint_state_age_s
+from cellc.mock.task.starved import starved_observation, starved_states
 from cellc.mock.task.watch import WATCH_NS, is_calm, next_look_ns
 from cellc.transforms import Pose
 from cellc.vocabulary import AttemptOutcome
@@ -97,7 +100,7 @@ class Attempt:
         )
 
 
-class AttemptError(Exception):
+class AttemptError(CellcError):
     """Ends the attempt that is running; raised anywhere inside a step and caught by the task alone.
 
     Args:
@@ -134,24 +137,25 @@ def current_state(plant: Plant) -> CurrentState:
         AttemptError: stale_state, where none has arrived, it is older than its interface allows, or it is stamped as
             far in the future: a clock was set back.
     """
-    stamps: list[tuple[int, int]] = []
+    allowed_s = joint_state_age_s(plant.contract)
+    stamps: list[tuple[int, int, JointStateFeed]] = []
     positions: dict[str, float] = {}
     for feed in plant.task.feeds:
         history, newest = feed.history, feed.newest(plant.now_ns)
         if newest is None:
-            raise AttemptError(AttemptOutcome.STALE_STATE, "no joint state has arrived")
+            why = starved_states(plant, feed, allowed_s)
+            raise AttemptError(AttemptOutcome.STALE_STATE, f"no joint state has arrived; {why}")
         taken_ns = int(history.stamps[newest])
-        stamps.append((plant.clocks.of(history.broadcaster).read(taken_ns), taken_ns))
+        stamps.append((plant.clocks.of(history.broadcaster).read(taken_ns), taken_ns, feed))
         positions |= dict(zip(history.names, history.positions[newest].tolist(), strict=True))
     if not stamps:
         raise AttemptError(AttemptOutcome.STALE_STATE, "no joint states reach the task")
-    stamp_ns, taken_ns = min(stamps)
+    stamp_ns, taken_ns, oldest = min(stamps, key=lambda one: one[:2])
     age_s = plant.clocks.age_ns(plant.task.name, stamp_ns) / 1e9
-    allowed_s = joint_state_age_s(plant.contract)
-    if age_s > allowed_s:
-        raise AttemptError(AttemptOutcome.STALE_STATE, f"joint state is {age_s:.3f} s old, {allowed_s:g} s allowed")
-    if age_s < -allowed_s:
-        raise AttemptError(AttemptOutcome.STALE_STATE, f"joint state is stamped {-age_s:.3f} s in the future")
+    if abs(age_s) > allowed_s:
+        aged = f"{age_s:.3f} s old, {allowed_s:g} s allowed" if age_s > 0 else f"stamped {-age_s:.3f} s in the future"
+        why = starved_states(plant, oldest, allowed_s)
+        raise AttemptError(AttemptOutcome.STALE_STATE, f"joint state is {aged}; {why}")
     return CurrentState(stamp_ns, taken_ns, age_s, positions)
 
 
@@ -318,7 +322,12 @@ class TaskContext:
         inbox = None if self.acting_on is None else self.node.observations.get(self.acting_on)
         if inbox is None or (inbox.newest is not None and not inbox.is_stale(inbox.newest.stamp_ns)):
             return
-        raise AttemptError(AttemptOutcome.STALE_STATE, inbox.describe(self.acting_on or ""))
+        raise self.stale(self.acting_on or "", inbox.describe(self.acting_on or ""))
+
+    def stale(self, frame: str, told: str) -> AttemptError:
+        """Return what ends an attempt whose observation of a frame is stale, with the link that is starved."""
+        why = starved_observation(self.plant, frame, self.node.observations[frame].max_age_s)
+        return AttemptError(AttemptOutcome.STALE_STATE, f"{told}; {why}")
 
     def check_authorities(self, frames: Iterable[str]) -> None:
         """Raise AttemptError where two nodes publish one of the frames: lookups would jump from one to the other."""

@@ -16,6 +16,7 @@ from cellc.mock.result import PacketStep
 from cellc.mock.task.bounds import goal_timeout_s, planning_server
 from cellc.mock.task.context import Attempt, AttemptError, CurrentState, TaskContext, current_state
 from cellc.mock.task.execute import await_response, execute_together, require_success
+from cellc.mock.task.starved import starved_transform
 from cellc.mock.tf.buffer import Transform
 from cellc.planning import PlanFailure, TimedTrajectory
 from cellc.transforms import Pose
@@ -102,8 +103,7 @@ def check_observation(context: TaskContext, frame: str, stamp_ns: int, allowance
     """
     inbox = context.node.observations.get(frame)
     if inbox is not None and inbox.is_stale(stamp_ns, allowance_s):
-        text = f"observation of {frame} is {inbox.age_s(stamp_ns):.3f} s old, {inbox.max_age_s:g} s allowed"
-        raise AttemptError(AttemptOutcome.STALE_STATE, text)
+        raise context.stale(frame, inbox.describe_age(frame, stamp_ns))
 
 
 def _lookup(context: TaskContext, target: str, source: str, stamp_ns: int) -> Waiting[Transform]:
@@ -117,7 +117,8 @@ def _lookup(context: TaskContext, target: str, source: str, stamp_ns: int) -> Wa
             return answer
         if not answer.kind.may_pass or context.now_ns >= until_ns:
             current_state(context.plant)  # joint states that stay away are the cause, transforms only follow them
-            raise AttemptError(AttemptOutcome.TF_FAILURE, answer.text)
+            why = starved_transform(context.plant, target, source)
+            raise AttemptError(AttemptOutcome.TF_FAILURE, f"{answer.text}; {why}" if why else answer.text)
         yield from context.pause(min(until_ns, context.now_ns + 5_000_000))
 
 

@@ -42,7 +42,7 @@ def detect(context: TaskContext, attempt: Attempt, frame: str) -> Waiting[None]:
     until_ns = context.now_ns + PATIENCE_PERIODS * period_ns
     while inbox.newest is None or inbox.is_stale(inbox.newest.stamp_ns):
         if context.now_ns >= until_ns:
-            raise AttemptError(AttemptOutcome.STALE_STATE, inbox.describe(frame))
+            raise context.stale(frame, inbox.describe(frame))
         yield from context.pause(min(until_ns, context.now_ns + period_ns), inbox.arrived)
     context.observed[frame] = inbox.newest.stamp_ns
     attempt.goal_stamp = inbox.newest.stamp_ns

@@ -103,13 +103,17 @@ class TransformBuffer:
 
     def latest_ns(self, target: str, source: str) -> int | None:
         """Return the last stamp at which every edge between two frames is known; None where none limits it."""
-        ends: list[int] = []
+        return min(self.ends(target, source).values(), default=None)
+
+    def ends(self, target: str, source: str) -> dict[str, int]:
+        """Return the last stamp of each edge between two frames, by its child; without those that always hold."""
+        ends: dict[str, int] = {}
         for child in self.path(target, source):
             edge = self._sources.get(child)
             stamps = None if edge is None else edge.stamps()
             if stamps:
-                ends.append(stamps[-1])
-        return min(ends) if ends else None
+                ends[child] = stamps[-1]
+        return ends
 
     def _clear(self, reason: str) -> None:
         self._remembered |= self._known_frames()

@@ -1,6 +1,6 @@
 """A text of the spec contains a credential.
 
-An address with a password in it, a private key or a token of a code host is a secret under whatever key it stands. The
+An address with a password in it, a private key or a token of a code host is a secret under any key. The
 spec is reviewed, copied and compiled into files that everybody on the host can read.
 
 Example that is reported:

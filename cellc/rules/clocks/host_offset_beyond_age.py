@@ -37,7 +37,7 @@ from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 
 @dataclass(frozen=True, slots=True)
 class _Crossing:
-    """A limit of age that is judged on another host than the one that stamps; the worse clock stands first."""
+    """A limit of age that is judged on another host than the one that stamps; the worse clock is first."""
 
     worse: Host
     better: Host

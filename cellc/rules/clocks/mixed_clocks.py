@@ -43,7 +43,7 @@ def check(graph: CellGraph) -> Findings:
 
 
 def _stated(node: Node) -> tuple[str | None, YamlPath]:
-    """Return the clock that a node is told, by its own key or by the parameter that ROS has for it."""
+    """Return the clock that a node gets, by its own key or by the parameter that ROS has for it."""
     simulated = node.parameters.get(_PARAMETER)
     if node.clock is None and isinstance(simulated, bool):
         return "sim" if simulated else "wall", (*node.path, "parameters", _PARAMETER)

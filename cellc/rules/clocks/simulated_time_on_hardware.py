@@ -1,6 +1,6 @@
 """A target with real hardware runs on simulated time.
 
-Nobody publishes `/clock` beside a real robot. Time stands at zero: timers never fire, no transform is ever fresh, and a
+No node publishes `/clock` beside a real robot. Time stays at zero: timers never fire, no transform is ever fresh, and a
 recording that is played beside it moves the time of the cell.
 
 Example that is reported:

@@ -1,4 +1,4 @@
-"""Nobody says what a sensor's stamps mean.
+"""The meaning of a sensor's stamps is not stated.
 
 A stamp set at exposure, at the driver's read and at arrival differ by the exposure, the buffers and the cable. Paired
 with the joint states of another moment, the object moves although nothing did.

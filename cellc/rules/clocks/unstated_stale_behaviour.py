@@ -1,6 +1,6 @@
 """An age limit has no consequence.
 
-A limit that nobody acts on is a comment. What happens to an older sample must be decided before it arrives.
+A limit without a reaction is a comment. What happens to an older sample must be decided before it arrives.
 
 Example that is reported:
 

@@ -1,7 +1,7 @@
 """Two devices under one controller manager have a hardware component of one name.
 
 Parsers of URDF take the two `<ros2_control>` elements, and so does everything that reads the description. The
-controller manager refuses the second one as it loads the hardware, and none of its components comes up.
+controller manager refuses the second one as it loads the hardware, and none of its components starts.
 
 Example that is reported:
 

@@ -1,7 +1,7 @@
 """A device is connected to another computer than the one that drives it.
 
 Its hardware component runs in the controller manager, and opens the port or the address on the computer of that. That
-one lacks the port, or a card that reaches the device, and the manager does not come up.
+one lacks the port, or a card that reaches the device, and the manager does not start.
 
 Example that is reported:
 

@@ -34,11 +34,11 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 def check(graph: CellGraph) -> Findings:
     """Yield controllers whose goal tolerance exceeds the path tolerance."""
     for controller in graph.cell.controllers:
-        ways = controller.path_tolerance or {}
+        path = controller.path_tolerance or {}
         looser = (
-            (goal.value, ways[joint].value)
+            (goal.value, path[joint].value)
             for joint, goal in (controller.goal_tolerance or {}).items()
-            if joint in ways and goal.value > ways[joint].value > 0.0
+            if joint in path and goal.value > path[joint].value > 0.0
         )
         for goal, way in dict.fromkeys(looser):
             message = f"`goal_tolerance` of `{controller.name}` must be at most its `path_tolerance`"

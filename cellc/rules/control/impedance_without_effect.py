@@ -1,6 +1,6 @@
 """An impedance is stated, and what commands the arm is untouched by it.
 
-The robot's own controller is as stiff as it is told with the commands that it follows itself, such as velocities.
+The robot's own controller has the set stiffness with the commands that it follows itself, such as velocities.
 Torques of a controller of the cell pass it by: the gains of that one are how stiff the arm is, whatever people set.
 
 Example that is reported:

@@ -1,6 +1,6 @@
 """The center of mass of a payload cannot be that of the tool.
 
-The arm compensates the weight of a load where it is told that the load is. With meters read as millimeters, or an axis
+The arm compensates the weight of a load at the stated center of the load. With meters read as millimeters, or an axis
 swapped, it pushes against nothing, drifts, or stops protectively as soon as a person guides it.
 
 Example that is reported:

@@ -1,6 +1,6 @@
 """A cell leaves a device no speed.
 
-A share of zero or less leaves no trajectory that ends. Whoever wants to hold an arm deactivates its controller.
+A share of zero or less leaves no trajectory that ends. To hold an arm, deactivate its controller.
 
 Example that is reported:
 

@@ -48,6 +48,6 @@ def check(graph: CellGraph) -> Findings:
         links = (link for tool in tools for link in tool.description.links)
         tool_kg = sum(link.inertial.mass for link in links if link.inertial is not None)
         if payload.load.mass_kg + tool_kg > payload.mass_kg + _ROUNDING_KG:
-            told = f"{payload.load.mass_kg:g} kg beside a tool of {tool_kg:.3g} kg"
-            message = f"the load of `{device.name}` must fit its payload of {payload.mass_kg:g} kg, got {told}"
+            stated = f"{payload.load.mass_kg:g} kg beside a tool of {tool_kg:.3g} kg"
+            message = f"the load of `{device.name}` must fit its payload of {payload.mass_kg:g} kg, got {stated}"
             yield found(graph, path, message)

@@ -1,4 +1,4 @@
-"""An arm is not told what it carries.
+"""An arm has no payload set.
 
 The vendor's controller computes torques with the payload. With a wrong one the arm sinks, its collision detection
 triggers for nothing or not at all, and the brakes are loaded.

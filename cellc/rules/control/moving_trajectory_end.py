@@ -1,7 +1,7 @@
 """A trajectory may end while the arm still moves.
 
 The controller then takes trajectories whose last point has a velocity. At that point the command stops and the arm does
-not: it is stopped within one update, or overshoots into what stands behind the goal.
+not: it is stopped within one update, or overshoots into what is behind the goal.
 
 Example that is reported:
 
@@ -37,7 +37,7 @@ _PARAMETER = "allow_nonzero_velocity_at_trajectory_end"
 
 @rule(Severity.WARNING)
 def check(graph: CellGraph) -> Findings:
-    """Yield trajectory controllers that are told to accept such trajectories."""
+    """Yield trajectory controllers that accept such trajectories."""
     for controller in graph.cell.controllers:
         if controller.behaviour in TRAJECTORIES and controller.written_parameters.get(_PARAMETER) is True:
             message = f"trajectories of `{controller.name}` must end at rest, but it takes those that do not"

@@ -1,6 +1,6 @@
 """The payload of an arm is below the mass of its tools.
 
-The masses of the mounted devices alone exceed the payload that the controller is told.
+The masses of the mounted devices alone exceed the payload set in the controller.
 
 Example that is reported:
 

@@ -32,7 +32,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 @rule(Severity.BLOCKER)
 def check(graph: CellGraph) -> Findings:
-    """Yield payloads that are told by a service which is not there, or is not obeyed yet when the brakes open."""
+    """Yield payloads set by a service that is missing, or is refused until after the brakes open."""
     for device in graph.cell.devices:
         if device.payload is None or device.payload.told_by != "service":
             continue

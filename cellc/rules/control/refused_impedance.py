@@ -1,4 +1,4 @@
-"""An impedance does not fit the robot that is told it.
+"""An impedance does not fit its robot.
 
 One figure short, or past what the controller of the robot takes, the request is refused when people send it, and the
 arm stays as stiff as it was before, which may be stiffer than the risk assessment of the cell has it.
@@ -38,14 +38,14 @@ _Stated = tuple[tuple[str, ...], tuple[float, ...], tuple[float, float], str]
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
-    """Yield impedance for nobody, of another number of joints, and figures that the robot does not take."""
+    """Yield impedance for no device, of another number of joints, and figures that the robot does not take."""
     for device in graph.cell.devices:
         stated, takes = device.impedance, device.robot.impedance_facts
         if stated is None:
             continue
         path = (*device.path, "impedance")
         if takes is None:
-            yield found(graph, path, f"`{device.name}` is told of no impedance by its driver")
+            yield found(graph, path, f"the driver of `{device.name}` sets no impedance")
             continue
         joints = len(device.actuated_joints)
         if stated.joint is not None and len(stated.joint) != joints:

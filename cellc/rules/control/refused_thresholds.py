@@ -1,4 +1,4 @@
-"""Collision thresholds do not fit the robot that is told them.
+"""Collision thresholds do not fit their robot.
 
 The upper threshold stops the robot, the lower one reports a contact: the other way round, or one figure short, the
 request is refused when people set it, and whatever the robot had before stays in force.
@@ -31,13 +31,13 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
-    """Yield thresholds for nobody, of another number of joints, and upper ones below the lower."""
+    """Yield thresholds for no device, of another number of joints, and upper ones below the lower."""
     for device in graph.cell.devices:
         if device.collision is None:
             continue
         path = (*device.path, "collision")
         if not device.robot.thresholds:
-            yield found(graph, path, f"`{device.name}` is told of no collision thresholds by its driver")
+            yield found(graph, path, f"the driver of `{device.name}` sets no collision thresholds")
             continue
         joints = len(device.actuated_joints)
         for name in ("torque", "force", "moment"):

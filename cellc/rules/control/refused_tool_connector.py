@@ -1,4 +1,4 @@
-"""A robot is told a voltage or a serial setting that its tool connector does not have.
+"""A robot has a voltage or a serial setting that its tool connector does not support.
 
 The driver reads these settings as it connects. One that the robot does not know ends the configuration of the hardware
 with an exception that names no tool, or is cut to the next one that it has.

@@ -1,8 +1,8 @@
-"""A prefix stands before joints whose names the driver makes in its code.
+"""Joints have a prefix, but the driver makes their names in its code.
 
 The hardware plugin of some vendors reads no name from the description: it exports the interfaces that its code names.
 With a prefix of the cell before them, the description and the controllers have other names: the mock runs, and on the
-robot each controller waits for an interface that nobody exports.
+robot each controller waits for an interface that no hardware exports.
 
 Example that is reported:
 

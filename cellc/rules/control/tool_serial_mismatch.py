@@ -1,7 +1,7 @@
 """A tool speaks another serial line than the tool connector of its robot forwards.
 
 The driver of the tool opens its port without a complaint, writes, and reads nothing or garbage: the component fails as
-it is activated, with a count of bytes as its only word. Of two ends that differ in baud rate neither is told.
+it is activated, with a count of bytes as its only word. Neither end reports that the other has another baud rate.
 
 Example that is reported:
 

@@ -1,7 +1,7 @@
 """A trajectory controller commands velocity or effort alone, without gains.
 
 It turns the position error into its command by a PID for each joint. All gains are zero until they are written: the arm
-stands still or drifts under its feedforward, and sinks where it commands effort.
+does not move or drifts under its feedforward, and sinks where it commands effort.
 
 Example that is reported:
 

@@ -1,6 +1,6 @@
 """A controller has no such parameter.
 
-Unknown parameters are ignored without a word. A misspelt tolerance is then a tolerance of zero, which means none.
+Unknown parameters are ignored silently. A misspelled tolerance is then a tolerance of zero, which means none.
 
 Example that is reported:
 

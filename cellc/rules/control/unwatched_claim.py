@@ -2,7 +2,7 @@
 
 The set points of some robots pass through a program on their own controller. A trajectory controller that keeps its
 claim over a stop of that program holds the joints where they were; somebody jogs the arm, starts the program, and the
-arm jumps back. What is told of the program lets the bring-up wait with its claim, and let go of it when the program
+arm jumps back. A reported program state lets the bring-up wait with its claim, and let go of it when the program
 stops.
 
 Example that is reported:
@@ -40,7 +40,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 @rule(Severity.BLOCKER, assumes=("shared-prefix",))
 def check(graph: CellGraph) -> Findings:
-    """Yield controllers whose claims a real robot keeps over a stop of its program, where nobody hears of the stop."""
+    """Yield controllers whose claims a real robot keeps over a stop of its program, where no topic reports the stop."""
     for manager in graph.cell.managers:
         telling = {(one.kind, one.device) for one in manager.controllers if one.active and "real" in one.targets}
         for name in manager.devices:
@@ -55,7 +55,7 @@ def check(graph: CellGraph) -> Findings:
             advice = (
                 f"add a controller of `type: {kinds[0]}` with `device: {name}`"
                 if kinds
-                else f"say under `told` of the `device.yaml` of `{name}` which topic tells whether its program runs"
+                else f"say under `told` of the `device.yaml` of `{name}` which topic reports whether its program runs"
             )
             for one in manager.controllers:
                 claimed = {interface.rpartition("/")[0] for interface in one.command_interfaces}

@@ -1,6 +1,6 @@
 """A rehearsal expects the failure of another layer than it provokes.
 
-A lost transform that ends as stale state, or one that ends in a mere timeout, teaches nobody which layer failed. The
+A lost transform that ends as stale state, or one that ends in a mere timeout, does not show which layer failed. The
 outcomes are kept apart so that each names its cause; a timeout is the outcome of what answers or moves no more.
 
 Example that is reported:

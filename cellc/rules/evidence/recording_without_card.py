@@ -1,6 +1,6 @@
 """A cell of several hosts records, and no card carries the recording.
 
-What is recorded travels to the host whose disk takes it. Where no card carries `bag`, nobody has decided which host
+What is recorded travels to the host whose disk takes it. Where no card carries `bag`, it is not decided which host
 that is: the recorder is started where somebody happens to sit, and its stream goes over the card that the poses need.
 
 Example that is reported:

@@ -1,7 +1,7 @@
 """An attempt does not record a required field.
 
 Each of the fifteen fields separates two causes. Without the goal stamp a stale image looks like a planning failure;
-without the controller's name nobody knows who moved.
+without the controller's name it is unknown who moved.
 
 Example that is reported:
 

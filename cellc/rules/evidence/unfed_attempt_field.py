@@ -35,7 +35,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 @rule(Severity.WARNING)
 def check(graph: CellGraph) -> Findings:
-    """Yield devices with a connection whose part of the record nobody publishes, once for each kind of controller."""
+    """Yield devices with a connection whose part of the record has no publisher, once for each controller kind."""
     cell = graph.cell
     for device in cell.devices:
         wanted = [one for one in device.record if one.attempt_field in cell.recording.attempt_fields]
@@ -44,6 +44,8 @@ def check(graph: CellGraph) -> Findings:
             if source.controller_kind is not None and cell.reporting(device, source) is None:
                 missing.setdefault(source.controller_kind, []).append(f"`{source.attempt_field}`")
         for kind, fields in missing.items():
-            message = f"{' and '.join(fields)} of the attempt record must come from `{device.name}`, and nobody tells"
+            message = (
+                f"{' and '.join(fields)} of the attempt record must come from `{device.name}`, which has no publisher"
+            )
             advice = f"add a controller of `type: {kind}` with `device: {device.name}`"
             yield found(graph, (*device.path, "model"), message, advice)

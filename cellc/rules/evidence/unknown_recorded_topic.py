@@ -1,4 +1,4 @@
-"""Nobody publishes a topic that is recorded.
+"""A recorded topic has no publisher.
 
 The bag has no such channel, and it is noticed when it is needed.
 
@@ -35,4 +35,4 @@ def check(graph: CellGraph) -> Findings:
     for index, topic in enumerate(graph.cell.recording.topics):
         if topic not in known:
             path = ("recording", "topics", index)
-            yield found(graph, path, f"nobody publishes `{topic}`", did_you_mean(topic, known, "topics"))
+            yield found(graph, path, f"`{topic}` has no publisher", did_you_mean(topic, known, "topics"))

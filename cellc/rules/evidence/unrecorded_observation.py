@@ -1,7 +1,7 @@
 """What a decision rests on is not in the recording.
 
 A grasp that went wrong is judged by what the camera saw. Where the spec lists the topics that are recorded beyond the
-motion path and leaves out the images or clouds, nobody can tell a bad detection from a bad calibration.
+motion path and leaves out the images or clouds, a bad detection cannot be distinguished from a bad calibration.
 
 Example that is reported:
 

@@ -35,7 +35,7 @@ _APART_M = 1e-3
 _ALONG = 0.999  # cosine; figures of descriptions are rounded
 
 
-@rule(Severity.ERROR)
+@rule(Severity.BLOCKER)
 def check(graph: CellGraph) -> Findings:
     """Yield devices with both frames whose z of tool0 is not x of flange, or whose origins differ."""
     for device in graph.cell.devices:

@@ -1,6 +1,6 @@
 """A calibration is older than the mounting of what it measured.
 
-A camera that was taken off, a tool that was changed or an arm's finger that was exchanged stands elsewhere afterwards,
+A camera that was taken off, a tool that was changed or a finger that was exchanged is elsewhere afterwards,
 by more than the residual of the measurement. The old figures go on being used, and no tool of ROS knows of either day.
 
 Example that is reported:
@@ -28,6 +28,8 @@ Source: docs/principles.md#calibration
 
 from __future__ import annotations
 
+from collections.abc import Container
+
 from cellc.cell.frame import Frame, FrameKind
 from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 
@@ -35,9 +37,10 @@ from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 @rule(Severity.WARNING)
 def check(graph: CellGraph) -> Findings:
     """Yield calibrations of a mount, or of a frame on a device that is mounted on another, from before that day."""
+    carried = {name for device in graph.cell.devices for name in device.carries}
     for frame in graph.cell.frames:
         calibration = graph.cell.calibrations.get(frame.calibration or "")
-        name = _moved(graph, frame)
+        name = _moved(graph, frame, carried)
         if calibration is None or calibration.measured_on is None or name is None:
             continue
         device = graph.cell.device(name)
@@ -48,10 +51,10 @@ def check(graph: CellGraph) -> Findings:
             yield found(graph, (*calibration.path, "measured"), message, related=related)
 
 
-def _moved(graph: CellGraph, frame: Frame) -> str | None:
+def _moved(graph: CellGraph, frame: Frame, carried: Container[str | None]) -> str | None:
     """Return the device whose mounting moves a measured frame: its own, or the tool on which it is fixed."""
     if frame.kind is FrameKind.MOUNT:
         return frame.device
     carrier = graph.frames.get(frame.parent)
     name = None if carrier is None else carrier.device
-    return name if any(name in device.carries for device in graph.cell.devices) else None
+    return name if name in carried else None

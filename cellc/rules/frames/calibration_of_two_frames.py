@@ -1,7 +1,7 @@
 """Two different transforms use one calibration.
 
-One id stands for one measurement. Where two frames with different parents or values name it, at least one of them
-carries a value that nobody measured, and a new revision silently changes both.
+One ID is one measurement. Where two frames with different parents or values name it, at least one of them
+carries a value that was not measured, and a new revision silently changes both.
 
 Example that is reported:
 

@@ -1,6 +1,6 @@
 """A calibration has no owner.
 
-Nobody is asked when it is in doubt, and nobody repeats it after the camera was touched.
+No one is responsible when it is in doubt, or repeats it after the camera was touched.
 
 Example that is reported:
 
@@ -17,7 +17,7 @@ calibrations:
   fixture_a: {revision: 2, measured: 2026-07-02, method: touch probe, samples: 5, residual: 0.3 mm, owner: perception}
 ```
 
-Fix: name the role or the team that answers for it, as its `owner:`.
+Fix: name the responsible role or team as its `owner:`.
 
 Source: docs/principles.md#calibration
 """
@@ -29,8 +29,8 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 @rule(Severity.BLOCKER)
 def check(graph: CellGraph) -> Findings:
-    """Yield calibrations that nobody answers for."""
+    """Yield calibrations without an owner."""
     for item in graph.responsibilities.of_kind("calibration"):
         if item.open:
-            message = f"nobody answers for calibration `{item.name}`"
+            message = f"calibration `{item.name}` has no owner"
             yield found(graph, item.path, message)

@@ -34,7 +34,7 @@ _IMAGES = ("sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage", "sensor_m
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
-    """Yield image topics of a camera in a frame that is none of its optical ones."""
+    """Yield image topics of a camera in a frame other than its optical ones."""
     cameras = {device.name: device for device in graph.cell.devices if device.optical_frames}
     for interface in graph.cell.interfaces:
         source = next((cameras[end.node] for end in interface.sources if end.node in cameras), None)

@@ -1,7 +1,7 @@
-"""A camera that stands still looks at nothing of the cell.
+"""A fixed camera sees nothing of the cell.
 
 Turned by half a turn, or mounted from a calibration that was inverted, it shows the ceiling or the wall. Its images
-arrive, its node detects nothing, and a watcher of the area reports for ever that nobody is there.
+arrive, its node detects nothing, and a watcher of the area reports forever that it is empty.
 
 Example that is reported:
 
@@ -34,7 +34,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 from cellc.transforms import Pose, Vector3
 
 _SLACK_RAD = math.radians(15.0)
-"""As much beside its view a thing may stand, whose place stands for all of it."""
+"""A thing may be this far outside the view: one point represents all of it."""
 _PLACED = (FrameKind.FIXED, FrameKind.SCENE, FrameKind.DYNAMIC)
 
 

@@ -1,4 +1,4 @@
-"""What is driven or wheeled to its place stands there by design.
+"""The pose of a mobile device is stated by design.
 
 A cart, a vehicle or a pallet never docks twice at one point. Written as `designed`, its docking error is in every goal
 on it and nowhere in the figures.

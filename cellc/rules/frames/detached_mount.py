@@ -1,6 +1,6 @@
 """A device that an arm carries is mounted far away from it.
 
-Nothing that hangs on a flange is half a meter away from it without a bracket that somebody would have modelled. Meters
+No device is half a meter away from its flange without a bracket in the model. Meters
 were read for millimeters or centimeters, or the pose belongs to another parent.
 
 Example that is reported:

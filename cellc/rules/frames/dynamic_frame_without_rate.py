@@ -1,6 +1,6 @@
 """A dynamic frame has no rate.
 
-Without a rate nobody can say how old a transform may be, how long the buffer must be, or when the publisher is
+Without a rate it is open how old a transform may be, how long the buffer must be, or when the publisher is
 late.
 
 Example that is reported:

@@ -2,7 +2,7 @@
 
 The description is one tree of links whose joints are fixed or controlled; a frame that a node sends to /tf stands in
 none. robot_state_publisher, MoveIt and the controller manager refuse a description whose parent link is missing, and
-goals of an arm on it would be planned as if its base stood still.
+goals of an arm on it would be planned as if its base were fixed.
 
 Example that is reported:
 

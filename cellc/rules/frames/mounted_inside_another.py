@@ -1,7 +1,7 @@
 """A mounted device lies inside another one.
 
 Whatever the joints do, the two touch. The collision check of the planner takes such a pair out, because it would never
-plan otherwise, so that nobody complains: the place of one of them is wrong.
+plan otherwise, so that no tool complains: one of the poses is wrong.
 
 Example that is reported:
 

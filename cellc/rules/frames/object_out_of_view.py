@@ -1,6 +1,6 @@
 """A camera does not look at what it is to detect.
 
-From the pose in which the arm stands when it detects, the object lies beside or behind the image. A hand-eye result
+From the detection pose of the arm, the object lies beside or behind the image. A hand-eye result
 that was inverted, applied twice or written under another parent shows here, as does an overhead camera that looks up.
 
 Example that is reported:

@@ -1,6 +1,6 @@
 """A dynamic frame states a fixed pose.
 
-The pose would never be used: the publisher sends another one. Whoever reads the file takes it for the truth.
+The pose would never be used: the publisher sends another one. A reader of the file would believe it.
 
 Example that is reported:
 

@@ -1,7 +1,7 @@
 """An angle is a fraction of pi, written in degrees.
 
-Programs print 1.5708 for a quarter turn. With `deg` behind it the same number is a tilt that nobody sees: a gripper
-that was to point down points forward, a pose that was copied from `/joint_states` stands nearly at zero. Such a pose
+Programs print 1.5708 for a quarter turn. With `deg` behind it the same number is a tilt too small to see: a gripper
+that was to point down points forward, a pose that was copied from `/joint_states` is nearly zero. Such a pose
 is known by its numbers too: printed ones, and none of them beyond a full turn in radians.
 
 Example that is reported:

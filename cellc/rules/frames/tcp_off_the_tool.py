@@ -1,7 +1,7 @@
-"""The TCP that a robot is told does not hang on its tool frame.
+"""The TCP of a robot is not fixed to its tool frame.
 
 The robot holds its TCP as a fixed transform from the frame where tools mount. A frame elsewhere in the cell, on another
-arm, or one that a node publishes cannot be told to it, and what people type in at the pendant is then another point.
+arm, or one that a node publishes cannot be set in it; the point typed in at the pendant is then another one.
 
 Example that is reported:
 

@@ -1,7 +1,7 @@
 """A measured transform names no calibration.
 
 A static transform does not move during operation; that does not make it right forever. Without a calibration id
-nobody can tell which measurement a goal rested on, nor notice that a bumped camera still uses the old one.
+it is unknown which measurement a goal used, nor notice that a bumped camera still uses the old one.
 
 Example that is reported:
 

@@ -1,7 +1,7 @@
 """An adapter publishes the joints of its device where robot_state_publisher does not hear them.
 
 robot_state_publisher makes transforms of the joints on `/joint_states`, and MoveIt takes its current state from there.
-On another topic they go to nobody who needs them: every frame of the arm stands still on the real target, or is there
+On another topic no reader gets them: every frame of the arm stays fixed on the real target, or is there
 not at all, while the mock, which reads the adapter itself, shows them moving.
 
 Example that is reported:

@@ -1,4 +1,4 @@
-"""Nobody publishes a dynamic frame.
+"""A dynamic frame has no publisher.
 
 Every lookup of the frame fails, and the goals that rest on it end in a TF failure.
 

@@ -1,6 +1,6 @@
-"""Nobody calls a service or sends goals to an action.
+"""A service or an action has no client.
 
-A server that nobody is meant to use is open to everybody: the wrong owner finds it first.
+A server without a declared client is open to any node: the wrong client may be the first.
 
 Example that is reported:
 
@@ -35,5 +35,5 @@ def check(graph: CellGraph) -> Findings:
     """Yield services and actions of the spec without a client."""
     for interface in graph.cell.interfaces:
         if not interface.derived and interface.kind is not InterfaceKind.TOPIC and not interface.sinks:
-            message = f"nobody calls the {interface.kind.value} `{interface.name}`"
+            message = f"the {interface.kind.value} `{interface.name}` has no client"
             yield found(graph, (*interface.path, "client"), message)

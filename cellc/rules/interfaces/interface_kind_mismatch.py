@@ -38,7 +38,7 @@ _FOLDER = {InterfaceKind.TOPIC: "msg", InterfaceKind.SERVICE: "srv", InterfaceKi
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
-    """Yield interfaces whose type stands in the folder of another kind."""
+    """Yield interfaces whose type is in the folder of another kind."""
     for interface in graph.cell.interfaces:
         parts = interface.type.split("/")
         expected = _FOLDER[interface.kind]

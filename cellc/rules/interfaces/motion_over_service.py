@@ -1,7 +1,7 @@
 """Motion is requested over a service.
 
-A service answers once. Nobody sees progress, nobody can cancel, and after a timeout nobody knows how far the arm
-went.
+A service answers once. It shows no progress, cannot be canceled, and after a timeout does not say how far the arm
+moved.
 
 Example that is reported:
 

@@ -43,8 +43,8 @@ def check(graph: CellGraph) -> Findings:
     for interface in topics:
         names = _names(interface)
         own = [one for one in graph.cell.frames if one.kind is FrameKind.DYNAMIC and one.authority in names]
-        told = {one.frame for one in topics if names & _names(one)}
-        if own and told.isdisjoint({name for frame in own for name in (frame.name, frame.parent)}):
+        published = {topic.frame for topic in topics if names & _names(topic)}
+        if own and published.isdisjoint({name for frame in own for name in (frame.name, frame.parent)}):
             message = f"`{interface.name}` must be in `{own[0].parent}`, in which its node has `{own[0].name}`,"
             related = (Related("the frame of the object", own[0].span),)
             yield found(graph, (*interface.path, "frame"), f"{message} got `{interface.frame}`", related=related)

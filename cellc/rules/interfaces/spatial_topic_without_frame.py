@@ -1,6 +1,6 @@
 """A topic with positions names no frame.
 
-Poses, points and clouds are in some frame. If the spec does not say which, nobody can check that the reader
+Poses, points and clouds are in some frame. If the spec does not say which, it cannot be checked that the reader
 transforms from the right one.
 
 Example that is reported:

@@ -1,6 +1,6 @@
 """A topic that feeds motion has no rate.
 
-Without a rate nobody can tell a slow publisher from a dead one, nor size an age limit.
+Without a rate a slow publisher looks like a dead one, and an age limit cannot be sized.
 
 Example that is reported:
 

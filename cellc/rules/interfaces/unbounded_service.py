@@ -1,6 +1,6 @@
 """A service has no bound on its response time.
 
-If the server dies, the caller waits forever: DDS tells nobody that an answer will not come.
+If the server dies, the caller waits forever: DDS does not report that an answer will not arrive.
 
 Example that is reported:
 

@@ -1,6 +1,6 @@
 """The type of an interface is misspelled.
 
-A misspelt type is found by no type support, and the node fails when it starts. Types of packages that cellc does not
+A misspelled type is found by no type support, and the node fails when it starts. Types of packages that cellc does not
 know are left alone: every cell may have its own.
 
 Example that is reported:
@@ -51,7 +51,8 @@ def check(graph: CellGraph) -> Findings:
 
 
 def _alike(known: str, written: str) -> bool:
-    """Tell whether one word of the type differs by a typing error; `UInt32` and `Int16` are no misspelt `Int32`."""
+    """Tell whether one word of the type differs by a typing error; `UInt32` and `Int16` are no misspellings of
+    `Int32`."""
     words, others = (re.findall(r"[A-Z][a-z]*|[a-z]+|[0-9]+|[/_]", name) for name in (known, written))
     differing = [(word, other) for word, other in zip(words, others, strict=False) if word != other]
     if len(words) != len(others) or len(differing) != 1:

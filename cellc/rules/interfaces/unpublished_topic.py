@@ -1,4 +1,4 @@
-"""Nobody publishes a topic.
+"""A topic has no publisher.
 
 Its subscribers wait forever, or go on with what they had.
 
@@ -34,4 +34,4 @@ def check(graph: CellGraph) -> Findings:
     """Yield topics without a publisher."""
     for interface in graph.cell.interfaces:
         if interface.kind is InterfaceKind.TOPIC and not interface.sources:
-            yield found(graph, (*interface.path, "from"), f"nobody publishes `{interface.name}`")
+            yield found(graph, (*interface.path, "from"), f"`{interface.name}` has no publisher")

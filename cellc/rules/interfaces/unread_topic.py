@@ -1,6 +1,6 @@
-"""Nobody subscribes to a topic.
+"""A topic has no subscriber.
 
-Either a reader was forgotten, or bandwidth and attention go to data that nobody uses.
+Either a reader was forgotten, or bandwidth and attention go to unused data.
 
 Example that is reported:
 
@@ -36,4 +36,4 @@ def check(graph: CellGraph) -> Findings:
         if interface.derived or interface.kind is not InterfaceKind.TOPIC or interface.sinks:
             continue
         if interface.name not in graph.cell.recording.topics:
-            yield found(graph, interface.path, f"nobody subscribes to `{interface.name}`")
+            yield found(graph, interface.path, f"`{interface.name}` has no subscriber")

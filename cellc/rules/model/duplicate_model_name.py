@@ -1,6 +1,6 @@
 """Two links or two joints of a description have the same name.
 
-Whoever looks the name up gets the first or the last, depending on the library; TF then shows one of two bodies.
+A lookup returns the first or the last, depending on the library; TF then shows one of two bodies.
 
 Example that is reported:
 

@@ -1,6 +1,6 @@
 """The kinematics of a robot are not those of its type.
 
-Robots of one type differ by fractions of a millimetre and of a degree. A joint that lies centimetres from where the
+Robots of one type differ by fractions of a millimeter and of a degree. A joint that lies centimeters from where the
 type has it is of another type, in another unit, or of a file that was edited; the driver compares a hash, not the
 figures.
 
@@ -20,7 +20,7 @@ devices:
              calibration: {file: measured_arm/side_arm.yaml, measured: 2026-07-01, owner: robot}}
 ```
 
-Fix: name the file that was read off the robot that stands there.
+Fix: name the file that was read from the installed robot.
 
 Source: docs/principles.md#calibration
 """

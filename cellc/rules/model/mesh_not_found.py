@@ -1,9 +1,9 @@
 """A collision shape names a mesh that is not there.
 
 A link without its shape touches nothing: poses and goals are judged and the mock plans with the shapes that are there,
-and nobody sees what the link hits. The mock names it with every run, and G1 is not passed. A mesh is looked for in the
-folders of `--package-path`, then as a package in the folder of the spec and in those of its `packages:`. Shapes to look
-at (`<visual>`) are not read.
+and collisions of the link go unseen. The mock names it with every run, and G1 is not passed. A mesh is looked for in
+the folders of `--package-path`, then as a package in the folder of the spec and in those of its `packages:`. Shapes to
+look at (`<visual>`) are not read.
 
 Example that is reported:
 

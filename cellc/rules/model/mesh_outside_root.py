@@ -1,6 +1,6 @@
 """A collision shape names a mesh outside of the folders that belong to the cell.
 
-A description may come from a stranger, and `file:///home/me/part.stl`, `..` and links reach for what lies on this
+A description may be untrusted, and `file:///home/me/part.stl`, `..` and links reach for what lies on this
 machine: the check then depends on it, and no other computer finds the file. A mesh must lie in the folder of the spec
 or in a package of `--package-path`; out of the folder of the spec no link may lead.
 

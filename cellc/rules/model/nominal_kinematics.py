@@ -1,6 +1,6 @@
-"""A robot has the kinematics of its type, or nobody vouches for its own.
+"""A robot has nominal kinematics, or no owner confirms its calibration.
 
-No two robots of a type are alike: with nominal kinematics the tool is off by up to centimetres, and a camera or fixture
+No two robots of a type are alike: with nominal kinematics the tool is off by up to centimeters, and a camera or fixture
 that was measured with it as well. The vendor's driver compares one number, says so in one line of its log, and runs.
 
 Example that is reported:
@@ -19,7 +19,7 @@ devices:
              calibration: {file: measured_arm/side_arm.yaml, measured: 2026-07-01, owner: robot}}
 ```
 
-Fix: read the kinematics off the robot with the vendor's tool, and name its file, the day and who answers for it.
+Fix: read the kinematics of this robot with the vendor's tool, and record its file, date and owner.
 
 Source: docs/principles.md#calibration
 """
@@ -55,6 +55,6 @@ def _unvouched(one: KinematicCalibration, kinematics: Kinematics) -> Iterator[tu
     if one.hash == kinematics.nominal_hash:
         yield ("file",), f"`{one.name}` holds the kinematics of the type, by its hash `{one.hash}`"
     if one.owner == UNKNOWN:
-        yield ("owner",), f"nobody answers for `{one.name}`"
+        yield ("owner",), f"`{one.name}` has no owner"
     if day_of(one.measured) is None:
         yield ("measured",), f"`measured` of `{one.name}` must be a date, got `{one.measured}`"

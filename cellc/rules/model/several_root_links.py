@@ -1,7 +1,7 @@
 """A description has more than one root link.
 
 What does not hang on the mounted root is in no tree: it has no pose in the cell, so it collides with nothing and
-nobody can look it up. One public parser picks a root and is silent.
+no lookup finds it. One public parser picks a root and is silent.
 
 Example that is reported:
 

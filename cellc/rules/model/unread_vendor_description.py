@@ -1,4 +1,4 @@
-"""The package of the vendor is at hand, and its description cannot be read.
+"""The package of the vendor is available, but its description cannot be read.
 
 The shapes of the catalog serve then: boxes and cylinders, which are larger than the robot in some places and smaller in
 others. Nothing else of the cell rests on the vendor's file.
@@ -18,7 +18,7 @@ devices:
   side_arm: {model: ./vendored_arm, mount: {parent: world, xyz: 0 2 0 m}, revision: A, firmware: bare 1.0.0}
 ```
 
-Fix: mend what the message names, or put the release of the package beside the spec that the device is pinned to.
+Fix: correct what the message names, or put the release of the package beside the spec that the device is pinned to.
 
 Source: docs/principles.md#robot-descriptions
 """

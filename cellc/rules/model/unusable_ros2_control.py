@@ -1,7 +1,7 @@
 """The `<ros2_control>` of a description cannot be loaded, or names what the robot does not have.
 
 cellc writes the tag of a cell itself, so that nothing of this reaches the mock. The vendor's own launch files use it:
-there the controller manager refuses the robot, or a controller waits for an interface that nobody exports.
+there the controller manager refuses the robot, or a controller waits for an interface that no hardware exports.
 
 Example that is reported:
 

@@ -73,7 +73,7 @@ def _placed(device: Device, vendor: Description) -> Iterator[str]:
         length = math.dist(apart[far].position, (0, 0, 0))
         angle = math.dist(apart[turned].rotation_vector(), (0, 0, 0))
         if length > _LENGTH_M or angle > _ANGLE_RAD:
-            yield f"`{far}` stands {length * 1000:.3g} mm away" if length > _LENGTH_M else ""
+            yield f"`{far}` is {length * 1000:.3g} mm off" if length > _LENGTH_M else ""
             yield f"`{turned}` is turned by {math.degrees(angle):.3g} deg" if angle > _ANGLE_RAD else ""
             return
 

@@ -1,6 +1,6 @@
 """A moving joint has an axis of length zero.
 
-The joint has no direction to move in. URDF libraries load it; kinematics then yields NaN or a joint that stands still
+The joint has no direction to move in. URDF libraries load it; kinematics then yields NaN or a joint that does not move
 while its position counts up.
 
 Example that is reported:

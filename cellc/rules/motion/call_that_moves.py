@@ -1,8 +1,8 @@
 """A rehearsal calls a service that moves a device by itself.
 
-Such a call goes past every controller: nobody plans its path, no claim keeps others away, and on the mock nothing moves
-at all, so that the rehearsal passes what was never tried. A gripper that calibrates its fingers, or an arm that goes
-home, is moved by a person, in a gate, with the area empty.
+Such a call goes past every controller: its path is not planned, no claim keeps others away, and on the mock nothing
+moves at all, so that the rehearsal passes what was never tried. A gripper that calibrates its fingers, or an arm that
+goes home, is moved by a person, in a gate, with the area empty.
 
 Example that is reported:
 

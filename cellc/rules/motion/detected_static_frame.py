@@ -1,6 +1,6 @@
 """A rehearsal detects a frame that never changes.
 
-A static frame is not observed, so the step would wait for a sample that nobody sends.
+A static frame is not observed, so the step would wait for a sample that no node sends.
 
 Example that is reported:
 

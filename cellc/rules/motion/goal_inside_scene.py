@@ -40,7 +40,7 @@ _SURFACE_M = 0.002
 
 @rule(Severity.ERROR, assumes=(*SOUND_MODEL, "goal-in-collision", "infeasible-approach"))
 def check(graph: CellGraph) -> Findings:
-    """Yield goals whose tip is inside a box of the scene that no gripper stands astride."""
+    """Yield goals whose tip is inside a box of the scene that no gripper spans."""
     for goal in graph.cell.goals:
         place = graph.frames.in_world(goal.frame)
         for box in graph.cell.scene if place is not None else ():

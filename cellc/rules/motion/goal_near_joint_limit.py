@@ -1,7 +1,7 @@
 """A goal puts a joint next to its limit.
 
 A little farther and the goal has no solution, or the arm must turn all the way round to the other one. Where a part
-lies a few millimeters aside, or the calibration is measured anew, the motion fails.
+lies a few millimeters aside, or the calibration is measured again, the motion fails.
 
 Example that is reported:
 

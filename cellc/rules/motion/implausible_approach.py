@@ -1,6 +1,7 @@
 """An approach is shorter than a millimeter or longer than any arm.
 
-One that short is none, most often meters written as mm: the tool comes from the side. One of meters is mm read as m.
+One that short has no effect, most often meters written as mm: the tool comes from the side. One of meters is mm read as
+m.
 
 Example that is reported:
 

@@ -1,7 +1,7 @@
 """A part is brought to a goal and never let go.
 
 The gripper closes, the arm goes to another goal and away from it, and nothing opens the gripper: the arm takes the part
-along, into whatever stands on its way, and the next cycle closes on a part that it holds already.
+along, into anything on its way, and the next cycle closes on a part that it holds already.
 
 Example that is reported:
 

@@ -1,7 +1,7 @@
 """The default pipeline takes goals of joints alone, and the cell has Cartesian ones.
 
 CHOMP optimizes between two configurations: asked for a pose it answers with a failure, and a log line that only
-joint-space goals are supported. Whoever sends the goals of the cell gets that from the pipeline that is used where a
+joint-space goals are supported. The sender of the goals gets that from the pipeline that is used where a
 request names none.
 
 Example that is reported:
@@ -20,7 +20,8 @@ motion:
 
 Fix: let another pipeline come first.
 
-Source: https://github.com/moveit/moveit2/blob/2.12.4/moveit_planners/chomp/chomp_motion_planner/src/chomp_planner.cpp#L100
+Source:
+https://github.com/moveit/moveit2/blob/2.12.4/moveit_planners/chomp/chomp_motion_planner/src/chomp_planner.cpp#L100
 (2.12.4): only joint-space goals are supported
 """
 

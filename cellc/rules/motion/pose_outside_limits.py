@@ -1,6 +1,6 @@
 """A named pose lies outside the joint limits.
 
-The planner refuses the pose, or the controller clamps it and the arm stands elsewhere than its name says. Degrees
+The planner refuses the pose, or the controller clamps it and the arm is elsewhere than its name says. Degrees
 read as radians are the usual reason.
 
 Example that is reported:

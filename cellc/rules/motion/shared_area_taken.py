@@ -1,11 +1,11 @@
-"""Two arms stand in one shared area, and nobody released it to both.
+"""Two arms are in one shared area, which is granted to one at a time.
 
-Each planner knows the other arm where it stands while it plans, and nothing else: two arms of two managers that were
+Each planner knows the other arm only at its pose while it plans, and nothing else: two arms of two managers that were
 both let in meet there as soon as both move. An area that arms share is held by one at a time; the other waits until it
 has left. Where a hand-over needs both, a person writes down under which conditions they may be there together.
 
 What is compared is where the arms stand after each move of a rehearsal, and where the cell begins. The way there is
-planned anew each time: on the real cell the one that `granted_by` names lets nobody in before the other is out.
+planned again each time: on the real cell the one that `granted_by` names lets no arm in before the other is out.
 
 Example that is reported:
 
@@ -53,7 +53,7 @@ from cellc.rules.geometry import KNOWN_GOALS
 from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 
 _Inside = Mapping[str, frozenset[str]]
-"""Posture → arms of which a link stands in the area; the empty posture is where the cell begins."""
+"""Posture → arms with a link in the area; the empty posture is where the cell starts."""
 
 
 @rule(Severity.ERROR, assumes=KNOWN_GOALS)

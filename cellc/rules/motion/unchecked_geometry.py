@@ -1,7 +1,8 @@
 """Shapes cannot be read, so that collisions are not checked.
 
-The kinematics refuses the robot description, most often because a figure of a joint has a sign or a size that nobody
-can compute with. Poses and goals are then not checked, and neither the mock nor another program takes the description.
+The kinematics refuses the robot description, most often because a figure of a joint has a sign or a size that no
+kinematics can use. Poses and goals are then not checked, and neither the mock nor another program takes the
+description.
 
 Example that is reported:
 

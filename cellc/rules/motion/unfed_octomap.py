@@ -1,6 +1,6 @@
 """Nothing feeds the occupancy map that plans are to keep clear of.
 
-move_group subscribes to what the map is told, and says nothing when no data comes: it plans through obstacles as if the
+move_group subscribes to the data of the map, and is silent when none arrives: it plans through obstacles as if the
 space were empty. A depth image is of no use without the camera info beside it.
 
 Example that is reported:

@@ -21,7 +21,7 @@ motion:
 
 Fix: write an angle for a joint that turns and a length for one that slides, several as in `400 mm 0 -90 90 deg`.
 
-Source: https://www.ros.org/reps/rep-0103.html (REP 103, 2010): lengths in metres, angles in radians
+Source: https://www.ros.org/reps/rep-0103.html (REP 103, 2010): lengths in meters, angles in radians
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ def check(graph: CellGraph) -> Findings:
 
 
 def _figures(cell: Cell) -> Iterator[tuple[YamlPath, str, bool]]:
-    """Yield where a figure stands, the joint that it is of, and whether it is a length."""
+    """Yield the place of a figure, its joint, and whether it is a length."""
     for pose in cell.poses:
         if len(pose.joints) == len(pose.linear):
             yield from ((pose.path, name, linear) for name, linear in zip(pose.joints, pose.linear, strict=True))

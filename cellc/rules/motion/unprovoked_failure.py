@@ -1,6 +1,6 @@
 """A rehearsal expects a failure that nothing provokes.
 
-Without an injected fault the run succeeds, or it fails for a reason that nobody intended. The same holds for a fault
+Without an injected fault the run succeeds, or it fails for an unintended reason. The same holds for a fault
 that comes when the run is over, and for a frozen camera other than the one that the parts are detected with.
 
 Example that is reported:

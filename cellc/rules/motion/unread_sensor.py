@@ -39,13 +39,13 @@ from cellc.rules.kit import CellGraph, Findings, Severity, YamlPath, found, rule
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
     """Yield the first move of each rehearsal that comes before the sensor of a device is read."""
-    told = {device.name: one for device in graph.cell.devices if (one := device.switched) is not None and one.inputs}
+    sensed = {device.name: one for device in graph.cell.devices if (one := device.switched) is not None and one.inputs}
     reported: set[tuple[YamlPath, str]] = set()
     for rehearsal in graph.cell.rehearsals:
         # What no output switches may be in any state at first; the others are where their outputs have them.
-        unread = {name: "" for name, one in told.items() if not one.signals}
+        unread = {name: "" for name, one in sensed.items() if not one.signals}
         for step in rehearsal.steps:
-            if step.kind == "set" and step.name in told and step.state in told[step.name].told_states:
+            if step.kind == "set" and step.name in sensed and step.state in sensed[step.name].told_states:
                 unread[step.name] = step.state or ""
             elif step.kind == "sense":
                 unread.pop(step.name, None)

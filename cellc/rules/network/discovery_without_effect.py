@@ -1,7 +1,7 @@
 """Peers or discovery servers are listed, and nothing asks them.
 
 Each kind of discovery reads its own list: `unicast` the peers, `server` the servers. A list that another kind does not
-read looks like a way to the other computer, and is none.
+read looks like a connection to the other computer, and is not one.
 
 Example that is reported:
 

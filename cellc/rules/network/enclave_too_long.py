@@ -36,7 +36,7 @@ _LONGEST = 64
 
 @rule(Severity.WARNING)
 def check(graph: CellGraph) -> Findings:
-    """Yield enclaves that no certificate can name; with a middleware that has no SROS2 there is none."""
+    """Yield enclaves that no certificate can name; a middleware without SROS2 has no enclaves."""
     if graph.cell.versions.rmw.startswith("rmw_zenoh"):
         return
     for name, path in enclaves(graph.cell):

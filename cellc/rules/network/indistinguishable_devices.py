@@ -1,7 +1,7 @@
-"""Two devices of one model on one host cannot be told apart.
+"""Two devices of one model on one host cannot be distinguished.
 
 Neither has an address, a port or a serial number, so that each driver opens the first unit that it finds. Which one
-that is depends on the order in which the units came up.
+that is depends on the order in which the units started.
 
 Example that is reported:
 
@@ -21,7 +21,7 @@ devices:
   second: {serial: D4-0756}
 ```
 
-Fix: add `serial:`, which the driver is then told.
+Fix: add `serial:`, which the driver then uses.
 
 Source: docs/principles.md#facts-of-the-catalog
 """

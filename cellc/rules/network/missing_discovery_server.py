@@ -1,6 +1,6 @@
-"""The nodes are to ask a discovery server, and there is none.
+"""The cell uses a discovery server, but names none.
 
-A participant that asks a server announces itself to nobody else. Without one, no two processes of the cell meet, on one
+A participant that uses a server announces itself only there. Without one, no two processes of the cell meet, on one
 host either.
 
 Example that is reported:

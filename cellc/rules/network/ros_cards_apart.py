@@ -1,7 +1,7 @@
 """The cards for ROS of two hosts share no subnet.
 
 Multicast discovery ends at the first router. Unicast crosses it only where somebody routes, and a mistyped octet looks
-the same: each host sees its own nodes and nobody else's.
+the same: each host sees only its own nodes.
 
 Example that is reported:
 

@@ -1,7 +1,7 @@
 """Two drivers on one computer listen on one port.
 
-The second finds the port taken and does not come up; or a robot connects back to the driver of the other, and follows
-what that one is told. Where a spec is silent each device gets ports of its own.
+The second finds the port taken and does not start; or a robot connects back to the driver of the other, and follows
+its commands. Where a spec is silent each device gets ports of its own.
 
 Example that is reported:
 

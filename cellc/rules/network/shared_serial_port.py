@@ -1,7 +1,7 @@
 """Two devices are reached over one port, serial or CAN.
 
 The second driver finds the port taken, or both write into it and each reads the answers of the other. A gripper then
-opens when its neighbour was told to.
+opens when the other one was commanded to.
 
 Example that is reported:
 

@@ -1,7 +1,7 @@
 """The port of a discovery server is taken by something else.
 
-The second that binds a port does not come up. Where it is the server, nobody of the cell finds anybody; where it is a
-node, that node is missing, on some starts and not on others.
+The second process that binds a port does not start. Where it is the server, no node of the cell finds another; where it
+is a node, that node is missing, on some starts and not on others.
 
 Example that is reported:
 

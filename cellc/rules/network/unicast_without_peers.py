@@ -1,6 +1,6 @@
 """Unicast discovery has no peers.
 
-Without multicast a participant finds only those that it is told of.
+Without multicast a participant finds only its listed peers.
 
 Example that is reported:
 

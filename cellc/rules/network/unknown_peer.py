@@ -1,6 +1,6 @@
 """No host of the cell has the address of a peer.
 
-With unicast discovery a participant announces itself to its peers alone. An address that nobody has costs nothing that
+With unicast discovery a participant announces itself to its peers alone. An unused address costs nothing that
 anybody sees: the computer that was meant is simply never found.
 
 Example that is reported:

@@ -1,6 +1,6 @@
 """A host does not reach the discovery server.
 
-Who does not reach the server finds nobody and is found by nobody, and says nothing: it asks again for ever. A server
+A participant that cannot reach the server finds no other and is found by none. It retries silently, forever. A server
 listens on one card, and never on that of the robot.
 
 Example that is reported:

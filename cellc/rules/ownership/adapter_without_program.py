@@ -2,7 +2,7 @@
 
 Where a device has a direct SDK, no driver of ROS is launched for it: what publishes its state and takes its goals is a
 program of the cell's own. Named, it is started on the real target behind the same gates as everything else, in an
-enclave of its own. Unnamed, the launch waits for states and actions that nobody offers, and where access is enforced
+enclave of its own. Unnamed, the launch waits for states and actions without a server, and where access is enforced
 whatever a person starts by hand is denied all of them.
 
 Example that is reported:

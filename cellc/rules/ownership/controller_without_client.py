@@ -1,7 +1,7 @@
 """A controller that moves something has no declared commander.
 
-Whoever finds the action first commands the arm. Only a declared client can be checked, and only it gets permission in
-the access policy.
+The first node that finds the action commands the arm. Only a declared client can be checked, and only it gets
+permission in the access policy.
 
 Example that is reported:
 

@@ -1,6 +1,6 @@
 """An approval area has no owner.
 
-Before the cell moves, seven questions are answered with evidence. Without an owner nobody signs, or everybody does.
+Before the cell moves, seven questions are answered with evidence. Without an owner no one signs, or anyone does.
 
 Example that is reported:
 
@@ -28,7 +28,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 @rule(Severity.BLOCKER)
 def check(graph: CellGraph) -> Findings:
-    """Yield the approval areas that nobody has; those that the spec does not mention in one finding."""
+    """Yield the approval areas without an owner; those that the spec does not mention in one finding."""
     unwritten = []
     for item in graph.responsibilities.of_kind("approval"):
         if item.open and graph.cell.states(*item.path):

@@ -1,7 +1,7 @@
 """A responsibility has no owner.
 
 Frames, time, limits, watchdogs, commands, logs, the vendor's safety configuration and the physical stop: whatever the
-architecture, somebody answers for each. A stack only hides the question, an SDK hands it back.
+architecture, each has an owner. A stack only hides the question, an SDK returns it.
 
 Example that is reported:
 
@@ -17,7 +17,7 @@ owners:
   responsibilities: {limits: controls}
 ```
 
-Fix: name the role or the team that answers for it, under `owners.responsibilities`.
+Fix: name the responsible role or team under `owners.responsibilities`.
 
 Source: docs/principles.md#responsibilities
 """
@@ -29,14 +29,14 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 @rule(Severity.BLOCKER)
 def check(graph: CellGraph) -> Findings:
-    """Yield the responsibilities that nobody has; those that the spec does not mention in one finding."""
+    """Yield the responsibilities without an owner; those that the spec does not mention in one finding."""
     unwritten = []
     for item in graph.responsibilities.of_kind("responsibility"):
         if item.open and graph.cell.states(*item.path):
-            yield found(graph, item.path, f"nobody answers for `{item.name}`")
+            yield found(graph, item.path, f"`{item.name}` has no owner")
         elif item.open:
             unwritten.append(item.name)
     if unwritten:
         names = ", ".join(f"`{name}`" for name in unwritten)
         path = ("owners", "responsibilities")
-        yield found(graph, path, f"nobody answers for {names}")
+        yield found(graph, path, f"no owner for {names}")

@@ -1,6 +1,6 @@
-"""The name of an owner stands once, and is nearly that of another.
+"""The name of an owner is used once, and is nearly that of another.
 
-Owners are free texts. A transposed letter makes a team that nobody is in: its approval is waited for, or is thought to
+Owners are free texts. A transposed letter makes a team without members: its approval is waited for, or is thought to
 be somebody else's.
 
 Example that is reported:

@@ -1,6 +1,6 @@
 """A node has no owner.
 
-When it fails, or when its parameters change, nobody is asked.
+When it fails, or when its parameters change, no one is responsible.
 
 Example that is reported:
 
@@ -16,7 +16,7 @@ nodes:
   tracker: {run: cell_tasks/tracker, host: control_pc, owner: integration, lifecycle: true}
 ```
 
-Fix: add `owner:` with the role or the team that answers for it.
+Fix: add `owner:` with the responsible role or team.
 
 Source: docs/principles.md#owners-and-approvals
 """
@@ -28,7 +28,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 @rule(Severity.BLOCKER)
 def check(graph: CellGraph) -> Findings:
-    """Yield nodes of the spec that nobody answers for."""
+    """Yield nodes of the spec without an owner."""
     for item in graph.responsibilities.of_kind("node"):
         if item.open:
-            yield found(graph, item.path, f"nobody answers for node `{item.name}`")
+            yield found(graph, item.path, f"node `{item.name}` has no owner")

@@ -36,7 +36,7 @@ from cellc.vocabulary import Behaviour
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
-    """Yield controllers of a device's own motion that nobody switches to."""
+    """Yield controllers of a device's own motion that no step switches to."""
     for controller in graph.cell.controllers:
         if controller.behaviour is Behaviour.OWN_MOTION and controller.active:
             message = f"`{controller.name}` moves `{controller.device}` past its joints, and is active from the start"

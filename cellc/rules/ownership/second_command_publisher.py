@@ -1,6 +1,6 @@
 """Two nodes publish on one command topic.
 
-The controller follows whichever message came last, so the arm jumps between two goals.
+The controller follows the latest message, so the arm jumps between two goals.
 
 Example that is reported:
 

@@ -1,6 +1,6 @@
 """Two devices are switched by one output.
 
-The lamp lights and the gripper opens. Nothing refuses it: both are told by the one interface, and who sets it for one
+The lamp lights and the gripper opens. Nothing refuses it: both share one interface, and a client that sets it for one
 of them sets the other.
 
 Example that is reported:

@@ -40,7 +40,7 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 def check(graph: CellGraph) -> Findings:
     """Yield outputs that no controller claims on the real target, and inputs that none reads."""
     devices = graph.cell.devices
-    # Whose real plugin nobody has named yet is told by `missing-real-plugin`.
+    # `missing-real-plugin` reports devices without a real plugin.
     unnamed = {one.name for one in devices if one.hardware is not None and "real" not in one.hardware.targets}
     there = [one for one in graph.cell.controllers if "real" in one.targets or one.device in unnamed]
     claimed = {interface for one in there for interface in one.claims("real")}

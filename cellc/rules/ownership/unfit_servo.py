@@ -1,6 +1,6 @@
 """MoveIt Servo does not fit the controller, the group or the node that the cell gives it.
 
-Servo streams to a topic, and whoever writes there last moves the arm: the controller must have Servo as its one client.
+Servo streams to a topic, and the last writer there moves the arm: the controller must have Servo as its one client.
 Values come without names, so that joints in another order move each other's way; and another program than Servo reads
 none of its parameters.
 
@@ -49,7 +49,7 @@ _EXECUTABLES = {Distro.HUMBLE: "servo_node_main"}
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
-    """Yield what keeps Servo from commanding its controller alone, and as it is told."""
+    """Yield what keeps Servo from commanding its controller alone, with its parameters."""
     cell, servo = graph.cell, graph.cell.servo
     if servo is None:
         return
@@ -74,7 +74,7 @@ def _refused(cell: Cell, servo: Servo, controller: Controller) -> Iterator[str]:
     if streamed and servo.positions == servo.velocities:
         yield f"`{controller.name}` must command position or velocity, and one of them alone"
     if controller.client != servo.node:
-        client = controller.client or "nobody"
+        client = controller.client or "no node"
         yield f"`{servo.node}` must be the client of `{controller.name}`, which is commanded by {client}"
     (group,) = (group for group in cell.groups if group.name == servo.group)
     if controller.joints != group.joints:

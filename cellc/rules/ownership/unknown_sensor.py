@@ -1,7 +1,7 @@
 """A broadcaster reads a sensor, or stamps a frame, that no device has.
 
 The controller manager refuses to activate a broadcaster whose sensor it does not know: usually the prefix of the device
-is missing. A frame that nobody publishes shows later, when the reader cannot transform the first sample.
+is missing. A frame without a publisher shows later, when the reader cannot transform the first sample.
 
 Example that is reported:
 

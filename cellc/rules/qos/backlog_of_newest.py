@@ -1,9 +1,9 @@
 """A reader that wants the newest sample queues old ones.
 
 When the reader is late, a queue hands it the oldest sample that it keeps first. It then works through a backlog of
-images in which the part is still where it was. What makes the backlog is the depth: a best-effort queue hands out old
-samples too, and is reported where the oldest that it can keep is older than the reader may use. A shorter one is left
-alone, because lost samples are not sent again and five is what sensors are usually read with (REP 2003).
+images in which the part is still where it was. What makes the backlog is the depth. A best-effort queue is left alone,
+because lost samples are not sent again and five is what sensors are usually read with (REP 2003); where it holds what
+is too old to be used, `queue-older-than-max-age` tells.
 
 Example that is reported:
 
@@ -58,10 +58,5 @@ def check(graph: CellGraph) -> Findings:
             if end.qos.reliability == "reliable":
                 if endless or end.qos.depth > 1:
                     yield found(graph, end.path, f"{message} reliably")
-            elif topic.rate_hz and topic.max_age_s is not None:
-                oldest_s = (end.qos.depth - 1) / topic.rate_hz
-                if endless:
-                    yield found(graph, end.path, message)
-                elif oldest_s > topic.max_age_s:
-                    older = f"the oldest {oldest_s * 1e3:.4g} ms behind the newest"
-                    yield found(graph, end.path, f"{message}, {older}, and may use {topic.max_age_s * 1e3:.4g} ms")
+            elif endless and topic.rate_hz and topic.max_age_s is not None:
+                yield found(graph, end.path, message)

@@ -1,6 +1,6 @@
 """A reader that wants every sample accepts losses.
 
-Best effort drops what does not get through, and nobody is told.
+Best effort drops lost samples without notice.
 
 Example that is reported:
 

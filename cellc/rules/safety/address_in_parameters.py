@@ -1,4 +1,4 @@
-"""Something that runs on the mock is told the address of a real device.
+"""A process on the mock has the address of a real device.
 
 Parameters of nodes, controllers and mock plugins are those of every target. On the mock the program then talks to the
 real machine, past everything that was meant to keep it out. Every spelling counts that a resolver takes: an integer,

@@ -38,34 +38,35 @@ _MANAGER = "ros2_control_node"
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
-    """Yield nodes and mock plugins that are known to reach a device, and nodes that are told what to drive."""
-    cell = graph.cell
+    """Yield nodes and mock plugins that are known to reach a device, and nodes whose parameters name hardware."""
+    cell, real_plugins = graph.cell, _real_plugins(graph.cell)
+    drivers, programs = _driver_packages(cell), _real_programs(cell)
     for node in cell.nodes:
         if not node.real_only and node.source is not NodeSource.STANDARD:
-            yield from (found(graph, path, message) for path, message in _reasons(cell, node))
+            yield from (found(graph, path, message) for path, message in _reasons(cell, node, drivers, programs))
     for device in cell.devices:
         plugin = "" if device.hardware is None else device.hardware.plugins["mock"]
         package = plugin.partition("/")[0]
-        if package in cell.hardware_packages or plugin in _real_plugins(cell):
+        if package in cell.hardware_packages or plugin in real_plugins:
             message = f"the mock of `{device.name}` is `{plugin}`, of a package that reaches real hardware"
             yield found(graph, (*device.path, "model"), message)
 
 
-def _reasons(cell: Cell, node: Node) -> Iterator[tuple[YamlPath, str]]:
+def _reasons(
+    cell: Cell, node: Node, drivers: frozenset[str], programs: frozenset[str]
+) -> Iterator[tuple[YamlPath, str]]:
     own = node.source is NodeSource.SPEC
     program = f"{node.package}/{node.executable}"
-    packages = cell.hardware_packages | (_driver_packages(cell) if own else frozenset())
-    drives = (
-        node.package in packages or program in _real_programs(cell) or node.executable.endswith("ros2_control_node")
-    )
+    packages = cell.hardware_packages | (drivers if own else frozenset())
+    drives = node.package in packages or program in programs or node.executable.endswith("ros2_control_node")
     if drives:
         message = f"`{node.name}` runs `{program}` on the mock, a driver of real hardware"
         yield (*node.path, "run" if own else "model"), message
     for name, value in node.parameters.items():
         texts = value if isinstance(value, tuple) else (value,)
-        told = any("<ros2_control" in text or "<plugin" in text for text in texts if isinstance(text, str))
-        if told or name.rpartition(".")[2] == _DESCRIPTION:
-            message = f"`{node.name}` is told by `{name}` on the mock which hardware to drive"
+        described = any("<ros2_control" in text or "<plugin" in text for text in texts if isinstance(text, str))
+        if described or name.rpartition(".")[2] == _DESCRIPTION:
+            message = f"`{node.name}` gets hardware to drive from `{name}` on the mock"
             yield (*node.path, *(("parameters", name) if own else ("model",))), message
 
 

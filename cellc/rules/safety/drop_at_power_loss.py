@@ -1,4 +1,4 @@
-"""What a device holds falls when air or power is lost, or nobody says that it does not, and nobody accepts it.
+"""A held part falls, or may fall, when air or power is lost, and no person has accepted it.
 
 A valve with a spring opens the gripper as its output goes off: in an emergency stop the part flies. Whether that is
 borne is an answer of the risk assessment, not of a program. UNKNOWN is judged as a drop.
@@ -33,13 +33,13 @@ from cellc.cell.site import UNKNOWN
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
-@rule(Severity.ERROR)
+@rule(Severity.BLOCKER)
 def check(graph: CellGraph) -> Findings:
-    """Yield devices that hold something, lose it without power, and have nobody who accepts that."""
+    """Yield devices that hold something, may lose it without power, and name no person who accepts that."""
     for device in graph.cell.devices:
         one = device.switched
         if one is None or one.holds is None or one.power_lost == "holds" or one.accepted_by not in (None, UNKNOWN):
             continue
-        unknown = f"nobody says whether `{device.name}` holds its load when power is lost"
+        unknown = f"it is not stated whether `{device.name}` holds its load when power is lost"
         message = unknown if one.power_lost == UNKNOWN else f"`{device.name}` drops its load when power is lost"
         yield found(graph, (*device.path, "switching", "power_lost"), message)

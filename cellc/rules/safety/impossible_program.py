@@ -1,8 +1,8 @@
 """A robot's program is to be started in a way that its controller does not have.
 
 A driver that sends and starts the program by itself needs remote control on most robots; in local mode it is refused
-without a word, and a person who is told to press start in remote mode finds a button that does nothing. A device
-without a program of its own has nobody to start one.
+without a word, and a person who must press start in remote mode finds a button that does nothing. A device
+without a program of its own has no program to start.
 
 Example that is reported:
 
@@ -32,19 +32,22 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
-    """Yield devices whose controller has no such way of starting a program."""
+    """Yield devices whose controller has no such mode of starting a program."""
     for device in graph.cell.devices:
-        program, ways = device.program, device.robot.ways
+        program, modes = device.program, device.robot.ways
         if program is None:
             continue
         path = (*device.path, "program")
         starter = "driver" if program.played_by == "driver" else "person"
-        if not ways:
+        if not modes:
             advice = "delete `program:`, or say under `robot.program` of its `device.yaml` who can start it"
             yield found(
-                graph, path, f"set points of `{device.name}` pass through no program that it is told of", advice
+                graph,
+                path,
+                f"`program` has no effect on `{device.name}`: its set points pass through no program",
+                advice,
             )
-        elif (starter, program.mode) not in ways:
-            modes = " or ".join(f"`{mode}`" for by, mode in ways if by == starter) or "no mode"
-            message = f"a {starter} starts the program of `{device.name}` in {modes}, got `{program.mode}`"
+        elif (starter, program.mode) not in modes:
+            allowed = " or ".join(f"`{mode}`" for by, mode in modes if by == starter) or "no mode"
+            message = f"a {starter} starts the program of `{device.name}` in {allowed}, got `{program.mode}`"
             yield found(graph, (*path, "mode"), message)

@@ -1,6 +1,6 @@
 """The recovery or the observer's place has no owner.
 
-A procedure that nobody owns is not trained, and the place at the stop button stays empty.
+A procedure without an owner is not trained, and no person is at the stop button.
 
 Example that is reported:
 
@@ -14,7 +14,7 @@ Example that is accepted:
 safety: {recovery: {observer: operator}}
 ```
 
-Fix: name who owns the procedure and who stands at the stop.
+Fix: name the owner of the procedure and the observer at the stop.
 
 Source: docs/principles.md#recovery
 """
@@ -26,11 +26,11 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 @rule(Severity.BLOCKER)
 def check(graph: CellGraph) -> Findings:
-    """Yield the procedures that nobody owns, in one finding."""
+    """Yield the procedures without an owner, in one finding."""
     if not any(controller.command_interfaces for controller in graph.cell.controllers):
         return
     missing = [item for item in graph.responsibilities.of_kind("procedure") if item.open]
     if missing:
         names = " and ".join(item.name for item in missing)
-        message = f"nobody is named for {names}"
+        message = f"no person is named for {names}"
         yield found(graph, missing[0].path, message)

@@ -1,7 +1,7 @@
 """A node of the cell starts the program on the robot's own controller.
 
-The program is what lets set points reach the drives. A person starts it, who has seen that nobody is in reach; a node
-that starts it brings the robot back after each stop, whoever stands in the cell by then.
+The program is what lets set points reach the drives. A person starts it, who has seen that no person is in reach; a
+node that starts it restarts the robot after each stop, even with a person in the cell.
 
 Example that is reported:
 

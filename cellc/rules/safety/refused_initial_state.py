@@ -1,7 +1,7 @@
-"""A device is to come up in a state in which it moves by itself, or is left with wrong commands.
+"""A device starts in a state in which it moves by itself, or has wrong commands.
 
 The controller manager brings hardware up before anybody looked whether the area is empty. What moves as it is
-activated, or of which nobody says that it does not, is activated by a person in gate G5. Where the vendor asks for one
+activated, or may move, is activated by a person in gate G5. Where the vendor asks for one
 call from `unconfigured` to `active`, a stay in `inactive` leaves a driver with commands that were never set.
 
 Example that is reported:
@@ -36,7 +36,7 @@ from cellc.vocabulary import Moment
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
-    """Yield states of components that move at the start, that the vendor excludes, or that nobody brings up."""
+    """Yield states of components that move at the start, that the vendor excludes, or that no step activates."""
     for device in graph.cell.devices:
         if device.initial_state is None:
             continue
@@ -48,11 +48,11 @@ def check(graph: CellGraph) -> Findings:
 
 
 def _refused(device: Device, hardware: HardwareComponent) -> str:
-    """Return why a component must not come up as stated; empty where it may."""
-    said = f"`{device.name}` must not come up `{device.initial_state}`:"
+    """Return why a component must not start as stated; empty where it may."""
+    said = f"`{device.name}` must not start `{device.initial_state}`:"
     if device.initial_state == "active":
         if not hardware.is_activation_known:
-            return f"{said} nobody says what its activation does"
+            return f"{said} the effect of its activation is not stated"
         if hardware.moves_as_it_is_activated:
             return f"{said} its activation {hardware.effects[Moment.ACTIVATE].does.split('; ')[0]}"
     if hardware.at_once and device.initial_state != hardware.initial_state:

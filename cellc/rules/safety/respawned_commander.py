@@ -1,6 +1,6 @@
 """A node on the command path is restarted automatically.
 
-A restarted commander may send its last goal again, with nobody beside the arm. Restarting perception is not the same
+A restarted commander may send its last goal again, unattended. Restarting perception is not the same
 as restarting what moves.
 
 Example that is reported:

@@ -1,7 +1,7 @@
 """An event of the software is taken as evidence of a safe state.
 
 An active lifecycle node, a QoS event, a domain id or a successful launch says that processes run. None says that a
-protective stop is cleared or that nobody stands in the cell.
+protective stop is cleared or that the cell is empty.
 
 Example that is reported:
 

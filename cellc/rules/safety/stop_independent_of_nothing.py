@@ -1,6 +1,6 @@
 """The stop is declared independent of a host that does not exist.
 
-A misspelt host leaves the real one unmentioned.
+A misspelled host leaves the real one unmentioned.
 
 Example that is reported:
 

@@ -1,7 +1,7 @@
-"""A piece of software answers for the safety of people.
+"""Software is made responsible for the safety of people.
 
 The physical stop and the vendor's safety configuration belong to a person or a team. A node, a controller or a computer
-of the cell cannot answer for them, nor can a QoS event, a domain id or a lifecycle state.
+of the cell cannot be responsible for them, nor can a QoS event, a domain id or a lifecycle state.
 
 Example that is reported:
 
@@ -42,7 +42,7 @@ def check(graph: CellGraph) -> Findings:
     parts = {*cell.hosts, *(node.name for node in cell.nodes), *(c.name for c in cell.controllers)}
     for path, owner in _safety_owners(graph):
         if owner in parts or _SOFTWARE.search(owner):
-            message = f"`{owner}` answers for `{path[-1]}`, but is software"
+            message = f"`{path[-1]}` must be owned by people, got the software `{owner}`"
             yield found(graph, path, message)
 
 

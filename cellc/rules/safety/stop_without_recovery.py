@@ -1,7 +1,7 @@
 """A robot stops in a way that the cell has no recovery for.
 
 Its vendor tells how people get it back: a safeguard that was opened, a stop that a user pressed at the enabling device.
-They are the stops of every day, and without a name in the cell nobody owns what comes after them.
+They are the stops of every day, and without a name in the cell their recovery has no owner.
 
 Example that is reported:
 

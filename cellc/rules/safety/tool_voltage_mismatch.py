@@ -19,7 +19,7 @@ devices:
   gripper: {connection: {host: control_pc, port: /dev/ttyUSB0, through: arm}}
 ```
 
-Fix: give the connector the voltage that stands on the nameplate of the tool, or power the tool from elsewhere.
+Fix: give the connector the voltage on the nameplate of the tool, or power the tool from elsewhere.
 
 Source: https://github.com/UniversalRobots/Universal_Robots_ROS2_Driver/releases/tag/6.0.0 (6.0.0): tool communication
 """
@@ -32,7 +32,7 @@ from cellc.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
-    """Yield tools on the connector of another robot, of one that is told nothing, or that gives another voltage."""
+    """Yield tools on the connector of another robot, of one without settings, or of one with another voltage."""
     for device in graph.cell.devices:
         link = device.connection
         if link is None or link.through is None:

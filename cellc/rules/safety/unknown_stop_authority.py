@@ -1,4 +1,4 @@
-"""Nobody says what stops the machine.
+"""It is not stated what stops the machine.
 
 Before anything is enabled, everybody knows what stops it and by which path. UNKNOWN keeps the real cell closed.
 

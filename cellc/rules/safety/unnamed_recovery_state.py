@@ -1,6 +1,6 @@
 """A state that stops the robot has no recovery.
 
-Recovery from a state that nobody named is a restart and a hope.
+Recovery from an unnamed state is a restart without a procedure.
 
 Example that is reported:
 

@@ -1,7 +1,7 @@
 """The mock of a device is a plugin that may reach hardware.
 
-The mock is the default target, and no gate stands before it. A vendor's plugin that `device.yaml` names for it opens
-the connection of its driver when the mock is launched, and the arm moves where nobody expects it to. `ros2_control`
+The mock is the default target, and has no gate. A vendor's plugin that `device.yaml` names for it opens
+the connection of its driver when the mock is launched, and the arm moves unexpectedly. `ros2_control`
 loads whatever plugin it is given. `mock_components/GenericSystem` is known to touch no hardware; of another plugin
 somebody says so in the spec, by name and with a date.
 
@@ -42,5 +42,5 @@ def check(graph: CellGraph) -> Findings:
     for device in graph.cell.devices:
         plugin = "" if device.hardware is None else device.hardware.plugins["mock"]
         if device.hardware is not None and plugin not in known:
-            message = f"the mock of `{device.name}` is `{plugin}`, of which nobody says that it touches no hardware"
+            message = f"the mock of `{device.name}` is `{plugin}`, without a statement that it touches no hardware"
             yield found(graph, ("devices", device.name, "model"), message)

@@ -1,7 +1,7 @@
 """A program that a device runs on the mock may reach hardware.
 
-A node of `device.yaml` with `provides: every_target` starts on the mock too, and no gate stands before the mock. A
-driver's own program may open the connection of its device, and the cell moves where nobody expects it to. Transforms
+A node of `device.yaml` with `provides: every_target` starts on the mock too, and the mock has no gate. A
+driver's own program may open the connection of its device, and the cell moves unexpectedly. Transforms
 and the description of the robot reach no device; of another program somebody says so in the spec, by name and with a
 date.
 
@@ -37,9 +37,11 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 @rule(Severity.ERROR)
 def check(graph: CellGraph) -> Findings:
-    """Yield devices that run a program on the mock of which nobody says that it touches no hardware."""
+    """Yield devices that run a program on the mock without a statement that it touches no hardware."""
     for device in graph.cell.devices:
         for program in graph.cell.programs_on_mock(device):
             if program not in graph.cell.harmless_programs:
-                message = f"`{device.name}` runs `{program}` on the mock, and nobody says that it touches no hardware"
+                message = (
+                    f"`{device.name}` runs `{program}` on the mock, without a statement that it touches no hardware"
+                )
                 yield found(graph, ("devices", device.name, "model"), message)

@@ -1,7 +1,7 @@
 """A firmware does not fit the vendor's matrix.
 
 The driver speaks a protocol that this firmware does not have, or has no longer. It connects and fails in a mode that
-nobody tested.
+is untested.
 
 Example that is reported:
 

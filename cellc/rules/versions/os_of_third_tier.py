@@ -1,6 +1,6 @@
 """The distribution has no tested packages for the operating system.
 
-On a platform of the third tier everything is built from source, and nobody runs the tests there. What works for the
+On a platform of the third tier everything is built from source, and no tests run there. What works for the
 planner's author says nothing about the vendor's driver.
 
 Example that is reported:

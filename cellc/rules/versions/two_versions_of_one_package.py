@@ -1,7 +1,7 @@
-"""One package stands in the tuple with two versions.
+"""One package is in the tuple with two versions.
 
 A workspace holds a package once. Whichever version is built or sourced last serves both devices, and one of them runs
-with a driver that nobody tested with it.
+with a driver that was not tested with it.
 
 Example that is reported:
 

@@ -1,6 +1,6 @@
 """The distribution does not have this middleware.
 
-A misspelt middleware is not loaded; the nodes end when they start, or one of them takes the default and never meets
+A misspelled middleware is not loaded; the nodes end when they start, or one of them takes the default and never meets
 the others.
 
 Example that is reported:

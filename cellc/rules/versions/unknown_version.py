@@ -1,6 +1,6 @@
 """A part of the version tuple is UNKNOWN.
 
-A combination that nobody wrote down cannot be tested, repeated or rolled back. UNKNOWN is an honest answer and keeps
+An unrecorded combination cannot be tested, repeated or rolled back. UNKNOWN is an honest answer and keeps
 the real cell closed until somebody looks.
 
 Example that is reported:

@@ -1,6 +1,6 @@
 """A combination is in no version matrix.
 
-Nobody has said that it works, and nobody that it does not. It stays UNKNOWN until a test of this tuple says so.
+No source says that it works, and none that it does not. It stays UNKNOWN until a test of this tuple says so.
 
 What was released together is a combination that somebody tested, the newest or not: the versions of one sync of the
 distribution, or those with which a vendor's own release is built. A device is one finding, which names the nearest.

@@ -34,6 +34,8 @@ PAYLOADS = {
     "heading": "# taint",
     "emphasis": "**a** __b__ ~~c~~ $d$ :e: \\*f\\*",
     "zero": "a \0 b",
+    "option": "--upload-pack=taint",
+    "transport": "ext::sh -c taint",
     "comment mark": "a # b // c /* d */ ; e",
 }
 """The payloads of one line and several, each by what would misread it."""

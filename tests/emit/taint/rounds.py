@@ -14,6 +14,7 @@ from tests.emit.taint.judge import differences
 from tests.emit.taint.outputs import outputs
 from tests.emit.taint.payloads import PAYLOADS, WAYS, text_of, twin_of
 from tests.emit.taint.places import Place, families, places_of, single
+from tests.emit.taint.programs import misled
 from tests.emit.taint.trial import Files, Trial, checked_with, errors_of, tried
 from tests.robustness.fuzz.forked_child import forking
 
@@ -81,7 +82,9 @@ def _faults(folder: Path, files: Files, trial: Trial) -> Iterator[str]:
     yield from (f"the harmless twin is refused: {error.span}: {error.message}" for error in errors_of(twin))
     if twin.ok:
         texts = {harmless[place]: text for place, text in trial.taken.items()}
-        yield from differences(_made(trial.checked), _made(twin), texts)
+        made = _made(trial.checked)
+        yield from differences(made, _made(twin), texts)
+        yield from misled(made)
 
 
 def _made(checked: Checked) -> Mapping[str, str]:

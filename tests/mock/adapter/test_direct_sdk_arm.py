@@ -9,10 +9,12 @@ import pytest
 from cellc.adapter import Phase
 from cellc.contract.rehearsals import FaultEntry, RehearsalEntry, StepEntry
 from cellc.mock import MockCell, RehearsalResult, load
+from cellc.mock.adapter.server import AdapterServer
 from cellc.mock.campaign.campaign import execute
 from cellc.mock.campaign.limits import check_limits
 from cellc.mock.campaign.plan import CampaignRun
 from cellc.mock.control import GripperGoal, TrajectoryGoal, TrajectoryPoint
+from cellc.mock.control.hardware.disturbances import JointFault
 from cellc.mock.control.journal import CommandJournal
 from cellc.mock.faults.registry import possible_faults
 from cellc.mock.plant import Plant
@@ -235,3 +237,24 @@ def test_a_campaign_expects_the_stop_of_a_watchdog_that_waits_less_than_the_miss
     (case,) = (one for one in possible_faults(loop.contract) if one.entry.kind == "skip_cycles")
     named = {outcome for ending in case.endings.values() for outcome in ending.outcomes}
     assert {"missed_cycle", "protective_stop"} <= named
+
+
+@pytest.mark.parametrize(("off", "noted"), [(0.0, []), (1e-10, []), (0.001, [1_000_000_001])])
+def test_start_beside_the_last_command_is_noted_an_instant_after_it(
+    cell: MockCell, off: float, noted: list[int]
+) -> None:
+    contract = cell.contract
+    server = AdapterServer("arm", contract.adapters["arm"], contract.joint_limits, "host")
+    server.adapter.connect()
+    server.adapter.activate()
+    assert server.advance(SECOND) == SECOND
+    server.journal.listening = True
+    server.adapter.disturb(contract.adapters["arm"].joints[0], JointFault(offset=off))
+    zeros, start = (0.0,) * 6, server.adapter.read().positions
+    points = tuple(TrajectoryPoint(start, zeros, zeros, time_from_start_ns=at_ns) for at_ns in (0, SECOND))
+    goal = TrajectoryGoal(contract.adapters["arm"].joints, points)
+    response = server.send_goal("arm", goal)
+    assert response.accepted, response.log_reason
+    _, interruptions = server.journal.take()
+    # What was commanded at the same instant is no jump: it becomes one with the next command.
+    assert [one.stamp_ns for one in interruptions] == noted

@@ -9,6 +9,7 @@ from cellc.adapter import (
     AdapterModel,
     FollowerResult,
     FollowerStatus,
+    JointCommand,
     JointModel,
     Trajectory,
     TrajectoryFollower,
@@ -128,3 +129,20 @@ def test_follower_that_is_no_longer_called_is_stopped_by_the_watchdog() -> None:
 def test_trajectory_without_rising_times_is_none(times: tuple[float, ...]) -> None:
     with pytest.raises(ValueError, match=r"trajectory"):
         Trajectory(tuple(Waypoint(time_s, (0.0,), (0.0,), (0.0,)) for time_s in times))
+
+
+def test_hold_slows_down_evenly_in_the_stop_time() -> None:
+    arm = Arm(rest_to_rest(1.0, 2.0))
+    assert arm.adapter.command(JointCommand(0, (0.002,))) is None
+    arm.now_ns = 1_000_000
+    state = arm.adapter.read()
+    assert (*state.positions, *state.velocities) == pytest.approx((0.001, 1.0))  # half of 2 ms
+    arm.now_ns = 2_000_000
+    arm.adapter.hold()
+    moved = []
+    for after_ms in (50, 100, 200):
+        arm.now_ns = (2 + after_ms) * 1_000_000
+        state = arm.adapter.read()
+        moved.append((*state.positions, *state.velocities))
+    # 1 rad/s falls to 0 in 0.1 s: after 0.05 s 0.002 + 0.05 - 0.05^2/0.2 at half the speed, then 0.002 + 0.1/2.
+    assert moved == [pytest.approx((0.0395, 0.5)), pytest.approx((0.052, 0.0)), pytest.approx((0.052, 0.0))]

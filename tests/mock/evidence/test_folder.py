@@ -119,13 +119,14 @@ def test_index_of_a_stranger_makes_nothing_else_disappear(cell: MockCell, tmp_pa
 
 
 def test_names_of_rehearsals_become_names_of_files_on_every_file_system() -> None:
-    names = ["pick", "Pick", "../up", "a/b", ".hidden", "", "ü", "report", "x" * 300, "con|aux"]
+    names = ["pick", "Pick", "../up", "a/b", ".hidden", "", "ü", "report", "x" * 300, "con|aux", "NUL", "aux.1"]
     stems = file_names(names)
     assert stems["pick"] == "pick"
     assert len({stem.casefold() for stem in stems.values()}) == len(names)
     for stem in stems.values():
         assert stem not in ("report", "evidence")
         assert not stem.startswith(".")
+        assert stem.partition(".")[0].casefold() not in ("aux", "nul")
         assert all(char.isascii() and (char.isalnum() or char in "_.-% ") for char in stem)
         assert len(f"{stem}.records.jsonl") < 255
 

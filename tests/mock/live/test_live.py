@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from mcap.reader import make_reader
 
+from cellc.extras import MissingExtraError
 from cellc.mock import MockCell
 from cellc.mock.command.options import MockOptions, run_mock
 from cellc.mock.errors import MockError
@@ -145,10 +146,9 @@ def test_options_that_do_not_go_together_are_told(options: dict[str, Any], said:
     assert replace(MockOptions("x"), **options).contradiction() == said
 
 
-def test_missing_sdk_is_told_with_what_to_install(
-    built_folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_missing_sdk_is_told_with_what_to_install(built_folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delitem(sys.modules, "cellc.mock.command.live", raising=False)
     monkeypatch.setitem(sys.modules, "foxglove", None)
-    assert run_mock(MockOptions(str(built_folder), rehearsals=("cancelled",), live=True)) == 2
-    assert "pip install 'cellc[live]'" in capsys.readouterr().err
+    told = re.escape("-m pip install 'foxglove-sdk>=0.30' 'mcap>=1.1'`")
+    with pytest.raises(MissingExtraError, match=told):
+        run_mock(MockOptions(str(built_folder), rehearsals=("cancelled",), live=True))

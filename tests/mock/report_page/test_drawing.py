@@ -71,3 +71,8 @@ def test_curve_is_broken_where_nothing_was_sampled() -> None:
 def test_ticks_are_round_values_inside_the_range() -> None:
     assert ticks(-0.61, 0.0, 4) == pytest.approx([-0.6, -0.4, -0.2, 0.0])
     assert ticks(0.0, 9.95, 6) == pytest.approx([0.0, 2.0, 4.0, 6.0, 8.0])
+
+
+def test_rounding_of_a_range_takes_no_tick_away() -> None:
+    # 0.6000000000000001 / 6 is a hair above 0.1, and 7 ticks of 0.1 fit.
+    assert ticks(0.0, 0.1 * 6, 6) == pytest.approx([0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6])

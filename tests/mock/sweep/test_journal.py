@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from cellc.compute.versions import versions
-from cellc.mock import MockCell, MockError
+from cellc.mock import MockCell, MockError, load
 from cellc.mock.sweep import journal as of_runs
 from cellc.mock.sweep.journal import Journal
 from cellc.mock.sweep.sweep import GoalRoom, SweepRun
@@ -29,6 +29,19 @@ def file(nest: MockCell, tmp_path: Path) -> Path:
     with Journal(tmp_path / "runs.jsonl", nest.contract, "put", 0) as journal:
         journal.keep(RUN)
     return tmp_path / "runs.jsonl"
+
+
+@pytest.mark.parametrize("line", [1, 2])
+def test_a_journal_of_any_size_is_refused_at_its_first_long_line(line: int, nest_folder: Path, tmp_path: Path) -> None:
+    mine = tmp_path / "runs.jsonl"
+    if line == 2:
+        with Journal(mine, load(nest_folder).contract, "put", 0):
+            pass
+    with mine.open("ab") as file:
+        file.truncate(8 << 30)
+    ran = run("mock", str(nest_folder), "--sweep", "3", "--jobs", "1", "--journal", str(mine))
+    assert (ran.code, f"line {line} has more than 1048576 bytes" in ran.err) == (2, True), ran
+    assert mine.stat().st_size == 8 << 30
 
 
 @pytest.mark.parametrize("notes", [b"my notes, one line", b"mine\n", b"{}", b"[]\n", b'{"journal":7}\n'])

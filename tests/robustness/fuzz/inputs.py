@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import copy
+import hashlib
 import json
 import random
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
+from itertools import pairwise
 from xml.etree import ElementTree
 
 import yaml
@@ -20,6 +22,13 @@ from tests.robustness.fuzz.tree_mutations import TreeMutator
 from tests.robustness.fuzz.xml_mutations import XmlMutator
 
 SPEC, FOLDER = "cell.yaml", "folder"
+URDF, XACRO, OUT = "device/robot.urdf", "device/robot.xacro", "out"
+"""What is imported, and the folder that it becomes."""
+_PACKAGE = b"<package><name>device</name><license>BSD</license></package>"
+_PARAMETERS = (
+    b"controller_manager: {ros__parameters: {update_rate: 250}}\n"
+    b"arm: {ros__parameters: {joints: [turn, lift], constraints: {goal_time: 0.6}}}\n"
+)
 _PARSED = ("contract.json", "rehearsals.json", "manifest.json")
 
 
@@ -218,6 +227,51 @@ def _parsed_jsons() -> tuple[Tree, ...]:
     return tuple(json.loads(folder.files[name]) for folder in bases.folders() for name in _PARSED)
 
 
+def _import(number: int, chance: random.Random) -> FuzzInput:
+    """Return the package of a robot as its vendor ships it, and at times what an earlier import left."""
+    devices, descriptions = bases.devices(), bases.descriptions()
+    index = chance.randrange(4 if chance.random() < 0.85 else len(devices))
+    root, base = copy.deepcopy(descriptions[index]), devices[index]
+    is_xacro = chance.random() < 0.12
+    files = _with_mesh(root, chance) if chance.random() < 0.4 else {}
+    if is_xacro:
+        root = ElementTree.fromstring(chance.choice(bases.xacros()))
+        files |= bases.xacro_files()
+    text = XmlMutator(root, descriptions, chance, xacro=is_xacro).mutate(_times(chance))
+    data = text.encode("utf-8", "surrogatepass")
+    for _ in range(_times(chance) if chance.random() < 0.15 else 0):
+        data = mutate_bytes(data, chance)
+    files[XACRO if is_xacro else URDF] = data
+    links = [one.get("name", "") for one in root.iter("link")]
+    for name, share, content in (
+        ("device/package.xml", 0.4, _PACKAGE),
+        ("device/robot.srdf", 0.4, _semantic(root.get("name", ""), links)),
+        ("device/controllers.yaml", 0.3, _PARAMETERS),
+    ):
+        if chance.random() < share:
+            files[name] = mutate_bytes(content, chance) if chance.random() < 0.7 else content
+    return FuzzInput("import", number, files | (_imported_before(base, chance) if chance.random() < 0.25 else {}))
+
+
+def _semantic(robot: str, links: Sequence[str]) -> bytes:
+    root = ElementTree.Element("robot", {"name": robot})
+    for first, second in pairwise(links):
+        ElementTree.SubElement(root, "disable_collisions", {"link1": first, "link2": second, "reason": "Adjacent"})
+    return ElementTree.tostring(root)
+
+
+def _imported_before(base: bases.DeviceBase, chance: random.Random) -> dict[str, bytes]:
+    """Return a device folder that the import shall replace."""
+    urdf = base.urdf.encode()
+    files: dict[str, Tree] = {"robot.urdf": f"sha256:{hashlib.sha256(urdf).hexdigest()}"}
+    lock: Tree = {"format": 1, "source": "robot.urdf", "files": files, "device": copied(base.facts)}
+    if chance.random() < 0.7:
+        lock = TreeMutator(lock, _parsed_jsons(), chance, json=True).mutate(_times(chance))
+    facts = _mutated(copied(base.facts), [one.facts for one in bases.devices()], chance)
+    left = {"robot.urdf": urdf, "device.yaml": facts, "import.lock.json": write_json(lock).encode("utf-8", "replace")}
+    return {f"{OUT}/{name}": data for name, data in left.items() if chance.random() < 0.9}
+
+
 DAMAGES = (
     "cut", "empty", "noise", "swap", "copy", "folder", "link", "fifo", "huge", "bomb", "garbled", "wrong shape",
     "not json", "other version", "old part", "no folder", "file for folder", "link for folder", "unreadable",
@@ -265,5 +319,6 @@ _MAKERS: Mapping[str, Callable[[int, random.Random], FuzzInput]] = {
     "description": _description,
     "folder": _folder,
     "cache": _cache,
+    "import": _import,
 }
 KINDS = tuple(_MAKERS)

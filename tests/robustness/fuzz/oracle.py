@@ -34,10 +34,11 @@ from cellc.report.resolved import flatten, resolved_tree
 from cellc.report.sarif_report import render_sarif
 from cellc.report.text_report import render_text
 from cellc.store.cache import OFF
+from tests.cli.run import run
 from tests.robustness.fuzz.bases import PARTS
 from tests.robustness.fuzz.cache_damage import damage_cache
 from tests.robustness.fuzz.forked_child import forking
-from tests.robustness.fuzz.inputs import FOLDER, SPEC, FuzzInput
+from tests.robustness.fuzz.inputs import FOLDER, OUT, SPEC, URDF, XACRO, FuzzInput
 
 SHARES = {"render": 0.05, "show": 0.1, "build": 0.08, "mock": 0.1, "forgetful": 0.05, "rehearse": 0.05}
 """How many of the inputs that come so far go through what a check does not need."""
@@ -90,6 +91,11 @@ class Sandbox:
                 file.write_bytes(data)
         self._written = dict(files)
 
+    def forget(self, folder: str) -> None:
+        """Remove a folder with all that was written into it."""
+        shutil.rmtree(self.folder / folder, ignore_errors=True)
+        self._written = {name: data for name, data in self._written.items() if not name.startswith(f"{folder}/")}
+
     def fill_cache(self) -> None:
         """Have the answers of the cell kept, where they are not from an input before."""
         key = tuple(sorted(self._written.items()))
@@ -117,7 +123,7 @@ def judge(given: FuzzInput, sandbox: Sandbox, *, in_child: bool = False) -> list
         try:
             with nullcontext() if in_child else forking(), _few_samples():
                 sandbox.write(given.files)
-                judged = {"folder": _generated, "cache": _remembered}.get(given.kind, _spec)
+                judged = {"folder": _generated, "cache": _remembered, "import": _imported}.get(given.kind, _spec)
                 return list(judged(given, sandbox))
         except Exception:
             return [Find("traceback", traceback.format_exc())]
@@ -192,6 +198,35 @@ def _generated(given: FuzzInput, sandbox: Sandbox) -> Iterator[Find]:
     except MockError as error:
         if not str(error).strip():
             yield Find("message", "refused without a word")
+
+
+def _imported(given: FuzzInput, sandbox: Sandbox) -> Iterator[Find]:
+    """Judge an import through its command: it succeeds, or is refused in words, and reaches nothing but its folder."""
+    before = _names(sandbox.folder)
+    try:
+        named = XACRO if XACRO in given.files else URDF
+        ran = run("import", named, "-o", OUT, *(["--cell"] if given.chance.random() < 0.5 else []))
+        said = ran.out + ran.err
+        if "Traceback" in said or "bug of cellc" in said or ran.code not in (0, 1, 2):
+            yield Find("traceback", said)
+        if not said.strip():
+            yield Find("message", "ended without a word")
+        for name in sorted(_names(sandbox.folder) - before - {SPEC}):
+            if not name.startswith(f"{OUT}/"):
+                yield Find("wrong answer", f"wrote `{name}`")
+        if ran.code == 0 and given.chance.random() < 0.2:
+            if run("import", "--check", OUT).code != 0:
+                yield Find("wrong answer", "what was imported is not as it was imported")
+            again = run("import", named, "-o", OUT)
+            if again.code != 0:
+                yield Find("wrong answer", f"a second import is refused: {again.out + again.err}")
+    finally:
+        sandbox.forget(OUT)
+        (sandbox.folder / SPEC).unlink(missing_ok=True)
+
+
+def _names(folder: Path) -> set[str]:
+    return {path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_symlink() or path.is_file()}
 
 
 def _remembered(given: FuzzInput, sandbox: Sandbox) -> Iterator[Find]:

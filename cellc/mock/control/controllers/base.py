@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
+from cellc.errors import CellcError
 from cellc.mock.control.hardware import CommandLimiter
 from cellc.mock.control.interfaces import Block, InterfaceTable
 from cellc.mock.control.log import Log
@@ -66,7 +67,7 @@ class Context:
         self.table.command[column] = value if self.limiter is None else self.limiter.limit(column, value)
 
 
-class ConfigureError(Exception):
+class ConfigureError(CellcError):
     """A transition of a controller failed.
 
     Args:

@@ -7,6 +7,7 @@ import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 
+from cellc.errors import CellcError
 from cellc.limits import limits
 from cellc.mock.errors import LimitReachedError
 
@@ -76,7 +77,7 @@ Requirement = Callable[[str, ParameterValue], str]
 """Check of one value: takes the parameter's name and value, returns the complaint or an empty string."""
 
 
-class ParameterError(Exception):
+class ParameterError(CellcError):
     """A parameter could not be declared or set.
 
     Args:

@@ -9,10 +9,11 @@ from typing import TypeAlias, cast
 
 import yaml
 
+from cellc.errors import CellcError
 from cellc.mock.control.parameters.declaration import ParameterValue, scalar
 
 
-class ParameterFileError(Exception):
+class ParameterFileError(CellcError):
     """The file is not one; a node that is given it ends before it starts.
 
     Args:

@@ -9,13 +9,14 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from importlib.resources import files
+from pathlib import Path
 from typing import BinaryIO
 
 import yaml
-from mcap.writer import CompressionType, Writer
 
 from cellc.contract.contract import ContractQos
+from cellc.extras import EVIDENCE, gate
+from cellc.store.regular_file import own_text
 
 _PRIMITIVES = ("byte", "float64", "int32", "string", "uint32")
 """Those that occur in the definitions here."""
@@ -78,9 +79,9 @@ def _parts(name: str, distro: str) -> list[str]:
 
 
 def _text(name: str, distro: str) -> str:
-    folder = files("cellc.mock.evidence.bag") / "msg"
+    folder = Path(__file__).with_name("msg")
     own = folder / distro / f"{name}.msg"
-    return (own if own.is_file() else folder / f"{name}.msg").read_text(encoding="utf-8")
+    return own_text(own if own.is_file() else folder / f"{name}.msg")
 
 
 def offered_qos_profiles(qos: ContractQos) -> str:
@@ -128,6 +129,8 @@ class Bag:
             distro: ROS 2 distribution whose message definitions count.
             metadata: kept as the MCAP metadata record ``cellc``.
         """
+        with gate(EVIDENCE):
+            from mcap.writer import CompressionType, Writer
         self._writer = Writer(file, compression=CompressionType.NONE)
         self._writer.start(PROFILE, LIBRARY)
         self._writer.add_metadata("cellc", dict(metadata))

@@ -1,0 +1,361 @@
+"""Breaks cellc in many small ways, and counts the mutants that the tests of their own folder notice.
+
+``python benchmarks/mutants.py [--count 200] [--seed 1] [--stage NAME] [--folder DIR]``. Mutants are drawn evenly by
+lines of code over the stages. ``FOLDERS`` says which tests are the nearest of a stage. They run once with probes, so
+that it is known which test executes which statement; then each mutant runs those alone, near and quick ones first, up
+to the first failure. What no test executes survives. Everything happens in a copy of the checkout in ``--folder``: a
+second call goes on where the first ended, and probes only files of tests that have changed.
+"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import importlib
+import json
+import os
+import random
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Iterator
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from functools import partial
+from itertools import accumulate
+from pathlib import Path
+
+import pytest
+from mutation.apart import ENDLESS, apart
+from mutation.mutations import Mutant, mutants_of
+from mutation.probe import Told, plant, record, statements
+from mutation.swap import swap
+
+ROOT = Path(__file__).resolve().parents[1]
+FOLDERS = {
+    "__main__.py": "cli",
+    "adapter": "mock/adapter",
+    "artifact.py": "output",
+    "cell": "cell link",
+    "compute": "compute",
+    "contract": "mock",
+    "deploy": "deploy",
+    "diagnostics": "report",
+    "edit": "cli",
+    "emit": "emit",
+    "importing": "foreign cli",
+    "limits.py": "description source",
+    "pins.py": "link",
+    "pipeline.py": "cli",
+    "printing.py": "printing",
+    "rules": "rules corpus",
+    "signals.py": "cli",
+    "store": "store",
+    "transforms.py": "mock/tf formats graph",
+    "version.py": "cli",
+    "vocabulary.py": "mock",
+}
+"""The nearest tests of a stage, where they are others than the folder of its name."""
+_LOADED = "numpy pydantic networkx yaml jsonschema click hypothesis xdist pinocchio ruckig xacro yourdfpy lxml.etree"
+_QUIET = ("-q", "-p", "no:cacheprovider", "-p", "no:xdist", "-o", "addopts=")
+_LONGEST_S = 10.0
+"""So long a file of tests may take with probes; what it tests beyond that is not asked."""
+_FEW = 25
+_NOTICED = ("killed", "endless")
+_MOMENT = [1_000_000_000]
+_ENDLESS = 5
+"""So many times as long as its tests take a mutant may take before it is taken for one that never ends."""
+
+
+@dataclass(frozen=True)
+class Reached:
+    """What the tests of a checkout execute, and how long each takes."""
+
+    took: dict[str, float]
+    executed: dict[tuple[str, int], set[str]]
+    """The tests that execute a statement, by its file and line."""
+    called: dict[str, set[str]]
+    """The tests that execute anything in a file."""
+    seconds: float = 40.0
+    """So long the tests of one mutant may take, as they took without it; the slowest are left out."""
+
+
+def main() -> None:
+    """Print the share of mutants that are noticed, by stage, and those that are not."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--count", type=int, default=200)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--stage", action="append", help="only this one")
+    parser.add_argument("--folder", type=Path, default=Path(tempfile.gettempdir(), "cellc_mutants"))
+    parser.add_argument("--probe", action="store_true", help="only ask which test executes what")
+    parser.add_argument("--known", action="store_true", help="ask of no further test what it executes")
+    parser.add_argument("--share", default="1/1", help="judge the first third of them with 1/3; all are shown")
+    parser.add_argument("--seconds", type=float, default=40.0, help="so long the tests of a mutant may take")
+    parser.add_argument("--again", action="store_true", help="judge anew what survived a former call")
+    options = parser.parse_args()
+    options.folder.mkdir(exist_ok=True, parents=True)
+    for name in _LOADED.split():
+        importlib.import_module(name)
+    wanted = options.stage or stages()
+    reached = reach(options, list(dict.fromkeys(folder for one in wanted for folder in folders_of(f"/{one}"))))
+    if options.probe:
+        return
+    chosen, tree = draw(options.count, options.seed, wanted), copied(options.folder / "tree")
+    record = options.folder / f"seed_{options.seed}.jsonl"
+    record.touch()
+    known = {name for name, end in _recorded(record).items() if not options.again or end["end"] in _NOTICED}
+    part, parts = map(int, options.share.split("/"))
+    rest = [one for one in chosen[part - 1 :: parts] if one.name not in known]
+    reached = replace(reached, seconds=options.seconds)
+    apart(tree, options.folder / "progress.txt", partial(_judge_each, rest, tree, reached, record), 1e6)
+    ends = {one.name: {"end": "not judged"} for one in chosen} | _recorded(record)
+    summary(chosen, {one.name: ends[one.name]["end"] for one in chosen})
+
+
+def _judge_each(chosen: list[Mutant], tree: Path, reached: Reached, record: Path) -> int:
+    """Judge mutants from a process that has loaded what they change."""
+    _load(file.relative_to(tree).as_posix() for file in sorted((tree / "cellc").rglob("*.py")))
+    for one in chosen:
+        begin = time.monotonic()
+        end = {"name": one.name} | judged(one, tree, reached)
+        with record.open("a", encoding="utf-8") as out:
+            out.write(json.dumps(end) + "\n")
+        print(f"{time.monotonic() - begin:.1f}", end["end"], one.name, end["by"], flush=True)
+    return 0
+
+
+def _recorded(record: Path) -> dict[str, dict[str, str]]:
+    lines = record.read_text(encoding="utf-8").splitlines()
+    return {end["name"]: end for end in map(json.loads, lines)}
+
+
+def _load(sources: Iterable[str]) -> None:
+    for source in sources:
+        if not source.endswith("__main__.py"):
+            with suppress(ImportError):  # an extra that is not there
+                importlib.import_module(source.removesuffix(".py").removesuffix("/__init__").replace("/", "."))
+
+
+def summary(chosen: list[Mutant], ends: dict[str, str]) -> None:
+    """Print the figures by stage, then the survivors."""
+    total = Counter(stage_of(one.file) for one in chosen)
+    noticed = Counter(stage_of(one.file) for one in chosen if ends[one.name] in _NOTICED)
+    for stage in sorted(total):
+        print(f"{stage:16} {noticed[stage]:4} of {total[stage]}")
+    for one in chosen:
+        if ends[one.name] not in _NOTICED:
+            print(ends[one.name], one.name)
+    killed = sum(noticed.values())
+    print(f"{killed} of {len(chosen)} mutants noticed, {killed / len(chosen):.1%}")
+
+
+def stages() -> list[str]:
+    """Return the parts of cellc that have sources."""
+    return sorted({stage_of(file.relative_to(ROOT).as_posix()) for file in (ROOT / "cellc").rglob("*.py")})
+
+
+def stage_of(file: str) -> str:
+    """Return the part of cellc that a source belongs to."""
+    return file.split("/")[1]
+
+
+def folders_of(file: str) -> list[str]:
+    """Return the nearest tests of a source, as folders."""
+    stage = stage_of(file)
+    return [f"tests/{folder}" for folder in FOLDERS.get(stage, stage).split()]
+
+
+def draw(count: int, seed: int, wanted: list[str]) -> list[Mutant]:
+    """Draw mutants, so many of each stage as it has a share in the lines of code, in an order that says nothing."""
+    chance = random.Random(seed)
+    found = list(_drawn(count, chance, wanted))
+    chance.shuffle(found)
+    return found
+
+
+def _drawn(count: int, chance: random.Random, wanted: list[str]) -> Iterator[Mutant]:
+    files = defaultdict(list)
+    for file in sorted((ROOT / "cellc").rglob("*.py")):
+        lines = sum(1 for line in file.read_text(encoding="utf-8").splitlines() if line.strip())
+        files[stage_of(file.relative_to(ROOT).as_posix())].append((file, lines))
+    sizes = {stage: sum(lines for _, lines in files[stage]) for stage in wanted}
+    exact = {stage: count * size / sum(sizes.values()) for stage, size in sizes.items()}
+    quota = {stage: int(share) for stage, share in exact.items()}
+    for stage in sorted(exact, key=lambda one: quota[one] - exact[one])[: count - sum(quota.values())]:
+        quota[stage] += 1
+    for stage in wanted:
+        drawn: set[tuple[str, int]] = set()
+        while len(drawn) < quota[stage]:
+            file = chance.choices([file for file, _ in files[stage]], [lines for _, lines in files[stage]])[0]
+            found = mutants_of(file, ROOT)
+            line = chance.choice(sorted({one.line for one in found} or {0}))
+            if line and (str(file), line) not in drawn:
+                drawn.add((str(file), line))
+                yield chance.choice([one for one in found if one.line == line])
+
+
+def copied(tree: Path) -> Path:
+    """Bring a copy of what git knows or would add up to date; what was compiled there stays."""
+    command = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
+    listed = subprocess.run(command, cwd=ROOT, check=True, capture_output=True).stdout.decode().split("\0")
+    wanted = {name for name in listed if name and (ROOT / name).is_file()}
+    for source in tree.rglob("*.py"):
+        if source.relative_to(tree).as_posix() not in wanted:
+            source.unlink()
+    for name in sorted(wanted):
+        if not (tree / name).is_file() or (tree / name).read_bytes() != (ROOT / name).read_bytes():
+            (tree / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(ROOT / name, tree / name)
+    return tree
+
+
+def reach(options: argparse.Namespace, wanted: list[str]) -> Reached:
+    """Run the tests with probes where that is not known yet, and return what they execute."""
+    folder: Path = options.folder
+    store = folder / "reached"
+    store.mkdir(exist_ok=True)
+    files = list(dict.fromkeys(file for name in wanted for file in sorted((ROOT / name).rglob("test_*.py"))))
+    kept = {file: store / f"{hashlib.sha256(file.read_bytes()).hexdigest()[:24]}.json" for file in files}
+    missing = [file for file in files if not kept[file].exists()]
+    if missing and not options.known:
+        probed = copied(folder / "probed")
+        places = plant(probed)
+        if apart(probed, folder / "log.txt", partial(_probe_each, probed, missing, places, kept), 1e6):
+            sys.exit(f"the tests could not be run with probes: {folder / 'log.txt'} says why")
+    took: dict[str, float] = {}
+    executed, called = defaultdict(set), defaultdict(set)
+    for file in (file for file in files if kept[file].exists()):
+        told = json.loads(kept[file].read_text(encoding="utf-8"))
+        took |= told["took"]
+        for test, numbers in told["executed"].items():
+            for source, line in (told["places"][str(number)] for number in numbers):
+                executed[source, line].add(test)
+                called[source].add(test)
+    return Reached(took, executed, called)
+
+
+def _probe_each(probed: Path, missing: list[Path], places: list[tuple[str, int]], kept: dict[Path, Path]) -> int:
+    """Run files of tests, each in a process of its own: what is kept for a session is built for each."""
+    _load(sorted({source for source, _ in places}))
+    for file in (file for file in missing if not kept[file].exists()):
+        begin = time.monotonic()
+        code = apart(probed, probed / "log.txt", partial(_probe, probed, file, places, kept[file]), 4 * _LONGEST_S)
+        if not kept[file].exists():
+            record(Told(_LONGEST_S), probed / "hits.txt", places, kept[file])
+        with (probed / "../probed.txt").open("a") as out:
+            out.write(f"{file.relative_to(ROOT)} {code} {time.monotonic() - begin:.1f}\n")
+    return 0
+
+
+def _probe(probed: Path, file: Path, places: list[tuple[str, int]], kept: Path) -> int:
+    hits, told = probed / "hits.txt", Told(_LONGEST_S)
+    hits.write_text("", encoding="utf-8")
+    os.environ["CELLC_MUTANTS_HITS"] = str(hits)
+    code = int(pytest.main([*_QUIET, file.relative_to(ROOT).as_posix()], plugins=[told]))
+    record(told, hits, places, kept)
+    return code
+
+
+@dataclass(frozen=True, eq=False)  # pytest keeps its plugins in a set
+class Chosen:
+    """A plugin of pytest that runs these tests alone, in this order, and those that were not there before."""
+
+    order: dict[str, int]
+    known: dict[str, float]
+    told: Path
+
+    @pytest.hookimpl(trylast=True)
+    def pytest_collection_modifyitems(self, items: list[pytest.Item]) -> None:
+        kept = [item for item in items if item.nodeid in self.order or item.nodeid not in self.known]
+        items[:] = sorted(kept, key=lambda item: self.order.get(item.nodeid, len(self.order)))
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        if report.failed:
+            self.told.write_text(report.nodeid, encoding="utf-8")
+
+
+def judged(mutant: Mutant, tree: Path, reached: Reached) -> dict[str, str]:
+    """Run the tests that may notice a mutant until one fails: a few that are near and quick, then the others."""
+    tests = candidates(mutant, reached)
+    if not tests:
+        return {"end": "unreached", "by": ""}
+    file = tree / mutant.file
+    file.write_bytes(mutant.applied((ROOT / mutant.file).read_bytes()))
+    _mark_as_new(file)
+    try:
+        for some in (tests[:_FEW], tests[_FEW:]):
+            if some:
+                end, by = _run(some, mutant, tree, reached)
+                if end != "survived":
+                    return {"end": end, "by": by}
+        return {"end": "survived", "by": f"{len(tests)} tests"}
+    finally:
+        shutil.copy2(ROOT / mutant.file, file)
+
+
+def _run(tests: list[str], mutant: Mutant, tree: Path, reached: Reached) -> tuple[str, str]:
+    """Run tests in this order up to the first that fails; return how that ended, and which noticed it."""
+    told = tree.parent / "failed.txt"
+    told.write_text("", encoding="utf-8")
+    files = sorted({test.partition("::")[0] for test in tests})
+    plugin = Chosen({test: at for at, test in enumerate(tests)}, reached.took, told)
+
+    def work() -> int:
+        if mutant.statements:
+            source = (ROOT / mutant.file).read_bytes()
+            swap(tree / mutant.file, source, mutant.applied(source))
+        else:
+            for name in [name for name in sys.modules if name.partition(".")[0] == "cellc"]:
+                del sys.modules[name]
+        return int(pytest.main([*_QUIET, "-x", *files], plugins=[plugin]))
+
+    seconds = _ENDLESS * sum(reached.took[test] for test in tests) + 30
+    code = apart(tree, tree.parent / "log.txt", work, seconds)
+    if code in (0, 5):
+        return "survived", ""
+    if code == pytest.ExitCode.INTERNAL_ERROR:
+        return "not judged", f"{tree.parent / 'log.txt'} says why"
+    return ("endless" if code == ENDLESS else "killed"), told.read_text(encoding="utf-8") or f"exit code {code}"
+
+
+def candidates(mutant: Mutant, reached: Reached) -> list[str]:
+    """Return the tests that may notice a mutant: those that execute it, the rest of their files, the quickest first.
+
+    Others of a file matter where the first of them builds what all look at. What a module evaluates as it is
+    imported is looked at by each test that calls a function of it, or by every one where it has none.
+    """
+    folders = tuple(f"{folder}/" for folder in folders_of(mutant.file))
+    near = {test for test in reached.took if test.startswith(folders)}
+    if mutant.statements:
+        probed = {line for line, _ in statements((ROOT / mutant.file).read_bytes())}
+        line = next((one for one in mutant.statements if one in probed), 0)
+        direct = reached.executed.get((mutant.file, line), set()) & near
+    else:
+        direct = (reached.called.get(mutant.file, set()) & near) or near
+    own = Path(mutant.file).stem
+
+    def nearness(test: str) -> tuple[bool, bool, float]:
+        return not test.startswith(folders[0]), own not in test, reached.took[test]
+
+    files = {test.partition("::")[0] for test in direct}
+    beside = [test for test in near - direct if test.partition("::")[0] in files]
+    return [*_within(sorted(direct, key=nearness), reached), *_within(sorted(beside, key=nearness), reached)]
+
+
+def _within(tests: list[str], reached: Reached) -> list[str]:
+    """Return the first of some tests, as far as the time for one mutant goes."""
+    sums = accumulate(reached.took[test] for test in tests)
+    return [test for test, total in zip(tests, sums, strict=True) if total < reached.seconds]
+
+
+def _mark_as_new(file: Path) -> None:
+    """Give a source a time of its own: bytecode is known by the second in which its source was written."""
+    _MOMENT[0] += 10
+    os.utime(file, (_MOMENT[0], _MOMENT[0]))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,11 @@
+"""The base of every exception that cellc raises on purpose: ``except CellcError`` catches what a caller can answer.
+
+What is wrong with a user's file is a diagnostic, not an exception. An exception says that a call cannot be answered at
+all; its text is one line for people.
+"""
+
+from __future__ import annotations
+
+
+class CellcError(Exception):
+    """A call cannot be answered; the text says why in one line."""

@@ -1,0 +1,137 @@
+"""What a person has after README's first command, and what a release would hold: made once for all who ask.
+
+The command is run to the letter, in a copy of the files of this repository, with the interpreter of the tests.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+from tests.cells import ROOT
+from tests.cli.run import Ran
+
+_LEFT_OUT = (":!tests", ":!benchmarks", ":!docs")
+_DRIVER = """\
+import contextlib, io, json, os, sys
+from cellc.cli.main import run
+for words in json.load(sys.stdin):
+    out, err = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        try:
+            code = run(words)
+        except BaseException as end:
+            code, _ = 99, print(repr(end), file=err)
+    print(json.dumps([code, out.getvalue(), err.getvalue()]))
+"""
+_TREE = """\
+import click, json
+from cellc.cli.main import cellc
+def walk(name, command):
+    if not isinstance(command, click.Group):
+        return [name]
+    context = click.Context(command)
+    return [part for sub in command.list_commands(context)
+            for part in walk(f"{name} {sub}".strip(), command.get_command(context, sub))]
+print(json.dumps(walk("", cellc)))
+"""
+
+
+@dataclass(frozen=True, slots=True)
+class Install:
+    """A copy of the repository in which README's first command was run.
+
+    Attributes:
+        told: what the command printed.
+        dist: folder with a wheel and an sdist of the copy.
+    """
+
+    checkout: Path
+    told: Ran
+    dist: Path
+
+    @property
+    def python(self) -> Path:
+        """The interpreter of the environment."""
+        return self.checkout / ".venv/bin/python"
+
+    def calls(self, calls: Sequence[Sequence[str]], folder: Path) -> list[Ran]:
+        """Run commands one after another in a folder, in one process of the environment."""
+        done = run([str(self.python), "-I", "-c", _DRIVER], folder, json.dumps(calls))
+        assert done.code == 0, done.err
+        return [Ran(*json.loads(line)) for line in done.out.splitlines()]
+
+    def commands(self) -> list[str]:
+        """Return every command and subcommand that the installed program has."""
+        done = run([str(self.python), "-I", "-c", _TREE], self.checkout)
+        assert done.code == 0, done.err
+        names: list[str] = json.loads(done.out)
+        return names
+
+
+def first_command() -> str:
+    """Return the first command of README."""
+    found = re.search(r"```sh\n(.*?)\n```", (ROOT / "README.md").read_text(encoding="utf-8"), re.DOTALL)
+    assert found is not None
+    return found[1]
+
+
+def installed(folder: Path) -> Install:
+    """Return what is in a folder, made there by the first of several processes that ask."""
+    done = Install(folder / "checkout", Ran(0, "", ""), folder / "dist")
+    record = folder / "told.json"
+    with (folder / "lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not record.exists():
+            record.write_text(json.dumps(_make(done, folder / "tools")), encoding="utf-8")
+        code, out, err = json.loads(record.read_text(encoding="utf-8"))
+    if code is None:
+        if os.environ.get("CI") == "true":
+            pytest.fail(f"no package index is within reach: {err}")
+        pytest.skip("no package index is within reach, so nothing can be installed as a user does")
+    return Install(done.checkout, Ran(code, out, err), done.dist)
+
+
+def _make(install: Install, tools: Path) -> tuple[int | None, str, str]:
+    """Make everything; the code is None where no index answers."""
+    assert run([sys.executable, "-m", "venv", str(tools)], ROOT).code == 0
+    python = str(tools / "bin/python")
+    found = run([python, "-m", "pip", "install", "-q", "hatchling"], ROOT)
+    if found.code != 0:
+        return None, found.out, found.err
+    _copy(install.checkout)
+    built = run([python, "-I", "-m", "hatchling", "build", "-d", str(install.dist)], install.checkout)
+    assert built.code == 0, built.err
+    # pip compiles every library otherwise, for longer than it installs them; Python does it where one is used.
+    told = run(["bash", "-c", first_command()], install.checkout, extra={"PIP_NO_COMPILE": "1"})
+    return told.code, told.out, told.err
+
+
+def _copy(place: Path) -> None:
+    listed = run(["git", "ls-files", "-zco", "--exclude-standard", "--", ".", *_LEFT_OUT], ROOT)
+    assert listed.code == 0, listed.err
+    for name in filter(None, listed.out.split("\0")):
+        if (ROOT / name).is_file():
+            (place / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(ROOT / name, place / name)
+
+
+def run(command: Sequence[str], folder: Path, text: str = "", extra: Mapping[str, str] | None = None) -> Ran:
+    """Run a program with the environment of a person who has no virtual environment active."""
+    own = {"PIP_DISABLE_PIP_VERSION_CHECK": "1", **(extra or {})}
+    kept = {key: value for key, value in os.environ.items() if key not in ("VIRTUAL_ENV", "PYTHONPATH")}
+    path = os.pathsep.join([str(Path(sys._base_executable).parent), kept["PATH"]])  # type: ignore[attr-defined]
+    done = subprocess.run(
+        command, cwd=folder, env=kept | own | {"PATH": path}, input=text, capture_output=True, text=True, check=False
+    )
+    return Ran(done.returncode, done.stdout, done.stderr)

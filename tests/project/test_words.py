@@ -1,0 +1,134 @@
+"""The words of texts that people read: how many banned ones are left, by folder. The numbers may only sink."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from tests.project.words import BANNED, banned, files, folder_of, inner, printed, suggestion
+
+PRINTED = {
+    "CONTRIBUTING.md": 14,
+    "README.md": 11,
+    "SECURITY.md": 13,
+    "action.yml": 1,
+    "benchmarks": 6,
+    "cellc": 2,
+    "cellc/adapter": 1,
+    "cellc/catalog": 68,
+    "cellc/cli": 4,
+    "cellc/contract": 20,
+    "cellc/deploy": 1,
+    "cellc/description": 2,
+    "cellc/diagnose": 1,
+    "cellc/importing": 3,
+    "cellc/layout": 3,
+    "cellc/link": 19,
+    "cellc/mock": 21,
+    "cellc/output": 5,
+    "cellc/report": 6,
+    "cellc/review": 12,
+    "cellc/rules": 1,
+    "cellc/spec": 25,
+    "cellc/view": 30,
+    "cells": 7,
+    "docs": 134,
+    "pyproject.toml": 3,
+}
+"""Banned words in printed texts by folder: messages, pages, generated packages. A folder without a row has none."""
+
+INNER = {
+    "benchmarks": 39,
+    "cellc": 56,
+    "cellc/adapter": 14,
+    "cellc/browse": 8,
+    "cellc/catalog": 54,
+    "cellc/cell": 66,
+    "cellc/cli": 74,
+    "cellc/compute": 26,
+    "cellc/contract": 16,
+    "cellc/deploy": 72,
+    "cellc/description": 48,
+    "cellc/diagnose": 29,
+    "cellc/diagnostics": 11,
+    "cellc/edit": 6,
+    "cellc/emit": 112,
+    "cellc/feasibility": 12,
+    "cellc/formats": 30,
+    "cellc/graph": 20,
+    "cellc/importing": 35,
+    "cellc/layout": 22,
+    "cellc/link": 105,
+    "cellc/lsp": 50,
+    "cellc/mock": 368,
+    "cellc/output": 12,
+    "cellc/planning": 48,
+    "cellc/report": 23,
+    "cellc/review": 127,
+    "cellc/rules": 76,
+    "cellc/source": 12,
+    "cellc/spec": 36,
+    "cellc/store": 27,
+    "cellc/verify": 5,
+    "cellc/view": 56,
+}
+"""Banned words in docstrings, comments and public names by folder."""
+
+
+@pytest.mark.parametrize(("texts", "left"), [(printed, PRINTED), (inner, INNER)], ids=["printed", "inner"])
+def test_banned_words_only_get_fewer(texts: Callable[[Path], list[str]], left: dict[str, int]) -> None:
+    """Where a folder has more than it had, the words of its files are listed with what to write instead."""
+    found = _found(texts)
+    more = {folder for folder, words in found.items() if words.total() > left.get(folder, 0)}
+    shown = [
+        f"{file}: {word} ({times} x): write {suggestion(word)}"
+        for file, words in _by_file(texts).items()
+        for word, times in words.items()
+        if folder_of(file) in more
+    ]
+    counts = {folder: (found[folder].total(), left.get(folder, 0)) for folder in sorted(more)}
+    assert not more, f"more banned words than allowed (found, allowed): {counts}\n" + "\n".join(shown)
+
+
+def _found(texts: Callable[[Path], list[str]]) -> dict[str, Counter[str]]:
+    found: dict[str, Counter[str]] = {}
+    for file, words in _by_file(texts).items():
+        found.setdefault(folder_of(file), Counter()).update(words)
+    return found
+
+
+@cache
+def _by_file(texts: Callable[[Path], list[str]]) -> dict[Path, Counter[str]]:
+    return {file: Counter(word for text in texts(file) for word in banned(text)) for file in files()}
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("Nobody answers for it.", ["nobody", "answers for"]),
+        ("It is told its behaviour, in metres.", ["told", "behaviour", "metres"]),
+        ("centimetres, CENTRED", ["centimetres", "centred"]),
+        ("A key such as `behaviour` is code, and `metres` too.", []),
+        ("```\nit went\n```\nIt is always safe, likewise withstands.", []),
+        ("They move at once.", ["at once"]),
+    ],
+)
+def test_words_are_found_outside_of_code(text: str, words: list[str]) -> None:
+    assert banned(text) == words
+
+
+def test_every_banned_word_has_something_to_write_instead() -> None:
+    assert all(BANNED.values())
+
+
+if __name__ == "__main__":
+    for name, texts in (("PRINTED", printed), ("INNER", inner)):
+        print(f"{name} = {{")
+        for folder, words in sorted(_found(texts).items()):
+            if words.total():
+                print(f'    "{folder}": {words.total()},')
+        print("}")
