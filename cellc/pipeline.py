@@ -21,6 +21,7 @@ from cellc.diagnostics import Diagnostic, Outcome, Severity, Span
 from cellc.diagnostics.diagnostic import CodePage, Findings, counted, findings_table
 from cellc.diagnostics.unsafe_text import escaped
 from cellc.graph.cell_graph import CellGraph, build_graph
+from cellc.limits import limits
 from cellc.link.link import bare_cell, link
 from cellc.printing import stage
 from cellc.rules.ignores import apply_ignores, ignore_comments, misused_ignores
@@ -149,6 +150,13 @@ def _checked_model(path: Path, read: tuple[Diagnostic, ...], cell: Cell | None) 
     stage("rules")
     ruled = () if cell is None else run_rules(build_graph(cell), _ON_MODELS)
     return _checked(path.as_posix(), {}, _sorted([*read, *ruled]))
+
+
+def not_begun(file: str) -> Findings:
+    """Return what is found of a spec that no time of its command was left for."""
+    message = f"all specs of one command must take at most {limits().command_seconds} s of processor time together"
+    told = finding("command-too-long", message, Span(file, 1, 1, 1, 1), limit="command-seconds")
+    return Findings(file, {}, (told,))
 
 
 def compile_cell(checked: Checked) -> Outcome[tuple[Artifact, ...]]:

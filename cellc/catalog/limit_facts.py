@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from pydantic import Field
 
@@ -25,13 +26,10 @@ UNKNOWN = "UNKNOWN"
 
 
 class JointLimitFact(CatalogModel):
-    """A limit of one joint, or of every joint (``*``).
+    """A limit of one joint, or of every joint (``*``): its figures, then their source."""
 
-    Attributes:
-        source: Document with its version; that of an assumed figure begins with ``UNKNOWN``.
-    """
-
-    source: Text
+    if TYPE_CHECKING:  # each kind declares it after its figures: the order of the reference and of `cellc format`
+        source: Text
 
     @property
     def assumed(self) -> bool:
@@ -52,10 +50,12 @@ class PositionLimit(JointLimitFact):
     Attributes:
         lower: Smallest position.
         upper: Largest position.
+        source: Document with its version; that of an assumed figure begins with ``UNKNOWN``.
     """
 
     lower: JointPosition
     upper: JointPosition
+    source: Text
 
 
 class VelocityLimit(JointLimitFact):
@@ -63,9 +63,11 @@ class VelocityLimit(JointLimitFact):
 
     Attributes:
         value: Largest velocity.
+        source: Document with its version; that of an assumed figure begins with ``UNKNOWN``.
     """
 
     value: JointVelocity
+    source: Text
 
 
 class EffortLimit(JointLimitFact):
@@ -73,9 +75,11 @@ class EffortLimit(JointLimitFact):
 
     Attributes:
         value: Largest torque or force.
+        source: Document with its version; that of an assumed figure begins with ``UNKNOWN``.
     """
 
     value: JointEffort
+    source: Text
 
 
 class AccelerationLimit(JointLimitFact):
@@ -83,9 +87,11 @@ class AccelerationLimit(JointLimitFact):
 
     Attributes:
         value: Largest acceleration.
+        source: Document with its version; that of an assumed figure begins with ``UNKNOWN``.
     """
 
     value: JointAcceleration
+    source: Text
 
 
 class JerkLimit(JointLimitFact):
@@ -93,9 +99,11 @@ class JerkLimit(JointLimitFact):
 
     Attributes:
         value: Largest jerk.
+        source: Document with its version; that of an assumed figure begins with ``UNKNOWN``.
     """
 
     value: JointJerk
+    source: Text
 
 
 class PayloadLimit(CatalogModel):

@@ -20,7 +20,6 @@ from cellc.artifact import Artifact
 from cellc.catalog.compiled import DEVICE_FILE
 from cellc.cli.fleet import USUAL, Fan, Task
 from cellc.description.packages import package_path, use_packages
-from cellc.diagnostics import Span
 from cellc.diagnostics.diagnostic import Findings
 from cellc.limits import Limits, children_seconds, limits, use
 from cellc.printing import progress, remark, time_left
@@ -157,8 +156,10 @@ def results(kind: Kind, tasks: Sequence[Task], fan: Fan = USUAL) -> Iterator[Cel
         for number, task in enumerate(tasks):
             update(f"{number + 1} of {len(tasks)}, {task.file}{time_left(number, len(tasks), monotonic() - begun)}")
             if spent_s > limits().command_seconds:
+                from cellc.pipeline import not_begun
+
                 computed.close()
-                yield _not_begun(task)
+                yield CellResult(not_begun(task.file))
                 continue
             result = next(computed)
             spent_s += result.seconds
@@ -170,15 +171,6 @@ def results(kind: Kind, tasks: Sequence[Task], fan: Fan = USUAL) -> Iterator[Cel
             beside.append(result.cell)
             # An error stops the artifacts.
             yield replace(result, findings=result.findings.with_more(against), artifacts=None) if against else result
-
-
-def _not_begun(task: Task) -> CellResult:
-    from cellc.source.codes import finding
-
-    most = limits().command_seconds
-    message = f"the specs of one call must take at most {most} s of processor time; those before this one took more"
-    told = finding("command-too-long", message, Span(task.file, 1, 1, 1, 1), limit="command-seconds")
-    return CellResult(Findings(task.file, {}, (told,)))
 
 
 def _hire(fan: Fan, kind: Kind, tasks: int) -> Hire | None:

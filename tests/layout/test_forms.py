@@ -110,7 +110,7 @@ FORMS = {
         "limits: {payload: {source: s, value: 5kg},  velocity_everywhere: {b: {source: s, value: 2rad/s}, a: {}}}\n"
         "# whose\nvendor:  nobody\nmodel: arm\nown: x\nkind: arm\nformat: 1   # of the file\n",
         "# head\n\nformat: 1   # of the file\nmodel: arm\n# whose\nvendor: nobody\nkind: arm\n"
-        "limits: {velocity_everywhere: {b: {source: s, value: 2 rad/s}, a: {}}, payload: {value: 5 kg, source: s}}\n"
+        "limits: {velocity_everywhere: {b: {value: 2 rad/s, source: s}, a: {}}, payload: {value: 5 kg, source: s}}\n"
         "own: x\n",
     ),
     "a comment at the end of a section stays in it": (
