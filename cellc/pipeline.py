@@ -155,8 +155,8 @@ def _checked_model(path: Path, read: tuple[Diagnostic, ...], cell: Cell | None) 
 def not_begun(file: str) -> Findings:
     """Return what is found of a spec that no time of its command was left for."""
     message = f"all specs of one command must take at most {limits().command_seconds} s of processor time together"
-    told = finding("command-too-long", message, Span(file, 1, 1, 1, 1), limit="command-seconds")
-    return Findings(file, {}, (told,))
+    cut = finding("command-too-long", message, Span(file, 1, 1, 1, 1), limit="command-seconds")
+    return Findings(file, {}, (cut,))
 
 
 def compile_cell(checked: Checked) -> Outcome[tuple[Artifact, ...]]:
