@@ -152,8 +152,8 @@ def _checked_model(path: Path, read: tuple[Diagnostic, ...], cell: Cell | None) 
     return _checked(path.as_posix(), {}, _sorted([*read, *ruled]))
 
 
-def not_begun(file: str) -> Findings:
-    """Return what is found of a spec that no time of its command was left for."""
+def not_started(file: str) -> Findings:
+    """Return the finding of a spec for which its command had no time left."""
     message = f"all specs of one command must take at most {limits().command_seconds} s of processor time together"
     cut = finding("command-too-long", message, Span(file, 1, 1, 1, 1), limit="command-seconds")
     return Findings(file, {}, (cut,))

@@ -156,10 +156,10 @@ def results(kind: Kind, tasks: Sequence[Task], fan: Fan = USUAL) -> Iterator[Cel
         for number, task in enumerate(tasks):
             update(f"{number + 1} of {len(tasks)}, {task.file}{time_left(number, len(tasks), monotonic() - begun)}")
             if spent_s > limits().command_seconds:
-                from cellc.pipeline import not_begun
+                from cellc.pipeline import not_started
 
                 computed.close()
-                yield CellResult(not_begun(task.file))
+                yield CellResult(not_started(task.file))
                 continue
             result = next(computed)
             spent_s += result.seconds
