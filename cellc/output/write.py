@@ -11,7 +11,7 @@ from cellc.diagnostics import Diagnostic, Outcome
 from cellc.output.codes import finding
 from cellc.output.manifest import MANIFEST, hashes_in
 from cellc.output.plan import Plan, check_paths, check_places, content_of, plan
-from cellc.store.swap import Swap, discard, is_alive, make_staging, others, remove_folder, staging_of, write_new
+from cellc.store.swap import Swap, contested, discard, make_staging, others, remove_folder, staging_of, write_new
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -94,7 +94,7 @@ class _Writing:
         return () if self.force else tuple(_edited(path, self.folder) for path in planned.edited)
 
     def _busy(self) -> tuple[Diagnostic, ...]:
-        if any(is_alive(staging) for staging in others(self.folder)):
+        if contested(self.folder):
             message = f"another build is writing `{self.folder.as_posix()}`"
             return (finding("output-busy", message, self.folder),)
         return ()

@@ -23,9 +23,16 @@ from typing import BinaryIO
 
 from cellc.store.regular_file import open_regular
 
+if sys.platform != "win32":
+    import fcntl
+
 _MAKER = re.compile("(?:[0-9a-f]{8}-)?[0-9]{1,10}")
 _RUN = os.urandom(4).hex()
 """Tells this run from a killed one whose process had the same number, as every run in a container has."""
+_LOCK = ".cellc-lock"
+"""A file in a staging folder that is locked as long as its maker runs: what no archive and no repository can carry."""
+_locks: dict[Path, BinaryIO] = {}
+"""The locks that this process holds, by their staging folders."""
 
 
 @dataclass
@@ -118,22 +125,37 @@ def staging_of(folder: Path) -> Path:
 
 
 def make_staging(folder: Path) -> Path:
-    """Make the staging folder of this process, marked as made by cellc.
+    """Make the staging folder of this process, marked as made by cellc, and locked until it is discarded.
 
     Raises:
         OSError: something stands there, or writing is refused.
     """
     staging = staging_of(folder)
     os.mkdir(staging, 0o1777)
+    if sys.platform != "win32":
+        _locks[staging] = lock = open_new(staging / _LOCK)
+        with contextlib.suppress(OSError):  # a file system without locks: builds there do not see each other
+            fcntl.flock(lock, fcntl.LOCK_EX)
     return staging
+
+
+def contested(folder: Path) -> bool:
+    """Whether another process that runs is making files ready for the same folder.
+
+    Whoever made a staging folder asks again: of two at once, the one that asks later sees the other. One that was at
+    work before it had its lock was taken for a killed one, and its folder is gone.
+    """
+    own = staging_of(folder)
+    overtaken = own in _locks and not _is_staging(own)
+    return overtaken or any(is_alive(staging) for staging in others(folder))
 
 
 def others(folder: Path) -> tuple[Path, ...]:
     """Return staging folders that other processes made for the same folder.
 
-    One that came with files of a stranger is none: it would keep every build away by the number of a process that
-    lives for ever, or pass edits of a person off as those of a killed build. The mark is the sticky bit, which git
-    stores of no folder, and which Linux sets as it makes one (mkdir(2)); other systems do not, and all count there.
+    One that came with files of a stranger is none: it would pass edits of a person off as those of a killed build. The
+    mark is the sticky bit, which git stores of no folder, and which Linux sets as it makes one (mkdir(2)); other
+    systems do not, and all count there.
     """
     own = staging_of(folder)
     return tuple(path for path in _temporaries(folder) if path != own and _is_staging(path))
@@ -165,8 +187,22 @@ def _temporaries(path: Path) -> tuple[Path, ...]:
 
 
 def is_alive(staging: Path) -> bool:
-    """Whether the process that made the staging folder still runs."""
-    number = staging.name.rpartition("-")[2]
+    """Whether the process that made the staging folder still runs: it holds the lock in it."""
+    if sys.platform == "win32":
+        return False
+    try:
+        with open_regular(staging / _LOCK, follow=False) as lock:
+            fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return True
+    except OSError:  # no lock, or a file system without locks
+        return False
+    return False
+
+
+def _runs(part: Path) -> bool:
+    """Whether there is a process of the number that the name of a temporary file has."""
+    number = part.name.rpartition("-")[2]
     if os.name != "posix" or int(number) in (0, os.getpid()):
         return False
     try:
@@ -181,6 +217,9 @@ def is_alive(staging: Path) -> bool:
 def discard(staging: Path) -> None:
     """Remove a staging folder as far as the system lets."""
     shutil.rmtree(staging, ignore_errors=True)
+    lock = _locks.pop(staging, None)
+    if lock is not None:
+        lock.close()
 
 
 def write_whole(file: Path, text: str) -> None:
@@ -211,7 +250,7 @@ def replace_whole(file: Path, content: bytes, mode: int = 0o666) -> None:
     """
     part = staging_of(file)
     for left in _temporaries(file):
-        if not is_alive(left):
+        if not _runs(left):
             remove_file(left)  # what a killed process left; of a link, the link alone
     try:
         with open_new(part, mode) as stream:

@@ -6,6 +6,9 @@ import json
 import os
 import re
 import shutil
+import stat
+import subprocess
+import tarfile
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
@@ -21,13 +24,13 @@ from cellc.store.cache import read_entry, write_entry
 from cellc.store.cache_key import _working_tree
 from tests.cells import CORPUS
 from tests.cli.hostile_cell import IN_THE_WAY, SPEC, make, mesh, new_cell, sparse
-from tests.cli.run import run
+from tests.cli.run import Ran, run
 from tests.consumers.launch_interpreter import Launch
 from tests.consumers.launch_text import LaunchError
 from tests.consumers.starting import CONFIRMED
 from tests.deploy.test_unknown_effects import _SPEC as SILENT
 from tests.feasibility.test_kept_answers import LARGE, SMALL, _cube
-from tests.output.building import contents
+from tests.output.building import contents, staging_at_work
 from tests.store.test_leftovers import _meanwhile
 
 _FOUND = "in-collision"
@@ -205,10 +208,39 @@ def test_an_entry_that_unpacks_to_more_than_an_answer_is_not_believed(
 def test_of_two_builds_the_later_writes_nothing(cell: Path, generated: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     before = contents(cell / "generated")
     make(cell, {"cell.yaml": SPEC.replace("10 deg", "20 deg")})
-    _meanwhile(monkeypatch, lambda: (cell / "generated/.fuzzed.tmp-1").mkdir(0o1777))
+    _meanwhile(monkeypatch, lambda: staging_at_work(cell / "generated/.fuzzed.tmp-1"))
     ran = run("build", "cell.yaml")
     assert (ran.code, "error[output-busy]" in ran.out) == (1, True), ran
-    assert contents(cell / "generated") == {".fuzzed.tmp-1/": "", **before}
+    assert contents(cell / "generated") == {".fuzzed.tmp-1/.cellc-lock": "", **before}
+
+
+def test_a_staging_folder_that_came_out_of_an_archive_keeps_no_build_away(cell: Path, generated: Path) -> None:
+    before = contents(generated)
+    with tarfile.open(cell.parent / "stranger.tar", "w") as archive:
+        for name, kind in ((".fuzzed.tmp-1", tarfile.DIRTYPE), (".fuzzed.tmp-1/.cellc-lock", tarfile.REGTYPE)):
+            entry = tarfile.TarInfo(name)
+            entry.type, entry.mode = kind, 0o1777  # with the mark that a build sets
+            archive.addfile(entry)
+    subprocess.run(["tar", "-xpf", str(cell.parent / "stranger.tar"), "-C", "generated"], check=True)
+    assert (cell / "generated/.fuzzed.tmp-1").stat().st_mode & stat.S_ISVTX
+    make(cell, {"cell.yaml": SPEC.replace("10 deg", "20 deg")})
+    ran = run("build", "cell.yaml")
+    assert ran.code == 0, ran
+    assert contents(generated) != before
+    assert [path.name for path in (cell / "generated").iterdir()] == ["fuzzed"]
+
+
+def test_no_more_of_an_evidence_folder_is_compared_than_the_limit(cell: Path, generated: Path) -> None:
+    def evidence(size: int) -> Ran:
+        names = ("a.bin", "b.bin")
+        index = json.dumps({"format": 1, "files": dict.fromkeys(names, "0" * 64)})
+        make(cell, {"evidence/evidence.json": index, **{f"evidence/{name}": sparse(size) for name in names}})
+        return run("mock", "generated/fuzzed", "--evidence", "evidence")
+
+    ran = evidence(1 << 40)
+    assert (ran.code, "folder-total-bytes" in ran.err) == (2, True), ran
+    ran = evidence(1 << 10)
+    assert (ran.code, "is not as cellc wrote it" in ran.err) == (2, True), ran
 
 
 def test_the_real_target_waits_for_its_confirmation_and_for_a_person(cell: Path) -> None:

@@ -14,7 +14,8 @@ import pytest
 
 import cellc.output
 from cellc.output.write import write
-from tests.output.building import as_contents, build_of, contents
+from cellc.store import swap
+from tests.output.building import as_contents, build_of, contents, staging_at_work
 
 FIRST = build_of(a_txt="one\n", b_txt="two\n", old__d_txt="d\n")
 SECOND = build_of(a_txt="changed\n", b_txt="two\n", new__e_txt="e\n")
@@ -93,10 +94,16 @@ def test_edit_after_a_kill_is_still_an_edit(tmp_path: Path, monkeypatch: pytest.
 
 
 def test_folder_that_another_build_is_writing_is_left_alone(tmp_path: Path) -> None:
-    # Process 1 is alive on every POSIX system.
-    (tmp_path / ".small.tmp-1").mkdir(0o1777)  # marked as cellc marks it
+    staging_at_work(tmp_path / ".small.tmp-1")
     assert [d.code for d in write(FIRST, tmp_path / "small").diagnostics] == ["output-busy"]
-    assert contents(tmp_path) == {".small.tmp-1/": ""}
+    assert contents(tmp_path) == {".small.tmp-1/.cellc-lock": ""}
+
+
+def _let_go(staging: Path) -> None:
+    """Do with the lock of a staging folder what the system does when its process ends, and no more."""
+    lock = swap._locks.pop(staging, None)
+    if lock is not None:
+        lock.close()
 
 
 def _kill_at(replacement: int, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -110,8 +117,8 @@ def _kill_at(replacement: int, folder: Path, monkeypatch: pytest.MonkeyPatch) ->
         real(source, target)
 
     monkeypatch.setattr(os, "replace", replace)
-    monkeypatch.setattr("cellc.store.swap.Swap.undo", lambda swap: None)
-    monkeypatch.setattr("cellc.output.write.discard", lambda staging: None)
+    monkeypatch.setattr("cellc.store.swap.Swap.undo", lambda _: None)
+    monkeypatch.setattr("cellc.output.write.discard", _let_go)
     # No process has this number: it is above the largest that Linux gives out.
     monkeypatch.setattr("os.getpid", lambda: 2**22 + 1)
     with pytest.raises(_Killed):

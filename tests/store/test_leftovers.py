@@ -8,6 +8,7 @@ import os
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import BinaryIO
 
 import pytest
 
@@ -15,10 +16,11 @@ from cellc.mock.command.options import write_records
 from cellc.mock.errors import MockError
 from cellc.mock.evidence.folder import EvidenceFolder
 from cellc.output.write import write
+from cellc.store import swap
 from cellc.store.cache import read_entry, write_entry
 from cellc.store.cache_key import cache_key
 from cellc.store.swap import write_whole
-from tests.output.building import as_contents, build_of, contents
+from tests.output.building import as_contents, build_of, contents, staging_at_work
 
 _DEAD = 2**22 + 1
 """No process has this number: it is above the largest that Linux gives out."""
@@ -101,10 +103,10 @@ def test_of_two_builds_that_begin_at_once_the_later_writes_nothing(
 ) -> None:
     folder = tmp_path / "small"
     write(FIRST, folder)
-    _meanwhile(monkeypatch, lambda: (tmp_path / ".small.tmp-1").mkdir(0o1777))
+    _meanwhile(monkeypatch, lambda: staging_at_work(tmp_path / ".small.tmp-1"))
     assert [found.code for found in write(SECOND, folder).diagnostics] == ["output-busy"]
     assert contents(tmp_path) == {
-        ".small.tmp-1/": "",
+        ".small.tmp-1/.cellc-lock": "",
         **{f"small/{path}": text for path, text in as_contents(FIRST).items()},
     }
 
@@ -115,6 +117,27 @@ def test_a_build_that_another_one_overtook_leaves_no_mixture(tmp_path: Path, mon
     _meanwhile(monkeypatch, lambda: write(THIRD, folder))
     assert write(SECOND, folder).ok
     assert contents(folder) == as_contents(SECOND)
+
+
+def test_a_build_that_was_overtaken_before_it_had_its_lock_writes_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = tmp_path / "small"
+    write(FIRST, folder)
+    real = swap.open_new
+
+    def open_new(file: Path, mode: int = 0o666) -> BinaryIO:
+        monkeypatch.undo()
+        opened = real(file, mode)
+        child = os.fork()  # another build, from its begin to its end: it finds a staging folder without a lock
+        if child == 0:
+            os._exit(0 if write(THIRD, folder).ok else 1)
+        assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
+        return opened
+
+    monkeypatch.setattr(swap, "open_new", open_new)
+    assert [found.code for found in write(SECOND, folder).diagnostics] == ["output-busy"]
+    assert contents(tmp_path) == {f"small/{path}": text for path, text in as_contents(THIRD).items()}
 
 
 def test_a_folder_that_another_build_makes_meanwhile_is_no_refusal(
@@ -139,10 +162,10 @@ def test_an_edit_made_while_a_build_began_is_kept(tmp_path: Path, monkeypatch: p
 def test_of_two_runs_that_begin_at_once_the_later_writes_no_evidence(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    _meanwhile(monkeypatch, lambda: (tmp_path / ".evidence.tmp-1").mkdir(0o1777))
+    _meanwhile(monkeypatch, lambda: staging_at_work(tmp_path / ".evidence.tmp-1"))
     with pytest.raises(MockError, match="another run is writing"):
         EvidenceFolder(tmp_path / "evidence", ["report.html"])
-    assert contents(tmp_path) == {".evidence.tmp-1/": ""}
+    assert contents(tmp_path) == {".evidence.tmp-1/.cellc-lock": ""}
 
 
 def _files(folder: Path) -> dict[str, str]:

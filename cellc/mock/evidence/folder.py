@@ -12,13 +12,13 @@ from urllib.parse import quote
 
 from cellc.contract.file_names import is_file_name, opens_a_device
 from cellc.diagnostics.unsafe_text import harmless_json
-from cellc.limits import limits
+from cellc.limits import limits, option
 from cellc.mock.errors import MockError
 from cellc.store.regular_file import open_regular, read_regular
 from cellc.store.swap import (
     Swap,
+    contested,
     discard,
-    is_alive,
     link_on_the_way,
     make_folder,
     make_staging,
@@ -74,7 +74,7 @@ class EvidenceFolder:
         if no_folder or not Path(os.path.abspath(folder)).name:
             raise MockError(folder.as_posix(), "is not a folder that evidence can be written to")
         self._stale = others(folder)
-        if any(is_alive(staging) for staging in self._stale):
+        if contested(folder):
             raise MockError(folder.as_posix(), "another run is writing its evidence there")
         self._refuse_edited(names)
         try:
@@ -83,7 +83,7 @@ class EvidenceFolder:
             make_folder(self._staging / "new")
         except OSError as error:
             raise self._unwritable(error) from None
-        if any(is_alive(staging) for staging in others(folder)):  # one that began at the same moment
+        if contested(folder):  # by one that began at the same moment
             self.discard()
             raise MockError(folder.as_posix(), "another run is writing its evidence there")
 
@@ -126,11 +126,16 @@ class EvidenceFolder:
     def _refuse_edited(self, names: Sequence[str]) -> None:
         """Raise MockError where a file stands that would be replaced and that cellc did not write."""
         known = [_hashes(self._folder), *(_hashes(staging / "new") for staging in self._stale)]
+        most = left = limits().folder_total_bytes
         for name in sorted({*names, *(name for hashes in known for name in hashes)} - {INDEX}):
             path = self._folder / name
             if path.is_symlink() or (path.exists() and not path.is_file()):
                 raise MockError(path.as_posix(), "must be a file: evidence is written there")
-            if path.exists() and all(hashes.get(name) != _sha256(path) for hashes in known):
+            left -= path.stat().st_size if path.exists() else 0
+            if left < 0:  # a name in an index, and a file without content on the disk, cost a stranger nothing
+                raise MockError(path.as_posix(), f"exceeds {most} bytes of evidence; {option('folder-total-bytes')}")
+            digest = _sha256(path) if path.exists() else ""
+            if digest and all(hashes.get(name) != digest for hashes in known):
                 raise MockError(path.as_posix(), "is not as cellc wrote it; move it away, or name another folder")
         index = self._folder / INDEX
         if index.is_symlink() or (index.exists() and not _is_index(index)):
