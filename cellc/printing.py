@@ -182,6 +182,10 @@ def wants_colour(is_terminal: bool, environment: Mapping[str, str]) -> bool:
     return is_terminal
 
 
+FAILED = 70
+"""Exit code where the program itself failed: a bug, or a disk that it could not do without (EX_SOFTWARE, sysexits.h)."""
+
+
 def run_to_end(run: Callable[[], int]) -> int:
     """Run a command and return its exit code; a closed pipe or a full disk end without a traceback."""
     _prepare_streams()
@@ -197,13 +201,13 @@ def run_to_end(run: Callable[[], int]) -> int:
         drop_output()
         place = f"{error.filename}: " if error.filename else ""
         refuse(f"{place}{(error.strerror or 'unknown reason').lower()}")
-        return 1
+        return FAILED
     except MissingExtraError as missing:
         refuse(str(missing))
         return 2
     except Exception:
         _show_bug()
-        return 1
+        return FAILED
 
 
 def _show_bug() -> None:

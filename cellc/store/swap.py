@@ -142,8 +142,8 @@ def make_staging(folder: Path) -> Path:
 def contested(folder: Path) -> bool:
     """Whether another process that runs is making files ready for the same folder.
 
-    Whoever made a staging folder asks again: of two at once, the one that asks later sees the other. One that was at
-    work before it had its lock was taken for a killed one, and its folder is gone.
+    A process that made its staging folder asks a second time: of two processes, the one that asks later sees the other.
+    A staging folder without its lock yet passes for that of a killed process, and may have been removed since.
     """
     own = staging_of(folder)
     overtaken = own in _locks and not _is_staging(own)
@@ -153,7 +153,7 @@ def contested(folder: Path) -> bool:
 def others(folder: Path) -> tuple[Path, ...]:
     """Return staging folders that other processes made for the same folder.
 
-    One that came with files of a stranger is none: it would pass edits of a person off as those of a killed build. The
+    A folder from a checkout is not counted: it would pass edits of a person off as those of a killed build. The
     mark is the sticky bit, which git stores of no folder, and which Linux sets as it makes one (mkdir(2)); other
     systems do not, and all count there.
     """

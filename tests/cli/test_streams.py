@@ -34,7 +34,7 @@ def test_reader_that_has_seen_enough_ends_the_command_silently(command: str) -> 
 @pytest.mark.skipif(not _FULL.is_char_device(), reason="this system has no /dev/full")
 @pytest.mark.parametrize("command", _COMMANDS[::2])
 def test_full_disk_under_the_output_is_one_line(command: str) -> None:
-    assert _shell(command, "> /dev/full") == (1, "error: no space left on device\n")
+    assert _shell(command, "> /dev/full") == (70, "error: no space left on device\n")
 
 
 @pytest.mark.parametrize("command", _COMMANDS[1::2])

@@ -87,7 +87,7 @@ def test_bug_quotes_text_on_its_line(text: str) -> None:
 
     err = io.StringIO()
     with redirect_stderr(err):
-        assert run_to_end(fail) == 1
+        assert run_to_end(fail) == 70
     assert harm(err.getvalue().replace("    ", "")) == []
     assert err.getvalue().endswith("error: this is a bug of cellc\n")
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import shutil
 import subprocess
@@ -52,6 +53,28 @@ def test_summary_tells_what_changed_against_the_base(repository: Path) -> None:
     assert code == 0, out
     assert "path tolerance" in summary.replace("_", " ")
     assert "A new cell: new" in summary
+
+
+def test_no_name_of_a_file_keeps_a_changed_cell_out_of_the_summary(repository: Path) -> None:
+    base = git(repository, "rev-parse", "HEAD").strip()
+    file = repository / "cells/line/cell.yaml"
+    file.write_text(file.read_text().replace("0.1 rad 10 mm", "0.2 rad 10 mm"), encoding="utf-8")
+    hidden = os.fsencode(repository) + b"/a\xff"  # no UTF-8: a program that reads lines of text takes it for binary
+    os.mkdir(hidden)
+    shutil.copy(file, hidden + b"/cell.yaml")
+    git(repository, "add", "-A")
+    code, out, summary = run_step(repository, "Tell what changed", base=base)
+    assert code == 0, out
+    assert "path tolerance" in summary.replace("_", " ")
+    assert "A new cell: a\n" in summary
+
+
+def test_removed_cell_is_in_the_summary(repository: Path) -> None:
+    base = git(repository, "rev-parse", "HEAD").strip()
+    git(repository, "mv", "cells/line", "cells/other")
+    code, out, summary = run_step(repository, "Tell what changed", base=base)
+    assert code == 0, out
+    assert summary.splitlines() == ["A removed cell: line", "A new cell: other"]
 
 
 def test_base_that_was_not_fetched_is_told_and_fails_nothing(repository: Path) -> None:
