@@ -183,7 +183,7 @@ def wants_colour(is_terminal: bool, environment: Mapping[str, str]) -> bool:
 
 
 FAILED = 70
-"""Exit code where the program itself failed: a bug, or a disk that it could not do without (EX_SOFTWARE, sysexits.h)."""
+"""Exit code where the program itself failed: a bug, or a full disk under its output (EX_SOFTWARE, sysexits.h)."""
 
 
 def run_to_end(run: Callable[[], int]) -> int:
