@@ -61,7 +61,7 @@ def test_no_name_of_a_file_keeps_a_changed_cell_out_of_the_summary(repository: P
     file.write_text(file.read_text().replace("0.1 rad 10 mm", "0.2 rad 10 mm"), encoding="utf-8")
     hidden = os.fsencode(repository) + b"/a\xff"  # no UTF-8: a program that reads lines of text takes it for binary
     os.mkdir(hidden)
-    shutil.copy(file, hidden + b"/cell.yaml")
+    shutil.copy(os.fsencode(file), hidden + b"/cell.yaml")
     git(repository, "add", "-A")
     code, out, summary = run_step(repository, "Tell what changed", base=base)
     assert code == 0, out
