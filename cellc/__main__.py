@@ -10,6 +10,7 @@ if __name__ == "__main__" and not (sys.flags.isolated or getattr(sys.flags, "saf
 
 import gc
 import os
+import warnings
 
 from cellc.signals import run_program
 
@@ -26,6 +27,9 @@ def main() -> None:
     # What a spec means is no matter of plugins; looking for some takes longer than reading the spec.
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     os.environ["PYTHONSAFEPATH"] = "1"  # of its own processes: `-c` looks in the current folder first too
+    if not sys.warnoptions:  # what libraries say to programmers is no word of this program, and quotes what it reads
+        warnings.simplefilter("ignore")
+        os.environ["PYTHONWARNINGS"] = "ignore"
     sys.exit(run_program(_run))
 
 

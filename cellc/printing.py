@@ -162,8 +162,43 @@ def _write(stream: TextIO, text: str) -> None:
 
 
 def _put(stream: TextIO, text: str) -> None:
-    stream.write(text)
-    stream.flush()
+    with _terminal:
+        stream.write(text)
+        stream.flush()
+
+
+_terminal = threading.RLock()
+"""Held while something is written, and while the descriptors of output lead elsewhere."""
+_HEARD_BYTES = 64 * 1024
+
+
+@contextmanager
+def overheard() -> Iterator[list[str]]:
+    """Keep what a library that is not Python writes to the descriptors of output, where it would not be escaped.
+
+    What this program prints meanwhile, on other threads, waits.
+
+    Yields:
+        A list that holds the lines when the block has ended.
+    """
+    from cellc.store.swap import temporary_file  # most commands ask no such library
+
+    lines: list[str] = []
+    with _terminal, temporary_file() as kept:
+        before: dict[int, int] = {}
+        try:
+            for descriptor in (1, 2):
+                with suppress(OSError):  # closed by the caller
+                    before[descriptor] = os.dup(descriptor)
+            for descriptor in before:
+                os.dup2(kept.fileno(), descriptor)
+            yield lines
+        finally:
+            for descriptor, own in before.items():
+                os.dup2(own, descriptor)
+                os.close(own)
+            kept.seek(0)
+            lines += kept.read(_HEARD_BYTES).decode(errors="backslashreplace").splitlines()
 
 
 def wants_colour(is_terminal: bool, environment: Mapping[str, str]) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import sys
 from contextlib import redirect_stdout
 
@@ -9,7 +10,17 @@ import click
 
 from cellc.cli.limit_option import limit_option
 from cellc.extras import LSP, gate
-from cellc.printing import Stream
+from cellc.printing import Stream, show
+
+
+class _Shown(logging.Handler):
+    """Shows what libraries log of messages that they cannot read: each on a line, and no traceback."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Print a record on standard error."""
+        problem = record.exc_info[1] if record.exc_info else None
+        line = record.getMessage().partition("\n")[0]
+        show(line if problem is None else f"{line}: {problem}", to=Stream.ERR)
 
 
 @click.command()
@@ -26,6 +37,7 @@ def lsp() -> None:
     """
     with gate(LSP):
         from cellc.lsp.server import server
+    logging.getLogger().addHandler(_Shown())
     # Nothing else may come between its messages.
     sink = Stream.OUT.opened().fileno()
     with redirect_stdout(Stream.ERR.opened()):

@@ -12,6 +12,7 @@ from cellc.transforms import Pose, Vector3, from_xyz_rpy, identity
 
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?", re.ASCII)
 _MAX_TEXT = 200
+_MAX_REASON = 500
 _FARTHEST = 1e6
 """Of lengths and angles, m and rad: what is farther off than a country is wide overflows in the geometry."""
 _LARGEST = 1e20
@@ -29,6 +30,17 @@ class UrdfError(CellcError):
 def refused(code: str, element: XmlElement, message: str, help_text: str = "") -> UrdfError:
     """Build the exception that stops the reading of one link or joint."""
     return UrdfError(Diagnostic(code, Severity.ERROR, message, element.span, help=help_text))
+
+
+def reason_of_urdfdom(said: list[str], otherwise: str) -> str:
+    """Return in one line what the reader of URDF that others build on printed of a file that it refuses.
+
+    Args:
+        said: lines such as ``Error:   material 'a' is not unique.``, each followed by its place in the reader's source.
+        otherwise: what its caller raised, for a reader that said nothing.
+    """
+    reasons = (line.removeprefix("Error:").strip().rstrip(".") for line in said if line.startswith("Error:"))
+    return "; ".join(dict.fromkeys(reasons))[:_MAX_REASON] or otherwise
 
 
 def required(element: XmlElement, attribute: str) -> str:

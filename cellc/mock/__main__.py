@@ -9,6 +9,7 @@ if __name__ == "__main__" and not (sys.flags.isolated or getattr(sys.flags, "saf
 
 import argparse
 import os
+import warnings
 from functools import partial
 from typing import NoReturn
 
@@ -94,4 +95,7 @@ def main() -> int:
 
 if __name__ == "__main__":
     os.environ["PYTHONSAFEPATH"] = "1"  # of its own processes: `-c` looks in the current folder first too
+    if not sys.warnoptions:  # as in `cellc.__main__`
+        warnings.simplefilter("ignore")
+        os.environ["PYTHONWARNINGS"] = "ignore"
     sys.exit(run_program(partial(run_to_end, main)))

@@ -1,9 +1,9 @@
 """The robot as pinocchio sees it: kinematics, and collision shapes read from a URDF.
 
-The parser underneath pinocchio prints its reason to stderr and raises the same sentence for every cause, so the causes
-are looked for here, in the description that our own reader gives. Joints that follow other joints are bound here too:
-pinocchio wants a leader before its followers in a tree that its parser has sorted by name, and would refuse a gripper
-whose follower has the lesser name.
+The parser underneath pinocchio prints its reason and raises the same sentence for every cause, so the causes are looked
+for in the description that our own reader gives, and then in what was printed. Joints that follow other joints are
+bound here too: pinocchio wants a leader before its followers in a tree that its parser has sorted by name, and would
+refuse a gripper whose follower has the lesser name.
 """
 
 from __future__ import annotations
@@ -21,8 +21,10 @@ import pinocchio
 from cellc.description.meshes import MESH_NOT_FOUND, MeshError, without_meshes
 from cellc.description.model import Description, Joint, Mimic
 from cellc.description.urdf_reader import read_urdf
+from cellc.description.urdf_values import reason_of_urdfdom
 from cellc.planning.mesh_shapes import mesh_shapes
 from cellc.planning.problem import Array, ModelError, UnknownShapeError
+from cellc.printing import overheard
 from cellc.transforms import Pose
 
 # pinocchio ships no type information: its values are Any, and stay inside this package.
@@ -63,16 +65,17 @@ class RobotModel:
 
         Raises:
             UnknownShapeError: a mesh is not there.
-            ModelError: the text is no robot description, with the reason that the parser would print to stderr only.
+            ModelError: the text is no robot description, with the reason that the parser prints.
         """
         described = _described(text) if description is None else description
         _check_description(described)
         mimics = _resolve_mimics(described)
         try:
-            model = pinocchio.buildModelFromXML(text)
+            model = _kinematics(text)
             shapes = mesh_shapes(described, mesh_roots)
             plain = without_meshes(text) if shapes else text
-            geometry = pinocchio.buildGeomFromUrdfString(model, plain, pinocchio.GeometryType.COLLISION, None, [])
+            with overheard():
+                geometry = pinocchio.buildGeomFromUrdfString(model, plain, pinocchio.GeometryType.COLLISION, None, [])
         except MeshError as error:
             raise (UnknownShapeError if error.code == MESH_NOT_FOUND else ModelError)(str(error)) from None
         except (ValueError, RuntimeError) as error:
@@ -138,6 +141,15 @@ class RobotModel:
         at = self.kinematics.idx_qs[index]
         lower, upper = self.kinematics.lowerPositionLimit[at], self.kinematics.upperPositionLimit[at]
         return float(min(max(0.0, lower), upper))
+
+
+def _kinematics(text: str) -> PinModel:
+    with overheard() as said:
+        try:
+            return pinocchio.buildModelFromXML(text)
+        except (ValueError, RuntimeError) as error:
+            refused = str(error)
+    raise ValueError(reason_of_urdfdom(said, refused))
 
 
 def _place(shapes: Mapping[tuple[str, int], PinShape], geometry: PinGeometry, model: PinModel) -> None:

@@ -17,7 +17,9 @@ from typing import Any
 import numpy as np
 import pinocchio
 
+from cellc.description.urdf_values import reason_of_urdfdom
 from cellc.errors import CellcError
+from cellc.printing import overheard
 from cellc.signals import held
 from cellc.transforms import Pose
 
@@ -176,17 +178,23 @@ def read_by_pinocchio(urdf: str, positions: Mapping[str, float]) -> Reading:
             them as free, so that zero means zero for all.
 
     Raises:
-        RefusedError: pinocchio does not take the description; its reason goes to standard error.
+        RefusedError: pinocchio does not take the description.
     """
-    try:
-        model = pinocchio.buildModelFromXML(urdf)
-    except (ValueError, RuntimeError) as error:
-        raise RefusedError(f"pinocchio refuses it: {error}") from error
+    model = _pinocchio_model(urdf)
     joints = {name: _pinocchio_joint(model, index) for index, name in enumerate(model.names) if index}
     zero, displaced = pinocchio.neutral(model), pinocchio.neutral(model)
     for name in joints:
         _set(model, displaced, name, positions.get(name, 0.0))
     return Reading(joints, _pinocchio_poses(model, zero), _pinocchio_poses(model, displaced))
+
+
+def _pinocchio_model(urdf: str) -> Any:
+    with overheard() as said:
+        try:
+            return pinocchio.buildModelFromXML(urdf)
+        except (ValueError, RuntimeError) as error:
+            refused = str(error)
+    raise RefusedError(f"pinocchio refuses it: {reason_of_urdfdom(said, refused)}")
 
 
 def _pinocchio_joint(model: Any, index: int) -> JointReading:

@@ -10,6 +10,7 @@ from tests.cells import ROOT
 
 _DOOR = "cellc/printing.py"
 _PAST_IT = {
+    "cellc/cli/lsp.py": "it leads what pygls logs through the door",
     "cellc/description/mesh_child.py": "the child process answers its parent there, in numbers",
     "cellc/description/xacro_expansion.py": "the child process answers its parent there, and nobody reads it",
     "cellc/emit/launch/bring_up_program.py": "it runs on the robot's host, without cellc",
