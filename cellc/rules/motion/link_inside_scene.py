@@ -1,7 +1,7 @@
 """A link touches something solid of the scene in every posture.
 
-A planner would never plan with such a pair, so that the collision check takes it out: MoveIt's Setup Assistant writes it
-to the SRDF as "always in collision", and no tool complains. From then on the link goes through the thing unnoticed. The
+A planner would never plan with such a pair, so that the collision check takes it out: Setup Assistant of MoveIt writes
+it to the SRDF as "Always", and no tool complains. From then on the link goes through the thing unnoticed. The
 box is at the wrong place or too large, or the device is mounted at the wrong place.
 
 Example that is reported:
